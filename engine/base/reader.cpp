@@ -93,7 +93,8 @@ struct Format {
     std::vector<Slot> slots;
 };
 
-/// With its first letter, a to z or one of French, as a small or a capital one.
+}  // namespace
+
 std::string with_first_letter(std::string text, bool capital) {
     const auto change = [capital](char& c, char first, char last) {
         const char low = capital ? first : static_cast<char>(first - 0x20);
@@ -103,6 +104,8 @@ std::string with_first_letter(std::string text, bool capital) {
     if (text.size() > 1 && text[0] == '\xC3') change(text[1], '\xA0', '\xBE');  // à to þ in UTF-8
     return text;
 }
+
+namespace {
 
 /// The translation of an id. Behind a colon a sentence goes on with a small letter: its id is that with a capital one.
 std::string translation_of(const Message& message, const Catalog& catalog) {

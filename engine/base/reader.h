@@ -21,6 +21,9 @@ struct Reader {
 /// authors wrote.
 std::string message_text(const Message& message, const Reader& reader = {});
 
+/// With its first letter, a to z or one of French, as a small or a capital one.
+std::string with_first_letter(std::string text, bool capital);
+
 /// A number as messages show it in that language.
 std::string number_text(const Number& number, const Reader& reader = {});
 

@@ -57,6 +57,7 @@ void add_grade(CLI::App& app, Action& action);
 void add_gradescope(CLI::App& app, Action& action);
 void add_hand_back(CLI::App& app, Action& action);
 void add_similar(CLI::App& app, Action& action);
+void add_answers(CLI::App& app, Action& action);
 void add_course(CLI::App& app, Action& action);
 void add_test_lesson(CLI::App& app, Action& action);
 void add_study(CLI::App& app, Action& action);

@@ -5,7 +5,6 @@
 
 #include <iostream>
 
-#include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/say.h"
 #include "platform/terminal/activity_line.h"
@@ -43,8 +42,8 @@ void show(const ReportResult& result) {
 
 ReportResult make_showing_activity(ReportRequest& request) {
     ActivityLine activity;
-    request.step = [&activity](const Message& step) { activity.begin_step(message_text(step)); };
-    request.enter_cell = [&activity](const Message& cell) { activity.begin_part(message_text(cell)); };
+    request.step = [&activity](const Message& step) { activity.begin_step(message_text(step, user())); };
+    request.enter_cell = [&activity](const Message& cell) { activity.begin_part(message_text(cell, user())); };
     if (request.print)
         request.print = [&activity, print = std::move(request.print)](const std::string& text) {
             activity.print(text, print);
@@ -55,10 +54,12 @@ ReportResult make_showing_activity(ReportRequest& request) {
 }  // namespace
 
 int make_document(ReportRequest request, bool show_timings) {
+    speak(request.script.header.language);
     const ReportResult result = make_showing_activity(request);
     const std::string file = std::filesystem::absolute(request.output).lexically_normal().string();
     if (result.error) complain(*result.error);
     if (!result.gaps.empty()) complain(Message("{}", MessageList{result.gaps, Join::kLines}));
+    for (const Message& remark : result.notes) note(remark);
     for (const UnplacedEntries& entries : result.unplaced) note(entries.message());
     say(result.up_to_date      ? Message("{} (up to date)", file)
         : result.error         ? Message("{} (up to the error)", file)

@@ -104,6 +104,7 @@ bool Program::has_command(const std::string& name) const {
 
 int Program::run(int count, char** words) {
     keep_freed_memory();
+    speak_as_environment();
     try {
         app_.parse(count, words);
     } catch (const CLI::ParseError& error) {

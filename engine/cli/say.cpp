@@ -3,18 +3,33 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <string_view>
 
-#include "base/reader.h"
+#include "base/languages.h"
 #include "data_io/values/said_messages.h"
 #include "platform/terminal/terminal_text.h"
-#include "scripting/conversions/option_words.h"
+#include "scripting/interpreter/catalogue.h"
 
 namespace dynlab::inline cli {
 namespace {
 
-/// On a terminal, in English.
+/// As POSIX finds it: the first of the variables that is set, "fr_FR.UTF-8" for one.
+const Catalog* catalog_of_environment() {
+    for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"})
+        if (const char* const locale = std::getenv(name); locale != nullptr && *locale != '\0') {
+            const std::string_view text = locale;
+            return catalog_of(text.substr(0, text.find_first_of("_.@")));
+        }
+    return nullptr;
+}
+
+Reader& changeable_user() {
+    static Reader reader{catalog_of_environment(), &option_name};
+    return reader;
+}
+
 std::string text_for_user(const Message& message) {
-    return terminal_text(message_text(message, {nullptr, &option_name}));
+    return terminal_text(message_text(message, user()));
 }
 
 void remember(std::vector<Message> SaidMessages::*kind, const Message& message) {
@@ -25,12 +40,24 @@ void remember(std::vector<Message> SaidMessages::*kind, const Message& message) 
     write_said_messages(file, said);
 }
 
-void put_on_error_output(const char* begin, const Message& message) {
+void put_on_error_output(const Message& message) {
     std::fflush(stdout);
-    std::cerr << begin << text_for_user(message) << std::endl;
+    std::cerr << "dynlab: " << text_for_user(message) << std::endl;
 }
 
 }  // namespace
+
+void speak(const std::string& language) {
+    if (const Catalog* const catalog = catalog_of(language)) changeable_user().catalog = catalog;
+}
+
+void speak_as_environment() {
+    changeable_user().catalog = catalog_of_environment();
+}
+
+const Reader& user() {
+    return changeable_user();
+}
 
 void say(const Message& result) {
     std::cout << text_for_user(result) << '\n';
@@ -38,12 +65,12 @@ void say(const Message& result) {
 }
 
 void complain(const Message& complaint) {
-    put_on_error_output("dynlab: ", complaint);
+    put_on_error_output(complaint);
     remember(&SaidMessages::complaints, complaint);
 }
 
 void note(const Message& remark) {
-    put_on_error_output("dynlab: note: ", remark);
+    put_on_error_output(Message("note: {}", remark));
     remember(&SaidMessages::notes, remark);
 }
 

@@ -1,7 +1,17 @@
 #pragma once
+#include <string>
+
 #include "base/message.h"
+#include "base/reader.h"
 
 namespace dynlab::inline cli {
+
+/// Prints from now on in that language. Without a catalog of it, and for English, the language stays.
+void speak(const std::string& language);
+/// Prints from now on in the language that LC_ALL, LC_MESSAGES or LANG names.
+void speak_as_environment();
+/// Who reads what the program prints.
+const Reader& user();
 
 /// What a command says to its user, each on lines of its own. Where the environment wants them, the messages are in a
 /// file, too (data_io/values/said_messages.h).

@@ -8,28 +8,23 @@
 
 #include "base/message.h"
 #include "base/reader.h"
+#include "cli/say.h"
 #include "platform/spelling.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {
 namespace {
 
-/// The parser's own sentences, and ours with what the brackets caught.
-struct UsageSentence {
-    const char *theirs, *ours;
-};
-
-constexpr UsageSentence kSentences[] = {
-    {R"(^Could not convert: (\S+) = (.*)$)", R"(\1 wants a number, but '\2' was given)"},
-    {R"(^(\S+): At Most 1 required but received .*$)", R"(\1 can be given once only)"},
-    {R"(^(\S+): 1 required .*$)", R"(\1 wants a value behind it)"},
-};
-
-std::string in_our_words(const std::string& message) {
-    std::string words;
-    for (const auto& [theirs, ours] : kSentences)
-        if (RE2::Extract(message, RE2(theirs, RE2::Latin1), ours, &words)) return words;
-    return message;
+/// A sentence of the parser as a message of ours.
+Message in_our_words(const std::string& theirs) {
+    std::string option, value;
+    if (RE2::FullMatch(theirs, RE2(R"(Could not convert: (\S+) = (.*))", RE2::Latin1), &option, &value))
+        return Message("{} wants a number, but '{}' was given", option, value);
+    if (RE2::PartialMatch(theirs, R"(^(\S+): At Most 1 required but received )", &option))
+        return Message("{} can be given once only", option);
+    if (RE2::PartialMatch(theirs, R"(^(\S+): 1 required )", &option))
+        return Message("{} wants a value behind it", option);
+    return Message::verbatim(theirs);
 }
 
 /// The command that the words reached: a command's own command where it has some.
@@ -97,9 +92,9 @@ std::string usage_message(const CLI::App* app, const CLI::Error& error) {
     if (const std::vector<std::string> words = app->remaining(true);
         !words.empty() && (required || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr))
         message = unknown_words(reached_command(app), words, required);
-    if (message.empty()) message = Message::verbatim(in_our_words(error.what()));
-    return fmt::format("dynlab: {}\nRun with {} for more information.\n", terminal_text(message_text(message)),
-                       app->get_help_ptr()->get_name());
+    if (message.empty()) message = in_our_words(error.what());
+    const Message help = Message("Run with {} for more information.", app->get_help_ptr()->get_name());
+    return terminal_text(message_text(Message("dynlab: {}\n{}\n", message, help), user()));
 }
 
 }  // namespace dynlab::inline cli

@@ -141,26 +141,23 @@ std::string without_formulas(const std::string& cell) {
     return text;
 }
 
-void append_cell(std::string& text, const std::string& given) {
-    const std::string cell = without_formulas(given);
-    if (cell.find_first_of(",;\"\r\n\t") == std::string::npos) {
-        text += cell;
-        return;
-    }
-    text += '"';
-    for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-    text += '"';
-}
-
 void append_row(std::string& text, const std::vector<std::string>& row) {
     for (std::size_t i = 0; i < row.size(); ++i) {
         if (i > 0) text += ',';
-        append_cell(text, row[i]);
+        text += csv_cell(row[i]);
     }
     text += "\r\n";
 }
 
 }  // namespace
+
+std::string csv_cell(const std::string& given) {
+    const std::string cell = without_formulas(given);
+    if (cell.find_first_of(",;\"\r\n\t") == std::string::npos) return cell;
+    std::string quoted = "\"";
+    for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + '"';
+}
 
 std::optional<std::size_t> TextTable::column(std::string_view name) const {
     const auto found = std::find(names.begin(), names.end(), name);

@@ -30,5 +30,7 @@ std::optional<double> number_in_cell(const std::string& cell);
 /// behind a semicolon, tab or line end within a cell, where other countries' settings begin a new one) gets an
 /// apostrophe in front, plain numbers excepted.
 std::string csv_text(const TextTable& table);
+/// One cell of such a text.
+std::string csv_cell(const std::string& given);
 
 }  // namespace dynlab::inline data_io

@@ -20,6 +20,7 @@
 #include "platform/program_lookup.h"
 #include "platform/stopwatch.h"
 #include "platform/temporary_folder.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -64,6 +65,11 @@ Message refusal_message(const Message& reason, const std::string& section, const
                : Message("LaTeX cannot set this document in section \"{}\": {} after \"{}\"", section, reason, before);
 }
 
+/// A character as a message shows it: accents on a dotted circle.
+std::string shown(char32_t character) {
+    return (is_mark(character) ? "\u25CC" : "") + utf8_of(character);
+}
+
 void begin_with_error(const std::string& message, const fs::path& file, MarkdownText& text) {
     MarkdownText begun;
     begun.append(error_block(message), file, 0);
@@ -92,9 +98,13 @@ class DocumentBuilder {
         check_characters(complaints);
         find_latex_brackets(text_.markdown, complaints);
         const std::string bibliography = placed_bibliography(source_, text_, work_.path(), complaints);
-        const PandocResult written = run_pandoc(pandoc_job(bibliography), complaints);
+        const std::vector<PlacedPicture> logo = find_logo(complaints);
+        PandocJob job = pandoc_job(bibliography);
+        if (!logo.empty()) job.logo = logo.front().written_name;
+        const PandocResult written = run_pandoc(job, complaints);
         std::vector<PlacedPicture> pictures =
             find_picture_files(written.pictures, text_.markdown, source_.template_file, format_, prefix(), complaints);
+        pictures.insert(pictures.end(), logo.begin(), logo.end());
         // A document that cannot be made tells its gaps together with what stands in its way.
         if (options_.gaps) (complaints.empty() ? *options_.gaps : complaints).add_all(written.gaps);
         complaints.throw_if_any();
@@ -116,6 +126,13 @@ class DocumentBuilder {
         return "dynlab-picture-";
     }
 
+    /// One picture, or none.
+    std::vector<PlacedPicture> find_logo(Complaints& complaints) const {
+        if (text_.logo_named_in.empty() || format_ == DocumentFormat::kMarkdown) return {};
+        return find_picture_files({{0, false, text_.metadata.at("logo")}}, {}, text_.logo_named_in, format_, prefix(),
+                                  complaints);
+    }
+
     PandocJob pandoc_job(const std::string& bibliography) const {
         PandocJob job;
         job.markdown = text_.markdown;
@@ -135,10 +152,7 @@ class DocumentBuilder {
     }
 
     void check_characters(Complaints& complaints) const {
-        const PrintableCharacters printable =
-            format_ == DocumentFormat::kPdf
-                ? PrintableCharacters::of_latex(read_file(shared_templates_ / "latex/characters.tex"))
-                : PrintableCharacters::of_html();
+        const PrintableCharacters printable = PrintableCharacters::of_html();
         int number = 0;
         for (const std::string& line : lines_of(text_.markdown.text)) {
             ++number;
@@ -202,8 +216,11 @@ class DocumentBuilder {
                                      fs::absolute(source_.template_file).lexically_normal().string();
         try {
             const LatexLayout layout{shared_templates_, text_.language, text_.rules.slides};
-            return run_latex({body, layout, work_.path(), identity, options_.use_cache, options_.latex_format,
-                              options_.timings, options_.begun_format});
+            const LatexDocument document =
+                run_latex({body, layout, work_.path(), identity, options_.use_cache, options_.latex_format,
+                           options_.timings, options_.begun_format, options_.lualatex_fonts});
+            if (options_.notes) add_notes(document);
+            return document.pdf;
         } catch (const LatexRefusal& refusal) {
             const Place where = origin_of_refusal(refusal, text_.markdown, source_.template_file);
             const std::string& before = refusal.text_before;
@@ -211,6 +228,32 @@ class DocumentBuilder {
             throw DocumentError(where, refusal_message(refusal.message(), section_of(body, refusal.line),
                                                        trimmed(before).empty() ? "" : trimmed(end)));
         }
+    }
+
+    /// With the letter's place, where the text has one.
+    void add_note(char32_t letter, const Message& sentence) const {
+        const Place place = find_in(text_.markdown, utf8_of(letter), source_.template_file);
+        options_.notes->push_back(place.line > 0 ? placed(place, sentence) : sentence);
+    }
+
+    void add_notes(const LatexDocument& document) const {
+        if (!document.first_beyond) return;
+        const char32_t first = *document.first_beyond;
+        add_note(first,
+                 document.by_lualatex
+                     ? Message("LuaLaTeX makes this PDF, which takes longer, because pdflatex cannot print \"{}\" ({})",
+                               shown(first), code_of(first))
+                     : Message("pdflatex cannot print \"{}\" ({}), and LuaLaTeX is not installed: letters of this kind "
+                               "are printed as \"?\". To print them: sudo apt install {}",
+                               shown(first), code_of(first), kLualatexPackages));
+        if (!document.by_lualatex || document.replaced.empty()) return;
+        std::vector<Message> letters;
+        for (const char32_t letter : document.replaced)
+            letters.push_back(Message::verbatim(shown(letter) + " (" + code_of(letter) + ")"));
+        add_note(*document.replaced.begin(),
+                 Message("no installed font has these letters, which are printed as \"?\": {}. To add fonts: sudo apt "
+                         "install {}",
+                         MessageList{letters, Join::kComma}, "fonts-noto-core fonts-noto-cjk"));
     }
 
     const DocumentSource& source_;
@@ -233,6 +276,12 @@ PreparedText prepared_text(const DocumentSource& source) {
         check_metadata(key, value, {source.template_file});
         text.metadata[key] = value;
     }
+    const TemplateFile settings = read_settings(own_file(shared_folder() / "report_templates/settings.yaml"));
+    if (text.metadata.contains("logo"))
+        text.logo_named_in = source.template_file;
+    else if (settings.metadata.contains("logo"))
+        text.logo_named_in = settings.file;
+    for (const auto& [key, value] : settings.metadata) text.metadata.emplace(key, value);
     if (text.metadata.count("lang") && !text.metadata.at("lang").empty()) text.language = text.metadata.at("lang");
     if (source.record && source.record->error && !shows_cells(file))
         begin_with_error(source.record->error->text({catalog_of(text.language)}), source.template_file, text.markdown);
@@ -262,7 +311,9 @@ DocumentFormat document_format(const fs::path& file) {
 
 void DocumentMaker::make(const DocumentSource& source, const fs::path& output, DocumentFormat format,
                          const std::function<void()>& wait_for_figures) const {
-    DocumentBuilder(source, output, format, options_).make(wait_for_figures);
+    DocumentSource named = source;
+    named.template_file = own_file(source.template_file);
+    DocumentBuilder(named, output, format, options_).make(wait_for_figures);
 }
 
 }  // namespace dynlab::inline documents

@@ -36,6 +36,7 @@ struct PreparedText {
     std::map<std::string, std::string> metadata;
     DocumentRules rules;
     std::string language = "en";
+    std::filesystem::path logo_named_in = {};  ///< the file that names the logo, which is beside it
 };
 /// Throws DocumentError for what read_template, check_metadata and with_cells refuse.
 PreparedText prepared_text(const DocumentSource& source);
@@ -46,12 +47,11 @@ std::string placed_bibliography(const DocumentSource& source, const PreparedText
                                 const std::filesystem::path& work_folder, Complaints& complaints);
 
 /// Makes documents: template -> Markdown -> Pandoc with our filter -> HTML, or LaTeX -> pdflatex with a
-/// precompiled preamble and only the passes that references need. The figures named by the record must have
-/// been drawn (record figures' `file`): PDF for kPdf, SVG for kHtml, when `wait_for_figures` returns. Throws
-/// DocumentError (with file and line or section): a slot without entry or of the wrong kind, dangling or
-/// duplicate references, a missing image, metadata keys that are not allowed, file or macro commands in
-/// mathematics, characters LaTeX cannot print, the first real LaTeX error; MissingProgram for pandoc and
-/// pdflatex.
+/// precompiled preamble and only the passes that references need; LuaLaTeX for letters that pdflatex does not have. The
+/// figures named by the record must have been drawn (record figures' `file`): PDF for kPdf, SVG for kHtml, when
+/// `wait_for_figures` returns. Throws DocumentError (with file and line or section): a slot without entry or of the
+/// wrong kind, dangling or duplicate references, a missing image, metadata keys that are not allowed, file or macro
+/// commands in mathematics, control characters, the first real LaTeX error; MissingProgram for pandoc and pdflatex.
 class DocumentMaker {
   public:
     struct Options {
@@ -62,6 +62,8 @@ class DocumentMaker {
         CachedLatexFormat* begun_format = nullptr;  ///< of latex_layout(), begun before the script ran
         Complaints* gaps = nullptr;  ///< where given, slots without entry and references to nothing are told here, and
                                      ///< the document is made with a bold ?? in their places
+        std::vector<Message>* notes = nullptr;      ///< about letters that pdflatex does not have, appended
+        std::filesystem::path lualatex_fonts = {};  ///< made by make_lualatex_fonts
         std::vector<std::filesystem::path>* pictures = nullptr;  ///< files of pictures that the text shows, appended
     };
     explicit DocumentMaker(Options options) : options_(options) {}

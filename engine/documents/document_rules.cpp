@@ -48,7 +48,7 @@ bool is_document_rule(const std::string& key) {
 
 void read_document_rule(const std::string& key, const std::string& value, const Place& where, DocumentRules& rules) {
     if (key == "pages") rules.pages = page_count(key, value, where);
-    if (key == "appendix_pages") rules.appendix_pages = page_count(key, value, where);
+    if (key == "appendix_pages" && value != "0") rules.appendix_pages = page_count(key, value, where);
     if (key == "least_pages") rules.least_pages = page_count(key, value, where);
     if (key == "layout") rules.slides = is_slides(value, where);
     if (key != "sections") return;

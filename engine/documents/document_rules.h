@@ -26,8 +26,8 @@ struct SectionRule {
 ///     layout: slides
 ///
 /// A heading that is one of these titles, in either language, is set in the document's language. `pages` counts what
-/// stands before the first optional section, `appendix_pages` what begins with it; less than `least_pages`
-/// is worth a hint. With the layout `slides`, instead of
+/// stands before the first optional section, `appendix_pages` what begins with it; 0 is as if the
+/// line were not there. Less than `least_pages` is worth a hint. With the layout `slides`, instead of
 /// `pages`, every heading of the first level begins a slide of 160 mm by 90 mm.
 struct DocumentRules {
     std::vector<SectionRule> sections;

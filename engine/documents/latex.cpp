@@ -1,5 +1,6 @@
 #include "documents/latex.h"
 
+#include <fmt/ranges.h>
 #include <re2/re2.h>
 
 #include <array>
@@ -10,9 +11,14 @@
 
 #include "data_io/values/cbor_values.h"
 #include "documents/text_lines.h"
+#include "documents/words/scripts.h"
 #include "documents/work_file.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
+#include "platform/program_identity.h"
+#include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
+#include "platform/text/foreign_text.h"
 
 namespace dynlab::inline documents {
 namespace {
@@ -23,6 +29,12 @@ using namespace std::chrono_literals;
 constexpr int kMostPasses = 4;
 constexpr std::uint64_t kMemoryLimit = 1u << 30, kLargestFile = 64u << 20;
 constexpr std::array kAuxiliaryFiles = {"main.aux", "main.out", "main.toc"};
+
+/// The program that sets a document.
+struct Engine {
+    const char *program, *package;
+};
+constexpr Engine kPdflatex = {"pdflatex", "texlive-latex-base"}, kLualatex = {"lualatex", "texlive-luatex"};
 
 /// What a pass reads from the pass before. Lines for a table of contents count only where there is one.
 std::string references(const fs::path& folder, bool has_contents) {
@@ -38,11 +50,11 @@ std::string references(const fs::path& folder, bool has_contents) {
 /// The auxiliary files of a document's last run, kept between runs.
 class KeptAuxiliaryFiles {
   public:
-    explicit KeptAuxiliaryFiles(const LatexJob& job) : job_(job) {
+    KeptAuxiliaryFiles(const LatexJob& job, const Engine& engine) : job_(job) {
         if (!job.use_cache) return;
         cache_.emplace();
         if (!cache_->lasting()) return;
-        entry_ = EntryName("latex-references").add(job.identity).add(job.layout.language).text();
+        entry_ = EntryName("latex-references").add(job.identity).add(job.layout.language).add(engine.program).text();
         before_ = cache_->recall(entry_).value_or("");
         if (!before_.empty()) write_files();
     }
@@ -59,7 +71,7 @@ class KeptAuxiliaryFiles {
         std::vector<std::string> files;
         try {
             files = from_cbor<std::vector<std::string>>(before_, ValueLimits::own());
-        } catch (const ValueError&) {  // an entry of another form: pdflatex makes one pass more
+        } catch (const ValueError&) {  // an entry of another form: LaTeX needs one more pass
         }
         for (std::size_t i = 0; i < kAuxiliaryFiles.size() && i < files.size(); ++i)
             if (!files[i].empty()) write_work_file(job_.work_folder / kAuxiliaryFiles[i], files[i]);
@@ -71,7 +83,7 @@ class KeptAuxiliaryFiles {
 };
 
 /// "./main.tex:12: Undefined control sequence." and the line "l.12 text so far" below it.
-LatexRefusal refusal_in(const std::string& log, int lines_before_body) {
+LatexRefusal refusal_in(const std::string& log, int lines_before_body, const Engine& engine) {
     static const RE2 placed(R"((?m)^(?:\./)?main\.(tex|vrb):(\d+): (.*))", RE2::Latin1),
         unplaced("(?m)^! ?(.*)", RE2::Latin1), context(R"((?m)^l\.\d+ (.*))", RE2::Latin1);
     re2::StringPiece rest = log;
@@ -81,11 +93,25 @@ LatexRefusal refusal_in(const std::string& log, int lines_before_body) {
         // Code on slides is set from a file of its own, whose lines are not those of the body.
         line = ending == "tex" ? line - lines_before_body : 0;
     } else if (!RE2::FindAndConsume(&rest, unplaced, &message)) {
-        return LatexRefusal(Message("pdflatex stopped without a message"), 0, "");
+        return LatexRefusal(Message("{} stopped without a message", engine.program), 0, "");
     }
     RE2::PartialMatch(rest, context, &before);
     return LatexRefusal(Message::verbatim(trimmed(message)), line,
                         before.starts_with("...") ? before.substr(3) : before);
+}
+
+/// Letters that no font of LuaLaTeX has, which it leaves out of the page.
+struct MissingLetters {
+    std::set<char32_t> letters;
+};
+
+void check_letters(const std::string& log) {
+    static const RE2 missing(R"(\nMissing character: There is no [^\n]*? \(U\+([0-9A-F]+)\))", RE2::Latin1);
+    MissingLetters found;
+    std::string code;
+    for (re2::StringPiece rest = log; RE2::FindAndConsume(&rest, missing, &code);)
+        found.letters.insert(static_cast<char32_t>(std::stoul(code, nullptr, 16)));
+    if (!found.letters.empty()) throw found;
 }
 
 /// Complaints that LaTeX itself passes over, though something is missing on the page.
@@ -120,6 +146,7 @@ void check_nothing_overflows(const std::string& log, int lines_before_body) {
 
 class LatexRun {
   public:
+    /// By pdflatex.
     explicit LatexRun(const LatexJob& job) : job_(job) {
         format_folder_ = job.format_folder;
         if (format_folder_.empty() && job.use_cache) {
@@ -127,16 +154,19 @@ class LatexRun {
             format_folder_ = job.begun_format ? job.begun_format->folder() : CachedLatexFormat(job.layout).folder();
             note("latex format", start);
         }
-        if (format_folder_.empty()) {
-            write_preamble(job.layout, job.work_folder);
-            lines_before_body_ = 1;
-        }
-        write_work_file(job.work_folder / "main.tex", (format_folder_.empty() ? "\\input{preamble}\n" : "") + job.body);
+        write_document("", job.body);
+    }
+
+    /// By LuaLaTeX, which cannot store a preamble with its fonts: it reads the preamble in each run.
+    LatexRun(const LatexJob& job, const std::set<std::string>& scripts, const std::string& body)
+        : job_(job), engine_(kLualatex), fonts_(job.lualatex_fonts) {
+        if (fonts_.empty() && job.use_cache) fonts_ = kept_fonts();
+        write_document(fmt::format("\\def\\dynlabscripts{{{}}}", fmt::join(scripts, ",")), body);
     }
 
     fs::path pdf() {
         const bool has_contents = job_.body.find("\n\\tableofcontents\n") != std::string::npos;
-        const KeptAuxiliaryFiles kept(job_);
+        const KeptAuxiliaryFiles kept(job_, engine_);
         std::string before = references(job_.work_folder, has_contents), after;
         for (int pass = 1; pass <= kMostPasses; ++pass) {
             // Where nothing is known of page counts and bookmarks there is another pass: the first writes no PDF.
@@ -150,7 +180,27 @@ class LatexRun {
         return job_.work_folder / "main.pdf";
     }
 
+    /// Reads preamble, fonts and text, and writes no PDF.
+    void read_all() const { run_pass(1, true); }
+
   private:
+    void write_document(const std::string& before_preamble, const std::string& body) {
+        if (format_folder_.empty()) {
+            write_preamble(job_.layout, job_.work_folder);
+            lines_before_body_ = 1;
+        }
+        write_work_file(job_.work_folder / "main.tex",
+                        (format_folder_.empty() ? before_preamble + "\\input{preamble}\n" : "") + body);
+    }
+
+    /// The cache's folder for what LuaLaTeX keeps of fonts.
+    static fs::path kept_fonts() {
+        const Cache cache;
+        const std::string name = EntryName("lualatex-fonts", file_stamp(*find_program(kLualatex.program))).text();
+        if (const auto folder = cache.find(name)) return *folder;
+        return cache.commit(cache.prepare(), name);
+    }
+
     void note(const std::string& step, std::chrono::steady_clock::time_point start) const {
         if (!job_.timings) return;
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -159,8 +209,9 @@ class LatexRun {
 
     ChildOptions command(bool draft) const {
         ChildOptions child;
-        child.command = {"pdflatex", "-no-shell-escape", "-interaction=nonstopmode", "-halt-on-error",
+        child.command = {engine_.program, "-no-shell-escape", "-interaction=nonstopmode", "-halt-on-error",
                          "-file-line-error"};
+        if (engine_.program == kLualatex.program) child.command.push_back("--nosocket");
         if (draft) child.command.push_back("-draftmode");
         if (!format_folder_.empty()) child.command.push_back(std::string("-fmt=") + kLatexFormatName);
         child.command.push_back("main.tex");
@@ -177,8 +228,14 @@ class LatexRun {
                              {"MKTEXFMT", "0"},
                              {"TEXMFHOME", "/nonexistent"},
                              {"TEXMFOUTPUT", ""},
-                             {"LC_ALL", "C.UTF-8"}};
+                             {"LC_ALL", "C.UTF-8"},
+                             {"TEXINPUTS", template_files(job_.layout)}};
         if (!format_folder_.empty()) child.environment.emplace_back("TEXFORMATS", format_folder_.string() + ":");
+        if (engine_.program == kLualatex.program) {
+            const std::string own = (job_.work_folder / "fonts").string();
+            child.environment.emplace_back("OSFONTDIR", kNotoFolders);
+            child.environment.emplace_back("TEXMFCACHE", fonts_.empty() ? own : fonts_.string() + ":" + own);
+        }
         child.processor_time = 120s;
         child.timeout = 1200s;  // of a machine that others keep busy
         child.memory_bytes = kMemoryLimit;
@@ -188,31 +245,80 @@ class LatexRun {
 
     void run_pass(int pass, bool draft) const {
         const auto start = std::chrono::steady_clock::now();
-        const ChildResult run = run_child(command(draft), "texlive-latex-base");
+        const ChildResult run = run_child(command(draft), engine_.package);
         note("latex pass " + std::to_string(pass), start);
-        if (run.timed_out) throw LatexRefusal(Message("pdflatex did not finish within two minutes"), 0, "");
+        if (run.timed_out) throw LatexRefusal(Message("{} did not finish within two minutes", engine_.program), 0, "");
         if (run.exit_code == 128 + SIGXFSZ)
-            throw LatexRefusal(Message("pdflatex wrote a file of more than 64 MB; use smaller pictures"), 0, "");
-        if (run.output_exceeded) throw LatexRefusal(Message("pdflatex wrote messages without end"), 0, "");
+            throw LatexRefusal(Message("{} wrote a file of more than 64 MB; use smaller pictures", engine_.program), 0,
+                               "");
+        if (run.output_exceeded) throw LatexRefusal(Message("{} wrote messages without end", engine_.program), 0, "");
         const std::string log = "\n" + run.output;
         if (run.exit_code != 0) {
             check_missing_packages(log);
-            throw refusal_in(log, lines_before_body_);
+            throw refusal_in(log, lines_before_body_, engine_);
         }
         const std::string messages = "\n" + read_work_file(job_.work_folder / "main.log");
+        if (engine_.program == kLualatex.program) check_letters(messages);
         check_nothing_dropped(messages);
         if (job_.layout.slides) check_nothing_overflows(messages, lines_before_body_);
     }
 
     const LatexJob& job_;
-    fs::path format_folder_;
+    Engine engine_ = kPdflatex;
+    fs::path format_folder_, fonts_;
     int lines_before_body_ = 0;
 };
 
+bool has_lualatex() {
+    if (!find_program(kLualatex.program)) return false;
+    ChildOptions look_up;
+    look_up.command = {"kpsewhich", "luaotfload.sty"};
+    return run_child(look_up, "texlive-binaries").exit_code == 0;
+}
+
+/// What all fonts of a preamble are needed for.
+constexpr char kFontSample[] =
+    "\\begin{document}\\dynlabfonts\\small\\dynlabfonts\\footnotesize\\dynlabfonts\\large\\dynlabfonts\\LARGE"
+    "\\dynlabfonts\\end{document}\n";
+
 }  // namespace
 
-fs::path run_latex(const LatexJob& job) {
-    return LatexRun(job).pdf();
+LatexDocument run_latex(const LatexJob& job) {
+    const PrintableCharacters pdflatex = printable_by_pdflatex(job.layout.shared_templates);
+    LatexJob composed_job = job;
+    composed_job.body = composed(job.body);
+    const std::string& body = composed_job.body;
+    LatexDocument result;
+    result.first_beyond = first_beyond(pdflatex, body);
+    if (!result.first_beyond) {
+        result.pdf = LatexRun(composed_job).pdf();
+        return result;
+    }
+    result.by_lualatex = has_lualatex();
+    if (!result.by_lualatex) {
+        result.replaced = letters_beyond(pdflatex, body);
+        if (result.replaced.empty()) result.first_beyond.reset();  // Greek words, of symbols
+        composed_job.body = without_letters(body, result.replaced);
+        result.pdf = LatexRun(composed_job).pdf();
+        return result;
+    }
+    const std::set<std::string> scripts = scripts_of(pdflatex, body);
+    const std::string directed = with_direction_marks(body);
+    try {
+        result.pdf = LatexRun(composed_job, scripts, directed).pdf();
+    } catch (const MissingLetters& missing) {
+        result.replaced = missing.letters;
+        result.pdf = LatexRun(composed_job, scripts, without_letters(directed, missing.letters)).pdf();
+    }
+    return result;
+}
+
+void make_lualatex_fonts(const LatexLayout& layout, const std::set<std::string>& scripts, const fs::path& folder) {
+    if (!has_lualatex()) return;
+    const TemporaryFolder work;
+    LatexJob job{kFontSample, layout, work.path(), "", false};
+    job.lualatex_fonts = folder;
+    LatexRun(job, scripts, job.body).read_all();
 }
 
 }  // namespace dynlab::inline documents

@@ -33,7 +33,9 @@ std::vector<std::pair<std::string, std::string>> preamble_files(const LatexLayou
     const std::string language(other.empty() ? "english" : other);
     return {{"preamble.tex", read_file(folder / (layout.slides ? "slides_preamble.tex" : "preamble.tex"))},
             {"shared.tex", replaced(read_file(folder / "shared.tex"), "LANGUAGE", language)},
-            {"characters.tex", read_file(folder / "characters.tex")}};
+            {"characters.tex", read_file(folder / "characters.tex")},
+            {"vietnamese.tex", read_file(folder / "vietnamese.tex")},
+            {"unicode.tex", read_file(folder / "unicode.tex")}};
 }
 
 /// Size and date of the installed program and of Debian's LaTeX format, which every update of TeX rewrites.
@@ -54,7 +56,11 @@ ChildProcess begin_format(const LatexLayout& layout, const fs::path& folder) {
                      std::string("-jobname=") + kLatexFormatName,
                      "&pdflatex \\input{preamble}\\dump"};
     child.folder = folder;
-    child.environment = {{"max_print_line", "10000"}, {"openin_any", "p"}, {"openout_any", "p"}, {"MKTEXFMT", "0"}};
+    child.environment = {{"max_print_line", "10000"},
+                         {"openin_any", "p"},
+                         {"openout_any", "p"},
+                         {"MKTEXFMT", "0"},
+                         {"TEXINPUTS", template_files(layout)}};
     child.processor_time = 60s;
     child.timeout = 600s;
     return ChildProcess(child, "texlive-latex-base");
@@ -93,6 +99,16 @@ void finish_format(ChildProcess& tex, const fs::path& folder) {
 
 void write_preamble(const LatexLayout& layout, const fs::path& folder) {
     for (const auto& [name, text] : preamble_files(layout)) write_work_file(folder / name, text);
+}
+
+std::string template_files(const LatexLayout& layout) {
+    const std::string shared = fs::absolute(layout.shared_templates).string();
+    return ".:" + shared + "/latex:" + shared + ":";
+}
+
+PrintableCharacters printable_by_pdflatex(const fs::path& shared_templates) {
+    return PrintableCharacters::of_latex(read_file(shared_templates / "latex/characters.tex") +
+                                         read_file(shared_templates / "latex/vietnamese.tex"));
 }
 
 void check_missing_packages(const std::string& log) {

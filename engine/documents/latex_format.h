@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "documents/words/characters.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
 
@@ -20,6 +21,12 @@ struct LatexLayout {
 
 /// Writes preamble.tex, and what it reads, into `folder`.
 void write_preamble(const LatexLayout& layout, const std::filesystem::path& folder);
+
+/// A search path of TeX: the working folder, what a layout's own LaTeX names beside it, TeX's files.
+std::string template_files(const LatexLayout& layout);
+
+/// The letters that the preamble declares to pdflatex.
+PrintableCharacters printable_by_pdflatex(const std::filesystem::path& shared_templates);
 
 /// The cache's format for a layout, its templates and the TeX that is installed. Where the cache has none, TeX begins
 /// with it at once (it takes about a second) and works while the caller does something else.

@@ -109,13 +109,14 @@ std::string chunks_entry(const ChunkSurroundings& chunks) {
 std::string slots_file(const PandocJob& job) {
     std::map<std::string, std::string> shown, switches;
     for (const auto& [key, value] : job.metadata)
-        if (key != "lang" && key != "bibliography" && !is_document_rule(key) && !value.empty())
+        if (key != "lang" && key != "bibliography" && key != "logo" && !is_document_rule(key) && !value.empty())
             (is_switch(key) ? switches : shown)[key] = value;
     const auto as_string = [](const std::string& text) { return lua_text(text); };
     const bool numbered = switches.count("numbersections") && switches.at("numbersections") == "true";
     std::string variables =
         "{lang=" + lua_text(job.language) + ",pagetitle=" + lua_text(job.template_file.stem().string());
     if (switches.count("toc") && switches.at("toc") == "true") variables += ",toc=true";
+    if (!job.logo.empty()) variables += ",logo=" + lua_text(job.logo);
     const RunRecord& record = *job.record;
     return "return {\nformat=" + lua_text(format_name(job.format)) + ",language=" + lua_text(job.language) +
            ",reader=" + lua_text(kReader) + ",numbersections=" + (numbered ? "true" : "false") +

@@ -32,6 +32,7 @@ struct PandocJob {
     std::filesystem::path shared_templates;                  ///< the folder report_templates
     std::string picture_prefix;                              ///< what the writer puts before a picture's number
     std::filesystem::path work_folder;                       ///< private; slots.lua is written there
+    std::string logo;                                        ///< the name under which the writer finds it, or empty
     std::string bibliography;                                ///< a file of the work folder, or empty
     std::map<std::string, std::string> measures;             ///< Markdown of each
     std::optional<ChunkSurroundings> chunks = std::nullopt;  ///< then what can be set is set, whatever is wrong

@@ -130,11 +130,12 @@ std::size_t read_script_header(const std::vector<std::string>& lines, const std:
     const std::size_t first = !lines.empty() && lines[0].starts_with("#!") ? 1 : 0;
     if (lines.size() <= first || !is_fence(lines[first])) return 0;
     HeaderReader reader(file, header);
-    MessageList mistakes{{}, Join::kLines};  // reported together
+    MessageList mistakes{{}, Join::kLines};  // reported together, at the place of the first
+    Place place;
     for (std::size_t i = first + 1; i < lines.size(); ++i) {
         const int number = static_cast<int>(i) + 1;
         if (is_fence(lines[i])) {
-            if (!mistakes.items.empty()) throw DocumentError(Message("{}", mistakes));
+            if (!mistakes.items.empty()) throw DocumentError(place, Message("{}", mistakes));
             return i + 1;
         }
         if (!lines[i].starts_with("--"))
@@ -146,11 +147,26 @@ std::size_t read_script_header(const std::vector<std::string>& lines, const std:
         try {
             reader.read_line(content, number);
         } catch (const DocumentError& error) {
-            if (mistakes.items.size() < kMostMistakes) mistakes.items.push_back(error.message());
+            if (mistakes.items.empty()) place = error.place();
+            if (mistakes.items.size() < kMostMistakes)
+                mistakes.items.push_back(mistakes.items.empty() ? error.sentence() : error.message());
         }
     }
     throw DocumentError(Place{file, static_cast<int>(first) + 1},
                         Message("the script header is not closed: a line \"-- ---\" is missing after it"));
+}
+
+std::string language_of_script(std::string_view source) {
+    constexpr std::string_view kKey = "language:";
+    for (const std::string_view line : lines_with_ends(source)) {
+        if (line.starts_with("#!")) continue;
+        if (!line.starts_with("--")) break;
+        const std::string entry = trimmed(line.substr(2));
+        if (!entry.starts_with(kKey)) continue;
+        const std::string language = trimmed(std::string_view(entry).substr(kKey.size()));
+        return is_language(language) ? language : "";
+    }
+    return "en";
 }
 
 }  // namespace dynlab::inline documents

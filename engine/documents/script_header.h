@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "documents/percent_script.h"
@@ -12,5 +13,9 @@ namespace dynlab::inline documents {
 /// message each.
 std::size_t read_script_header(const std::vector<std::string>& lines, const std::filesystem::path& file,
                                ScriptHeader& header);
+
+/// The language that the header of a script names; "en" where it names none. The header may have errors elsewhere.
+/// Empty for a language without a catalog.
+std::string language_of_script(std::string_view source);
 
 }  // namespace dynlab::inline documents

@@ -15,8 +15,16 @@ namespace dynlab::inline documents {
 namespace {
 
 const std::vector<std::string> kAllowedKeys = {
-    "title",    "subtitle", "date",           "lang",        "abstract", "toc",         "numbersections",
-    "sections", "pages",    "appendix_pages", "least_pages", "layout",   "bibliography"};
+    "title", "subtitle",       "date",        "lang",   "abstract",     "toc",  "numbersections", "sections",
+    "pages", "appendix_pages", "least_pages", "layout", "bibliography", "logo", "header"};
+const std::vector<std::string> kSettings = {"logo", "header"};
+
+/// A file's name without a folder, of one of these kinds.
+bool is_name_of_kind(const std::string& name, std::initializer_list<std::string_view> kinds) {
+    const std::string kind = std::filesystem::path(name).extension().string();
+    return name.find_first_of("/\\") == std::string::npos && !name.starts_with('.') &&
+           std::ranges::find(kinds, kind) != kinds.end();
+}
 
 std::string scalar(const std::string& value, const Place& where) {
     if (value.empty()) return value;
@@ -36,9 +44,9 @@ bool is_block_sign(const std::string& value) {
     return value == "|" || value == ">" || value == "|-" || value == ">-";
 }
 
-/// Reads header lines [1, end) of `lines`.
-void read_metadata(const std::vector<std::string>& lines, std::size_t end, TemplateFile& result) {
-    for (std::size_t i = 1; i < end; ++i) {
+/// Reads header lines [begin, end) of `lines`.
+void read_metadata(const std::vector<std::string>& lines, std::size_t begin, std::size_t end, TemplateFile& result) {
+    for (std::size_t i = begin; i < end; ++i) {
         const std::string& line = lines[i];
         if (is_blank(line) || line[0] == '#') continue;
         const std::size_t colon = line.find(':');
@@ -91,6 +99,11 @@ void check_metadata(const std::string& key, const std::string& value, const Plac
         throw DocumentError(where, Message("{} is true or false, not \"{}\"", key, value));
     if (key == "bibliography")
         if (const Message fault = fault_of_bibliography_name(value); !fault.empty()) throw DocumentError(where, fault);
+    if (key == "logo" && !is_name_of_kind(value, {".png", ".jpg", ".jpeg", ".pdf"}))
+        throw DocumentError(
+            where, Message("logo must be the name of a .png, .jpg or .pdf file beside this one, such as logo.png, not "
+                           "\"{}\"",
+                           value));
     DocumentRules rules;
     read_document_rule(key, value, where, rules);
 }
@@ -102,11 +115,23 @@ TemplateFile read_template(const std::filesystem::path& file) {
     std::size_t first = 0;
     if (!lines.empty() && trimmed(lines[0]) == "---") {
         const std::size_t end = end_of_metadata(lines, file);
-        read_metadata(lines, end, result);
+        read_metadata(lines, 1, end, result);
         first = end + 1;
     }
     for (std::size_t i = first; i < lines.size(); ++i)
         result.body.append(lines[i] + "\n", file, static_cast<int>(i) + 1);
+    return result;
+}
+
+TemplateFile read_settings(const std::filesystem::path& file) {
+    TemplateFile result;
+    result.file = file;
+    if (!std::filesystem::is_regular_file(file)) return result;
+    const std::vector<std::string> lines = lines_of(text_of_source(file));
+    read_metadata(lines, 0, lines.size(), result);
+    for (const auto& [key, value] : result.metadata)
+        if (std::ranges::find(kSettings, key) == kSettings.end())
+            throw DocumentError({file}, Message("\"{}\" is set in templates; settings are {}", key, listed(kSettings)));
     return result;
 }
 

@@ -22,6 +22,10 @@ TemplateFile read_template(const std::filesystem::path& file);
 /// and numbersections other than true and false, rules that document_rules.h refuses).
 void check_metadata(const std::string& key, const std::string& value, const Place& where);
 
+/// What an own course sets for all its documents, `logo` and `header`, in report_templates/settings.yaml, which is like
+/// a template's header without its lines "---". Nothing where there is no such file. Throws DocumentError.
+TemplateFile read_settings(const std::filesystem::path& file);
+
 /// Whether the body has a block `::: {.cells}`.
 bool shows_cells(const TemplateFile& source);
 

@@ -48,6 +48,21 @@ std::string literal(const std::string& text) {
     return markdown;
 }
 
+/// Text of a figure as Markdown, its `x_{max}` and `e^{-t}` lowered and raised.
+std::string literal_of_figure(const std::string& text) {
+    std::string markdown;
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t open = std::min(text.find("_{", i), text.find("^{", i));
+        const std::size_t close = open == std::string::npos ? open : text.find('}', open);
+        markdown += literal(text.substr(i, close == std::string::npos ? close : open - i));
+        if (close == std::string::npos) break;
+        const char* const mark = text[open] == '_' ? "~" : "^";
+        markdown += mark + replaced(literal(text.substr(open + 2, close - open - 2)), " ", "\\ ") + mark;
+        i = close + 1;
+    }
+    return markdown;
+}
+
 /// "y (m), u (V) over time (s)": time is a sentence of its own, as other languages have an article there.
 Message over_axis(const MessageList& drawn, const std::string& over, const Reader& reader) {
     if (over.empty()) return Message("{}", drawn);
@@ -155,17 +170,15 @@ std::string words_of_axes(const Figure& figure, const Reader& reader) {
     std::vector<std::string> drawn;
     std::string over;
     for (const Panel& panel : readable(axes, reader).panels) {
-        const std::string label = literal(message_text(panel.y_label));
+        const std::string label = literal_of_figure(message_text(panel.y_label));
         if (!label.empty() && std::find(drawn.begin(), drawn.end(), label) == drawn.end()) drawn.push_back(label);
-        if (!panel.x_label.empty()) over = literal(message_text(panel.x_label));
+        if (!panel.x_label.empty()) over = literal_of_figure(message_text(panel.x_label));
     }
     if (drawn.empty()) return {};
-    std::string words = message_text(over_axis(listed(drawn), over, reader), reader);
-    const auto small = [&](std::size_t i) {
-        return i < words.size() && std::islower(static_cast<unsigned char>(words[i]));
-    };
-    if (small(0) && small(1)) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-    return words;
+    const std::string words = message_text(over_axis(listed(drawn), over, reader), reader);
+    const std::size_t second = static_cast<unsigned char>(words[0]) < 0x80 ? 1 : 2;  // bytes of a letter of French
+    const bool word = second < words.size() && std::islower(static_cast<unsigned char>(words[second]));
+    return word ? with_first_letter(words, true) : words;
 }
 
 void MarkdownText::append(const std::string& lines, const std::filesystem::path& file, int first_line) {

@@ -3,13 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <future>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -41,8 +41,25 @@ std::vector<std::string> gnuplot_environment() {
 GnuplotProcess::GnuplotProcess() {
     const auto program = find_program("gnuplot");
     if (!program) throw MissingProgram("gnuplot", "gnuplot-nox");
-    start(program->string());
-    reader_ = std::thread([this] { collect(); });
+    // The thread that starts gnuplot lives as long as gnuplot, which is killed with it.
+    std::promise<void> starting;
+    std::future<void> started = starting.get_future();
+    reader_ = std::thread([this, name = program->string(), starting = std::move(starting)]() mutable {
+        try {
+            start(name);
+        } catch (...) {
+            starting.set_exception(std::current_exception());
+            return;
+        }
+        starting.set_value();
+        collect();
+    });
+    try {
+        started.get();
+    } catch (...) {
+        reader_.join();
+        throw;
+    }
 }
 
 GnuplotProcess::~GnuplotProcess() {
@@ -59,29 +76,11 @@ void GnuplotProcess::end() {
 
 void GnuplotProcess::start(const std::string& program) {
     Pipe commands, complaints;
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, commands.read_end.get(), STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&files, complaints.write_end.get(), STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t none, defaults;
-    sigemptyset(&none);
-    sigemptyset(&defaults);
-    for (const int signal_number : {SIGPIPE, SIGINT, SIGTERM}) sigaddset(&defaults, signal_number);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-
+    const FileDescriptor nowhere(open("/dev/null", O_WRONLY | O_CLOEXEC));
     // Named as a file, standard input is read in blocks; otherwise gnuplot reads it byte by byte.
-    std::vector<std::string> arguments = {"gnuplot", "--default-settings", "/dev/stdin"};
-    std::vector<std::string> environment = gnuplot_environment();
-    const int failure = posix_spawn(&pid_, program.c_str(), &files, &attributes, pointers_to(arguments).data(),
-                                    pointers_to(environment).data());
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
-    if (failure != 0) throw EnvironmentError("cannot start gnuplot (\"{}\"): {}", program, system_reason(failure));
+    pid_ = start_bound_program(program, {"gnuplot", "--default-settings", "/dev/stdin"}, gnuplot_environment(),
+                               {commands.read_end.get(), nowhere.get(), complaints.write_end.get()});
+    if (pid_ < 0) throw EnvironmentError("cannot start gnuplot (\"{}\"): {}", program, system_reason(errno));
     ends_ = EndsWithProgram::of_group(pid_);
     commands_ = std::move(commands.write_end);
     complaints_ = std::move(complaints.read_end);

@@ -22,6 +22,7 @@
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
 #include "platform/system_call.h"
+#include "platform/written_files.h"
 
 namespace dynlab::inline figures {
 namespace {
@@ -206,6 +207,7 @@ class GnuplotRenderer::Work {
                 return Message("gnuplot could not draw \"{}\": {}", figure.target.string(), *error);
             }
         }
+        note_replacement(figure.target, figure.temporary);
         std::error_code failure;
         fs::rename(figure.temporary, figure.target, failure);
         if (!failure) return {};

@@ -10,6 +10,7 @@
 #include "platform/file_blocks.h"
 #include "platform/files/replacement_file.h"
 #include "platform/system_call.h"
+#include "platform/written_files.h"
 
 namespace dynlab::inline platform {
 namespace {
@@ -40,6 +41,7 @@ void place_file_atomically(const fs::path& from, const fs::path& to) {
     const auto present = present_status(target);
     if (!present || S_ISREG(present->st_mode)) {
         sync_content(from);
+        note_replacement(target, from);
         if (::rename(from.c_str(), target.c_str()) == 0) return;
         if (errno != EXDEV) fail_to_write(to, errno);
     }

@@ -8,11 +8,15 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/temporary_file.h"
+#include "platform/locks/in_use.h"
 #include "platform/system_call.h"
 #include "platform/temporary_folder.h"
 
@@ -26,7 +30,7 @@ constexpr char kUnfinished[] = ".new-";
 constexpr char kDropped[] = ".old-";
 constexpr char kGrowth[] = ".growth";  // bytes written since the entries were looked through
 constexpr auto kInUseTime = 1min;      // an entry used so lately may be open in another process
-constexpr auto kAbandonedAge = 1h;     // an unfinished entry this old belongs to a process that died
+constexpr auto kAbandonedAge = 1h;     // an unfinished entry of another machine this old belongs to a process that died
 constexpr std::size_t kDigestDigits = 32;
 
 fs::path folder_of_caches() {
@@ -55,12 +59,23 @@ std::optional<fs::path> lasting_root() {
     return !error && can_be_written(folder) ? std::optional(folder) : std::nullopt;
 }
 
-fs::path new_folder(const fs::path& root, const std::string& beginning) {
-    std::string pattern = root / (beginning + "XXXXXX");
-    if (!::mkdtemp(pattern.data())) {
-        throw EnvironmentError("cannot make a folder in {}: {}", root.string(), system_reason(errno));
+/// With a lock, until it is released: the next run removes what a killed one left.
+fs::path new_folder(const fs::path& root, const char* beginning) {
+    const fs::path folder = make_folder_in_use(root, beginning_in_use(beginning));
+    if (folder.empty()) throw EnvironmentError("cannot make a folder in {}: {}", root.string(), system_reason(errno));
+    return folder;
+}
+
+/// Once a process for each root.
+void remove_leftovers_of_killed_runs(const fs::path& root) {
+    static std::mutex mutex;
+    static std::set<fs::path> cleaned;
+    {
+        const std::lock_guard lock(mutex);
+        if (!cleaned.insert(root).second) return;
     }
-    return pattern;
+    for (const char* beginning : {kUnfinished, kDropped})
+        remove_unused(root, beginning_in_use(beginning), Leftovers::kFilesAndFolders);
 }
 
 bool is_plain(std::string_view name) {
@@ -107,19 +122,30 @@ void drop(const fs::path& root, const fs::path& entry) {
     const fs::path aside = new_folder(root, kDropped);
     fs::rename(entry, aside, error);
     fs::remove_all(aside, error);
+    release_folder_in_use(aside);
 }
 
+/// A file that is written, with its lock.
+struct UnfinishedFile {
+    fs::path path;
+    FileDescriptor file;
+};
+
 /// A file of the digest and then the bytes. Nobody waits for the disk: what a power failure leaves does not match.
-fs::path write_unfinished(const fs::path& root, std::string_view bytes) {
-    std::string file = root / (std::string(kUnfinished) + "XXXXXX");
-    const FileDescriptor fd(::mkstemp(file.data()));
-    const std::string digest = digest_of(bytes).hex();
-    if (fd && write_all(fd.get(), digest.data(), digest.size()) && write_all(fd.get(), bytes.data(), bytes.size()))
-        return file;
-    const std::string reason = system_reason(errno);
-    std::error_code ignored;
-    if (fd) fs::remove(file, ignored);
-    throw EnvironmentError("cannot write {}: {}", file, reason);
+UnfinishedFile write_unfinished(const fs::path& root, std::string_view bytes) {
+    for (;;) {
+        std::string path = root / (beginning_in_use(kUnfinished) + "XXXXXX");
+        FileDescriptor file(::mkostemp(path.data(), O_CLOEXEC));
+        if (file && !lock_as_in_use(file.get(), path)) continue;  // taken for a leftover, before it had its lock
+        const std::string digest = digest_of(bytes).hex();
+        if (file && write_all(file.get(), digest.data(), digest.size()) &&
+            write_all(file.get(), bytes.data(), bytes.size()))
+            return {path, std::move(file)};
+        const std::string reason = system_reason(errno);
+        std::error_code ignored;
+        if (file) fs::remove(path, ignored);
+        throw EnvironmentError("cannot write {}: {}", path, reason);
+    }
 }
 
 struct Entry {
@@ -169,6 +195,7 @@ Cache::Cache(std::uint64_t limit_bytes) : limit_bytes_(limit_bytes) {
     const auto lasting = lasting_root();
     lasting_ = lasting.has_value();
     root_ = lasting ? *lasting : private_folder();
+    if (lasting_) remove_leftovers_of_killed_runs(root_);
 }
 
 std::optional<std::string> Cache::recall(const std::string& name) const {
@@ -195,12 +222,12 @@ void Cache::remember(const std::string& name, std::string_view bytes) const {
 void Cache::write(const std::string& name, std::string_view bytes) const {
     const fs::path entry = root_ / name;
     fs::create_directories(entry.parent_path());
-    const fs::path unfinished = write_unfinished(root_, bytes);
+    const UnfinishedFile unfinished = write_unfinished(root_, bytes);
     std::error_code error;
     if (fs::is_directory(entry, error)) drop(root_, entry);
-    fs::rename(unfinished, entry, error);
+    fs::rename(unfinished.path, entry, error);
     if (error) {
-        fs::remove(unfinished, error);
+        fs::remove(unfinished.path, error);
         return;
     }
     add_growth(kDigestDigits + bytes.size());
@@ -227,6 +254,7 @@ fs::path Cache::commit(const fs::path& prepared, const std::string& name) const 
     const fs::path folder = root_ / name;
     fs::create_directories(folder.parent_path(), error);
     fs::rename(prepared, folder, error);
+    release_folder_in_use(prepared);
     if (error && fs::is_directory(folder)) {
         fs::remove_all(prepared, error);
     } else if (error) {

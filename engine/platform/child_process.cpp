@@ -166,6 +166,10 @@ bool ChildProcess::ended() const {
     return !state_->group || state_->group->leader_exited();
 }
 
+int ChildProcess::id() const {
+    return state_->group->leader();
+}
+
 ChildResult ChildProcess::wait() {
     if (!state_->group) throw std::logic_error("a child process can be waited for only once");
     const auto group = std::move(state_->group);

@@ -65,6 +65,7 @@ class ChildProcess {
     /// writes more than a pipe holds. A child that has ended takes nothing; wait() tells.
     void give_input(const std::string& input);
     bool ended() const;  ///< by itself: wait() will return at once
+    int id() const;      ///< of the process, before wait()
     ChildResult wait();
 
   private:

@@ -59,6 +59,36 @@ pid_t fork_bound_copy() {
     return 0;
 }
 
+pid_t start_bound_program(const std::string& program, std::vector<std::string> arguments,
+                          std::vector<std::string> environment, const std::array<int, 3>& streams) {
+    const std::vector<char*> argument_pointers = pointers_to(arguments), variables = pointers_to(environment);
+    const pid_t parent = ::getpid();
+    sigset_t all, before;
+    sigfillset(&all);
+    ::pthread_sigmask(SIG_BLOCK, &all, &before);  // until exec the child has our memory: no handler may run there
+    volatile int reason = 0;
+    const pid_t child = ::vfork();
+    if (child == 0) {
+        bool ready = become_group_leader(parent);
+        for (int target = 0; ready && target < 3; ++target) {
+            const int stream = streams[static_cast<std::size_t>(target)];
+            ready = (stream == target ? ::fcntl(target, F_SETFD, 0) : ::dup2(stream, target)) >= 0;
+        }
+        if (ready) ::execve(program.c_str(), argument_pointers.data(), variables.data());
+        reason = errno;
+        ::_exit(127);
+    }
+    const int failure = child < 0 ? errno : reason;
+    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    if (child < 0 || failure == 0) {
+        errno = failure;
+        return child;
+    }
+    retry_interrupted([child] { return ::waitpid(child, nullptr, 0); });
+    errno = failure;
+    return -1;
+}
+
 void limit_memory(std::uint64_t bytes) {
 #ifndef __SANITIZE_ADDRESS__  // the address sanitizer reserves more addresses than any limit leaves
     const rlimit limit{bytes, bytes};

@@ -1,10 +1,12 @@
 #pragma once
 #include <sys/types.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "platform/child_process.h"
 #include "platform/system_call.h"
@@ -22,6 +24,12 @@ bool become_group_leader(pid_t parent);
 
 /// fork(2) of a copy that dies with this process. 0 in the copy; below 0, with errno, where there is none.
 pid_t fork_bound_copy();
+
+/// Starts a program as the leader of a group of its own, without a copy of this process's memory (vfork). It is killed
+/// when the thread that calls this ends, however that comes. `streams`: its standard input, output and error output.
+/// Returns its id; below 0, with errno, where it cannot be started.
+pid_t start_bound_program(const std::string& program, std::vector<std::string> arguments,
+                          std::vector<std::string> environment, const std::array<int, 3>& streams);
 
 void limit_memory(std::uint64_t bytes);  ///< address space of this process from now on
 /// Of this process and of each that it starts, rounded up to seconds; SIGXCPU ends it, and a lower limit stays.
@@ -48,6 +56,7 @@ class ProcessGroup {
     /// where it heeds it.
     ChildResult wait();
     bool leader_exited() const;
+    pid_t leader() const { return leader_; }
 
   private:
     void collect_until_exit();

@@ -95,6 +95,14 @@ fs::path shared_folder() {
     return course ? course_home(*course, installed) : installed;
 }
 
+fs::path own_file(const fs::path& file) {
+    const auto course = own_course();
+    if (!course) return file;
+    const fs::path place = fs::absolute(file).lexically_normal().lexically_relative(shared_folder().lexically_normal());
+    const fs::path own = *course / place;
+    return !place.empty() && *place.begin() != ".." && fs::is_regular_file(own) ? own : file;
+}
+
 const std::vector<NeededProgram>& needed_programs() {
     static const std::vector<NeededProgram> programs = {
         {"gnuplot", "gnuplot-nox", "draws the figures"},

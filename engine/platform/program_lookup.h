@@ -33,6 +33,9 @@ std::optional<std::filesystem::path> library_folder_of(const std::filesystem::pa
 std::filesystem::path shared_folder();
 /// The same for a given program file, without the environment.
 std::filesystem::path shared_folder_of(const std::filesystem::path& program);
+/// The file of one's own course that is found as this one below shared_folder(), for messages and for what is beside
+/// it; any other file as it is.
+std::filesystem::path own_file(const std::filesystem::path& file);
 
 /// A program or Debian package dynlab needs at run time, for `dynlab doctor`.
 struct NeededProgram {

@@ -180,6 +180,24 @@ bool is_silent(char32_t c) {
            u_hasBinaryProperty(static_cast<UChar32>(c), UCHAR_DEFAULT_IGNORABLE_CODE_POINT);
 }
 
+Script script_of(char32_t character) {
+    UErrorCode error = U_ZERO_ERROR;
+    const UScriptCode code = uscript_getScript(static_cast<UChar32>(character), &error);
+    if (U_FAILURE(error) || code == USCRIPT_COMMON || code == USCRIPT_INHERITED || code == USCRIPT_UNKNOWN) return {};
+    std::string name = uscript_getName(code);
+    std::erase(name, '_');
+    return {name, uscript_getShortName(code)};
+}
+
+bool is_right_to_left(char32_t character) {
+    const UCharDirection direction = u_charDirection(static_cast<UChar32>(character));
+    return direction == U_RIGHT_TO_LEFT || direction == U_RIGHT_TO_LEFT_ARABIC;
+}
+
+bool is_mark(char32_t character) {
+    return is_of(character, U_GC_M_MASK);
+}
+
 bool is_capital(char32_t c) {
     if (c < 0x80) return c >= 'A' && c <= 'Z';
     return u_hasBinaryProperty(static_cast<UChar32>(c), UCHAR_UPPERCASE) || u_istitle(static_cast<UChar32>(c));

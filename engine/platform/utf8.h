@@ -39,7 +39,16 @@ std::string folded_letter(char32_t character);
 /// width and those that direct the text.
 bool is_silent(char32_t character);
 
-bool is_capital(char32_t character);    ///< of a script that knows capitals
-bool is_ideograph(char32_t character);  ///< of a script that writes words without spaces: each stands for itself
+/// A script by its name and its code (UAX #24, ISO 15924): "Devanagari", "Deva". Both are empty for characters that
+/// several scripts share: digits, signs, most accents.
+struct Script {
+    std::string name, code;
+};
+Script script_of(char32_t character);
+
+bool is_right_to_left(char32_t character);  ///< a letter of a script that is written so
+bool is_mark(char32_t character);           ///< an accent or a vowel sign that combines with the letter before it
+bool is_capital(char32_t character);        ///< of a script that knows capitals
+bool is_ideograph(char32_t character);      ///< of a script that writes words without spaces: each stands for itself
 
 }  // namespace dynlab::inline platform

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <deque>
 #include <fstream>
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kAtWork[] = "-", kNotOurs[] = "?";
+constexpr char kAboutToBe = '-', kNotOurs[] = "?";
 constexpr std::uintmax_t kMostLedgerBytes = 2u << 20;
 constexpr std::size_t kLinesKept = 4000;
 
@@ -36,17 +37,49 @@ void shorten(const fs::path& ledger) {
     write_file_atomically(ledger, text);
 }
 
+/// Those of this process, to be notified of files that are put in place.
+struct Watchers {
+    std::atomic<int> count = 0;  // most programs have none: they need no lock, and no copy of one inherits it locked
+    std::recursive_mutex mutex;  // a ledger is such a file, too
+    std::set<const WrittenFiles*> all;
+};
+
+Watchers& watchers() {
+    static Watchers* const watchers = new Watchers;  // outlives every other object
+    return *watchers;
+}
+
 }  // namespace
 
-WrittenFiles::WrittenFiles(fs::path ledger, Others others) : ledger_(std::move(ledger)), others_(others) {}
+void note_replacement(const fs::path& target, const fs::path& finished) {
+    if (watchers().count == 0) return;
+    const std::lock_guard lock(watchers().mutex);
+    for (const WrittenFiles* files : watchers().all) files->note_replacement(target, finished);
+}
+
+WrittenFiles::WrittenFiles(fs::path ledger, Others others) : ledger_(std::move(ledger)), others_(others) {
+    const std::lock_guard lock(watchers().mutex);
+    watchers().all.insert(this);
+    ++watchers().count;
+}
 
 WrittenFiles::~WrittenFiles() {
+    {
+        const std::lock_guard lock(watchers().mutex);
+        watchers().all.erase(this);
+        --watchers().count;
+    }
     settle();
 }
 
 void WrittenFiles::settle() {
+    std::map<fs::path, Taken> taken_files;
+    {
+        const std::lock_guard lock(mutex_);
+        taken_files.swap(taken_);
+    }
     std::string lines;
-    for (const auto& [file, taken] : taken_) {
+    for (const auto& [file, taken] : taken_files) {
         std::string content = kNotOurs;
         try {
             if (fs::exists(file)) content = sha256_of_file(file);
@@ -55,31 +88,54 @@ void WrittenFiles::settle() {
         if (content == taken.others_content) content = kNotOurs;  // it was to be written, and was not
         lines += taken.path_hash + ' ' + content + '\n';
     }
-    taken_.clear();
     if (!lines.empty()) note(lines);
 }
 
 void WrittenFiles::take(const fs::path& file) {
-    if (taken_.contains(file)) return;
+    {
+        const std::lock_guard lock(mutex_);
+        if (taken_.contains(file)) return;
+    }
     Taken taken{sha256_of(file.string()), {}};
     if (fs::exists(file)) {
-        const std::string known = known_content(taken.path_hash), content = sha256_of_file(file);
-        const bool ours = known == kAtWork || known == content;
-        if (!ours && others_ == Others::kKept) refuse(file, known);
-        if (!ours) taken.others_content = content;
+        const std::set<std::string> known = known_contents(taken.path_hash);
+        const std::string content = sha256_of_file(file);
+        if (!known.contains(content)) {
+            if (others_ == Others::kKept) refuse(file, !known.empty());
+            taken.others_content = content;
+        }
     }
-    note(taken.path_hash + ' ' + kAtWork + '\n');
+    const std::lock_guard lock(mutex_);
     taken_[file] = std::move(taken);
 }
 
-void WrittenFiles::refuse(const fs::path& file, const std::string& known) const {
+void WrittenFiles::note_replacement(const fs::path& target, const fs::path& finished) const {
+    if (ledger_.empty()) return;
+    std::string path_hash;
+    {
+        const std::lock_guard lock(mutex_);
+        if (taken_.empty()) return;
+        std::error_code ignored;
+        const fs::path absolute = fs::absolute(target, ignored);
+        auto found = taken_.find(absolute);
+        if (found == taken_.end()) found = taken_.find(fs::weakly_canonical(absolute, ignored));
+        if (found == taken_.end()) return;
+        path_hash = found->second.path_hash;
+    }
+    try {
+        note(path_hash + ' ' + kAboutToBe + sha256_of_file(finished) + '\n');
+    } catch (const std::exception&) {  // not noted: were this run killed now, the next one would ask for --force
+    }
+}
+
+void WrittenFiles::refuse(const fs::path& file, bool was_ours) const {
     const std::string name = file.filename().string();
     if (ledger_.empty())
         throw EnvironmentError(
             "'{}' is there already and it is not known who wrote it (neither HOME nor XDG_STATE_HOME is set); save "
             "under another name, move it away, or let it be replaced (dynlab run --force)",
             name);
-    if (known.empty() || known == kNotOurs)
+    if (!was_ours)
         throw EnvironmentError(
             "'{}' is there already and no run of dynlab wrote it; save under another name, move it away, or let it be "
             "replaced (dynlab run --force)",
@@ -90,11 +146,20 @@ void WrittenFiles::refuse(const fs::path& file, const std::string& known) const 
         name);
 }
 
-std::string WrittenFiles::known_content(const std::string& path_hash) const {
-    std::string known;
+std::set<std::string> WrittenFiles::known_contents(const std::string& path_hash) const {
+    std::set<std::string> known;
     std::ifstream stream(ledger_);
-    for (std::string line; std::getline(stream, line);)
-        if (line.starts_with(path_hash + ' ')) known = line.substr(path_hash.size() + 1);
+    for (std::string line; std::getline(stream, line);) {
+        if (!line.starts_with(path_hash + ' ')) continue;
+        const std::string content = line.substr(path_hash.size() + 1);
+        if (content.front() == kAboutToBe) {
+            known.insert(content.substr(1));
+        } else {
+            known.clear();
+            if (content != kNotOurs) known.insert(content);
+        }
+    }
+    known.erase("");  // of versions that noted no content
     return known;
 }
 

@@ -1,14 +1,16 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <mutex>
+#include <set>
 #include <string>
 
 namespace dynlab::inline platform {
 
 /// Keeps scripts from writing over what is not theirs: a file may be replaced where a run of dynlab wrote it and nobody
-/// has changed it since. What runs wrote stands in a ledger, a line a file: SHA-256 of its path, SHA-256 of its content
-/// "-" while a run is at work (one that was killed leaves that, and its half-made file may be replaced), or "?" where
-/// nothing was written after all.
+/// has changed it since. What runs wrote is recorded in a ledger, a line a file: SHA-256 of its path, and SHA-256 of
+/// its content; "-" and that of content that is about to be put in place (a run that is killed then leaves the one or
+/// the other); or "?" where nothing was written after all.
 class WrittenFiles {
   public:
     enum class Others { kKept, kReplaced };
@@ -24,9 +26,11 @@ class WrittenFiles {
 
     /// Asks to write `file`, an absolute path without links. Throws EnvironmentError where another's file is there.
     void take(const std::filesystem::path& file);
+    /// `finished` is about to be renamed to `target`: where that was taken, its content is noted.
+    void note_replacement(const std::filesystem::path& target, const std::filesystem::path& finished) const;
 
   private:
-    std::string known_content(const std::string& path_hash) const;
+    std::set<std::string> known_contents(const std::string& path_hash) const;
     void note(const std::string& lines) const;
 
     std::filesystem::path ledger_;
@@ -35,9 +39,14 @@ class WrittenFiles {
         std::string path_hash;
         std::string others_content;  ///< SHA-256 of a file of somebody else that may be replaced; empty for none
     };
-    [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& known) const;
-    std::map<std::filesystem::path, Taken> taken_;
+    [[noreturn]] void refuse(const std::filesystem::path& file, bool was_ours) const;
+    mutable std::mutex mutex_;
+    std::map<std::filesystem::path, Taken> taken_;  ///< guarded by mutex_
 };
+
+/// Notifies all WrittenFiles of this process that `finished` is about to be renamed to `target`: for code that puts
+/// files in place.
+void note_replacement(const std::filesystem::path& target, const std::filesystem::path& finished);
 
 /// A file of this name where programs keep their state: $XDG_STATE_HOME/dynlab, else ~/.local/state/dynlab; empty when
 /// neither folder is known.

@@ -181,7 +181,7 @@ void make_cheat_sheet(const std::filesystem::path& output) {
     job.layout.shared_templates = shared_folder() / "report_templates";
     job.work_folder = work.path();
     job.identity = std::filesystem::absolute(output).lexically_normal().string();
-    place_file_atomically(run_latex(job), output);
+    place_file_atomically(run_latex(job).pdf, output);
 }
 
 }  // namespace dynlab::inline workflow

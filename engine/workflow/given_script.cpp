@@ -1,13 +1,18 @@
 #include "workflow/given_script.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "documents/script_header.h"
+#include "documents/template_file.h"
+#include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/files/inside_folder.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/text/small_letters.h"
+#include "workflow/notebooks/notebook.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -36,6 +41,12 @@ Message kind_of(const std::string& ending) {
     for (const auto& [endings, kind] : kKinds)
         if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return kind;
     return {};
+}
+
+bool is_small_file(const std::filesystem::path& file) {
+    std::error_code error;
+    return std::filesystem::symlink_status(file, error).type() == std::filesystem::file_type::regular &&
+           std::filesystem::file_size(file, error) <= kMostSourceBytes && !error;
 }
 
 }  // namespace
@@ -84,6 +95,24 @@ fs::path meant_script(const fs::path& given) {
     if (folder) throw EnvironmentError("there is no {} in the folder {}, {}", kScriptOfFolder, given.string(), near);
     if (!near.empty()) throw EnvironmentError("there is no file {}, {}", given.string(), near);
     return script;  // whoever reads it tells what is wrong with it
+}
+
+std::string language_of_work(const std::filesystem::path& work) {
+    std::error_code none;
+    const bool folder = std::filesystem::is_directory(work, none);
+    try {
+        if (const auto report = work / "report.md"; folder && is_small_file(report)) {
+            const auto metadata = read_template(report).metadata;
+            if (const auto found = metadata.find("lang"); found != metadata.end()) return found->second;
+        }
+    } catch (const std::runtime_error&) {  // students write headers, too
+    }
+    try {
+        if (const auto script = folder ? work / "analysis.lua" : work; is_small_file(script))
+            return language_of_script(is_notebook(script) ? read_notebook(script).source : text_of_source(script));
+    } catch (const std::runtime_error&) {
+    }
+    return "";
 }
 
 }  // namespace dynlab::inline workflow

@@ -19,4 +19,8 @@ Message nearly_called(const std::filesystem::path& folder, const std::string& na
 /// without one, and for a file that is not there while another is called nearly so.
 std::filesystem::path meant_script(const std::filesystem::path& given);
 
+/// The language of a folder with an analysis.lua, of a script or of a notebook: that of the header of report.md
+/// (`lang: fr`), else that of the script (`language: fr`). Empty where neither can be read.
+std::string language_of_work(const std::filesystem::path& work);
+
 }  // namespace dynlab::inline workflow

@@ -291,6 +291,7 @@ ReportResult make_report(const ReportRequest& request) {
         options.begun_format = latex_format ? &*latex_format : nullptr;
         Complaints gaps;
         options.gaps = &gaps;
+        options.notes = &result.notes;
         std::vector<fs::path> pictures;
         options.pictures = &pictures;
         DocumentMaker(options).make(source, request.output, format, [&] {

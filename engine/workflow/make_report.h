@@ -47,6 +47,7 @@ struct ReportResult {
     bool up_to_date = false;       ///< nothing had changed, nothing was made
     std::optional<Message> error;  ///< the script stopped with it; the report says so
     std::vector<Message> gaps;     ///< what points to nothing, with its place: the report is a draft, with ?? there
+    std::vector<Message> notes;    ///< about letters that pdflatex does not have
     std::vector<UnplacedEntries> unplaced;                ///< what was reported and is not shown
     std::vector<std::pair<std::string, double>> timings;  ///< seconds of each step
     std::vector<std::pair<std::string, double>> cells;    ///< seconds of each code cell, when the script was run

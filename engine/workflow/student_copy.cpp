@@ -44,8 +44,8 @@ std::string report_for(const ScriptHeader& header, const fs::path& file, const s
     std::string text = read_text(file);
     const bool answers = header.template_name == "lesson" && !header.subtitle.empty();
     const std::string subtitle = answers ? "\nsubtitle: \"" + header.subtitle + "\"" : "";
-    put(text, "title: My work", "title: \"" + header.title + "\"" + subtitle);
-    put(text, "title: Notre travail", "title: \"" + header.title + "\"");
+    for (const char* title : {"title: My work", "title: Notre travail"})
+        put(text, title, "title: \"" + header.title + "\"" + subtitle);
     put(text, "lang: en", "lang: " + (language.empty() ? header.language : language));
     return text;
 }

@@ -89,7 +89,7 @@ report.table("experiments", experiments)
 
 report.figure("raw", figure{rows = 3, height = 6.4, panels = panels(crane.estimation)},
               say("The estimation record as measured: the position wanders, as the integral of the voltage does; the load answers with swings of its own frequency.",
-                  "L'enregistrement d'estimation tel que mesuré : la position erre comme l'intégrale de la tension ; la charge balance à sa fréquence propre."))
+                  "L'enregistrement d'estimation tel que mesuré : la position erre comme l'intégrale de la tension ; la charge balance à sa pulsation propre."))
 -- END SOLUTION
 
 -- %% [markdown]

@@ -60,7 +60,7 @@
 -- %% [markdown]
 -- **Question 9.** Un enregistrement est un seul coup de dés. On peut interroger de nouveau la grue de ce cours : `rig("crane", {seed = 2})` répète les cinq
 -- expériences avec un autre ordre des bits et un autre bruit. Devinez d'abord (`guess`, `outcome`) : quelle adéquation de l'angle est typique ? Puis répétez toute votre
--- démarche quarante fois. De combien adéquation, paramètres et fréquence se dispersent-ils, les erreurs types annoncent-elles cette dispersion, et à quelle
+-- démarche quarante fois. De combien adéquation, paramètres et pulsation se dispersent-ils, les erreurs types annoncent-elles cette dispersion, et à quelle
 -- distance votre modèle est-il du meilleur modèle linéaire de cette structure ?
 
 -- %% [markdown]
@@ -78,6 +78,6 @@
 -- Le rapport est lu par des gens. Là où le script est noté aussi, il rend avec `answer(nom, valeur)` : `discarded`, premier et dernier instant (s) de la section
 -- de `limits` qui n'appartient à aucun modèle linéaire ; `rest_angle`, ce qu'indique le potentiomètre (rad) quand la charge pend immobile ; vos modèles recommandés,
 -- de la tension à la position, `G_position`, intégrateur compris, et de la tension à l'angle, `G_angle` ; `fits`, l'adéquation (%) avec laquelle ils simulent position et
--- angle de l'enregistrement de validation ; et `free_swing`, la fréquence (rad/s) à laquelle la charge balance quand le moteur est au repos. Le script sera exécuté sur
+-- angle de l'enregistrement de validation ; et `free_swing`, la pulsation (rad/s) à laquelle la charge balance quand le moteur est au repos. Le script sera exécuté sur
 -- les enregistrements d'une autre grue, et les modèles qu'il y trouve seront comparés à des expériences que personne n'a vues. Les figures que
 -- l'on cherche s'appellent `raw` et `validation`.

@@ -287,7 +287,7 @@ local function bode_panel(quantity, more)
 end
 report.figure("regulation", figure{rows = 2, height = 9, panels = {
     bode_panel(function(F) return decibels(F.magnitude) end, {ylabel = say("magnitude (dB)", "module (dB)"), y_range = {-20, 25}, legend = "above"}),
-    bode_panel(function(F) return F.phase end, {ylabel = "phase (degrees)", y_range = {-180, 0}, legend = "none", xlabel = say("frequency (rad/s)", "fréquence (rad/s)")})}},
+    bode_panel(function(F) return F.phase end, {ylabel = "phase (degrees)", y_range = {-180, 0}, legend = "none", xlabel = say("frequency (rad/s)", "pulsation (rad/s)")})}},
     "Frequency responses from voltage to speed")
 local with_noise_model = rivc(pair(drive.regulation), {1, 2, 2, 2, 0}, from_rest)
 report.value("resting_b0", with_noise_model.param[3], "%.0f")

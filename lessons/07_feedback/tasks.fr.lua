@@ -10,7 +10,7 @@
 -- réglé en vitesse (@fig:drive), et un chauffe-eau qui s'entartre (@fig:heater). Les deux sont *simulés*, de sorte que ce que vous trouvez peut être comparé à la vérité.
 --
 -- ::: {.drawing name=drive}
--- L'entraînement : l'ordinateur compare la consigne $r$ à la vitesse $y$ que lit le tachymètre et fixe la tension $u$ du moteur ; un couple de la charge perturbe {#fig:drive}
+-- L'entraînement : l'ordinateur compare la consigne $r$ à la vitesse $y$ que lit le tachymètre et fixe la tension $u$ du moteur ; un couple résistant de la charge perturbe la vitesse {#fig:drive}
 -- :::
 --
 -- Le travail est prévu pour deux séances de trois heures :

@@ -704,7 +704,7 @@ function Pandoc(document)
     document.blocks:extend(answers)
   end
   document = finished(document)
-  for _, key in ipairs { "title", "subtitle", "date" } do
+  for _, key in ipairs { "title", "subtitle", "date", "header" } do
     local value = document.meta[key]
     if value then document.meta[key] = pandoc.MetaInlines(pandoc.utils.blocks_to_inlines(value)) end
   end

@@ -207,10 +207,14 @@ function layout:missing_block(name)
   return pandoc.Para { pandoc.Strong { pandoc.Str("[" .. name .. " " .. self.words.missing .. "]") } }
 end
 
--- In the place of what points to nothing, within a line or alone.
-function layout:gap() return pandoc.Strong { pandoc.Str("??") } end
+-- In the place of what points to nothing, within a line or alone. LaTeX's French would put a space between the marks.
+function layout:gap_mark() return self.format == "latex" and raw("latex", "\\string?\\string?") or pandoc.Str("??") end
 
-function layout:gap_block(name) return pandoc.Para { pandoc.Strong { pandoc.Str("?? [" .. name .. "]") } } end
+function layout:gap() return pandoc.Strong { self:gap_mark() } end
+
+function layout:gap_block(name)
+  return pandoc.Para { pandoc.Strong { self:gap_mark(), pandoc.Str(" [" .. name .. "]") } }
+end
 
 -- What a filter returns in a list is not filtered again, but what stands in it is: hence the division around the blocks.
 local function within(format, begin, blocks, finish)

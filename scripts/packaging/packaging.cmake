@@ -33,8 +33,8 @@ foreach(line ${lines})
 endforeach()
 file(REAL_PATH ${pkgcfg_lib_MATIO_matio} matio_library)
 string(REGEX REPLACE ".*/(libmatio)\\.so\\.([0-9]+).*" "\\1\\2" matio_package ${matio_library})
-# Whoever does without them is told by dynlab what to install: measured records, French, the editor of pages, boxes.
-set(recommended libslicot-doc texlive-lang-french libjs-codemirror bubblewrap)
+# Without them dynlab says what to install: measured records, French, the editor of pages, sandboxes, review copies.
+set(recommended libslicot-doc texlive-lang-french libjs-codemirror bubblewrap ghostscript)
 list(REMOVE_ITEM needed ${recommended})
 list(JOIN needed ", " needed)
 list(JOIN recommended ", " recommended)
@@ -60,4 +60,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib/dynlab)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "${matio_package}, ${needed}")
 set(CPACK_DEBIAN_PACKAGE_PREDEPENDS sse4.2-support)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "${recommended}")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "texlive-luatex, fonts-noto-core, fonts-noto-cjk")  # names in all scripts
 include(CPack)

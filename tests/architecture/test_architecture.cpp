@@ -17,7 +17,6 @@
 #include <sstream>
 
 #include "numerics/estimators/catalogue.h"
-#include "scripting/conversions/option_words.h"
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 

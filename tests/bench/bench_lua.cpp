@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "bench/bench.h"
@@ -18,6 +20,7 @@ rng(1)
 noise = 0.2*randn(N)
 function record(y) return iddata(y, u, Ts) end
 d = record(lsim(G, u, Ts) + noise)
+short = d:range(1, 1500)
 d3 = record(lsim(6/((s + 1)*(s + 2)*(s + 3)), u, Ts) + noise)
 dd = record(lsim(tf({2}, {1, 4, 3}, {IODelay = 0.1375}), u, Ts) + noise)
 dc = record(lsim(G, u, Ts) + lsim(tf({1, 0.5}, {1, -0.9}, {Ts = Ts}), noise, Ts))
@@ -49,17 +52,38 @@ void compare_lines(LuaSession& session, const Result& row, const std::string& li
     report.results.push_back(result);
 }
 
-void measure_srivc_calls(LuaSession& session, Report& report) {
-    {
-        const Vector u = session.numbers("d.u"), y = session.numbers("d.y");
+/// Lines that set E, against numpy; a short one is repeated within one measurement.
+struct NumpyCall {
+    const char *what, *record, *line, *job;
+    double bar, goal;
+    int calls = 1;
+};
+constexpr NumpyCall kNumpyCalls[] = {
+    {"Lua lssvf(d, {2, 1, 0}, 3), N = 1500 (s)", "short", "lssvf(short, {2, 1, 0}, 3)", "lssvf", 1.0 / 20, 1.0 / 60,
+     2000},
+    {"Lua srivc(d, {1, 2, 0}), N = 1500 (s)", "short", "srivc(short, {1, 2, 0}, {lambda = 3})", "srivc", 1.0 / 40,
+     1.0 / 60, 500},
+    {"Lua lssvf(d, {2, 1, 0}, 3), N = 999000 (s)", "d", "lssvf(d, {2, 1, 0}, 3)", "lssvf", 1.0 / 100, 1.0 / 150},
+    {"Lua srivc(d, {1, 2, 0}), N = 999000 (s)", "d", "srivc(d, {1, 2, 0}, {lambda = 3})", "srivc", 1.0 / 80,
+     1.0 / 100}};
+
+void measure_against_numpy(LuaSession& session, Report& report) {
+    for (const NumpyCall& call : kNumpyCalls) {
+        const std::string record = call.record;
+        const Vector u = session.numbers(record + ".u"), y = session.numbers(record + ".y");
+        const std::string line = fmt::format("for _ = 1, {} do E = {} end", call.calls, call.line);
         const auto work = [&] {
             session.forget_results();
-            session.run(kTwoPoles);
+            session.run(line);
             return session.numbers("E.param");
         };
-        compare_with_peer({"Lua srivc(d, {1, 2, 0}), N = 999000 (s)", Peer::kNumpy, "srivc", 1.0 / 40, 1.0 / 80, 11},
-                          {u, y}, work, report);
+        Comparison comparison{call.what, Peer::kNumpy, call.job, call.bar, call.goal, 11, 21};
+        comparison.calls = call.calls;
+        compare_with_peer(comparison, {u, y}, work, report);
     }
+}
+
+void measure_srivc_calls(LuaSession& session, Report& report) {
     compare_lines(session, {"Lua tfsrivc, 2 poles, IODelay = 0.1375 (s)", "without a delay (s)", 0, 0, 2, 1.3},
                   "tfsrivc(dd, 2, 0, {IODelay = 0.1375, lambda = 3})", kTwoPoles, report);
     constexpr double kPairs = 1.5;
@@ -103,6 +127,7 @@ void measure_saving(LuaSession& session, Report& report) {
 void measure_lua(Report& report) {
     LuaSession session;
     session.run(kRecords);
+    measure_against_numpy(session, report);
     measure_srivc_calls(session, report);
     measure_validation_calls(session, report);
     measure_slow_calls(session, report);

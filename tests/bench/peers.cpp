@@ -113,7 +113,7 @@ void compare_with_peer(const Comparison& comparison, const PeerRecord& record, c
     for (const double time : repeated_seconds(comparison.repetitions, repeat)) times.push_back(time);
     must_agree(comparison, ours, theirs.theta);
     report.results.push_back(
-        {comparison.what, against, median(times), theirs.seconds, comparison.bar, comparison.goal});
+        {comparison.what, against, median(times) / comparison.calls, theirs.seconds, comparison.bar, comparison.goal});
 }
 
 }  // namespace dynlab::bench

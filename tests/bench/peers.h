@@ -41,6 +41,7 @@ struct Comparison {
     double bar = 0, goal = 0;  ///< of our seconds / the peer's
     int repetitions = 5, peer_repetitions = 5;
     double tolerance = 1e-5;  ///< largest relative difference of the two estimates
+    int calls = 1;            ///< that `work` makes; the row is of one
 };
 
 /// Adds the row: `work`, what dynlab does in place of the peer's job, repeated before the peer runs and again after it.

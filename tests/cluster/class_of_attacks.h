@@ -31,9 +31,13 @@ inline void expect_equal_results(const Workbench& work, const std::string& one, 
         "");
 }
 
-/// Processes that work for a spool in this bench.
+/// Processes that grade a part in this bench.
 inline std::string workers_of(const Workbench& work) {
-    return work.shell("pgrep -f \"[d]ynlab work $PWD/\"").output;
+    return work
+        .shell(
+            "for p in $(pgrep -f '[d]ynlab.* --part'); do "
+            "[ \"$(readlink /proc/$p/cwd)\" = \"$PWD\" ] && echo $p; done")
+        .output;
 }
 
 }  // namespace dynlab::test

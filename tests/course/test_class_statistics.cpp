@@ -45,6 +45,18 @@ TEST(class_statistics, are_those_counted_by_hand) {
     EXPECT_EQ(json.at("results").at(3).at("checks").at("c"), 1);
 }
 
+// oracle: the correlation without the works that failed to start, which have no points in any check
+TEST(class_statistics, discrimination_leaves_out_works_without_an_answer) {
+    std::vector<Grade> grades = {work("1", 2, 2, 2), work("2", 2, 1, 2), work("3", 1, 0, 2), work("4", 0, 0, 1),
+                                 work("5", 0, 0, 0)};
+    const double alone = statistics_of_checks(grades)[0].discrimination;
+    for (int k = 0; k < 5; ++k) {
+        grades.push_back(work("stopped", 0, 0, 0));
+        grades.back().silent = true;
+    }
+    EXPECT_EQ(statistics_of_checks(grades)[0].discrimination, alone);
+}
+
 TEST(class_statistics, say_nothing_of_too_few_or_of_what_all_have) {
     const std::vector<Grade> few = {work("1", 2, 2, 2), work("2", 0, 1, 2)};
     EXPECT_TRUE(std::isnan(statistics_of_checks(few)[0].discrimination));

@@ -137,12 +137,6 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
     refused({"receive", "gruop-02.pdf"},
             "no group and no student of the course is called \"gruop-02\" (the nearest is group-02)");
     refused({"receive", "gruop-02.pdf", "--from", "group-9"}, "there is no group \"group-9\"");
-    bench.bench().write("group-02.xlsx", "PK\x03\x04 words");
-    refused({"receive", "group-02.xlsx"}, "this is neither a PDF nor a pack");
-    bench.bench().write("group-02.pdf", "not a document");
-    refused({"receive", "group-02.pdf"}, "this is neither a PDF nor a pack");
-    bench.bench().write("group-03.pdf", "");
-    refused({"receive", "group-03.pdf"}, "the file is empty");
     refused({"receive", "gruop-02.pdf", "--assignment", "crame"}, "did you mean crane?");
     refused({"assignment", "add", "b", "--first", "2026-03-09 12:00", "--review", "2026-03-08 12:00", "--final",
              "2026-03-15 12:00"},
@@ -182,7 +176,7 @@ TEST(course_store, a_roster_changes_what_it_has_columns_for) {
     CourseBench::expect_done(graded);
     EXPECT_THAT(graded.error_output, Not(HasSubstr("unknown")));  // dynlab grade reads them
     EXPECT_THAT(graded.error_output,
-                HasSubstr("ids of fewer than 3 letters and digits (2, such as s1) are not looked for"));
+                HasSubstr("documents are not searched for ids of fewer than 3 letters and digits (2, such as s1)"));
     EXPECT_EQ(rows("SELECT * FROM students"), "s1|Ada King|ada@a.example|11|21\ns2|Bo Ek|bo@a.example||\n");
     CourseBench::expect_done(import("id,group,mail\ns1,group-02,king@a.example\n"));
     EXPECT_EQ(rows("SELECT * FROM students"), "s1|Ada King|king@a.example|11|21\ns2|Bo Ek|bo@a.example||\n");
@@ -240,9 +234,8 @@ TEST(course_store, takes_a_platform_s_zip_and_leaves_out_what_leads_outside) {
         bench.course({"receive", "class.zip", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
     EXPECT_EQ(taken.exit_code, 1);
     EXPECT_THAT(taken.output, AllOf(HasSubstr("2 files taken, 0 late"), HasSubstr("group-01"), HasSubstr("group-03")));
-    EXPECT_THAT(taken.error_output,
-                AllOf(HasSubstr("\"../../escaped.pdf\" leads outside"), HasSubstr("called \"elsenobody\""),
-                      HasSubstr("group-04/notes.txt: this is neither a PDF")));
+    EXPECT_THAT(taken.error_output, AllOf(HasSubstr("\"../../escaped.pdf\" leads outside"),
+                                          HasSubstr("called \"elsenobody\""), Not(HasSubstr("notes.txt"))));
     EXPECT_FALSE(std::filesystem::exists(bench.bench().path("escaped.pdf")));
     EXPECT_FALSE(std::filesystem::exists("/tmp/escaped.pdf"));
     EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("2 files, 2 versions: all there and unaltered"));

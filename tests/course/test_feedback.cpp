@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "course/grading_bench.h"
-#include "course/hand_ins/work_language.h"
+#include "workflow/given_script.h"
 
 namespace dynlab::test {
 namespace test_feedback {

@@ -44,10 +44,9 @@ TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
     ASSERT_EQ(bench.grade(all).exit_code, 0);
     const std::string whole = work.read("out/gradebook.csv");
     EXPECT_THAT(whole, HasSubstr(",a,graded,5,5,"));
-    expect_refused(bench.grade({"--secret", "other.txt", "--only", "a"}),
+    expect_refused(bench.grade({"--secret", "other.txt", "--checks", "none", "--only", "a"}),
                    "your own checks (own then, none now), the secret");
-    expect_refused(bench.grade({"--checks", "own", "--secret", "secret.txt"}),
-                   "the deadlines (deadlines.csv then, none now)");
+    expect_refused(bench.grade({"--deadlines", "none"}), "the deadlines (deadlines.csv then, none now)");
     expect_refused(
         bench.grade({"--checks", "own", "--secret", "secret.txt", "--deadlines", "deadlines.csv", "--keep", "newest"}),
         "which hand-in counts (best then, newest now)");
@@ -64,7 +63,16 @@ TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
     expect_refused(bench.grade({"--checks", "own", "--secret", "secret.txt", "--deadlines", "moved.csv"}),
                    "the deadlines (deadlines.csv then, moved.csv now)");
     EXPECT_EQ(work.read("out/gradebook.csv"), whole);
-    ASSERT_EQ(bench.grade(again).exit_code, 0);
+    // A penalty of all points waits until it is accepted, and stays so.
+    const ChildResult waiting = bench.grade(again);
+    EXPECT_EQ(waiting.exit_code, 1);
+    EXPECT_THAT(waiting.output,
+                AllOf(HasSubstr("2 late:\n  \"a\": late by "), HasSubstr("2 need your eye:"),
+                      HasSubstr("a penalty of 100 % is not applied yet: accept it with --accept-late")));
+    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",a,graded,5,5,0,"));
+    std::vector<std::string> accepted = all;
+    accepted.push_back("--accept-late");
+    ASSERT_EQ(bench.grade(accepted).exit_code, 0);
     EXPECT_THAT(work.read("out/gradebook.csv"), AllOf(HasSubstr(",a,graded,0,5,5,"), HasSubstr(",b,graded,0,5,5,")));
     // Other checks, wanted: all marks anew from the runs of before.
     work.write("own/more.lua", "check{id = 'own', points = 4, test = function(a) return a.x > 50 end}\n");
@@ -76,6 +84,52 @@ TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
     EXPECT_THAT(bench.grade({"--secret", "empty.txt"}).error_output, HasSubstr("empty.txt"));
     work.write("empty.txt", "");
     EXPECT_THAT(bench.grade({"--secret", "empty.txt"}).error_output, HasSubstr("empty.txt is empty"));
+}
+
+// oracle: the gradebook that all options gave
+TEST(gradebook_memory, a_later_call_goes_on_with_the_options_of_the_first) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    bench.hand_in("group-1", "answer('x', 42)\nwhile true do end\n");
+    work.write("own/more.lua", kOwn);
+    work.write("secret.txt", "first");
+    work.write("roster.csv", "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n");
+    work.write("deadlines.csv", "submission,deadline\n*,2001-03-01 18:00\n");
+    EXPECT_EQ(work.dynlab({"grade", "in", "--out", "out"}).exit_code, 2);  // nothing to go on with: no lesson
+    ASSERT_EQ(bench
+                  .grade({"--checks", "own", "--secret", "secret.txt", "--roster", "roster.csv", "--deadlines",
+                          "deadlines.csv", "--timezone", "Europe/Paris", "--timeout", "2", "--keep", "newest"})
+                  .exit_code,
+              0);
+    const std::string book = work.read("out/gradebook.csv"), options = work.read("out/grading.json");
+    const ChildResult again = work.shell("mkdir below && cd below && \"$DYNLAB\" grade ../in --out ../out --no-pdf");
+    EXPECT_EQ(again.exit_code, 0) << again.error_output;
+    EXPECT_THAT(again.output, HasSubstr("0 graded now, 1 unchanged"));
+    EXPECT_EQ(work.read("out/gradebook.csv"), book);
+    bench.hand_in("group-2", kSolution);
+    EXPECT_THAT(work.dynlab({"grade", "in", "--out", "out", "--no-pdf"}).output,
+                HasSubstr("1 graded now, 1 unchanged"));
+    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("2,Zoë Ade,group-2,graded,0,5,5,"));
+}
+
+// oracle: the summary
+TEST(gradebook_memory, the_terminal_lists_what_the_summary_lists) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const Workbench& work = bench.bench();
+    bench.hand_in("group-1", "error('no')\n");
+    bench.hand_in("group-2", kSolution);
+    bench.hand_in("Zoë Ade", kSolution);
+    work.write("in/group-3/report.pdf", "%PDF");
+    work.write("roster.csv",
+               "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n3,Ben Lee,group-3\n4,Uma Kepler,group-4\n");
+    work.write("deadlines.csv", "submission,deadline,received\n*,2096-03-01 18:00,\ngroup-2,,2096-03-02 17:00\n");
+    const ChildResult graded = bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv"});
+    for (const char* sentence : {"the script of \"group-1\" did not run to its end: ", "\"group-3\" cannot be read: ",
+                                 "\"group-2\" was late, which costs 0.2 points: ",
+                                 "group-2 has several submissions, of which the better one counts"})
+        EXPECT_THAT(graded.output, HasSubstr(sentence));
+    const std::string listed = work.shell("sed -n '/needs attention/,/^# /p' out/summary.md | grep -c '^- '").output;
+    EXPECT_THAT(graded.output, HasSubstr(listed.substr(0, listed.find('\n')) + " notes need attention"));
 }
 
 // oracle: the log, in which every run stands, and the checks' definition
@@ -168,16 +222,15 @@ TEST(gradebook_memory, nobodys_work_is_told_and_a_list_gives_it_to_somebody) {
     const ChildResult graded = bench.grade({"--roster", "roster.csv"});
     EXPECT_EQ(graded.exit_code, 1);
     EXPECT_THAT(graded.error_output, HasSubstr("roster.csv is not UTF-8; it was read as Latin-1"));
-    EXPECT_THAT(graded.output,
-                AllOf(HasSubstr("\"my work\" belongs to nobody in the roster: it fits no group"),
-                      HasSubstr("\"group-2\" is the same, byte for byte, as \"Ben Lee\" of somebody else")));
+    EXPECT_THAT(graded.output, AllOf(HasSubstr("\"my work\" belongs to nobody in the roster: it fits no group"),
+                                     HasSubstr("\"Ben Lee\" and \"group-2\" are the same, byte for byte")));
     EXPECT_THAT(work.read("out/gradebook.csv"),
                 AllOf(HasSubstr("1,José García,,nothing handed in"), HasSubstr("2,Zoë Ade,group-2,graded,0,")));
     work.write("roster.csv", "id,name,group\n1,José García,group-1\n2,Zoë Ade,group-2\n3,Ben Lee,group-3\n");
     work.write("owners.csv", "submission;id\nmy work;1\n");
     ASSERT_EQ(bench.grade({"--roster", "roster.csv", "--owners", "owners.csv"}).exit_code, 0);
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1,José García,my work,graded,2,2,"));
-    expect_refused(bench.grade({"--roster", "roster.csv"}), "the list of owners (owners.csv then, none now)");
+    expect_refused(bench.grade({"--owners", "none"}), "the list of owners (owners.csv then, none now)");
 }
 
 // oracle: calendar and clock by hand: 20 min late of which 15 min are free costs a day's 10 % of 2 points
@@ -232,6 +285,31 @@ TEST(gradebook_memory, deadlines_that_are_no_time_are_refused_with_their_line) {
     ::tzset();
 }
 
+// oracle: the row of *, and the clock: an hour late of which each day begun costs 10 %
+TEST(gradebook_memory, a_row_of_deadlines_may_give_only_what_differs) {
+    const TemporaryFolder work;
+    const EnvironmentVariable zone("TZ", "UTC");
+    ::tzset();
+    const std::filesystem::path file = work.path() / "deadlines.csv";
+    write_file_atomically(file,
+                          "submission,deadline,extra,grace,received\n*,2026-03-09 18:00,,,\n"
+                          "Max Mustermann,,,,2026-03-09 19:00\nAnn,,2 h,,2026-03-09 19:00\nBo,,,2 h,2026-03-09 19:00\n"
+                          "Cy,,,,\n");
+    const Deadlines deadlines(file);
+    const auto late = [&](const char* name) {
+        Submission submission;
+        submission.name = name;
+        submission.path = file;
+        return deadlines.of(submission, {});
+    };
+    EXPECT_EQ(late("Max Mustermann").hours, 1);
+    EXPECT_EQ(late("Max Mustermann").percent, 10);
+    EXPECT_EQ(late("Ann").percent, 0);
+    EXPECT_EQ(late("Bo").percent, 0);
+    EXPECT_EQ(late("Cy").reason.empty(), late("somebody else").reason.empty());
+    ::tzset();
+}
+
 // oracle: of two hand-ins the better, or the one that came last
 TEST(gradebook_memory, the_better_or_the_newest_hand_in_counts) {
     for (const auto& [keep, points] : {std::pair("best", "2"), std::pair("newest", "0")}) {
@@ -273,6 +351,25 @@ TEST(gradebook_memory, one_run_at_a_time_and_results_are_no_submissions) {
     const ChildResult second = inside("in/marks2");
     EXPECT_THAT(second.output, HasSubstr("1 submission: 1 graded now"));
     EXPECT_THAT(second.error_output, HasSubstr("\"marks\" holds the results of dynlab grade; it is left out"));
+}
+
+// oracle: what a killed run had made until then, in a folder that was moved since
+TEST(gradebook_memory, results_of_a_killed_run_are_no_submissions) {
+    const TemporaryFolder folder;
+    const auto write = [&](const std::string& name) {
+        fs::create_directories((folder.path() / name).parent_path());
+        write_file_atomically(folder.path() / name, "x");
+    };
+    for (const char* file :
+         {"group-1/analysis.lua", "locked/.lock", "begun/.lock", "begun/manual.csv", "begun/grading.json",
+          "begun/results/group-1/results.json", "begun/runs/group-1/run.cbor", "work/.lock", "work/analysis.lua"})
+        write(file);
+    std::vector<Message> left_out;
+    std::vector<std::string> names;
+    for (const Submission& submission : submissions_in(folder.path(), left_out)) names.push_back(submission.name);
+    EXPECT_THAT(names, ElementsAre("group-1", "work"));
+    ASSERT_EQ(left_out.size(), 2u);
+    EXPECT_THAT(message_text(left_out[0]), HasSubstr("\"begun\" holds the results of dynlab grade"));
 }
 
 }  // namespace test_gradebook_memory

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "course/course_bench.h"
+#include "course/store/graded_work.h"
 
 namespace dynlab::test {
 namespace test_graded_work {
@@ -67,6 +68,23 @@ TEST_F(graded_work, of_a_talk_becomes_scores_of_a_criterion) {
     EXPECT_THAT(shown, ::testing::ContainsRegex("group-04 +- +- "));
     EXPECT_THAT(bench_.course({"scores", "talk", "roster.csv", "--graded", "script"}).error_output,
                 HasSubstr("there is no column \"submission\""));
+}
+
+// oracle: the folder around it; what is killed in the middle is test_whole_folder's
+TEST_F(graded_work, is_laid_out_whole_or_not_at_all) {
+    receive("group-01.lua", "answer('x', 1)\n", "2026-03-30 10:00");
+    receive("group-02.lua", "answer('x', 2)\n", "2026-03-30 10:00");
+    Course course(bench_.bench().path("k"));
+    const Assignment talk = assignment_named(course, "talk");
+    Rows rows = course.database().query("SELECT hash FROM standing WHERE part = 'script' ORDER BY received_at DESC");
+    ASSERT_TRUE(rows.next());
+    const std::filesystem::path stored = course.file(rows.text(0)), around = bench_.bench().path("around");
+    std::filesystem::rename(stored, bench_.bench().path("aside"));
+    std::filesystem::create_directory(around);
+    EXPECT_ANY_THROW(lay_out_work(course, talk, "first", around / "work"));
+    EXPECT_TRUE(std::filesystem::is_empty(around));
+    std::filesystem::rename(bench_.bench().path("aside"), stored);
+    EXPECT_EQ(lay_out_work(course, talk, "first", around / "work").groups.size(), 2u);
 }
 
 }  // namespace test_graded_work

@@ -4,7 +4,7 @@
 #include "base/reader.h"
 #include "course/course_bench.h"
 #include "course/grading_bench.h"
-#include "course/hand_ins/owners.h"
+#include "course/intake/owners.h"
 
 namespace dynlab::test {
 namespace test_hand_in_names {

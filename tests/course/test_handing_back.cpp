@@ -57,7 +57,8 @@ TEST(handing_back, gives_platforms_what_they_import) {
     const std::string mail = work.read("out/handed_back/mail.csv");
     EXPECT_THAT(mail, HasSubstr("1,Anna Lovelace,,anna@u.example,results/Anna Lovelace_900001_assignsubmission_file_/"
                                 "feedback.md,yes,2,2,"));
-    // A second time only what changed is new.
+    // Once it was delivered only what changed is new.
+    EXPECT_EQ(work.dynlab({"hand-back", "out", "--delivered"}).output, "3 files are recorded as delivered\n");
     work.write("out/marks.csv", "who,check,points,reason\nZoë_K_900002_assignsubmission_file_,x,1,half\n");
     bench.grade({"--roster", "roster.csv"});
     work.dynlab({"hand-back", "out", "--roster", "roster.csv"});

@@ -35,18 +35,18 @@ std::set<std::string> told_by(const std::string& checks) {
     return told;
 }
 
-TEST(lesson_catalogs, have_all_that_checks_of_lessons_in_french_tell_and_nothing_else) {
+TEST(lesson_catalogs, have_all_that_checks_of_lessons_tell_and_nothing_else) {
     int lessons_seen = 0;
     for (const Lesson& lesson : lessons()) {
-        if (!fs::exists(lesson.tasks("fr"))) continue;
+        if (!fs::exists(lesson.folder / "checks.lua")) continue;
         ++lessons_seen;
         const std::set<std::string> told = told_by(read_text(lesson.folder / "checks.lua"));
-        EXPECT_GT(told.size(), 30u);
+        EXPECT_GT(told.size(), 20u);
         const Catalog authors(read_text(lesson.checks_in("fr")));
         for (const std::string& sentence : told) EXPECT_NE(authors.translation(sentence), "") << sentence;
         EXPECT_EQ(authors.size(), told.size()) << lesson.slug << ": a translation of what no check tells";
     }
-    EXPECT_EQ(lessons_seen, 4);
+    EXPECT_EQ(lessons_seen, 8);
 }
 
 class lesson_reader : public testing::Test {
@@ -185,7 +185,7 @@ TEST(feedback_in_french, has_the_authors_sentences_of_the_lesson) {
     check.points = 2;
     grade.checks.push_back(check);
     EXPECT_THAT(feedback_markdown(grade),
-                AllOf(HasSubstr("La fréquence de la charge quand le moteur est au repos** – 0 sur 2"),
+                AllOf(HasSubstr("La pulsation de la charge quand le moteur est au repos** – 0 sur 2"),
                       HasSubstr("L'écart à ce qui était attendu est de 3,25\u202F; on demandait 0,1 au plus. "
                                 "C'est en Hz\u202F; on demande des rad/s."),
                       HasSubstr("Comptez les balancements")));

@@ -93,7 +93,8 @@ TEST(bundles, hold_the_records_of_a_group) {
     ASSERT_EQ(bench.dynlab({"new", "03_crane", "work", "--group-seed", "7"}).exit_code, 0);
     ASSERT_EQ(bench.dynlab({"bundle", "03_crane", "--group-seed", "7", "-o", "one.zip"}).exit_code, 0);
     ASSERT_EQ(bench.dynlab({"bundle", "03_crane", "--roster", "roster.csv", "-o", "all"}).exit_code, 0);
-    EXPECT_EQ(bench.shell("ls all").output, "03_crane-g-7.zip\n03_crane-g-8.zip\n");
+    EXPECT_EQ(bench.shell("ls all").output, "03_crane-g-7.zip\n03_crane-g-8.zip\n03_crane-without.zip\nroster.csv\n");
+    EXPECT_THAT(bench.read("all/roster.csv"), testing::ContainsRegex("4,,without,[1-9][0-9]*,"));
     EXPECT_EQ(bench.shell("cmp one.zip all/03_crane-g-7.zip").exit_code, 0);
     EXPECT_NE(bench.shell("cmp one.zip all/03_crane-g-8.zip").exit_code, 0);
     bench.shell("mkdir x && cd x && unzip -q ../one.zip");

@@ -88,6 +88,16 @@ TEST(peer_review, seeks_former_names_and_counts_copies) {
     EXPECT_THAT(status, ::testing::ContainsRegex("group-01 .* its copy was not sent: peer send tells why\n"
                                                  "group-02 .* its copy was not sent: peer send tells why\n"
                                                  "group-03 [^\n:]*\ngroup-04 [^\n:]*\n"));
+    EXPECT_THAT(bench.course({"peer", "send", "--accept", "group-01"}).error_output, HasSubstr("--reason"));
+    EXPECT_THAT(bench.course({"peer", "send", "--accept", "group-77", "--reason", "x"}).error_output,
+                HasSubstr("group-77"));
+    const ChildResult accepted =
+        bench.course({"peer", "send", "--accept", "group-01", "--reason", "agreed", "--at", "2026-03-01 16:00"});
+    EXPECT_THAT(accepted.output, HasSubstr("2 sent now, 4 before, 2 stopped, 0 not come yet"));
+    EXPECT_THAT(accepted.error_output, AllOf(HasSubstr("report of group-01 was sent with names in it: page 1: "),
+                                             HasSubstr("report of group-02 was not sent: page 1: ")));
+    EXPECT_THAT(bench.course({"history"}).output,
+                HasSubstr("crane: the report of group-01 was sent with names in it; reason: agreed"));
     CourseBench::expect_done(bench.course({"export", "--json", "--out", "all.json"}));
     CourseBench::expect_done(bench.bench().dynlab({"course", "import", "all.json", "copy", "--from", "k"}));
     EXPECT_EQ(bench.bench().shell("sqlite3 copy/course.db .dump").output, bench.dump());

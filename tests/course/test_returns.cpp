@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "course/course_bench.h"
+#include "course/export/returned_files.h"
+#include "course/office/receive.h"
 #include "course/review/review_pairs.h"
+#include "course/store/participants.h"
 #include "platform/error.h"
 
 namespace dynlab::test {
@@ -53,6 +56,43 @@ TEST(returns, bring_what_is_new_for_whom) {
     EXPECT_EQ(shell("find all -name '*.pdf' | wc -l"), "3\n");
     EXPECT_THAT(course.course({"return", "crane", "--out", "all"}).error_output, HasSubstr("exists already"));
     done({"verify"});
+}
+
+// oracle: Moodle numbers participants for each assignment: the names of its folders, and its worksheet
+TEST(returns, participants_have_the_numbers_of_this_assignment) {
+    CourseBench bench(3, 1);
+    const Workbench& work = bench.bench();
+    work.write("roster.csv",
+               "id,name,group,moodle\ns1,Student 1,group-01,12345\ns2,Student 2,group-02,12346\ns3,Student "
+               "3,group-03,12347\n");
+    Course course(work.path("k"));
+    import_roster(course, work.path("roster.csv"));
+    const Assignment crane = assignment_named(course, "crane");
+    work.write("in/Student 1_99345_assignsubmission_file_/report.pdf", small_pdf("1"));
+    work.write("in/group-02.pdf", small_pdf("2"));
+    ReceiveRequest request;
+    request.files = {work.path("in")};
+    request.assignment = "crane", request.at = course.clock().parse("2026-03-01 10:00", "time");
+    request.checks = false;
+    receive(course, request);
+    EXPECT_EQ(participants_of(course, crane.id), (std::map<std::string, std::string>{{"s1", "99345"}}));
+    const auto numbers = [&](const std::string& folder, const std::string& worksheet) {
+        ReturnRequest back;
+        back.folder = work.path(folder), back.moodle = true, back.all = true, back.now = request.at;
+        if (!worksheet.empty()) back.worksheet = work.path(worksheet);
+        const ReturnOutcome done = return_files(course, crane, back);
+        EXPECT_EQ(done.other_numbers, worksheet.empty() ? 1 : 2);
+        return work
+            .shell("python3 -c \"import zipfile; print(sorted({n.split('_')[1] for n in zipfile.ZipFile('" + folder +
+                   "/moodle.zip').namelist()}))\"")
+            .output;
+    };
+    // The roster's number of the second student is of the other assignment, too.
+    EXPECT_EQ(numbers("without", ""), "['99345']\n");
+    work.write("sheet.csv",
+               "Identifier,Full name,Grade,Maximum Grade\nParticipant 99345,Student 1,,20\nParticipant 99346,Student "
+               "2,,20\n");
+    EXPECT_EQ(numbers("with", "sheet.csv"), "['99345', '99346']\n");
 }
 
 TEST(returns, reviews_are_known_by_the_names_that_people_give) {

@@ -102,8 +102,8 @@ TEST(reviews, that_name_somebody_are_told_of_at_receipt) {
     EXPECT_THAT(findings.output,
                 AllOf(ContainsRegex("reviews: review of report-[0-9]+ v1, received Tue 2026-03-03 10:00"),
                       HasSubstr("nothing to mend; checked as peer_review: names of 3 people"),
-                      HasSubstr("The name of Student 3 stands in the text"),
-                      HasSubstr("The group group-03 stands in the text")));
+                      HasSubstr("The name of Student 3 is in the text"),
+                      HasSubstr("The group group-03 is in the text")));
     const ChildResult released = course.course({"release", "--at", "2026-03-09 10:00"});
     EXPECT_THAT(released.output, HasSubstr("1 sent now"));
     EXPECT_THAT(released.error_output, HasSubstr("review of group-01 was not sent: page 1: The name of Student 3"));

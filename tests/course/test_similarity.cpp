@@ -6,6 +6,7 @@
 #include <regex>
 #include <set>
 
+#include "course/boxes/zip_file.h"
 #include "course/grading_bench.h"
 #include "course/similarity/similarity.h"
 
@@ -298,10 +299,59 @@ TEST(similarity, both_sides_are_shown_and_nothing_of_them_is_markup) {
     const CommonPassage& longest = pairs[0].passages[0];
     EXPECT_EQ(longest.first_b, longest.first_a + 1);
     EXPECT_EQ(longest.last_b, longest.last_a + 1);
-    const std::string text = similarity_in_markdown(scripts, pairs, kLine);
-    EXPECT_THAT(text, HasSubstr("| a\\_b\\|c | d | 100 % |"));
+    const std::string text = similarity_in_markdown(scripts, similar_groups(scripts, pairs), kLine);
+    EXPECT_THAT(text, HasSubstr("| a\\_b\\|c and d | 100 % |"));
     EXPECT_THAT(text, HasSubstr(fmt::format("*d*, lines {} to {}:", longest.first_b, longest.last_b)));
     EXPECT_THAT(similarity_in_markdown(scripts, {}, kLine), HasSubstr("There are none."));
+}
+
+// oracle: sixteen who share one text are one group
+TEST(similarity, copies_of_one_script_are_one_group) {
+    const std::string source = Author(1).script();
+    std::vector<ComparedScript> scripts;
+    for (int k = 0; k < 16; ++k) scripts.push_back({fmt::format("s{:02}", k), source});
+    auto pairs = similar_pairs(scripts, kStarter, kLine);
+    EXPECT_EQ(pairs.size(), 120u);
+    auto groups = similar_groups(scripts, pairs);
+    ASSERT_EQ(groups.size(), 1u);
+    EXPECT_EQ(groups[0].members.size(), 16u);
+    EXPECT_TRUE(groups[0].identical);
+    const std::string text = similarity_in_markdown(scripts, groups, kLine);
+    EXPECT_THAT(text, HasSubstr("s00, s01, s02, s03, s04, s05, s06, s07, s08, s09, s10, s11, s12, s13, s14, s15 | "
+                                "identical files | 100 % |"));
+    EXPECT_THAT(text, HasSubstr("## s00 and 15 others: identical files"));
+    EXPECT_THAT(text, HasSubstr("*s00*, lines "));
+    EXPECT_THAT(text, Not(HasSubstr("*s01*, lines ")));  // the same once more
+}
+
+// oracle: the copies that were planted; a script with half of a copied one is paired with the group once
+TEST(similarity, a_script_like_several_copies_is_listed_once) {
+    const std::string source = Author(1).script(), other = Author(2).script();
+    const std::string half = source.substr(0, source.find('\n', source.size() / 2) + 1) +
+                             other.substr(other.find('\n', other.size() / 2) + 1);
+    const std::vector<ComparedScript> scripts = {
+        {"a", source}, {"b", renamed(source)}, {"c", laid_out_anew(source)}, {"d", half}, {"e", Author(3).script()}};
+    const auto pairs = similar_pairs(scripts, kStarter, 0.3);
+    EXPECT_GE(pairs.size(), 6u);
+    const auto groups = similar_groups(scripts, pairs);
+    ASSERT_EQ(groups.size(), 2u);
+    EXPECT_THAT(groups[0].members, testing::ElementsAre(0, 1, 2));
+    EXPECT_FALSE(groups[0].identical);
+    EXPECT_TRUE(groups[1].has(3));
+    EXPECT_EQ(groups[1].copies_of_first + groups[1].copies_of_second, 2u);
+    EXPECT_FALSE(groups[1].shown.passages.empty());
+}
+
+// oracle: the shorter script is all of a part of both longer ones, which have nothing else in common
+TEST(similarity, a_part_of_two_scripts_does_not_make_them_copies) {
+    std::string part = Author(4).script(), one = part, two = part;
+    for (unsigned k = 0; k < 4; ++k) {
+        one += Author(100 + k).script().substr(kStarter.size());
+        two += Author(200 + k).script().substr(kStarter.size());
+    }
+    const std::vector<ComparedScript> scripts = {{"part", part}, {"one", one}, {"two", two}};
+    for (const SimilarGroup& group : similar_groups(scripts, similar_pairs(scripts, kStarter, kLine)))
+        EXPECT_EQ(group.members.size(), 2u);
 }
 
 TEST(similarity, the_command_compares_a_class_with_a_former_year) {
@@ -313,11 +363,16 @@ TEST(similarity, the_command_compares_a_class_with_a_former_year) {
     bench.hand_in("c", Author(2).script());
     bench.bench().write("in/d/notes.txt", "no script");
     bench.bench().write("2025/old/analysis.lua", laid_out_anew(Author(2).script()));
+    std::map<std::string, std::string> files;  // as a platform exports them
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(bench.bench().path("in")))
+        if (entry.is_regular_file())
+            files[entry.path().lexically_relative(bench.bench().path("in")).string()] = read_file(entry.path());
+    write_zip(bench.bench().path("Lab4.zip"), files);
     const ChildResult found =
-        bench.bench().dynlab({"similar", "in", "--lesson", "99", "--out", "out", "--compare", "2025"});
+        bench.bench().dynlab({"similar", "Lab4.zip", "--lesson", "99", "--out", "out", "--compare", "2025"});
     EXPECT_EQ(found.exit_code, 1);
     EXPECT_THAT(found.error_output, HasSubstr("\"d\": There is no"));
-    EXPECT_EQ(found.output, "3 scripts compared: 2 pairs above the line\nout/similarity.md\n");
+    EXPECT_EQ(found.output, "3 scripts compared: 0 groups of copies, 2 pairs\nout/similarity.md\n");
     EXPECT_THAT(bench.bench().read("out/similarity.csv"), HasSubstr("a,b,100,"));
     EXPECT_THAT(bench.bench().read("out/similarity.csv"), HasSubstr("c,2025/old,100,"));
 }

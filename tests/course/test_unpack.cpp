@@ -5,8 +5,7 @@
 
 #include "course/course_bench.h"
 #include "course/grading_bench.h"
-#include "course/hand_ins/submission.h"
-#include "course/names/byte_text.h"
+#include "course/intake/submission.h"
 #include "support/message_texts.h"
 
 namespace dynlab::test {
@@ -165,21 +164,6 @@ open('SYS26-Bericht Kran-5512.zip', 'wb').write(data)
     EXPECT_THAT(taken.output, AllOf(HasSubstr("2 files taken, 0 late"), HasSubstr("group-01"), HasSubstr("group-02")));
     EXPECT_THAT(taken.error_output, AllOf(HasSubstr("the name of a file in it cannot be read; it was left out"),
                                           Not(HasSubstr("leads outside"))));
-}
-
-// oracle: the names and contents that zipfile was given
-TEST(unpack, names_inside_of_attached_archives_are_read_with_all_that_follows) {
-    const Workbench bench;
-    make_with_python(bench, R"(
-with zipfile.ZipFile('attached.zip', 'w') as z:
-    z.writestr('Zoë Lovelace.txt', 'first')
-    z.writestr('é.txt', 'second')
-    z.writestr('last.txt', 'third')
-data = open('attached.zip', 'rb').read().replace('é.txt'.encode(), b'\x82\x82.txt')
-open('attached.zip', 'wb').write(data)
-)");
-    EXPECT_THAT(texts_of_archive(bench.read("attached.zip")),
-                ElementsAre("Zoë Lovelace.txt", "first", "second", "last.txt", "third"));
 }
 
 }  // namespace test_unpack

@@ -47,6 +47,11 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     bench.hand_in("crane", "-- ---\n-- title: Crane\n-- lesson: 03_crane\n-- ---\nanswer('x', 42)\n");
     bench.hand_in("cannot begin", "-- ---\n-- nonsense\n-- ---\n");
     work.write("in/pdf/report.pdf", "%PDF");
+    work.write("in/disguised/analysis.lua", "%PDF-1.4 a report");
+    work.write("in/bytes/analysis.lua", std::string("\0\1\2", 3));
+    work.write("in/encoded/my%20analysis.lua", kSolution);
+    work.write("in/two/analysis (1).lua", kSolution);
+    work.write("in/two/analysis (2).lua", kSolution);
     work.write("in/capital/Analysis.lua", kSolution);
     work.write("in/copy/my analysis (2).lua", kSolution);
     work.write("in/text/analysis.lua.txt", kSolution);
@@ -57,12 +62,13 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     work.shell("mkdir in/movie && cp in/right/analysis.lua in/movie/ && truncate -s 300M in/movie/movie.mp4");
     const ChildResult graded = bench.grade();
     EXPECT_EQ(graded.exit_code, 1);
-    EXPECT_THAT(graded.output, HasSubstr("12 notes need attention:\n"));
+    EXPECT_THAT(graded.output, HasSubstr("14 notes need attention:\n"));
     const std::string book = work.read("out/gradebook.csv");
     for (const auto& [name, told] :
          {std::pair("crane", "the script of lesson 03_crane, not of 99_small"), std::pair("pdf", "only \"report.pdf\""),
-          std::pair("capital", "no analysis.lua in it, but \"Analysis.lua\""),
-          std::pair("copy", "but \"my analysis (2).lua\""), std::pair("text", "but \"analysis.lua.txt\""),
+          std::pair("disguised", "Its analysis.lua is a PDF under another name"),
+          std::pair("bytes", "Its analysis.lua is not a text"),
+          std::pair("two", "no analysis.lua in it, but \"analysis (1).lua\", \"analysis (2).lua\""),
           std::pair("seven", ".7z archives cannot be opened here"),
           std::pair("notebook", "this is JSON, but no Jupyter notebook"),
           std::pair("group-9.rar", ".rar archives cannot be opened here"),
@@ -75,10 +81,17 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
         EXPECT_THAT(book, HasSubstr(fmt::format(",{},unreadable,,0,0,", name)));
         EXPECT_THAT(work.read(fmt::format("out/results/{}/feedback.md", name)), HasSubstr("has no marks yet"));
     }
+    // Names that browsers and systems change are taken, with a notice.
+    for (const auto& [name, file] :
+         {std::pair("capital", "Analysis.lua"), std::pair("copy", "my analysis (2).lua"),
+          std::pair("text", "analysis.lua.txt"), std::pair("encoded", "my%20analysis.lua")}) {
+        EXPECT_EQ(bench.result(name).at("score"), bench.result("right").at("score")) << name;
+        EXPECT_THAT(work.read("out/summary.md"), HasSubstr(fmt::format("\"{}\" was taken as analysis.lua", file)));
+    }
     EXPECT_THAT(graded.output, HasSubstr("  \"silent\" ran to its end but gave no answer\n"));
     EXPECT_THAT(graded.output, Not(HasSubstr("right")));
     const std::string summary = work.read("out/summary.md");
-    EXPECT_THAT(summary, HasSubstr("11 that cannot be read"));
+    EXPECT_THAT(summary, HasSubstr("12 that cannot be read"));
     EXPECT_THAT(summary, HasSubstr("could not be begun"));
     const std::string feedback = work.read("out/results/cannot begin/feedback.md");
     EXPECT_THAT(feedback, HasSubstr("Your script could not be begun"));
@@ -113,7 +126,7 @@ TEST(unreadable_submissions, scripts_are_found_wherever_they_lie_and_the_newest_
     EXPECT_EQ(GradingBench::score(bench.result("both")), 0);  // archives beside a script are not opened
     EXPECT_THAT(GradingBench::trouble(bench.result("unclear")),
                 AllOf(HasSubstr("several folders"), HasSubstr("\"one\", \"other\"")));
-    EXPECT_THAT(graded.output, HasSubstr("1 note needs attention"));
+    EXPECT_THAT(graded.output, AllOf(HasSubstr("\"unclear\" cannot be read"), HasSubstr("was taken as the newest")));
     EXPECT_THAT(work.read("out/summary.md"), AllOf(HasSubstr("work_v2.zip"), HasSubstr("was taken as the newest")));
 }
 

@@ -75,7 +75,9 @@ class DocumentTest : public testing::Test {
         source.cells = cells_;
         DocumentMaker::Options options;
         options.timings = &timings_;
+        options.notes = &notes_;
         timings_.clear();
+        notes_.clear();
         DocumentMaker(options).make(source, file(output), document_format(file(output)), nullptr);
         return file(output);
     }
@@ -119,6 +121,7 @@ class DocumentTest : public testing::Test {
     RunRecord record_;
     MarkdownText cells_;
     std::vector<std::pair<std::string, double>> timings_;
+    std::vector<Message> notes_;
 };
 
 }  // namespace dynlab

@@ -1,6 +1,6 @@
 // Rosters, and whose a submission is.
-#include "course/hand_ins/owners.h"
-#include "course/hand_ins/roster.h"
+#include "course/intake/owners.h"
+#include "course/intake/roster.h"
 #include "fuzz/fuzz_input.h"
 #include "platform/error.h"
 

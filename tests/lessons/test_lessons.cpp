@@ -393,6 +393,20 @@ TEST(lesson_copies, are_french_throughout_where_french_is_asked_for) {
     }
 }
 
+// Oracle: common English words.
+TEST(lesson_copies, have_french_guidance_where_the_tasks_are_french) {
+    std::size_t french = 0;
+    for (const Lesson& lesson : dynlab::lessons()) {
+        if (!std::filesystem::is_regular_file(lesson.tasks("fr"))) continue;
+        const Workbench bench(Workbench::Memory::kShared);
+        ASSERT_EQ(bench.dynlab({"new", lesson.slug, "mine", "--lang", "fr"}).exit_code, 0);
+        for (const char* word : {" is ", " are ", " your ", " what ", " with ", " which ", "Your", "My work"})
+            EXPECT_THAT(bench.read("mine/report.md"), Not(HasSubstr(word))) << lesson.slug;
+        ++french;
+    }
+    EXPECT_GT(french, lesson_slugs(true).size());
+}
+
 TEST(lesson_copies, have_the_lesson_s_subtitle_where_its_questions_are_answered) {
     const Workbench bench;
     for (const Lesson& lesson : dynlab::lessons()) {

@@ -79,7 +79,7 @@ TEST(self_check, and_tasks_are_french_where_french_is_asked_for) {
     }
     const ChildResult refused = bench.dynlab({"sheet", "02", "--lang", "fr"});
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.error_output, HasSubstr("has no tasks in the language \"fr\""));
+    EXPECT_THAT(refused.error_output, HasSubstr("n'a pas d'énoncé dans la langue"));
 }
 
 TEST(french_tasks, give_equations_their_article) {  // "Estimez équation 2" is no French

@@ -76,7 +76,7 @@ TEST(programs, lesson_program_is_linked_without_course_pages_and_cluster) {
     const auto libraries = [&](const std::string& program) {
         return work.shell("ldd " + (kFolder / program).string()).output;
     };
-    const char* const of_other_commands[] = {"poppler", "qpdf", "sqlite", "zmq", "freetype"};
+    const char* const of_other_commands[] = {"poppler", "qpdf", "sqlite", "zmq"};
     EXPECT_THAT(libraries("dynlab"), HasSubstr("liblua"));
     for (const char* library : of_other_commands) {
         EXPECT_THAT(libraries("dynlab"), Not(HasSubstr(library)));

@@ -111,9 +111,9 @@ TEST(error_messages, of_a_function_of_the_script_are_quoted_with_their_place) {
 
 TEST(error_messages, options_have_the_names_of_scripts_for_every_reader) {
     const Message message("{} of {}", OptionName{"max_iterations"}, Message("at most {}", OptionName{"no_such"}));
-    EXPECT_EQ(message_text(with_script_options(message)), "MaxIter of at most `no_such`");
+    EXPECT_EQ(message_text(with_script_options(message, {nullptr, option_name})), "MaxIter of at most `no_such`");
     EXPECT_EQ(message_text(message, {nullptr, option_name}), "MaxIter of at most `no_such`");
-    EXPECT_EQ(with_script_options(plural(2, "{} pole", "{} poles")), plural(2, "{} pole", "{} poles"));
+    EXPECT_EQ(with_script_options(plural(2, "{} pole", "{} poles"), {}), plural(2, "{} pole", "{} poles"));
 }
 
 // A kind without phrases of its own would stay English in every language.

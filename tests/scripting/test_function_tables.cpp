@@ -9,7 +9,6 @@
 #include <set>
 
 #include "script_run.h"
-#include "scripting/conversions/option_words.h"
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/help.h"
 
@@ -112,9 +111,11 @@ TEST(function_tables, show_their_signature_on_the_help_page) {
     for (const FunctionEntry& function : catalogue_of_functions()) {
         const auto page = find_help_page(function.name);
         ASSERT_TRUE(page) << function.name;
-        EXPECT_THAT(std::string(page->text), StartsWith("# " + std::string(function.name) + "\n\n" + function.area +
-                                                        ": `" + signature_text(function) + "`\n"));
+        EXPECT_THAT(page_text(*page, &function), StartsWith("# " + std::string(function.name) + "\n\n" + function.area +
+                                                            ": `" + signature_text(function) + "`\n\n"));
     }
+    EXPECT_THAT(page_text(*find_help_page("lsim"), find_function("lsim")),
+                StartsWith("# lsim\n\nsimulation: `lsim(G, u, t_or_Ts, {hold =, x0 =}) -> y`\n\nSimulates the"));
 }
 
 TEST(function_tables, name_up_to_four_options_in_a_signature) {

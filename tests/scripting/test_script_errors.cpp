@@ -104,7 +104,7 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"local a\nlocal n = #a",
          "lesson.lua:2: the variable 'a' is nil (it has no value), so # cannot count its elements"},
         {"local ok = 1 < 'x'", "lesson.lua:1: a number cannot be compared with a text by < or >"},
-        {"local ok = {} < {}", "lesson.lua:1: two values of kind 'table' cannot be compared with < or >"},
+        {"local ok = {} < {}", "lesson.lua:1: a table cannot be compared with a table by < or >"},
         {"string.rep()", "lesson.lua:1: rep: argument 1 must be a string, but no value was given"},
         {"for i = 1, 'x' do end", "lesson.lua:1: the limit of a for loop must be a number, but a text was given"},
         {"for i = 1, 2, 0 do end", "lesson.lua:1: the step of a for loop must not be zero"},

@@ -11,7 +11,7 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/simulation/lsim.h"
 #include "script_run.h"
-#include "scripting/conversions/option_words.h"
+#include "scripting/interpreter/catalogue.h"
 
 namespace test_script_estimators {
 

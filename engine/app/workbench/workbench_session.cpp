@@ -19,7 +19,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
-#include "scripting/conversions/option_words.h"
+#include "scripting/interpreter/catalogue.h"
 #include "scripting/runtime/prompt_statement.h"
 
 namespace dynlab::inline app {

@@ -6,11 +6,11 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
+#include "cli/say.h"
 #include "course/boxes/told_reason.h"
 #include "course/findings/findings_report.h"
 #include "course/findings/lesson_reader.h"
 #include "course/grading/folder_check.h"
-#include "course/hand_ins/work_language.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -19,6 +19,7 @@
 #include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/text/small_letters.h"
+#include "workflow/given_script.h"
 #include "workflow/notebooks/notebook.h"
 #include "workflow/script_folder.h"
 
@@ -34,13 +35,14 @@ struct CheckArguments {
 };
 
 /// The people of the roster, and whoever's account this is.
-std::shared_ptr<const SoughtNames> sought_by(const CheckArguments& words) {
-    auto names = std::make_shared<SoughtNames>();
+std::shared_ptr<const IdentityMatcher> matcher_for(const CheckArguments& words) {
+    auto names = std::make_shared<IdentityMatcher>();
     if (!words.roster.empty()) {
         const Roster roster(words.roster);
-        if (const Message unsought = unsought_numbers(roster.students()); !unsought.empty())
-            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, message_text(unsought)));
-        *names = SoughtNames(roster);
+        if (const Message too_short = numbers_too_short(roster.students()); !too_short.empty())
+            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, message_text(too_short)));
+        *names = IdentityMatcher(roster.students());
+        names->add_cited(cited_authors());
     }
     if (const char* home = std::getenv("HOME")) names->add_account(home);
     return names;
@@ -86,11 +88,11 @@ int check(const CheckArguments& words) {
     if (words.pages > 0) wishes.pages = words.pages;
     wishes.lesson_checks = !words.document_only;
     const auto misuse = [](const Message& sentence) {
-        std::cerr << "dynlab: " << message_text(sentence) << '\n';
+        complain(sentence);
         return kUsage;
     };
     try {
-        wishes.names = sought_by(words);
+        wishes.names = matcher_for(words);
         if (!words.template_name.empty()) wishes.standard = standard_of(words.template_name);
     } catch (const std::runtime_error& error) {
         return misuse(message_of(error));
@@ -133,15 +135,15 @@ void add_check(CLI::App& app, Action& action) {
         "What is demanded comes from the template that analysis.lua names; of a PDF alone, wide pages are slides, the\n"
         "headings of a review make it a peer_review, and others are a lab_report. Pages, sections, figures that the\n"
         "text never mentions, unfilled slots, languages, text size and margins are looked at. The members in\n"
-        "group.toml and the people of a roster are looked for in text, metadata, pictures, links, comments, embedded\n"
-        "files and everything else inside, home folders too: dynlab help names.\n"
+        "group.toml and the people of a roster are searched for in the text, bookmarks, targets of links, document\n"
+        "information and the file name, home folders too: dynlab help names.\n"
         "Examples:  dynlab check my-crane     dynlab check report.pdf     dynlab check talk.pdf --template slides "
         "--json\n"
         "Exit codes: 0 no rule is broken (there may be hints), 1 a rule is broken, 2 wrong usage.\n"
         "JSON: {subject, template, language, pages, passed, checked: [text],\n"
         "       findings: [{id, severity: \"rule\"|\"hint\", page, place, what, remedy}]}; what is not known is null.");
     command->callback([words, &action] {
-        if (ending_of(words->subject) != ".pdf") refuse_other_files(words->subject, "check");
+        if (ending_of(words->subject) != ".pdf") expect_script(words->subject, "check");
         action = [words] { return check(*words); };
     });
 }

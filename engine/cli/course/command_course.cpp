@@ -59,8 +59,8 @@ int import_people(const CourseArguments& where, const std::string& file, bool no
     if (!change.unknown_columns.empty())
         std::cerr << terminal_text(fmt::format("dynlab: {}: not read: the unknown columns {}\n", file,
                                                fmt::join(change.unknown_columns, ", ")));
-    if (!change.unsought_ids.empty())
-        std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", file, message_text(change.unsought_ids)));
+    if (!change.short_ids.empty())
+        std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", file, message_text(change.short_ids)));
     std::cout << fmt::format("{} students: {} new, {} changed, {} moved to another group; {} new groups.\n",
                              change.students, change.new_students, change.changed, change.moved, change.new_groups);
     if (!change.absent.empty())
@@ -354,8 +354,10 @@ void add_course(CLI::App& app, Action& action) {
     add_findings_command(*course, where, action);
     add_peer_commands(*course, where, action);
     add_changes(*course, where, action);
+    add_remind_command(*course, where, action);
     add_grade_commands(*course, where, action);
     add_mark_commands(*course, where, action);
+    add_course_answers(*course, where, action);
     add_correction_commands(*course, where, action);
     add_status(*course, where, action);
     add_who(*course, where, action);

@@ -4,8 +4,8 @@
 
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
-#include "course/names/anonymous_copy.h"
-#include "course/returns/returned_files.h"
+#include "course/anonymity/anonymous_copy.h"
+#include "course/export/returned_files.h"
 #include "course/review/peer_review.h"
 #include "numerics/error.h"
 #include "platform/program_lookup.h"
@@ -17,6 +17,7 @@ namespace {
 
 struct PeerArguments {
     std::string assignment, at, reviewer, author, reason;
+    std::vector<std::string> accepted;  ///< groups
     bool early = false, set = false, forbid = false, free = false;
 };
 
@@ -57,11 +58,13 @@ Message with_page(const Finding& finding) {
     return finding.page > 0 ? Message("page {}: {}", finding.page, finding.what) : finding.what;
 }
 
-/// Copies are searched for everybody in the course; a name that is certain stops one.
+/// Copies are searched for everyone in the course; a certain hit stops the copy unless it is accepted.
 AnonymousCopier anonymous_copier() {
     return [](const CopyRequest& request) {
         AnonymousCopySetup setup;
         for (const Student& student : request.people) setup.names.add(student, student.group == request.group);
+        setup.names.add_cited(cited_authors());
+        setup.accept = request.accept;
         setup.program = running_program();
         const AnonymousCopy copy =
             anonymous_copy(request.pack.empty() ? request.pdf : request.pack, request.copy, setup);
@@ -76,8 +79,8 @@ AnonymousCopier anonymous_copier() {
 int send(const CourseArguments& where, const PeerArguments& words, Way way) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
-    const SendOutcome done =
-        send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier(), words.early);
+    const SendOutcome done = send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier(),
+                                         words.early, {words.accepted, words.reason});
     for (const auto* lines : {&done.hits, &done.hints})
         for (const Message& line : *lines) std::cerr << "dynlab: " << terminal_text(message_text(line)) << '\n';
     std::cout << fmt::format("{}: {} sent now{}, {} before, {} stopped, {} not come yet{}; in {}\n", assignment.name,
@@ -120,15 +123,24 @@ int release(const CourseArguments& where, const PeerArguments& words) {
 }
 
 struct ReturnArguments {
-    std::string assignment, out, at;
+    std::string assignment, out, at, worksheet;
     bool moodle = false, all = false;
 };
 
 int give_back(const CourseArguments& where, const ReturnArguments& words) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
-    const ReturnOutcome done =
-        return_files(course, assignment, {words.out, words.moodle, words.all, time_of(course, words.at)});
+    const ReturnOutcome done = return_files(
+        course, assignment,
+        {words.out, words.moodle || !words.worksheet.empty(), words.worksheet, words.all, time_of(course, words.at)});
+    if (done.other_numbers > 0)
+        std::cerr << "dynlab: note: "
+                  << message_text(plural(done.other_numbers,
+                                         "{} participant number in the roster's column moodle is of another "
+                                         "assignment; the one of this assignment is used",
+                                         "{} participant numbers in the roster's column moodle are of another "
+                                         "assignment; those of this assignment are used"))
+                  << '\n';
     for (const auto& [group, files] : done.files)
         std::cout << terminal_text(fmt::format("{}: {}\n", group, fmt::join(files, ", ")));
     std::cout << message_text(done.files.empty() ? Message("Nothing is new for anybody.")
@@ -141,8 +153,8 @@ int give_back(const CourseArguments& where, const ReturnArguments& words) {
                         fmt::join(done.without_mail, ", ")));
     if (!done.without_number.empty())
         std::cerr << terminal_text(
-            fmt::format("dynlab: not in moodle.zip, because their number there is not known: {}; the roster's column "
-                        "moodle has it\n",
+            fmt::format("dynlab: not in moodle.zip, because their number there is not known: {}; give Moodle's grading "
+                        "worksheet with --worksheet\n",
                         fmt::join(done.without_number, ", ")));
     return done.without_number.empty() ? kDone : kFailed;
 }
@@ -156,6 +168,11 @@ void add_return(CLI::App& course, CourseArguments& where, Action& action) {
         ->type_name("DIR")
         ->required();
     command->add_flag("--moodle", words->moodle, "Also moodle.zip, which Moodle takes as feedback files");
+    command
+        ->add_option("--worksheet", words->worksheet,
+                     "Moodle's grading worksheet of this assignment, for the participants' numbers; implies --moodle")
+        ->type_name("CSV")
+        ->check(CLI::ExistingFile);
     command->add_flag("--all", words->all, "Also what was returned before");
     add_time_option(*command, words->at);
     command->footer(
@@ -181,6 +198,14 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseA
     add_time_option(*command, words->at);
     if (run == assign) command->add_flag("--early", words->early, "Although first versions may still come");
     if (run == release) command->add_flag("--early", words->early, "Although reviews may still come");
+    if (run == send_reports || run == release) {
+        auto* const accept =
+            command->add_option("--accept", words->accepted, "Send this group's document although names were found");
+        auto* const reason =
+            command->add_option("--reason", words->reason, "Why; recorded in the history")->type_name("TEXT");
+        accept->type_name("GROUP")->needs(reason);
+        reason->needs(accept);
+    }
     command->callback([&where, words, run, &action] { action = [&where, words, run] { return run(where, *words); }; });
     return command;
 }
@@ -196,12 +221,14 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
             "Example:  dynlab course peer assign crane");
     add_one(*peer, "send", "Make anonymous copies of the reports for their reviewers", where, action, send_reports)
         ->footer(
-            "A name found in a copy stops that copy, and you are told where it is. Repeated, it makes only what is new."
-            "\n"
-            "Example:  dynlab course peer send crane");
+            "A name in a copy stops that copy; dynlab prints where it is. Where no person is meant, --accept sends "
+            "it.\n"
+            "Repeated, the command makes only what is new.\n"
+            "Examples:  dynlab course review send crane\n"
+            "           dynlab course review send crane --accept group-01 --reason \"Page is a word there\"");
     add_one(*peer, "release", "Make anonymous copies of the reviews for the authors", where, action, release)
         ->footer(
-            "A review that names somebody is stopped, like a report. Repeated, it makes what is new only.\n"
+            "A review with a name in it is stopped, like a report. Repeated, the command makes only what is new.\n"
             "Example:  dynlab course release crane");
     add_return(course, where, action);
     add_one(*peer, "pairs", "Show the pairs with their pseudonyms (for you only), or set or forbid one", where, action,

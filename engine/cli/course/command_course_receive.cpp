@@ -5,7 +5,7 @@
 
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
-#include "course/corrections/arrival_times.h"
+#include "course/intake/arrival_times.h"
 #include "course/office/receive.h"
 #include "course/store/graded_work.h"
 #include "course/store/receipts.h"
@@ -37,6 +37,7 @@ Message remark(const Received& r) {
     if (r.known) return Message("known already, nothing changed");
     MessageList clauses{{}, Join::kSemicolon};
     if (r.voluntary) clauses.items.push_back(Message("voluntary: the report was taken back; the review has no marks"));
+    if (!r.remark.empty()) clauses.items.push_back(r.remark);
     if (!r.twin.empty()) clauses.items.push_back(Message("the same file as {}", r.twin));
     if (!r.earlier.empty()) clauses.items.push_back(Message("the same file as {}", r.earlier));
     if (r.marked_late) clauses.items.push_back(Message("the platform calls it late: see --times"));
@@ -54,14 +55,16 @@ std::string what(const Received& r) {
     return r.about + (r.part == "pack" ? " (pack)" : r.from_pack ? " (from the pack)" : "");
 }
 
-void show(const ReceiveOutcome& outcome, const std::string& stage) {
+void show(const ReceiveOutcome& outcome, const std::string& stage, bool timed) {
     std::vector<std::vector<std::string>> rows;
+    std::vector<std::int64_t> late_by;
     int fresh = 0, late = 0;
     for (const Received& r : outcome.received) {
         rows.push_back({r.group, what(r), fmt::format("v{}", r.version),
                         r.late > 0 ? "late by " + duration_text(r.late) : "in time", message_text(remark(r))});
         fresh += !r.known;
         late += !r.known && r.late > 0;
+        if (!r.known && r.late > 0) late_by.push_back(r.late);
     }
     std::cout << fmt::format("{}, {}: {} taken, {} late{}\n", outcome.assignment.name,
                              stage == "first"    ? "first version"
@@ -75,6 +78,8 @@ void show(const ReceiveOutcome& outcome, const std::string& stage) {
         std::cout << terminal_text(aligned_table(
                          {"group", stage == "review" ? "review of" : "part", "version", "when", "remark"}, rows))
                   << "Receipts: " << outcome.receipts.string() << '\n';
+    if (const Message doubt = doubt_about_zone(late_by, static_cast<std::size_t>(fresh)); timed && !doubt.empty())
+        std::cerr << "dynlab: " << terminal_text(message_text(doubt)) << '\n';
     for (const Message& refused : outcome.refused)
         std::cerr << "dynlab: " << terminal_text(message_text(refused)) << '\n';
 }
@@ -86,10 +91,10 @@ int receive_files(const CourseArguments& where, const ReceiveArguments& words, c
     request.assignment = words.assignment, request.from = words.from, request.of = words.of, request.stage = stage;
     request.at = time_of(course, words.at);
     if (words.times == "archive") {
-        request.time_of = time_in_archive;
+        request.time_of = [](const IncomingFile& file) { return time_in_archive(file.file); };
     } else if (!words.times.empty()) {
-        request.time_of = [times = ArrivalTimes(words.times, course.clock())](const IncomingFile& file) {
-            return times.of(file);
+        request.time_of = [times = ArrivalTimes(words.times)](const IncomingFile& file) {
+            return times.of(file.sender);
         };
     }
     request.level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
@@ -100,7 +105,7 @@ int receive_files(const CourseArguments& where, const ReceiveArguments& words, c
     request.progress = bar.progress();
     const ReceiveOutcome outcome = receive(course, request);
     bar.finish();
-    show(outcome, stage);
+    show(outcome, stage, !words.times.empty());
     return outcome.refused.empty() ? kDone : kFailed;
 }
 

@@ -25,11 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct GradeArguments {
-    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, timezone, keep, isolation;
+    std::string submissions, lesson, out, checks, secret, roster, owners, deadlines, times, timezone, keep, isolation;
     std::vector<std::string> only;
     PartOptions parts;
     int jobs = 0, timeout = 0;
-    bool regrade = false, again = false, no_pdf = false, answers = false, force = false;
+    bool regrade = false, again = false, no_pdf = false, answers = false, force = false, accept_late = false;
 };
 
 constexpr char kNone[] = "none";  // of a file that OUT was made with
@@ -93,12 +93,14 @@ FolderRequest request_of(const GradeArguments& words) {
     sources.newest_counts = words.keep == "newest";
     sources.only = words.only;
     sources.timezone = words.timezone;
+    sources.times = given(words.times);
+    sources.accept_late = words.accept_late;
     request.again = words.again;
     request.part = words.parts.chosen();
     return request;
 }
 
-int grade_part(const FolderGrading& grading, const Part& part) {
+int grade_part(const FolderGrading& grading, const WorkPart& part) {
     const GradingOutcome outcome = grading.grade_part();
     show_complaints(outcome);
     std::cout << fmt::format("part {}: {} graded now, {} unchanged, {} could not be graded\n", part.text(),
@@ -166,7 +168,16 @@ void add_grade(CLI::App& app, Action& action) {
                      "CSV with the columns submission (a group, an id, or *), deadline, extra, grace, ...")
         ->type_name("CSV")
         ->check(CLI::ExistingFile | CLI::IsMember({kNone}));
-    command->add_option("--timezone", words->timezone, "Of the times in deadlines, this machine's unless given")
+    command
+        ->add_option(
+            "--times", words->times,
+            "When each was submitted: Moodle's grading worksheet or another CSV (column id, identifier, group, "
+            "name or mail, and time). Default: the times of the files")
+        ->type_name("CSV")
+        ->check(CLI::ExistingFile);
+    command
+        ->add_option("--timezone", words->timezone,
+                     "Time zone of deadlines and of times in zips. Default: this machine's")
         ->type_name("ZONE");
     command
         ->add_option("--only", words->only,
@@ -195,6 +206,7 @@ void add_grade(CLI::App& app, Action& action) {
         "--answers", words->answers,
         "Model answers for all, OUT/model_answers.pdf: the worked solution's text; dynlab hand-back adds them");
     command->add_flag("--force", words->force, "Take marks in marks.csv that are above the points of their check");
+    command->add_flag("--accept-late", words->accept_late, "Apply penalties of half the points or more");
     command->add_flag("--no-pdf", words->no_pdf, "Feedback and summary as Markdown only");
     command->footer(
         "Every submission is run and checked alone in a box; what it breaks is its own. A run that was ended goes on\n"
@@ -213,11 +225,14 @@ void add_grade(CLI::App& app, Action& action) {
         "clock; answers that it gave before count.\n"
         "Deadlines: submission, deadline, and where wanted extra (\"2 d\" beyond the deadline of *), received, grace\n"
         "(\"15 min\"), percent_per_day, most_percent; what a row leaves empty is as in the row of *.\n"
+        "A penalty of half the points or more is not applied until --accept-late is given once, or the row received\n"
+        "says when it came.\n"
         "What cannot be read (a PDF alone, a .rar, another lesson's script) is \"unreadable\": it has no marks until "
         "you\n"
         "give some in marks.csv. What needs attention is listed here and in the summary: that, what belongs to\n"
         "nobody in the roster, scripts that stop, late submissions with a penalty, several of one student.\n"
-        "Exit codes: 0 all is graded, 1 something is left ungraded, unreadable or nobody's, 2 wrong usage.");
+        "Exit codes: 0 all is graded, 1 something is left ungraded, unreadable, unconfirmed or nobody's, 2 wrong "
+        "usage.");
     command->callback([words, &action] {
         if (words->lesson.empty() && !remembered_options(words->out)) throw CLI::RequiredError("--lesson");
         action = [words] { return grade(*words); };

@@ -5,7 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/course/grading_options.h"
-#include "course/returns/gradescope.h"
+#include "course/export/gradescope.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
 

@@ -1,19 +1,23 @@
 #include <re2/re2.h>
 
-#include <iostream>
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
 
+#include "base/languages.h"
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
 #include "cli/say.h"
+#include "course/export/bundle.h"
 #include "course/grading/hand_in.h"
-#include "course/hand_ins/roster.h"
+#include "course/intake/roster.h"
 #include "documents/pdf/pdf_layout.h"
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 #include "platform/terminal/terminal_text.h"
+#include "workflow/make_report.h"
 #include "workflow/script_folder.h"
 
 namespace dynlab::inline cli {
@@ -22,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PackArguments {
-    std::string subject, output, roster;
+    std::string subject, output, roster, language;
     std::optional<std::uint32_t> group_seed;
 };
 
@@ -81,26 +85,48 @@ int pack(const PackArguments& words) {
     return kDone;
 }
 
-/// One zip for each group of the roster that has a seed, in the folder that is named.
+/// The task sheet in this language, or the lesson's own; nothing where it cannot be made, which is said once.
+fs::path task_sheet(const Lesson& lesson, const std::string& language, const fs::path& folder) {
+    const bool translated = !language.empty() && fs::exists(lesson.tasks(language));
+    fs::create_directories(folder / language);
+    const fs::path sheet = folder / language / (lesson.slug + "_sheet.pdf");
+    if (fs::exists(sheet)) return sheet;
+    try {
+        const ReportResult made = make_report(sheet_of(lesson.folder.string(), sheet, translated ? language : ""));
+        if (!made.error) return sheet;
+        complain(Message("without the task sheet: {}", *made.error));
+    } catch (const std::runtime_error& error) {
+        complain(Message("without the task sheet: {}", message_of(error)));
+    }
+    return {};
+}
+
+/// One zip for each group of the roster, in the folder that is named, and the roster with the seeds that were drawn.
 int bundle_groups(const Lesson& lesson, const PackArguments& words) {
     const fs::path folder = words.output.empty() ? fs::path(lesson.slug) : fs::path(words.output);
-    std::map<std::string, std::uint32_t> seeds;
-    const Roster roster(words.roster);
-    for (const Student& student : roster.students()) {
-        const std::string& owner = student.group.empty() ? student.id : student.group;
-        if (!student.seed) continue;
-        const auto [known, added] = seeds.try_emplace(owner, *student.seed);
-        if (!added && known->second != *student.seed)
-            throw EnvironmentError("{}: the members of {} have different seeds", words.roster, owner);
+    const fs::path copy = folder / "roster.csv";
+    std::vector<Student> students = Roster(words.roster).students(), earlier;
+    const bool complete = std::ranges::all_of(students, [](const Student& one) { return one.seed.has_value(); });
+    if (fs::exists(copy)) earlier = Roster(copy).students();
+    std::vector<BundleOwner> owners;
+    try {
+        owners = bundle_owners(students, earlier);
+    } catch (const EnvironmentError& error) {
+        throw EnvironmentError("{}: {}", words.roster, error.message());
     }
-    if (seeds.empty()) throw EnvironmentError("{}: nobody has a seed; fill in the column seed", words.roster);
     fs::create_directories(folder);
-    for (const auto& [owner, seed] : seeds) {
-        if (owner.find('/') != std::string::npos) throw EnvironmentError("there is a / in the name of {}", owner);
-        const fs::path file = folder / (lesson.slug + "-" + owner + ".zip");
-        bundle_lesson(lesson, file, seed);
-        std::cout << terminal_text(file.string()) << '\n';
+    if (!complete) write_file_atomically(copy, roster_text(students));  // first: nobody gets other records later
+    const TemporaryFolder sheets;
+    std::map<std::string, fs::path> sheet_in;
+    for (const BundleOwner& owner : owners) {
+        const std::string& language = words.language.empty() ? owner.language : words.language;
+        if (!sheet_in.contains(language)) sheet_in[language] = task_sheet(lesson, language, sheets.path());
+        const fs::path file = folder / (lesson.slug + "-" + owner.name + ".zip");
+        bundle_lesson(lesson, file, {owner.seed, language, sheet_in[language]});
+        say(Message::verbatim(file.string()));
     }
+    if (!complete)
+        note(Message("seeds were drawn for groups without one: use {} as the roster from now on", copy.string()));
     return kDone;
 }
 
@@ -108,9 +134,10 @@ int bundle(const PackArguments& words) {
     const Lesson lesson = find_lesson(words.subject);
     if (!words.roster.empty()) return bundle_groups(lesson, words);
     const fs::path file = words.output.empty() ? fs::path(lesson.slug + ".zip") : fs::path(words.output);
-    for (const std::string& name : bundle_lesson(lesson, file, words.group_seed))
-        std::cout << terminal_text(name) << '\n';
-    std::cout << file.string() << '\n';
+    const TemporaryFolder sheets;
+    const BundleOptions options{words.group_seed, words.language, task_sheet(lesson, words.language, sheets.path())};
+    for (const std::string& name : bundle_lesson(lesson, file, options)) say(Message::verbatim(name));
+    say(Message::verbatim(file.string()));
     return kDone;
 }
 
@@ -130,7 +157,7 @@ void add_pack(CLI::App& app, Action& action) {
         "The data link and the figures that dynlab run saved (analysis_out) are left out. Equal folders give equal "
         "files, byte by byte.\nExample:  dynlab pack my-work");
     command->callback([words, &action] {
-        refuse_other_files(words->subject, "pack");
+        expect_script(words->subject, "pack");
         action = [words] { return pack(*words); };
     });
 }
@@ -147,11 +174,19 @@ void add_bundle(CLI::App& app, Action& action) {
                                          "Records of the group's own: another specimen of each apparatus, other noise")
                             ->type_name("N")
                             ->check(CLI::Range(1u, 4294967295u));
-    command->add_option("--roster", words->roster, "A zip for each group, with records by the roster's column seed")
+    command
+        ->add_option("--roster", words->roster,
+                     "A zip for each group, with records by the roster's column seed, in the language of its column "
+                     "language")
         ->type_name("CSV")
         ->check(CLI::ExistingFile)
         ->excludes(seed);
+    command
+        ->add_option("--lang", words->language, "Language of tasks and report. Default: the lesson's, or the roster's")
+        ->check(CLI::IsMember(languages()));
     command->footer(
+        "A zip holds the starter, the visible checks, the data, the task sheet and how to start.\n"
+        "Groups without a seed get one at random: FOLDER/roster.csv is the roster with all seeds, for dynlab grade.\n"
         "Examples:  dynlab bundle 04 -o lesson-4.zip     dynlab bundle 03_crane --roster roster.csv -o bundles");
     command->callback([words, &action] { action = [words] { return bundle(*words); }; });
 }

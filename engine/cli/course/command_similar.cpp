@@ -28,9 +28,11 @@ int compare(const SimilarArguments& words) {
     const SimilarityOutcome outcome = compare_class(request);
     for (const Message& complaint : outcome.complaints)
         std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
-    const Message pairs = plural(outcome.pairs, "{} pair", "{} pairs");
-    std::cout << message_text(plural(outcome.scripts, "{} script compared: {} above the line",
-                                     "{} scripts compared: {} above the line", pairs))
+    const Message pairs = plural(static_cast<std::int64_t>(outcome.pairs), "{} pair", "{} pairs"),
+                  groups =
+                      plural(static_cast<std::int64_t>(outcome.groups), "{} group of copies", "{} groups of copies");
+    std::cout << message_text(plural(static_cast<std::int64_t>(outcome.scripts), "{} script compared: {}, {}",
+                                     "{} scripts compared: {}, {}", groups, pairs))
               << '\n'
               << (request.out / "similarity.md").string() << '\n';
     return outcome.complaints.empty() ? kDone : kFailed;
@@ -40,11 +42,13 @@ int compare(const SimilarArguments& words) {
 
 void add_similar(CLI::App& app, Action& action) {
     auto words = std::make_shared<SimilarArguments>();
-    CLI::App* command = app.add_subcommand("similar", "List scripts of a class that look alike, for your eye");
-    command->add_option("FOLDER", words->submissions, "Submissions, as dynlab grade takes them")
+    CLI::App* command = app.add_subcommand("similar", "List scripts of a class that look alike");
+    command
+        ->add_option("FOLDER", words->submissions,
+                     "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
         ->required()
-        ->check(CLI::ExistingDirectory);
-    command->add_option("--lesson", words->lesson, "The lesson: what its starter gives counts for nothing")
+        ->check(CLI::ExistingPath);
+    command->add_option("--lesson", words->lesson, "Lesson. Code of its starter does not count.")
         ->type_name("NN")
         ->required();
     command->add_option("--out", words->out, "Folder for similarity.md and similarity.csv")
@@ -52,18 +56,19 @@ void add_similar(CLI::App& app, Action& action) {
         ->required();
     command->add_option("--compare", words->others, "Submissions or scripts of a former year; may be repeated")
         ->type_name("FOLDER")
-        ->check(CLI::ExistingDirectory);
+        ->check(CLI::ExistingPath);
     command
-        ->add_option("--line", words->line, "Least code in common that is told, in percent of the shorter script's own")
+        ->add_option("--line", words->line,
+                     "Least code in common that is listed, in percent of the shorter script's own")
         ->type_name("P")
         ->capture_default_str()
         ->check(CLI::Range(1.0, 100.0));
     command->footer(
-        "Comments, layout and chosen names are left out before scripts are compared, also with the lesson's worked\n"
-        "solution; what many have counts little. The list shows both sides of what two have in common. It is no\n"
-        "verdict: there may be good reasons.\n"
-        "Example:  dynlab similar handed-in --lesson 04 --out marks --compare 2025/handed-in\n"
-        "Exit codes: 0 all were compared, 1 some could not be, 2 wrong usage.");
+        "Comments, layout and chosen names do not count, and code that many scripts share counts little. Scripts are\n"
+        "also compared with the lesson's worked solution. Copies of one script are one group. The list shows both\n"
+        "sides of the code in common. It is no verdict: there may be good reasons.\n"
+        "Example:  dynlab similar Lab4.zip --lesson 04 --out marks --compare 2025/handed-in\n"
+        "Exit codes: 0 all scripts were compared, 1 some could not be, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return compare(*words); }; });
 }
 

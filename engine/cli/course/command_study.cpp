@@ -58,7 +58,7 @@ void add_study(CLI::App& app, Action& action) {
         "Example:  dynlab study bias.lua --on processes:8\n"
         "Exit codes: 0 done, 1 the script failed or parts are missing, 2 wrong usage.");
     command->callback([words, &action] {
-        refuse_other_files(words->run.file, "study");
+        expect_script(words->run.file, "study");
         if (!words->parts.any())
             throw CLI::ValidationError("study", "give --part, --join or --on; without parts it is dynlab run");
         if (words->run.seed.text == "random")

@@ -40,11 +40,17 @@ CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action);
 /// submit, review collect, work, verify.
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action);
 
+/// answers.
+void add_course_answers(CLI::App& course, CourseArguments& where, Action& action);
+
 /// review assign, review send, review pairs, review release, deliver; after add_receive_commands.
 void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action);
 
 /// set-received, withdraw, restore, extend, withhold, history.
 void add_correction_commands(CLI::App& course, CourseArguments& where, Action& action);
+
+/// remind.
+void add_remind_command(CLI::App& course, CourseArguments& where, Action& action);
 
 /// findings.
 void add_findings_command(CLI::App& course, CourseArguments& where, Action& action);

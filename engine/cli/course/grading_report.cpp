@@ -20,6 +20,13 @@ std::string attention_text(const GradingOutcome& outcome) {
     return text;
 }
 
+std::string late_text(const GradingOutcome& outcome) {
+    if (outcome.late.empty()) return "";
+    std::string text = fmt::format("{} late:\n", outcome.late.size());
+    for (const Message& clause : outcome.late) text += "  " + terminal_text(message_text(clause)) + "\n";
+    return text;
+}
+
 }  // namespace
 
 void show_complaints(const GradingOutcome& outcome) {
@@ -36,9 +43,9 @@ int show_grading(const GradingOutcome& outcome, Isolation isolation, const std::
                              outcome.kept,
                              outcome.not_whole > 0 ? fmt::format(", {} with ungraded checks", outcome.not_whole) : "",
                              isolation_name(isolation))
-              << attention_text(outcome) << (out / "gradebook.csv").string() << '\n'
+              << late_text(outcome) << attention_text(outcome) << (out / "gradebook.csv").string() << '\n'
               << (out / (pdf ? "summary.pdf" : "summary.md")).string() << '\n';
-    const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned == 0;
+    const bool all_is_graded = outcome.not_whole + outcome.unreadable + outcome.unowned + outcome.unconfirmed == 0;
     return all_is_graded && outcome.complaints.empty() ? kDone : kFailed;
 }
 

@@ -49,12 +49,14 @@ bool done_on(const std::string& on, const std::filesystem::path& folder,
 void refuse_missing_parts(const std::set<int>& missing, int parts) {
     if (missing.empty()) return;
     std::vector<std::string> commands;
-    for (const int index : missing) commands.push_back(shown_command("--part " + Part{index, parts}.text()));
+    for (const int index : missing) commands.push_back(shown_command("--part " + WorkPart{index, parts}.text()));
     throw EnvironmentError(
-        "{} of {} cannot be joined: not made yet, or made from other files or by another version of dynlab. Make them "
-        "by\n{}",
-        plural(static_cast<std::int64_t>(missing.size()), "{} part", "{} parts"), parts,
-        listed(commands, Join::kLines));
+        "{}", plural(static_cast<std::int64_t>(missing.size()),
+                     "{} part of {} cannot be joined: it was not made yet, or from other files or by another version "
+                     "of dynlab. Make it by\n{}",
+                     "{} parts of {} cannot be joined: they were not made yet, or from other files or by another "
+                     "version of dynlab. Make them by\n{}",
+                     parts, listed(commands, Join::kLines)));
 }
 
 }  // namespace dynlab::inline cli

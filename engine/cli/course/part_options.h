@@ -18,7 +18,7 @@ struct PartOptions {
 
     void add_to(CLI::App& command);
     bool any() const { return join || !part.empty() || !on.empty(); }
-    std::optional<Part> chosen() const { return part_in(part); }
+    std::optional<WorkPart> chosen() const { return part_in(part); }
 };
 
 /// Has the parts of some work done by the machines that --on names; `missing` gives those that are not complete when

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/say.h"
 #include "platform/interrupt.h"
 #include "platform/text/read_number.h"
 #include "scripting/memoized_calls/memoized_call.h"
@@ -69,7 +70,7 @@ int show(const Demonstration& demonstration) {
         std::cout << '\n';
     }
     if (!record.error) return kDone;
-    std::cerr << "dynlab: " << error_text(*record.error, request.script) << '\n';
+    complain(error_message(*record.error, request.script));
     return kFailed;
 }
 

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <iostream>
 
-#include "base/languages.h"
 #include "cli/commands.h"
-#include "documents/template_file.h"
+#include "cli/options/script_options.h"
+#include "cli/say.h"
 #include "platform/error.h"
 #include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
 #include "scripting/runtime/help.h"
 #include "scripting/runtime/help_layout.h"
+#include "workflow/given_script.h"
 #include "workflow/hints.h"
 #include "workflow/lesson_catalogue.h"
 
@@ -23,23 +24,12 @@ struct HintArguments {
     bool next = false, all = false;
 };
 
-/// English, where the lesson has no hints in that language.
-Reader reader_of_hints(const Lesson& lesson, const std::string& language) {
-    return {std::filesystem::is_regular_file(lesson.hints(language)) ? catalog_of(language) : nullptr};
-}
-
-void say(const Message& message, const Reader& reader) {
-    std::cout << message_text(message, reader) << "\n";
-}
-
 /// The lesson that is named, or that the copy in this folder is of, whose report also tells the language.
 Lesson lesson_to_help(HintArguments& words) {
     const std::filesystem::path folder = words.lesson;
     if (!std::filesystem::is_regular_file(folder / "analysis.lua")) return find_lesson(words.lesson);
-    if (words.language.empty() && std::filesystem::is_regular_file(folder / "report.md")) {
-        const auto metadata = read_template(folder / "report.md").metadata;
-        if (const auto found = metadata.find("lang"); found != metadata.end()) words.language = found->second;
-    }
+    if (words.language.empty()) words.language = language_of_work(folder);
+    speak(words.language);
     const std::string name = read_percent_script(folder / "analysis.lua").header.lesson;
     if (name.empty()) throw EnvironmentError("{} does not name its lesson", (folder / "analysis.lua").string());
     words.lesson = name;
@@ -53,20 +43,19 @@ Hints hints_of(const Lesson& lesson, const std::string& language) {
     throw EnvironmentError("lesson {} has no hints ({})", lesson.slug, lesson.hints("en").string());
 }
 
-int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name, const Reader& reader) {
-    say(Message("Lesson {}\n", lesson.slug), reader);
+int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name) {
+    say(Message("Lesson {}\n", lesson.slug));
     for (const auto& [question, stages] : hints)
         say(Message("question {}   {} hints, {} seen", fmt::format("{:>2}", question), stages.size(),
-                    std::min(HintsSeen(lesson.slug, question).count(), stages.size())),
-            reader);
-    say(Message("\nThe first one of a question:  dynlab hint {} {}", name, hints.begin()->first), reader);
+                    std::min(HintsSeen(lesson.slug, question).count(), stages.size())));
+    say(Message("\nThe first one of a question:  dynlab hint {} {}", name, hints.begin()->first));
     return kDone;
 }
 
-void show_stages(const std::vector<std::string>& stages, std::size_t shown, const Reader& reader) {
+void show_stages(const std::vector<std::string>& stages, std::size_t shown) {
     const std::size_t width = columns_of_text(kHelpWidth);
     for (std::size_t i = 0; i < shown; ++i) {
-        say(Message("\nHint {} of {}", i + 1, stages.size()), reader);
+        say(Message("\nHint {} of {}", i + 1, stages.size()));
         std::cout << laid_out(stages[i], width);
     }
 }
@@ -76,8 +65,7 @@ int give_hint(HintArguments words) {
     const Lesson lesson = lesson_to_help(words);
     const Hints hints = hints_of(lesson, words.language);
     if (hints.empty()) throw EnvironmentError("the hints of lesson {} are empty", lesson.slug);
-    const Reader reader = reader_of_hints(lesson, words.language);
-    if (words.question == 0) return list_hints(lesson, hints, name, reader);
+    if (words.question == 0) return list_hints(lesson, hints, name);
     const auto found = hints.find(words.question);
     if (found == hints.end())
         throw EnvironmentError("lesson {} has no hints for question {}; it has some for {} to {}", lesson.slug,
@@ -90,17 +78,16 @@ int give_hint(HintArguments words) {
     const std::size_t shown = words.all    ? stages.size()
                               : words.next ? std::min(before + 1, stages.size())
                                            : std::max<std::size_t>(before, 1);
-    say(Message("Lesson {}, question {}", lesson.slug, words.question), reader);
-    show_stages(stages, shown, reader);
+    say(Message("Lesson {}, question {}", lesson.slug, words.question));
+    show_stages(stages, shown);
     seen.remember(std::max(shown, before));
     if (const std::size_t left = stages.size() - shown; left > 0)
-        say(Message("\n{} more:  dynlab hint {} {} --next", left, name, words.question), reader);
+        say(Message("\n{} more:  dynlab hint {} {} --next", left, name, words.question));
     else
         say(words.language.empty() || words.language == "en"
                 ? Message("\nThis is the last one. The worked solution:  dynlab report {}", lesson.slug)
                 : Message("\nThis is the last one. The worked solution:  dynlab report {} --lang {}", lesson.slug,
-                          words.language),
-            reader);
+                          words.language));
     return kDone;
 }
 
@@ -114,8 +101,7 @@ void add_hint(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 999));
     CLI::Option* next = command->add_flag("--next", words->next, "One hint more than were seen so far");
     command->add_flag("--all", words->all, "All hints of the question")->excludes(next);
-    command->add_option("--lang", words->language, "Language, where the lesson has hints in it")
-        ->check(CLI::IsMember(languages()));
+    add_language(*command, words->language, "Language, where the lesson has hints in it");
     command->footer("Examples:  dynlab hint 04 4     dynlab hint 04 4 --next     dynlab hint my-work");
     command->callback([words, &action] { action = [words] { return give_hint(*words); }; });
 }

@@ -4,9 +4,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "base/reader.h"
 #include "cli/commands.h"
 #include "cli/options/script_options.h"
+#include "cli/say.h"
+#include "documents/script_header.h"
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "platform/terminal/terminal_text.h"
@@ -39,7 +40,7 @@ std::vector<std::string> names_in(const std::string& file, const CheckNames& che
 
 /// Where editors find it; in a notebook, where people do.
 std::string finding_place(const LintFinding& found, const std::string& file, const std::string& source) {
-    const std::string cell = is_notebook(file) ? message_text(place_in_notebook(source, found.line)) : "";
+    const std::string cell = is_notebook(file) ? message_text(place_in_notebook(source, found.line), user()) : "";
     return cell.empty() ? fmt::format("{}:{}:{}", file, found.line, found.column) : fmt::format("{}, {}", file, cell);
 }
 
@@ -49,13 +50,14 @@ int lint(const LintArguments& words, const CheckNames& check_names) {
     for (const std::string& given : words.files) {
         const std::string file = fs::is_directory(given) ? (fs::path(given) / "analysis.lua").string() : given;
         const std::string source = text_of(file);
+        speak(language_of_script(source));
         for (const LintFinding& found : lint_script(source, file, names_in(file, check_names))) {
             all.push_back({{"file", file},
                            {"line", found.line},
                            {"column", found.column},
                            {"kind", found.kind},
-                           {"message", message_text(found.message)}});
-            text += fmt::format("{}: {}\n", finding_place(found, file, source), message_text(found.message));
+                           {"message", message_text(found.message, user())}});
+            text += fmt::format("{}: {}\n", finding_place(found, file, source), message_text(found.message, user()));
         }
     }
     if (words.json)
@@ -70,9 +72,9 @@ std::string complaint_about(const std::string& given) {
     if (given == kStandardInput || fs::is_regular_file(given)) return {};
     if (fs::is_regular_file(fs::path(given) / "analysis.lua")) return {};
     try {
-        return "there is no file " + meant_script(given).string();
+        return message_text(Message("there is no file {}", meant_script(given).string()), user());
     } catch (const EnvironmentError& error) {
-        return error.what();
+        return message_text(error.message(), user());
     }
 }
 
@@ -92,7 +94,7 @@ void add_lint(CLI::App& app, Action& action, const CheckNames& check_names) {
         "Example:  dynlab lint analysis.lua\n"
         "Exit codes: 0 nothing was found, 1 something was, 2 wrong usage.");
     command->callback([words, check_names, &action] {
-        for (const std::string& file : words->files) refuse_other_files(file, "lint");
+        for (const std::string& file : words->files) expect_script(file, "lint");
         action = [words, check_names] { return lint(*words, check_names); };
     });
 }

@@ -1,8 +1,8 @@
-#include <iostream>
 #include <optional>
 
-#include "base/languages.h"
 #include "cli/commands.h"
+#include "cli/options/script_options.h"
+#include "cli/say.h"
 #include "platform/error.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/terminal_text.h"
@@ -21,38 +21,43 @@ struct NewArguments {
 int make_editor_files(const std::string& folder) {
     if (!std::filesystem::is_directory(folder)) throw EnvironmentError("there is no folder {}", folder);
     for (const std::string& kept : write_editor_files(folder))
-        std::cout << kept << " is there already and stays as it is\n";
-    std::cout << folder << ": editors complete and check the functions of dynlab in it\n";
+        say(Message("{} is there already and stays as it is", kept));
+    say(Message("{}: editors complete and check the functions of dynlab in it", folder));
     return kDone;
 }
 
 int make_lesson(const std::string& folder) {
     for (const std::string& name : make_lesson_skeleton(folder)) std::cout << name << '\n';
-    std::cout << folder << ": a small lesson that runs; lesson.lua holds its text, code and worked solution.\n"
-              << "Try:  dynlab test-lesson " << shell_word(folder) << "    then    dynlab report " << shell_word(folder)
-              << '\n';
+    say(
+        Message("{}: a small lesson that runs; lesson.lua holds its text, code and worked solution.\n"
+                "Try:  dynlab test-lesson {}    then    dynlab report {}",
+                folder, shell_word(folder), shell_word(folder)));
     return kDone;
 }
 
 int make_new(const NewArguments& words) {
+    const std::string folder = shell_word(words.folder);
     if (words.lesson == "lesson") return make_lesson(words.folder);
     if (words.lesson == "editor") return make_editor_files(words.folder);
     if (words.lesson == "review") {
         make_review_folder(words.folder, words.language);
-        std::cout << words.folder << ": report.md has the five questions, analysis.lua takes scores.\n"
-                  << "Then:  dynlab report " << shell_word(words.folder) << "    and    dynlab check "
-                  << shell_word(words.folder) << '\n';
+        say(
+            Message("{}: report.md has the five questions, analysis.lua takes scores.\n"
+                    "Then:  dynlab report {}    and    dynlab check {}",
+                    words.folder, folder, folder));
         return kDone;
     }
     const Lesson lesson = find_lesson(words.lesson);
     {
         ActivityLine activity;
-        if (words.group_seed) activity.begin_step("finding out which data the lesson loads");
+        if (words.group_seed)
+            activity.begin_step(message_text(Message("finding out which data the lesson loads"), user()));
         make_student_copy(lesson, words.folder, words.group_seed, words.language, write_editor_files);
     }
-    std::cout << words.folder << ": analysis.lua is yours to edit, report.md is your report's text.\n"
-              << "Try:  dynlab run " << shell_word(words.folder) << "    then    dynlab report "
-              << shell_word(words.folder) << '\n';
+    say(
+        Message("{}: analysis.lua is yours to edit, report.md is your report's text.\n"
+                "Try:  dynlab run {}    then    dynlab report {}",
+                words.folder, folder, folder));
     return kDone;
 }
 
@@ -70,8 +75,7 @@ void add_new(CLI::App& app, Action& action) {
                      "Records of the group's own: another specimen of each simulated apparatus, other noise")
         ->type_name("N")
         ->check(CLI::Range(1u, 4294967295u));
-    command->add_option("--lang", words->language, "Language of the report, where it is not the lesson's")
-        ->check(CLI::IsMember(languages()));
+    add_language(*command, words->language, "Language of the report, where it is not the lesson's");
     command->footer(
         "Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr\n"
         "dynlab new lesson DIR makes a small lesson of your own with checks, to be changed: dynlab help "

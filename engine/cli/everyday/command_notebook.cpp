@@ -1,13 +1,12 @@
-#include <iostream>
-
 #include "base/languages.h"
 #include "cli/commands.h"
+#include "cli/say.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/atomic_file.h"
-#include "platform/terminal/terminal_text.h"
 #include "platform/written_files.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "workflow/error_text.h"
+#include "workflow/given_script.h"
 #include "workflow/notebooks/figure_bundle.h"
 #include "workflow/notebooks/notebook.h"
 #include "workflow/run_script.h"
@@ -29,12 +28,12 @@ void write(const NotebookArguments& words, const char* ending, const std::string
                          words.force ? WrittenFiles::Others::kReplaced : WrittenFiles::Others::kKept);
     const fs::path folder = fs::absolute(file).parent_path();
     if (fs::exists(file) && read_file(file) == content) {
-        std::cout << file.string() << " says the same already\n";
+        say(Message("{} says the same already", file.string()));
         return;
     }
     written.take(fs::weakly_canonical(folder / file.filename()));
     write_file_atomically(file, content);
-    std::cout << file.string() << '\n';
+    say(Message("{}", file.string()));
 }
 
 /// The notebook with what a run of the script prints and draws. Returns the exit code.
@@ -54,16 +53,16 @@ int write_with_outputs(const NotebookArguments& words, const PercentScript& scri
         figures[name] = figure_bundle(*figure.figure, renderer, Reader{catalog_of(script.header.language)});
     write(words, ".ipynb", notebook_of(script, &record, figures));
     if (!record.error) return kDone;
-    std::cerr << "dynlab: " << terminal_text(error_text(*record.error, script)) << '\n';
+    complain(error_message(*record.error, script));
     return kFailed;
 }
 
 int convert(const NotebookArguments& words) {
+    speak(language_of_work(words.file));
     if (is_notebook(words.file)) {
         const NotebookScript script = read_notebook(words.file);
         parse_percent_script(script.source, words.file);  // throws where the cells do not make a script
-        for (const Message& loss : script.losses)
-            std::cerr << "dynlab: note: " << terminal_text(message_text(loss)) << '\n';
+        for (const Message& loss : script.losses) note(loss);
         write(words, ".lua", script.source);
         return kDone;
     }

@@ -1,4 +1,3 @@
-#include "base/languages.h"
 #include "cli/commands.h"
 #include "cli/document_command.h"
 #include "cli/options/script_options.h"
@@ -38,15 +37,14 @@ void add_report(CLI::App& app, Action& action) {
         ->type_name("FILE");
     command->add_option("--record", words->record, "Where to write what the script gave, too (.json)")
         ->type_name("FILE");
-    command->add_option("--lang", words->language, "Language of a lesson's report, where it has several")
-        ->check(CLI::IsMember(languages()));
+    add_language(*command, words->language, "Language of a lesson's report, where it has several");
     command->add_flag("--timings", words->timings, "Say how long each step took");
     command->add_flag("--stay-in-folder", words->stay_in_folder, "")->group("");  // what check wants
     words->seed.add_to(*command);
     words->sliders.add_to(*command);
     command->footer("Examples:  dynlab report 02     dynlab report my-work -o my-work.html");
     command->callback([words, &action] {
-        refuse_other_files(words->subject, "report");
+        expect_script(words->subject, "report");
         action = [words] { return report(*words); };
     });
 }

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <re2/re2.h>
 #include <unistd.h>
 
@@ -7,12 +6,12 @@
 #include "base/languages.h"
 #include "cli/commands.h"
 #include "cli/options/run_command.h"
+#include "cli/say.h"
 #include "figures/gnuplot_script.h"
 #include "platform/atomic_file.h"
 #include "platform/terminal/activity_line.h"
 #include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_output.h"
-#include "platform/terminal/terminal_text.h"
 #include "platform/written_files.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "workflow/error_text.h"
@@ -50,7 +49,7 @@ void save_figures(RunRecord& record, GnuplotRenderer& renderer, const fs::path& 
     draw_figures(record, renderer, folder, FigureFormat::kPdf, language);
     renderer.finish();
     for (const std::string& name : figures_in_order(record))
-        std::cout << "figure " << terminal_text(name) << ": " << record.figures.at(name).file.string() << '\n';
+        say(Message("figure {}: {}", name, record.figures.at(name).file.string()));
 }
 
 /// Beside each figure what gnuplot draws it from.
@@ -66,21 +65,21 @@ void save_gnuplot_files(const RunRecord& record, const std::string& language) {
 
 /// What the script gave to the report, and what of it the report would not show.
 void show_reported(const PercentScript& script, const RunRecord& record) {
-    for (const auto& [name, value] : record.values)
-        std::cout << terminal_text(fmt::format("value {}: {}\n", name, value.text));
-    for (const auto& [name, table] : record.tables)
-        std::cout << terminal_text(fmt::format("table {}:\n{}", name, aligned_table(table.header, table.rows)));
-    for (const auto& [name, text] : record.texts)
-        std::cout << terminal_text(fmt::format("text {}: {}\n", name, text.markdown));
+    for (const auto& [name, value] : record.values) say(Message("value {}: {}", name, value.text));
+    for (const auto& [name, table] : record.tables) {
+        std::string lines = aligned_table(table.header, table.rows);
+        lines.pop_back();
+        say(Message("table {}:\n{}", name, lines));
+    }
+    for (const auto& [name, text] : record.texts) say(Message("text {}: {}", name, text.markdown));
     std::cout.flush();
-    for (const UnplacedEntries& entries : entries_without_place(script, record))
-        std::cerr << "dynlab: note: " << terminal_text(message_text(entries.message())) << '\n';
+    for (const UnplacedEntries& entries : entries_without_place(script, record)) note(entries.message());
 }
 
 RunRecord run_showing_activity(RunRequest& request, GnuplotRenderer& renderer) {
     ActivityLine activity;
     request.print = [&activity](const std::string& text) { activity.print(text, print_shown); };
-    request.enter_cell = [&activity](const Message& cell) { activity.begin_part(message_text(cell)); };
+    request.enter_cell = [&activity](const Message& cell) { activity.begin_part(message_text(cell, user())); };
     return run_script(request, renderer);
 }
 
@@ -119,10 +118,10 @@ int run_and_show(const RunArguments& words, CallsInParts* parts) {
     show_reported(request.script, record);
     if (!record.error) {
         if (const std::string missing = missing_answers(request.script, record); !missing.empty())
-            std::cerr << "dynlab: answers that are not given yet: " << terminal_text(missing) << '\n';
+            complain(Message("answers that are not given yet: {}", missing));
         return kDone;
     }
-    std::cerr << "dynlab: " << terminal_text(error_text(*record.error, request.script)) << '\n';
+    complain(error_message(*record.error, request.script));
     return kFailed;
 }
 
@@ -157,7 +156,7 @@ void add_run(CLI::App& app, Action& action, const FigureView& view) {
         if (words->file.empty() && words->code.empty()) {
             throw CLI::RequiredError("a script FILE or -e CODE");
         }
-        refuse_other_files(words->file, "run");
+        expect_script(words->file, "run");
         action = [words, view] {
             if (words->view) return open_prompt(words->file, view());
             return words->interactive ? open_prompt(words->file, nullptr) : run_and_show(*words);

@@ -1,6 +1,6 @@
-#include "base/languages.h"
 #include "cli/commands.h"
 #include "cli/document_command.h"
+#include "cli/options/script_options.h"
 
 namespace dynlab::inline cli {
 
@@ -16,9 +16,7 @@ void add_sheet(CLI::App& app, Action& action) {
     CLI::Option* questions =
         command->add_flag("--talk", *talk, "Instead: questions that a talk on the lesson may meet (NN_name_talk.pdf)");
     command->add_flag("--answers", *answers, "With the model answers, for whoever asks")->needs(questions);
-    command->add_option("--lang", *language, "Language of the tasks, where the lesson has several")
-        ->check(CLI::IsMember(languages()))
-        ->excludes(questions);
+    add_language(*command, *language, "Language of the tasks, where the lesson has several")->excludes(questions);
     command->footer(
         "Examples:  dynlab sheet 02     dynlab sheet 03_crane --lang fr     dynlab sheet 05 --talk --answers");
     command->callback([lesson, output, language, talk, answers, &action] {

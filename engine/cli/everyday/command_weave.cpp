@@ -35,7 +35,7 @@ void add_weave(CLI::App& app, Action& action) {
     words->sliders.add_to(*command);
     command->footer("Example:  dynlab weave analysis.lua -o analysis.html");
     command->callback([words, &action] {
-        refuse_other_files(words->script, "weave");
+        expect_script(words->script, "weave");
         action = [words] { return weave(*words); };
     });
 }

@@ -4,6 +4,8 @@
 #include <iostream>
 #include <random>
 
+#include "base/languages.h"
+#include "cli/say.h"
 #include "platform/text/read_number.h"
 #include "workflow/given_script.h"
 
@@ -20,8 +22,14 @@ std::optional<std::pair<std::string, double>> parse_setting(const std::string& t
 
 }  // namespace
 
-void refuse_other_files(const std::string& given, const std::string& command) {
-    if (const Message why = why_no_script(given, command); !why.empty()) throw CLI::ValidationError(message_text(why));
+void expect_script(const std::string& given, const std::string& command) {
+    speak(language_of_work(given));
+    if (const Message why = why_no_script(given, command); !why.empty())
+        throw CLI::ValidationError(message_text(why, user()));
+}
+
+CLI::Option* add_language(CLI::App& command, std::string& language, const std::string& help) {
+    return command.add_option("--lang", language, help)->check(CLI::IsMember(languages()))->each(speak);
 }
 
 void SeedOption::add_to(CLI::App& command) {

@@ -8,9 +8,12 @@
 
 namespace dynlab::inline cli {
 
-/// For what a command gets as its script: throws the parser's error, before anything is read or written, for a file
-/// whose ending tells that it is none (workflow/given_script.h).
-void refuse_other_files(const std::string& given, const std::string& command);
+/// For what a command gets as its script or folder: from here on dynlab prints in its language. Throws the parser's
+/// error, before anything is written, for a file whose ending tells that it is no script (workflow/given_script.h).
+void expect_script(const std::string& given, const std::string& command);
+
+/// The option `--lang CODE`, which is the language of the program's messages, too.
+CLI::Option* add_language(CLI::App& command, std::string& language, const std::string& help);
 
 /// The option `--seed N|random`.
 struct SeedOption {

@@ -8,6 +8,7 @@
 #include "base/reader.h"
 #include "cli/commands.h"
 #include "data_io/dataset_index.h"
+#include "documents/latex.h"
 #include "numerics/linalg/processor_level.h"
 #include "platform/box.h"
 #include "platform/cache.h"
@@ -46,6 +47,9 @@ constexpr LatexFile kLatexFiles[] = {
     {"pgfmath.sty", "texlive-pictures", "slides", true},
     {"amsmath.sty", "texlive-latex-base", "mathematics", true},
     {"frenchb.ldf", "texlive-lang-french", "documents in French only", false},
+    {"luaotfload.sty", "texlive-luatex", "names in Cyrillic, Greek, Arabic and other scripts in PDFs", false},
+    {"NotoSerif-Regular.ttf", "fonts-noto-core", "their letters", false},
+    {"NotoSerifCJK-Regular.ttc", "fonts-noto-cjk", "Chinese, Japanese and Korean letters", false},
 };
 
 /// Looks for the LaTeX files documents use; returns the packages that are missing.
@@ -55,6 +59,7 @@ std::set<std::string> check_latex() {
     for (const LatexFile& part : kLatexFiles) {
         ChildOptions look_up;
         look_up.command = {"kpsewhich", part.file};
+        look_up.environment = {{"OSFONTDIR", kNotoFolders}};
         const bool there = run_child(look_up, "texlive-latex-base").exit_code == 0;
         if (!there && part.needed) missing.insert(part.package);
         show(part.file,
@@ -72,6 +77,13 @@ void check_isolation() {
     const auto obstacle = obstacle_to(Isolation::kFull);
     show("isolation", obstacle ? "process only; " + message_text(*obstacle) : "full (bubblewrap, seccomp), for grading",
          !obstacle);
+}
+
+/// Whether copies for peer review can be made.
+void check_copies() {
+    const bool there = find_program("gs").has_value();
+    show("gs", there ? "makes copies for peer review" : "not installed (ghostscript): copies for peer review only",
+         true);
 }
 
 /// Looks for the data sets; returns the packages whose records are missing.
@@ -108,6 +120,7 @@ int examine() {
     show("lessons", std::to_string(lessons().size()), !lessons().empty());
     missing.merge(check_data());
     check_isolation();
+    check_copies();
     show("inner loops", processor_level() + std::string(" (instructions of the processor that they use)"), true);
     show("editor of pages", has_editor() ? "CodeMirror" : "a plain field of text (libjs-codemirror has more)", true);
     check_kernel();

@@ -50,7 +50,7 @@ void add_preview(CLI::App& app, Action& action) {
                       "Run the scripts of this folder without being asked on the page, now and later");
     command->footer("Examples:  dynlab preview my-work     dynlab preview my-work --edit     dynlab preview 02");
     command->callback([words, &action] {
-        refuse_other_files(words->options.document, "preview");
+        expect_script(words->options.document, "preview");
         action = [words] { return show_preview(*words); };
     });
 }

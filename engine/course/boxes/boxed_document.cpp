@@ -1,10 +1,12 @@
 #include "course/boxes/boxed_document.h"
 
+#include <algorithm>
+
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/job_descriptions.h"
 #include "documents/document.h"
-#include "documents/error.h"
-#include "documents/latex_format.h"
+#include "documents/latex.h"
+#include "documents/words/scripts.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
@@ -16,22 +18,20 @@ namespace fs = std::filesystem;
 
 constexpr auto kTimeOfDocument = std::chrono::seconds(30);
 
-std::string in_ascii(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) > 126) c = '?';
-    return text;
-}
-
-RunRecord in_ascii(RunRecord record) {
-    for (auto& [name, value] : record.values) value.text = in_ascii(value.text);
-    for (auto& [name, text] : record.texts) text.markdown = in_ascii(text.markdown);
-    for (auto& [name, figure] : record.figures) figure.caption = in_ascii(figure.caption);
-    for (auto& [name, table] : record.tables) {
-        for (std::string& cell : table.header) cell = in_ascii(cell);
-        for (auto& row : table.rows)
-            for (std::string& cell : row) cell = in_ascii(cell);
+/// All text that a document gets from its record and its metadata.
+std::string text_of(const RunRecord& record, const std::map<std::string, std::string>& metadata) {
+    std::string text;
+    const auto add = [&text](const std::string& more) { text += more + "\n"; };
+    for (const auto& [key, value] : metadata) add(value);
+    for (const auto& [name, value] : record.values) add(value.text);
+    for (const auto& [name, entry] : record.texts) add(entry.markdown);
+    for (const auto& [name, figure] : record.figures) add(figure.caption);
+    for (const auto& [name, table] : record.tables) {
+        for (const std::string& cell : table.header) add(cell);
+        for (const auto& row : table.rows)
+            for (const std::string& cell : row) add(cell);
     }
-    return record;
+    return text;
 }
 
 /// Everything in `from` to the folder `to`.
@@ -57,6 +57,32 @@ const fs::path& BoxedDocuments::latex_format(bool french) const {
     return compiled.folder.path();
 }
 
+std::optional<fs::path> BoxedDocuments::lualatex_fonts(const std::string& text) const {
+    LatexLayout layout;
+    layout.shared_templates = shared_folder() / "report_templates";
+    const PrintableCharacters pdflatex = printable_by_pdflatex(layout.shared_templates);
+    if (!first_beyond(pdflatex, text)) return {};
+    const std::scoped_lock lock(mutex_);
+    std::set<std::string> scripts = scripts_of(pdflatex, text);
+    std::erase_if(scripts, [this](const std::string& script) { return read_.contains(script); });
+    if (!scripts.empty() || read_.empty()) make_lualatex_fonts(layout, scripts, fonts_.path());
+    read_.insert("");
+    read_.merge(scripts);
+    return fonts_.path();
+}
+
+void BoxedDocuments::keep(const std::vector<Message>& notes) const {
+    const std::scoped_lock lock(mutex_);
+    for (const Message& note : notes)
+        if (std::ranges::none_of(notes_, [&note](const Message& kept) { return kept.id() == note.id(); }))
+            notes_.push_back(note);
+}
+
+std::vector<Message> BoxedDocuments::notes() const {
+    const std::scoped_lock lock(mutex_);
+    return notes_;
+}
+
 void BoxedDocuments::make(const std::string& template_name, const RunRecord& record, const fs::path& output,
                           const std::map<std::string, std::string>& metadata) const {
     const TemporaryFolder made;
@@ -75,10 +101,13 @@ void BoxedDocuments::make(const std::string& template_name, const RunRecord& rec
     if (document_format(output) == DocumentFormat::kPdf) {
         const auto language = metadata.find("lang");
         job.latex_format = box.add(latex_format(language != metadata.end() && language->second == "fr"), "/box/format");
+        if (const auto fonts = lualatex_fonts(text_of(record, metadata)))
+            job.lualatex_fonts = box.add(*fonts, "/box/fonts");
     }
     job.to = box.add_writable(made.path(), "/box/made") / output.filename();
     const auto result = run_boxed(box, program_, job, {kTimeOfDocument});
     if (!result.output) throw EnvironmentError("{} cannot be made: {}", output.filename().string(), result.reason);
+    keep(result.output->notes);
     place_all(made.path(), output.parent_path());
 }
 
@@ -86,21 +115,15 @@ BoxedOutcome make_boxed_document(const DocumentJob& job) {
     DocumentMaker::Options options;
     options.use_cache = false;
     if (job.latex_format) options.latex_format = *job.latex_format;
-    const DocumentMaker maker(options);
+    if (job.lualatex_fonts) options.lualatex_fonts = *job.lualatex_fonts;
+    BoxedOutcome outcome;
+    options.notes = &outcome.notes;
     DocumentSource source;
     source.template_file = shared_folder() / "report_templates" / job.template_name;
     source.metadata = job.metadata;
-    const auto make = [&](const RunRecord& record) {
-        source.record = &record;
-        maker.make(source, job.to, document_format(job.to), [] {});
-    };
-    try {
-        make(job.record);
-    } catch (const DocumentError&) {
-        for (auto& [key, value] : source.metadata) value = in_ascii(value);
-        make(in_ascii(job.record));  // letters that LaTeX does not have
-    }
-    return {};
+    source.record = &job.record;
+    DocumentMaker(options).make(source, job.to, document_format(job.to), [] {});
+    return outcome;
 }
 
 }  // namespace dynlab::inline course

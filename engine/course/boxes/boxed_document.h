@@ -3,7 +3,9 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "base/message.h"
 #include "documents/run_record.h"
@@ -21,11 +23,13 @@ class BoxedDocuments {
         : isolation_(isolation), program_(std::move(program)) {}
 
     /// Sets report_templates/`template_name`, filled from the record's values, texts, tables and figures (drawn
-    /// already, see draw_figures), and writes `output` (.pdf or .md, with its pictures beside it). Letters that LaTeX
-    /// does not have become question marks. `metadata`: title and lang ("en", "fr") in place of the template's. Throws
-    /// EnvironmentError when it cannot be made.
+    /// already, see draw_figures), and writes `output` (.pdf or .md, with its pictures beside it). `metadata`: title
+    /// and lang ("en", "fr") in place of the template's. Throws EnvironmentError when it cannot be made.
     void make(const std::string& template_name, const RunRecord& record, const std::filesystem::path& output,
               const std::map<std::string, std::string>& metadata = {}) const;
+
+    /// About letters that pdflatex does not have: the first note of each kind.
+    std::vector<Message> notes() const;
 
   private:
     struct CompiledLayout {
@@ -33,15 +37,23 @@ class BoxedDocuments {
         std::once_flag made;
     };
     const std::filesystem::path& latex_format(bool french) const;
+    /// What LuaLaTeX keeps of the fonts for this text; nothing where pdflatex sets it.
+    std::optional<std::filesystem::path> lualatex_fonts(const std::string& text) const;
+    void keep(const std::vector<Message>& notes) const;
 
     Isolation isolation_;
     std::filesystem::path program_;
     mutable CompiledLayout english_, french_;
+    TemporaryFolder fonts_;
+    mutable std::mutex mutex_;            ///< of the members below and of what is written into fonts_
+    mutable std::set<std::string> read_;  ///< scripts whose fonts are in fonts_
+    mutable std::vector<Message> notes_;
 };
 
 /// What comes of a job whose result is files.
 struct BoxedOutcome {
-    std::optional<Message> error;  ///< a sentence; nothing where all went well
+    std::optional<Message> error = {};  ///< a sentence; nothing where all went well
+    std::vector<Message> notes = {};
 };
 
 /// A document to be made inside a box; all paths are those in the box.
@@ -53,7 +65,8 @@ struct DocumentJob {
     std::map<std::string, std::string> metadata;
     RunRecord record;
     std::optional<std::filesystem::path> latex_format;  ///< of PDFs, in their language
-    std::filesystem::path to;                           ///< .pdf or .md
+    std::optional<std::filesystem::path> lualatex_fonts;
+    std::filesystem::path to;  ///< .pdf or .md
 };
 
 /// The part of it inside the box.

@@ -17,11 +17,11 @@ DYNLAB_DESCRIBE(UnpackJob, archive, to, bytes, files, keep_times)
 
 template <Is<DocumentJob> T, class V>
 void describe(T& object, V& member) {
-    auto& [template_name, metadata, record, latex_format, to] = object;
+    auto& [template_name, metadata, record, latex_format, lualatex_fonts, to] = object;
     member("template", template_name), member("metadata", metadata), member("record", record);
-    member("latex_format", latex_format), member("to", to);
+    member("latex_format", latex_format), member("lualatex_fonts", lualatex_fonts), member("to", to);
 }
 
-DYNLAB_DESCRIBE(BoxedOutcome, error)
+DYNLAB_DESCRIBE(BoxedOutcome, error, notes)
 
 }  // namespace dynlab::inline course

@@ -12,6 +12,27 @@ namespace {
 
 constexpr double kMostPoints = 1000;
 
+/// Those that an instructor's own file can change.
+constexpr std::array kChangedOptions = {
+    OptionEntry{"id", ValueKind::kText, about("name of the check: letters, digits and _")},
+    OptionEntry{"points", ValueKind::kNumber, about("points of the check"), {.initial = "1"}},
+    OptionEntry{"about", ValueKind::kText, about("name of the check for students; by default the id")},
+    OptionEntry{"hint", ValueKind::kText, about("text that is shown where points are missing")}};
+constexpr std::array kOwnOptions = {
+    OptionEntry{"test", ValueKind::kAny, about("function(a, b) that judges the answers")},
+    OptionEntry{"rerun", ValueKind::kText, about("data set or \"seed\" for which the script is run again")},
+    OptionEntry{"document", ValueKind::kFlag, about("the check looks at the report"), {.initial = "false"}},
+    OptionEntry{"mistakes", ValueKind::kAny, about("list of {when = function, say = text}")},
+    OptionEntry{"by_hand", ValueKind::kFlag, about("the instructor gives the points"), {.initial = "false"}},
+    OptionEntry{"rubric", ValueKind::kText, about("text for the instructor who gives the points")}};
+constexpr std::array kRigOptions = {
+    OptionEntry{"name", ValueKind::kText, about("name of the data set")},
+    OptionEntry{"record", ValueKind::kAny, about("function that makes a record")},
+    OptionEntry{"truth", ValueKind::kAny, about("function that gives what theory says of a record")}};
+constexpr OptionTable kChange[] = {kChangedOptions};
+constexpr OptionTable kCheck[] = {kChangedOptions, kOwnOptions};
+constexpr OptionTable kRig[] = {kRigOptions};
+
 bool plain_id(const std::string& id) {
     return !id.empty() && std::ranges::all_of(id, [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
@@ -37,8 +58,7 @@ double points_option(const Options& options, const std::string& id, double fallb
 int check(Call& call) {
     call.at_most(1);
     CheckSession& session = call.owner<CheckSession>();
-    const Options options(
-        call, 1, {"id", "points", "about", "test", "hint", "rerun", "document", "mistakes", "by_hand", "rubric"});
+    const Options options(call, 1, kCheck);
     DeclaredCheck check;
     check.id = options.text("id", "");
     if (!plain_id(check.id)) throw InvalidArgument("a check needs an id of letters, digits and _");
@@ -78,7 +98,7 @@ std::vector<DeclaredCheck>::iterator declared(CheckSession& session, const std::
 int change_check(Call& call) {
     call.at_most(1);
     CheckSession& session = call.owner<CheckSession>();
-    const Options options(call, 1, {"id", "points", "about", "hint"});
+    const Options options(call, 1, kChange);
     DeclaredCheck& check = *declared(session, options.text("id", ""));
     check.points = points_option(options, check.id, check.points);
     check.about = options.text("about", check.about);
@@ -96,7 +116,7 @@ int drop_check(Call& call) {
 int declare_rig(Call& call) {
     call.at_most(1);
     CheckSession& session = call.owner<CheckSession>();
-    const Options options(call, 1, {"name", "record", "truth"});
+    const Options options(call, 1, kRig);
     const std::string name = options.text("name", "");
     if (!plain_id(name)) throw InvalidArgument("a rig needs a name of letters, digits and _: that of its data set");
     if (session.rigs.contains(name)) throw InvalidArgument("there are two rigs \"{}\"", name);
@@ -108,16 +128,13 @@ int declare_rig(Call& call) {
 
 constexpr const char* kDeclarations = "checks";
 constexpr std::array kDeclarationFunctions = {
-    FunctionEntry{
-        "check", kDeclarations,
-        "check{id =, points =, about =, test =, hint =, rerun =, document =, mistakes =, by_hand =, rubric =}",
-        "declares a check", guarded<check>},
-    FunctionEntry{"change_check", kDeclarations, "change_check{id =, points =, about =, hint =}",
-                  "gives a check that was declared before other points or words", guarded<change_check>},
+    FunctionEntry{"check", kDeclarations, "check{options}", "declares a check", guarded<check>, kCheck},
+    FunctionEntry{"change_check", kDeclarations, "change_check{options}",
+                  "gives a check that was declared before other points or words", guarded<change_check>, kChange},
     FunctionEntry{"drop_check", kDeclarations, "drop_check(id)", "takes a check away that was declared before",
                   guarded<drop_check>},
-    FunctionEntry{"declare_rig", kDeclarations, "declare_rig{name =, record =, truth =}",
-                  "declares an apparatus for hidden records and reruns", guarded<declare_rig>},
+    FunctionEntry{"declare_rig", kDeclarations, "declare_rig{options}",
+                  "declares an apparatus for hidden records and reruns", guarded<declare_rig>, kRig},
 };
 
 }  // namespace

@@ -86,9 +86,15 @@ bool on_secret_record(const Call& call) {
     return session.took_hidden || (!rerun.empty() && rerun != kOtherSeedRun);
 }
 
+constexpr std::array kNearOptions = {
+    OptionEntry{"rel", ValueKind::kNumber, about("largest relative distance of a right answer"), {.initial = "0.05"}},
+    OptionEntry{"abs", ValueKind::kNumber, about("largest distance of a right answer, instead of rel")},
+    OptionEntry{"half", ValueKind::kNumber, about("largest distance that earns half the points")}};
+constexpr OptionTable kNear[] = {kNearOptions};
+
 int near(Call& call) {
     call.at_most(3);
-    const Options options(call, 3, {"rel", "abs", "half"});
+    const Options options(call, 3, kNear);
     const bool absolute = options.has("abs");
     if (absolute && options.has("rel")) throw InvalidArgument("give rel or abs, not both");
     const double most = absolute ? options.number("abs", 0) : options.number("rel", 0.05);
@@ -226,8 +232,8 @@ int no_finding(Call& call) {
 
 constexpr const char* kArea = "checks";
 constexpr std::array kFunctions = {
-    FunctionEntry{"near", kArea, "near(x, wanted, {rel = | abs =, half =})", "judges a number or vector",
-                  guarded<near>},
+    FunctionEntry{"near", kArea, "near(x, wanted, {rel = | abs =, half =})", "judges a number or vector", guarded<near>,
+                  kNear},
     FunctionEntry{"points_between", kArea, "points_between(x, low, high)", "a share that grows from low to high",
                   guarded<points_between>},
     FunctionEntry{"all_of", kArea, "all_of(judgement, ...)", "the least of several judgements", guarded<all_of>},

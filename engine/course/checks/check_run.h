@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "course/checks/check_session.h"
-#include "course/hand_ins/finding.h"
+#include "course/intake/finding.h"
 
 namespace dynlab::inline course {
 

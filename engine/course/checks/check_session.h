@@ -9,7 +9,7 @@
 
 #include "base/message.h"
 #include "course/boxes/graded_run.h"
-#include "course/hand_ins/finding.h"
+#include "course/intake/finding.h"
 
 namespace dynlab::inline course {
 

@@ -10,7 +10,7 @@
 #include "course/findings/layout_findings.h"
 #include "course/findings/leftover_findings.h"
 #include "course/findings/section_findings.h"
-#include "course/names/name_findings.h"
+#include "course/anonymity/anonymity_findings.h"
 #include "documents/percent_script.h"
 #include "documents/template_file.h"
 #include "platform/atomic_file.h"
@@ -123,11 +123,8 @@ void check_text(const PdfLayout& layout, const DocumentText& text, const Documen
     result.checked.push_back(text.is_slides() ? Message("text size") : Message("text size and margins"));
 }
 
-void check_names(const fs::path& file, const PdfLayout& layout, const SoughtNames& names, const PdfLimits& limits,
-                 CheckResult& result) {
-    NameSearchLimits search;
-    search.pdf = limits;
-    result.findings = name_findings(file, layout, names, search);
+void check_names(const fs::path& file, const PdfLayout& layout, const IdentityMatcher& names, CheckResult& result) {
+    result.findings = anonymity_findings(file, layout, names);
     if (names.empty()) return;
     result.checked.push_back(
         plural(static_cast<std::int64_t>(names.people()), "names of {} person", "names of {} people"));
@@ -176,7 +173,7 @@ CheckResult check_pdf(const fs::path& file, const CheckOptions& wishes, const Pd
         const DocumentStandard standard = standard_for(text, wishes);
         result.template_name = standard.template_name;
         result.pages = static_cast<int>(layout.pages.size());
-        if (wishes.names) check_names(file, layout, *wishes.names, limits, result);
+        if (wishes.names) check_names(file, layout, *wishes.names, result);
         if (text.words.empty()) {
             result.findings.push_back(
                 {"scanned", Severity::kRule, 0, "",

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "course/hand_ins/finding.h"
-#include "course/names/sought_names.h"
+#include "course/intake/finding.h"
+#include "course/anonymity/identity_matcher.h"
 #include "documents/document_rules.h"
 #include "documents/pdf/pdf_layout.h"
 #include "workflow/lesson_catalogue.h"
@@ -36,7 +36,7 @@ struct CheckOptions {
     std::optional<int> pages;   ///< the most that are allowed altogether
     bool lesson_checks = true;  ///< of a folder: try the lesson's checks on its answers too
     /// Who must not be named; of a folder its members are added. Nobody: of a PDF, names are not looked for.
-    std::shared_ptr<const SoughtNames> names = nullptr;
+    std::shared_ptr<const IdentityMatcher> names = nullptr;
 };
 
 /// The outcome of a check.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {

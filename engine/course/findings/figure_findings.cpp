@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {

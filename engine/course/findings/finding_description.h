@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "course/findings/document_findings.h"
-#include "course/hand_ins/text_with_message.h"
+#include "course/intake/text_with_message.h"
 #include "data_io/values/described.h"
 
 namespace dynlab::inline course {

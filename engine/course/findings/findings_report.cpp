@@ -1,7 +1,6 @@
 #include "course/findings/findings_report.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -10,7 +9,7 @@
 #include "base/error.h"
 #include "course/boxes/told_reason.h"
 #include "course/findings/finding_description.h"
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 #include "data_io/values/json_values.h"
 
 namespace dynlab::inline course {
@@ -71,9 +70,7 @@ class Writer {
     std::string all_of(const std::vector<const Finding*>& findings) const {
         std::string text;
         for (std::size_t i = 0; i < findings.size(); ++i) {
-            const std::string location = location_of(*findings[i]);
-            text +=
-                wrapped(printable((location.empty() ? "" : location + ": ") + words(findings[i]->what), 2000), "    ");
+            text += wrapped(printable(words(placed(*findings[i])), 2000), "    ");
             const bool last = i + 1 == findings.size() || findings[i + 1]->remedy != findings[i]->remedy;
             if (last) text += styled(kFaint, wrapped(printable(words(findings[i]->remedy), 2000), "    -> "));
         }
@@ -81,9 +78,9 @@ class Writer {
     }
 
   private:
-    std::string location_of(const Finding& finding) const {
-        if (!finding.place.empty()) return finding.place;
-        return finding.page > 0 ? words(Message("page {}", finding.page)) : "";
+    static Message placed(const Finding& finding) {
+        if (!finding.place.empty()) return Message("{}{}", finding.place + ": ", finding.what);
+        return finding.page > 0 ? Message("page {}: {}", finding.page, finding.what) : finding.what;
     }
 
     bool in_colour_;
@@ -109,21 +106,20 @@ CheckResult printable_result(CheckResult result) {
 
 std::string findings_in_words(const CheckResult& result, bool in_colour, const Reader& reader) {
     const Writer writer(in_colour, reader);
-    std::vector<std::string> parts;
-    for (const Message& part : result.checked) parts.push_back(writer.words(part));
-    const std::string checked = fmt::format(
-        "{}{}{}",
-        writer.words(result.template_name.empty() ? Message("checked")
-                                                  : Message("checked as {}", printable(result.template_name))),
-        parts.empty() ? "" : ": ", fmt::join(parts, ", "));
+    Message checked =
+        result.template_name.empty() ? Message("checked") : Message("checked as {}", printable(result.template_name));
+    if (!result.checked.empty()) checked = Message("{}: {}", checked, MessageList{result.checked});
     const std::string subject = printable(result.subject);
     if (result.findings.empty())
-        return fmt::format("{}: {}; {}.\n", subject, writer.styled(kGreen, writer.words(Message("nothing to mend"))),
-                           checked);
+        return writer.words(Message("{}: {}; {}.", subject,
+                                    writer.styled(kGreen, writer.words(Message("nothing to mend"))), checked)) +
+               "\n";
     const auto rules = std::count_if(result.findings.begin(), result.findings.end(),
                                      [](const Finding& finding) { return finding.severity == Severity::kRule; });
     std::string text =
-        fmt::format("{}{}\n", writer.styled(kBold, subject), result.checked.empty() ? "" : ": " + checked);
+        writer.words(result.checked.empty() ? Message::verbatim(writer.styled(kBold, subject))
+                                            : Message("{}: {}", writer.styled(kBold, subject), checked)) +
+        "\n";
     text += writer.group(result, Severity::kRule, kRed, Message("Rules broken"));
     text += writer.group(result, Severity::kHint, kYellow, Message("Hints"));
     if (rules == 0) text += "\n" + writer.styled(kGreen, writer.words(Message("No rule is broken."))) + "\n";

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {

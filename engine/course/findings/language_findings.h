@@ -3,7 +3,7 @@
 #include <string>
 
 #include "course/findings/document_text.h"
-#include "course/hand_ins/finding.h"
+#include "course/intake/finding.h"
 
 namespace dynlab::inline course {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {

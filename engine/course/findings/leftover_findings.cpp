@@ -5,7 +5,7 @@
 #include <iterator>
 #include <set>
 
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 #include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {

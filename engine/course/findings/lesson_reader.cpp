@@ -7,7 +7,7 @@
 #include "base/languages.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "scripting/conversions/option_words.h"
+#include "scripting/interpreter/catalogue.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline course {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/message.h"
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {

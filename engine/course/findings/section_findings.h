@@ -1,6 +1,6 @@
 #pragma once
 #include "course/findings/document_text.h"
-#include "course/hand_ins/finding.h"
+#include "course/intake/finding.h"
 #include "documents/document_rules.h"
 
 namespace dynlab::inline course {

@@ -1,12 +1,16 @@
 #include "course/grading/check_trial.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
+#include <cmath>
 #include <future>
+#include <set>
 
 #include "base/reader.h"
 #include "course/grading/feedback.h"
+#include "data_io/text_table.h"
 #include "documents/solutions.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
@@ -55,6 +59,38 @@ std::vector<std::pair<std::string, CheckedSubmission>> mutants_of(const CheckedS
         mutants.emplace_back(name + " left out", std::move(without));
     }
     return mutants;
+}
+
+/// All numbers of a file of checks, without those in comments and texts.
+std::set<double> numbers_of_checks(const std::string& checks) {
+    static const RE2 kPassedOver(R"re(--\[\[(?s:.*?)\]\]|--[^\n]*|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*')re");
+    static const RE2 kNumber(R"((?:^|[^\w.])(\d+(?:\.\d*)?(?:[eE][-+]?\d+)?))");
+    std::string source = checks;
+    RE2::GlobalReplace(&source, kPassedOver, " ");
+    std::set<double> numbers;
+    std::string digits;
+    for (re2::StringPiece rest = source; RE2::FindAndConsume(&rest, kNumber, &digits);)
+        if (const auto value = number_in_cell(digits); value && *value != 0) numbers.insert(*value);
+    return numbers;
+}
+
+/// The starter with one answer of the solution that is a number, which stands nearly so in checks.lua.
+std::vector<std::pair<std::string, CheckedSubmission>> typed_in(const CheckedSubmission& starter,
+                                                                const CheckedSubmission& solution,
+                                                                const std::set<double>& numbers) {
+    constexpr double kNear = 0.1;
+    std::vector<std::pair<std::string, CheckedSubmission>> typed;
+    for (const auto& [name, answer] : solution.runs.at(kMainRun).answers) {
+        const std::optional<double> value = number_in_cell(answer.json);
+        for (const double number : numbers) {
+            if (!value || std::abs(std::abs(*value) - number) > kNear * std::abs(*value)) continue;
+            const std::string text = fmt::format("{}", *value < 0 ? -number : number);
+            CheckedSubmission one = starter;
+            one.runs.at(kMainRun).answers[name] = {answer.kind, text};
+            typed.emplace_back(name + " = " + text, std::move(one));
+        }
+    }
+    return typed;
 }
 
 /// The runs of a script as a student hands it in.
@@ -135,13 +171,22 @@ CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
             submissions.push_back(std::move(mutant));
             names.push_back(name);
         }
+    const std::size_t changed = submissions.size();
+    if (const fs::path visible = setup.lesson.folder / "checks.lua"; fs::exists(visible))
+        for (auto& [name, one] : typed_in(submissions[1], submissions.front(), numbers_of_checks(read_text(visible)))) {
+            submissions.push_back(std::move(one));
+            names.push_back(name);
+        }
     const std::vector<std::vector<TriedCheck>> verdicts = rules.tried(submissions);
     for (std::size_t k = 0; k < verdicts.size(); ++k) {
         TriedScript script{names[k], submissions[k].runs.at(kMainRun).error.value_or(Message()), verdicts[k]};
         if (k == 0)
             trial.solution = std::move(script);
         else
-            (k < sources.size() ? trial.scripts : trial.mutants).push_back(std::move(script));
+            (k < sources.size() ? trial.scripts
+             : k < changed      ? trial.mutants
+                                : trial.typed)
+                .push_back(std::move(script));
     }
     return trial;
 }

@@ -19,6 +19,7 @@ struct CheckTrial {
     TriedScript solution;
     std::vector<TriedScript> scripts;  ///< the starter, wrong_*.lua, right_*.lua, and those of the folder's own
     std::vector<TriedScript> mutants;  ///< the solution with one answer scaled, of the other sign, or left out
+    std::vector<TriedScript> typed;    ///< the starter with a number of checks.lua typed in as an answer: "K = 8.5"
 
     /// Of every check by its place: whether something tried here fails it, and whether the solution passes it.
     bool fails_sometimes(std::size_t check) const;
@@ -29,8 +30,9 @@ struct CheckTrial {
 
 /// Tries the checks of `setup` on the lesson's worked solution, its starter, its wrong_*.lua and right_*.lua, the
 /// scripts in the folder `try` of the instructor's checks, and on mutants of the solution's answers: each number of an
-/// answer 1.5 times as large, of the other sign, the answer left out. Scripts are run, mutants are not. Throws
-/// EnvironmentError as GradingRules does.
+/// answer 1.5 times as large, of the other sign, the answer left out. Students read checks.lua: numbers in it that are
+/// within a tenth of an answer of the solution are tried as typed-in answers. Scripts are run, the others are not.
+/// Throws EnvironmentError as GradingRules does.
 enum class Mutants { kAll, kNone };
 CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants = Mutants::kAll);
 

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
-#include "course/hand_ins/course_clock.h"
+#include "course/intake/course_clock.h"
 #include "platform/error.h"
 
 namespace dynlab::inline course {
 
 namespace fs = std::filesystem;
 
-ClassFolder::ClassFolder(const ClassSources& sources, const fs::path& results, const GradingSetup& setup) {
+ClassFolder::ClassFolder(const ClassSources& sources, const fs::path& results, const GradingSetup& setup)
+    : late_(results, sources.accept_late) {
     if (!sources.timezone.empty()) CourseClock(sources.timezone);  // sets the zone of the process
     std::vector<Message> left_out;
     fs::path folder = sources.submissions;
@@ -20,6 +21,7 @@ ClassFolder::ClassFolder(const ClassSources& sources, const fs::path& results, c
     const std::vector<Submission> submissions = submissions_in(folder, left_out, results);
     read_students(sources);
     if (sources.deadlines) deadlines_ = Deadlines(*sources.deadlines);
+    if (sources.times) deadlines_.set_times(ArrivalTimes(*sources.times));
     work_.deadlines = sources.deadlines.has_value();
     work_.newest_counts = sources.newest_counts;
     for (const Submission& submission : submissions) {
@@ -29,6 +31,7 @@ ClassFolder::ClassFolder(const ClassSources& sources, const fs::path& results, c
         date(item);
         work_.items.push_back(std::move(item));
     }
+    late_.conclude(work_);
     for (const Message& clause : left_out) work_.complaints.push_back(Message("{}; it is left out", clause));
     complain_of_unused_rows(submissions);
     work_.chosen = chosen(sources.only);
@@ -66,10 +69,10 @@ void ClassFolder::address(WorkItem& item) const {
 }
 
 /// When it was received, and what that costs. What cannot be looked into is found out when it is graded.
-void ClassFolder::date(WorkItem& item) const {
+void ClassFolder::date(WorkItem& item) {
     try {
         const std::vector<std::string> names = names_of(item);
-        item.lateness = deadlines_.of(item.submission, names);
+        item.lateness = late_.counted(item.submission.name, deadlines_.of(item.submission, names));
         if (work_.newest_counts) item.received = deadlines_.received(item.submission, names);
     } catch (const fs::filesystem_error&) {
     }

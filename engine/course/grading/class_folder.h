@@ -6,8 +6,9 @@
 
 #include "course/grading/deadlines.h"
 #include "course/grading/grading_rules.h"
+#include "course/grading/late_penalties.h"
 #include "course/grading/work_item.h"
-#include "course/hand_ins/owners.h"
+#include "course/intake/owners.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline course {
@@ -19,7 +20,9 @@ struct ClassSources {
     std::optional<std::filesystem::path> roster, deadlines, owners;
     std::vector<std::string> only;  ///< submissions, by name, group, id or student; all when empty
     bool newest_counts = false;     ///< of several submissions of one student; else the best one
-    std::string timezone;           ///< of deadlines: "Europe/Paris"; empty: this machine's
+    std::string timezone;           ///< of deadlines and of times in zips: "Europe/Paris"; empty: this machine's
+    std::optional<std::filesystem::path> times = {};  ///< the platform's times of receipt (intake/arrival_times.h)
+    bool accept_late = false;  ///< penalties of half the points or more count (grading/late_penalties.h)
 };
 
 /// The work in such a folder.
@@ -37,7 +40,7 @@ class ClassFolder {
   private:
     void read_students(const ClassSources& sources);
     void address(WorkItem& item) const;
-    void date(WorkItem& item) const;
+    void date(WorkItem& item);
     std::vector<std::string> names_of(const WorkItem& item) const;
     void complain_of_unused_rows(const std::vector<Submission>& submissions);
     std::vector<std::size_t> chosen(const std::vector<std::string>& names) const;
@@ -47,6 +50,7 @@ class ClassFolder {
     ClassWork work_;
     std::optional<Owners> owners_;
     Deadlines deadlines_;
+    LatePenalties late_;
 };
 
 }  // namespace dynlab::inline course

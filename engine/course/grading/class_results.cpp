@@ -279,7 +279,7 @@ Attention what_needs_attention(const ClassResults& results) {
     const auto whole = [](const Grade& grade) { return grade.unreadable || grade.whole(); };
     const bool some_whole =
         std::ranges::any_of(results.entries, [&](const Entry& entry) { return entry.grade && whole(*entry.grade); });
-    std::map<std::string, const Entry*> by_content;
+    std::map<std::string, std::vector<const Entry*>> by_content;
     for (const Entry& entry : results.entries) {
         const std::string name = shown_name(entry.item->submission);
         if (results.work->roster && !entry.item->unmatched.empty()) {
@@ -307,11 +307,16 @@ Attention what_needs_attention(const ClassResults& results) {
                             grade.lateness));
         }
         if (entry.content.empty()) continue;
-        const auto [same, fresh] = by_content.emplace(entry.content, &entry);
-        const bool others = !fresh && results.work->roster && same->second->item->students != entry.item->students;
-        if (others)
-            add(Message("\"{}\" is the same, byte for byte, as \"{}\" of somebody else", name,
-                        shown_name(same->second->item->submission)));
+        by_content[entry.content].push_back(&entry);
+    }
+    for (const auto& [content, entries] : by_content) {
+        const auto of_others = [&](const Entry* entry) {
+            return entry->item->students != entries.front()->item->students;
+        };
+        if (!results.work->roster || std::ranges::none_of(entries, of_others)) continue;
+        std::vector<std::string> names;
+        for (const Entry* entry : entries) names.push_back(fmt::format("\"{}\"", shown_name(entry->item->submission)));
+        add(Message("{} are the same, byte for byte", listed(names, Join::kAnd)));
     }
     for (Message& sentence : several_of_one(results)) add(std::move(sentence));
     return attention;

@@ -7,9 +7,9 @@
 #include <ctime>
 #include <set>
 
-#include "course/hand_ins/course_clock.h"
-#include "course/hand_ins/lateness.h"
-#include "course/hand_ins/owners.h"
+#include "course/intake/course_clock.h"
+#include "course/intake/lateness.h"
+#include "course/intake/owners.h"
 #include "data_io/text_table.h"
 #include "platform/error.h"
 
@@ -119,7 +119,7 @@ Lateness lateness_of(const LatePolicy& policy, std::int64_t received) {
     const std::int64_t late = received - policy.deadline;
     if (late <= policy.grace) return {};
     return {static_cast<double>(late) / 3600, late_percent(policy.percent_per_day, policy.most_percent, late),
-            reason_of(policy, received)};
+            reason_of(policy, received), late};
 }
 
 Deadlines::Deadlines(const fs::path& file) {
@@ -163,6 +163,7 @@ const Deadlines::Rule* Deadlines::rule_for(const Submission& submission, const s
 long Deadlines::received(const Submission& submission, const std::vector<std::string>& also) const {
     const Rule* const rule = rule_for(submission, also);
     if (rule != nullptr && rule->received) return *rule->received;
+    if (const auto time = times_.of(submission, also)) return static_cast<long>(*time);
     if (submission.loose.empty()) return written(submission.path);
     long newest = 0;
     for (const LooseFile& file : submission.loose) newest = std::max(newest, written(file.path));
@@ -171,7 +172,10 @@ long Deadlines::received(const Submission& submission, const std::vector<std::st
 
 Lateness Deadlines::of(const Submission& submission, const std::vector<std::string>& also) const {
     const Rule* const rule = rule_for(submission, also);
-    return rule == nullptr ? Lateness{} : lateness_of(*rule, received(submission, also));
+    if (rule == nullptr) return {};
+    Lateness lateness = lateness_of(*rule, received(submission, also));
+    lateness.typed = rule->received.has_value();
+    return lateness;
 }
 
 std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "course/grading/work_item.h"
+#include "course/intake/arrival_times.h"
 
 namespace dynlab::inline course {
 
@@ -28,6 +29,9 @@ class Deadlines {
     /// Times are in the process's time zone. Throws EnvironmentError with file, line and column.
     explicit Deadlines(const std::filesystem::path& file);
 
+    /// When submissions were received as the platform says: goes before the times of files.
+    void set_times(ArrivalTimes times) { times_ = std::move(times); }
+
     /// `also`: by what else the submission may be named in the table: its owners' group, ids and names. A row of its
     /// own name goes first; of several others the one with the latest deadline holds.
     Lateness of(const Submission& submission, const std::vector<std::string>& also) const;
@@ -47,6 +51,7 @@ class Deadlines {
     const Rule* rule_for(const Submission& submission, const std::vector<std::string>& also) const;
 
     std::map<std::string, Rule> rules_;
+    ArrivalTimes times_;
 };
 
 }  // namespace dynlab::inline course

@@ -12,8 +12,8 @@
 #include "course/grading/feedback.h"
 #include "course/grading/folder_report.h"
 #include "course/grading/grading_rules.h"
-#include "course/hand_ins/folder_copy.h"
-#include "course/hand_ins/notebooks.h"
+#include "course/intake/folder_copy.h"
+#include "course/intake/notebooks.h"
 #include "data_io/dataset_index.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
@@ -338,14 +338,14 @@ class FolderCheck {
 
     /// The authors themselves are looked for, whoever else is.
     void add_members(CheckOptions& wishes) {
-        SoughtNames names = wishes.names ? *wishes.names : SoughtNames();
+        IdentityMatcher names = wishes.names ? *wishes.names : IdentityMatcher();
         const std::vector<Student> members = members_of(copy() / "group.toml");
         for (const Student& member : members) names.add(member, true);
         if (members.empty() && fs::exists(copy() / "group.toml"))
             add("members-missing", Severity::kHint, "group.toml",
                 Message("No members stand there, so your names were not looked for in the report."),
                 Message("Write them in: members = [\"Ada Lovelace\", \"Rudolf Kalman\"]."));
-        wishes.names = std::make_shared<const SoughtNames>(std::move(names));
+        wishes.names = std::make_shared<const IdentityMatcher>(std::move(names));
     }
 
     void check_report(const fs::path& file, const CheckOptions& wishes) {

@@ -29,6 +29,9 @@ class ClassGrader {
         outcome_.complaints = tried.complaints;
         outcome_.complaints.insert(outcome_.complaints.end(), work.complaints.begin(), work.complaints.end());
         if (tried.note) outcome_.notes.push_back(*tried.note);
+        if (!work.doubt.empty()) outcome_.notes.push_back(work.doubt);
+        outcome_.late = work.late;
+        outcome_.unconfirmed = static_cast<int>(work.unconfirmed.size());
     }
 
     void grade_chosen() {
@@ -53,9 +56,11 @@ class ClassGrader {
         const ClassResults all = results();
         Attention attention = what_needs_attention(all);
         outcome_.attention = std::move(attention.sentences);
+        outcome_.attention.insert(outcome_.attention.end(), work_.unconfirmed.begin(), work_.unconfirmed.end());
         outcome_.unowned = static_cast<int>(attention.unowned);
         outcome_.unreadable = static_cast<int>(attention.unreadable);
         write_class_results(all);
+        for (const Message& note : pipeline_.documents().notes()) outcome_.notes.push_back(note);
         return std::move(outcome_);
     }
 
@@ -262,7 +267,7 @@ GradingOutcome grade_class(const ClassWork& work, const TriedRules& tried, const
     return grader.conclude();
 }
 
-GradingOutcome grade_part_of_class(const ClassWork& work, const Part& part, const TriedRules& tried,
+GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, const TriedRules& tried,
                                    const GradingOptions& options) {
     ClassWork own = work;
     own.chosen.clear();
@@ -284,7 +289,7 @@ MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& 
         }
     };
     for (std::size_t k = 0; k < work.chosen.size(); ++k) {
-        const int part = Part{1, parts}.part_of(k);
+        const int part = WorkPart{1, parts}.part_of(k);
         if (!missing.parts.contains(part) && !graded(work.items[work.chosen[k]])) missing.parts.insert(part);
     }
     return missing;

@@ -13,6 +13,8 @@ struct GradingOutcome {
     int unowned = 0, unreadable = 0;
     int failed = 0;                   ///< could not be graded now, through no doing of the student
     std::vector<Message> complaints;  ///< whole sentences for the instructor
+    int unconfirmed = 0;              ///< penalties that wait for the instructor
+    std::vector<Message> late;        ///< a clause for each late submission, with what it costs
     std::vector<Message> notes;       ///< of the time that is given
     std::vector<Message> attention;   ///< what needs attention, a sentence each, as in the summary
 };
@@ -33,7 +35,7 @@ struct TriedRules {
 
 /// Grades one part of the chosen submissions, and writes nothing that is of the whole class. Several parts may be
 /// graded at a time, on several machines.
-GradingOutcome grade_part_of_class(const ClassWork& work, const Part& part, const TriedRules& tried,
+GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, const TriedRules& tried,
                                    const GradingOptions& options);
 /// Of so many parts those in which a chosen submission has no result of these files, rules and program.
 MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& tried, const GradingOptions& options);

@@ -1,6 +1,6 @@
 #pragma once
 #include "course/grading/grade.h"
-#include "course/hand_ins/text_with_message.h"
+#include "course/intake/text_with_message.h"
 #include "data_io/values/described.h"
 
 namespace dynlab::inline course {

@@ -12,7 +12,7 @@ struct FolderRequest {
     ClassSources sources;
     std::filesystem::path secret;  ///< file of options.setup.secret; empty without one
     bool again = false;            ///< all again where `out` was made with other checks or options
-    std::optional<Part> part;      ///< this part only, while others may work on other parts
+    std::optional<WorkPart> part;  ///< this part only, while others may work on other parts
 };
 
 class FolderGrading {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "course/grading/feedback.h"
-#include "course/hand_ins/staging.h"
+#include "course/intake/staging.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"

@@ -3,16 +3,13 @@
 #include <map>
 
 #include "course/boxes/zip_file.h"
-#include "course/hand_ins/folder_copy.h"
-#include "course/hand_ins/notebooks.h"
-#include "data_io/dataset_index.h"
+#include "course/intake/folder_copy.h"
+#include "course/intake/notebooks.h"
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
-#include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
-#include "workflow/student_copy.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -36,19 +33,6 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostPackedBytes = 200ull << 20;
 constexpr int kMostFiles = 2000;
 constexpr char kManifest[] = "MANIFEST.json";
-
-/// All files below, by their path there.
-std::map<std::string, std::string> contents_of(const fs::path& folder) {
-    std::map<std::string, std::string> contents;
-    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
-        if (entry->is_symlink()) {
-            entry.disable_recursion_pending();
-        } else if (entry->is_regular_file()) {
-            contents[entry->path().lexically_relative(folder).generic_string()] = read_file(entry->path());
-        }
-    }
-    return contents;
-}
 
 }  // namespace
 
@@ -78,29 +62,6 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
     write_zip(file, contents);
     pack.hash = sha256_of_file(file);
     return pack;
-}
-
-std::vector<std::string> bundle_lesson(const Lesson& lesson, const fs::path& file,
-                                       std::optional<std::uint32_t> group_seed) {
-    const TemporaryFolder work;
-    const fs::path starter = work.path() / lesson.slug;
-    make_student_copy(lesson, starter, group_seed);
-    std::map<std::string, std::string> contents;
-    for (const auto& [name, content] : contents_of(starter)) contents[lesson.slug + "/" + name] = content;
-    if (fs::exists(lesson.folder / "checks.lua"))
-        contents[lesson.slug + "/checks.lua"] = read_file(lesson.folder / "checks.lua");
-    const std::string script = read_file(lesson.script());
-    for (const std::string& data_set : dataset_names()) {
-        const bool own =
-            fs::is_directory(fs::symlink_status(starter / "data")) && fs::exists(starter / "data" / data_set);
-        if (own || script.find("load(\"" + data_set + "\")") == std::string::npos) continue;
-        for (const auto& [name, content] : contents_of(shared_folder() / "data" / data_set))
-            contents[lesson.slug + "/data/" + data_set + "/" + name] = content;
-    }
-    write_zip(file, contents);
-    std::vector<std::string> names;
-    for (const auto& [name, content] : contents) names.push_back(name);
-    return names;
 }
 
 }  // namespace dynlab::inline course

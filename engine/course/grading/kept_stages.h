@@ -7,7 +7,7 @@
 
 #include "course/checks/check_run.h"
 #include "course/grading/grade.h"
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 
 namespace dynlab::inline course {
 

@@ -10,6 +10,7 @@
 #include "base/reader.h"
 #include "course/checks/check_functions.h"
 #include "course/findings/document_findings.h"
+#include "course/grading/lesson_translation.h"
 #include "documents/document_rules.h"
 #include "documents/error.h"
 #include "documents/solutions.h"
@@ -50,13 +51,14 @@ class Faults {
             return true;
         } catch (const MissingProgram&) {
             throw;
+        } catch (const DocumentError& error) {
+            const Place& place = error.place();
+            const bool here = place.line > 0 && fs::exists(lesson_.folder / place.file.filename());
+            add(here ? place.file : file, here ? place.line : 0, here ? error.sentence() : error.message());
         } catch (const std::runtime_error& error) {
-            const LocatedMessage told = take_apart(error.what());
-            const bool here = told.line > 0 && fs::exists(lesson_.folder / fs::path(told.file).filename());
-            add(here ? fs::path(told.file) : file, here ? told.line : 0,
-                here ? Message::verbatim(told.text) : message_of(error));
-            return false;
+            add(file, 0, message_of(error));
         }
+        return false;
     }
 
     LessonFaults found() { return std::move(found_); }
@@ -202,6 +204,46 @@ void look_at_copy(const Lesson& lesson, const std::string& language, const fs::p
     });
 }
 
+void look_at_translated_checks(const Lesson& lesson, const std::string& language, Faults& faults) {
+    const fs::path checks = lesson.folder / "checks.lua", words = lesson.checks_in(language);
+    if (!fs::exists(checks)) return;
+    if (!fs::exists(words)) {
+        if (fs::exists(lesson.tasks(language)))
+            faults.add(words, 0, Message("it is missing: checks and hints are in English in the feedback"));
+        return;
+    }
+    faults.attempt(words, [&] {
+        const Catalog catalog(read_text(words));
+        const std::vector<std::string> all = sentences_of_checks(read_text(checks));
+        std::vector<std::string> missing;
+        for (const std::string& sentence : all)
+            if (catalog.translation(sentence).empty()) missing.push_back(sentence);
+        if (!missing.empty())
+            faults.add(words, 0,
+                       Message("{} of {} sentences of checks.lua are not translated, the first: \"{}\"", missing.size(),
+                               all.size(), missing.front()));
+    });
+}
+
+/// Wherever dynlab sheet --lang refuses them.
+void look_at_tasks(const Lesson& lesson, const std::string& language, Faults& faults) {
+    const fs::path tasks = lesson.tasks(language);
+    if (!fs::exists(tasks)) return;
+    faults.attempt(tasks, [&] {
+        const bool fits = lesson_script(lesson, language).header.language == language;
+        if (const std::string said = read_percent_script(tasks).header.language; said != language)
+            faults.add(tasks, 0,
+                       Message("the header says \"language: {}\", but the file's name says {}: dynlab sheet --lang {} "
+                               "refuses it",
+                               said, language, language));
+        else if (!fits)
+            faults.add(lesson.script(), 0,
+                       Message("the header has no line \"language: en\", so that dynlab sheet --lang {} refuses the "
+                               "translated tasks",
+                               language));
+    });
+}
+
 /// The languages a lesson has: its script's, then those of its tasks and reports.
 std::vector<std::string> languages_of(const Lesson& lesson) {
     std::vector<std::string> languages = {read_percent_script(lesson.script()).header.language};
@@ -230,10 +272,8 @@ LessonFaults faults_of_texts(const Lesson& lesson) {
     for (const char* language : kLanguages) {
         if (fs::exists(lesson.hints(language)))
             faults.attempt(lesson.hints(language), [&] { read_hints(lesson.hints(language)); });
-        if (const fs::path words = lesson.checks_in(language); fs::exists(words))
-            faults.attempt(words, [&words] { const Catalog catalog(read_text(words)); });
-        if (fs::exists(lesson.tasks(language)))
-            faults.attempt(lesson.tasks(language), [&] { lesson_script(lesson, language); });
+        look_at_translated_checks(lesson, language, faults);
+        look_at_tasks(lesson, language, faults);
         if (fs::exists(lesson.report(language)))
             faults.attempt(lesson.report(language), [&] { document_rules(read_template(lesson.report(language))); });
     }
@@ -262,10 +302,24 @@ LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial) {
     return faults.found();
 }
 
-LessonFaults faults_of_checks(const GradingSetup& setup) {
+LessonFaults giveaways_of(const CheckTrial& trial) {
+    LessonFaults found;
+    for (const TriedScript& script : trial.typed)
+        for (const TriedCheck& one : script.checks)
+            if (one.check.visible && !one.check.by_hand && one.share.value_or(0) == 1)
+                found.push_back({"checks.lua", 0,
+                                 Message("students read this file, and the check \"{}\" is passed by typing in {}: "
+                                         "compute what is expected from the data, or move the check into the folder of "
+                                         "your own checks (--checks)",
+                                         one.check.id, script.name)});
+    return found;
+}
+
+LessonFaults faults_of_checks(const GradingSetup& setup, LessonFaults* warnings) {
     Faults faults(setup.lesson);
     std::optional<CheckTrial> trial;
     if (!faults.attempt("checks.lua", [&] { trial = try_checks_of(setup, Mutants::kNone); })) return faults.found();
+    if (warnings != nullptr) *warnings = giveaways_of(*trial);
     return faults_of_checks(setup.lesson, *trial);
 }
 

@@ -8,7 +8,7 @@
 
 #include "course/checks/check_run.h"
 #include "course/grading/feedback.h"
-#include "course/hand_ins/owners.h"
+#include "course/intake/owners.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 

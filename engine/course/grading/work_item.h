@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "course/hand_ins/roster.h"
-#include "course/hand_ins/submission.h"
+#include "course/intake/roster.h"
+#include "course/intake/submission.h"
 
 namespace dynlab::inline course {
 
@@ -13,6 +13,8 @@ namespace dynlab::inline course {
 struct Lateness {
     double hours = 0, percent = 0;  ///< of the points earned; 0 in time
     Message reason;                 ///< "received ..., 20 min after the deadline of ..."; empty in time
+    std::int64_t late = 0;          ///< seconds after the deadline
+    bool typed = false;             ///< the instructor wrote down when it was received
 };
 
 /// A submission that is to be graded, with what a course knows of it.
@@ -38,6 +40,9 @@ struct ClassWork {
     bool newest_counts = false;       ///< of several submissions of one student; else the best one
     std::vector<std::size_t> chosen;  ///< places of the items that are graded now; earlier results count for the others
     std::vector<Message> complaints;  ///< for the instructor, about rows that match no submission and the like
+    std::vector<Message> late;        ///< a clause for each late submission, with what it costs
+    std::vector<Message> unconfirmed;  ///< penalties that wait for the instructor (late_penalties.h), a sentence each
+    Message doubt;                     ///< about the zone of the times; may be empty
 };
 
 }  // namespace dynlab::inline course

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/reader.h"
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 #include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
 #include "course/store/course_schema.h"
@@ -309,8 +309,10 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
         if (!settings.contains(needed)) throw EnvironmentError("{}: the course's {} is missing", file.string(), needed);
     for (const fs::path& kept : handed_in)
         if (!fs::exists(kept))
-            throw EnvironmentError("{} has no file {}; nothing was made. Name the folder of the old course with --from",
-                                   from.string(), kept.filename().string());
+            throw EnvironmentError(
+                "{} is not the folder of the exported course: the submitted file {} is not in it. Name that folder "
+                "with --from. Nothing was made",
+                from.string(), kept.filename().string());
     const fs::path place = fs::absolute(folder).lexically_normal();
     const fs::path whole = place.has_filename() ? place : place.parent_path();
     if (fs::exists(whole) && !(fs::is_directory(whole) && fs::is_empty(whole)))

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/reader.h"
+#include "course/office/recognised_file.h"
 #include "course/review/review_pairs.h"
 #include "course/store/exceptions.h"
 #include "course/store/groups.h"
@@ -26,6 +27,8 @@ std::string when(const CourseClock& clock, Instant due, Instant now) {
 /// "v2", "v1 late 2 h 5 min", "v2 (v1 in time)", "v1, 3 rules broken", "v1 damaged", "-".
 std::string cell_of(const HandedInParts& parts, const std::string& main) {
     const auto found = parts.find(main);
+    if (const auto unread = parts.find(kUnreadable); found == parts.end() && unread != parts.end())
+        return fmt::format("came, cannot be read ({})", unread->second.trouble);
     if (found == parts.end()) return parts.empty() ? "-" : fmt::format("only the {}", parts.begin()->first);
     const HandedIn& h = found->second;
     std::string cell = fmt::format("v{}", h.version);
@@ -174,7 +177,7 @@ class Status {
         if (group.dropped_out) return;
         const auto found = first.find(main_);
         if (found == first.end()) {
-            ++missing_;
+            ++(first.contains(kUnreadable) ? unreadable_ : missing_);
         } else {
             ++present_;
             if (found->second.is_late()) ++late_;
@@ -206,6 +209,14 @@ class Status {
             if (parts.contains("pack") && !parts.contains(main_))
                 things.push_back(fmt::format("no PDF in the pack{}: ask for one", of));
         };
+        const auto unread = [&](const HandedInParts& parts, const char* what) {
+            const auto there = parts.find(kUnreadable), readable = parts.find(main_);
+            if (there != parts.end() &&
+                (readable == parts.end() || readable->second.received_at < there->second.received_at))
+                things.push_back(fmt::format("ask for a readable {} ({})", what, there->second.trouble));
+        };
+        unread(first, assignment_.is_report() ? "first version" : "file");
+        unread(last, "final version");
         if (found == first.end()) {
             only_pack(first, "");
             if (things.empty() && due_over("first"))

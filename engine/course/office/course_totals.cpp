@@ -53,7 +53,7 @@ class AssignmentMarks {
     Marks marks_;
 };
 
-std::string percent_text(const std::optional<double>& percent) {
+std::string mark_text(const std::optional<double>& percent) {
     return percent ? fmt::format("{:.4g}", *percent) : "";
 }
 
@@ -100,11 +100,11 @@ std::string totals_csv(Course& course, Instant now) {
         std::vector<std::string> missing, open;
         for (std::size_t i = 0; i < assignments.size(); ++i) {
             own.push_back(marks[i][student.id]);
-            row.push_back(percent_text(own.back().percent));
+            row.push_back(mark_text(own.back().percent));
             if (own.back().missing) missing.push_back(assignments[i].name);
             if (own.back().open) open.push_back(assignments[i].name);
         }
-        row.insert(row.end(), {percent_text(weighted_total(assignments, own)),
+        row.insert(row.end(), {mark_text(weighted_total(assignments, own)),
                                fmt::format("{}", fmt::join(missing, ", ")), fmt::format("{}", fmt::join(open, ", "))});
         table.rows.push_back(std::move(row));
     }

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "course/hand_ins/notebooks.h"
-#include "course/hand_ins/submission.h"
+#include "course/intake/notebooks.h"
+#include "course/intake/submission.h"
 #include "course/review/version_reading.h"
 #include "course/store/file_kind.h"
 

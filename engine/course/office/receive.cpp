@@ -10,12 +10,13 @@
 
 #include "base/error.h"
 #include "course/office/packed_document.h"
+#include "course/office/recognised_file.h"
 #include "course/review/pack_scores.h"
 #include "course/review/review_marks.h"
 #include "course/review/review_pairs.h"
 #include "course/store/exceptions.h"
-#include "course/store/file_kind.h"
 #include "course/store/inspection.h"
+#include "course/store/participants.h"
 #include "course/store/receipts.h"
 #include "course/store/senders.h"
 #include "course/store/side_by_side.h"
@@ -32,18 +33,11 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostBytes = 200u << 20;
 
-/// Under which name a file is kept: report, slides, script, review or pack.
-std::string part_of(const Assignment& assignment, const std::string& stage, const std::string& kind) {
-    if (kind != "pdf" && kind != "text") return kind;
-    if (stage == "review") return "review";
-    return assignment.is_lab() ? "report" : assignment.document();
-}
-
 /// A file on its way into the store.
 struct Candidate {
     const IncomingFile* file = nullptr;
     Group group;
-    std::string part, hash;
+    std::string part, name, hash;
     std::int64_t bytes = 0;
     Instant at = 0;      ///< when it was handed in
     bool timed = false;  ///< as `time_of` tells
@@ -51,6 +45,7 @@ struct Candidate {
     bool from_pack = false, made = false;  ///< a PDF that was taken out of the group's pack; made of it
     bool unreadable = false;               ///< no PDF, but the document all the same: kept, and told
     Message missing;                       ///< of a pack without the PDF that is wanted
+    Message remark;                        ///< name and content differ
     Inspection inspection;
     std::map<std::string, double> scores;  ///< of a review's pack, by criterion
 };
@@ -92,7 +87,7 @@ class HandInReceiver {
         for (const fs::path& file : request_.files) incoming_.add(file);
         outcome_.refused = incoming_.left_out();
         for (const IncomingFile* file : wanted_files()) attempt(*file, [&] { identify(*file); });
-        refuse_doubles();
+        settle_doubles();
         open_packs();
         keep_all();
         write();
@@ -118,15 +113,15 @@ class HandInReceiver {
         }
     }
 
-    /// Text and scripts that lie in a sender's folder beside a PDF or a pack need no remark.
+    /// What cannot be read needs no trace where a PDF or a pack lies beside it in the sender's folder.
     std::vector<const IncomingFile*> wanted_files() const {
         std::set<std::string> fruitful;
         const auto counts = [&](const IncomingFile& file) {
             try {
-                const std::string kind = kind_of_file_at(file.name, file.file);
-                return is_wanted(kind) && kind != "text";
+                const RecognisedFile found = recognise(file, outcome_.assignment, request_.stage);
+                return found.part != kUnreadable && !found.text;
             } catch (const EnvironmentError&) {
-                return true;  // what cannot be read is complained of by its name when its turn comes
+                return true;  // what cannot be opened is complained of by its name when its turn comes
             }
         };
         for (const IncomingFile& file : incoming_.files())
@@ -135,10 +130,6 @@ class HandInReceiver {
         for (const IncomingFile& file : incoming_.files())
             if (!fruitful.contains(file.folder) || counts(file)) wanted.push_back(&file);
         return wanted;
-    }
-
-    bool is_wanted(const std::string& kind) const {
-        return !kind.empty() && !(kind == "script" && outcome_.assignment.is_report());
     }
 
     void identify(const IncomingFile& file) {
@@ -150,17 +141,12 @@ class HandInReceiver {
         const std::optional<Instant> time = request_.time_of ? request_.time_of(file) : std::nullopt;
         candidate.at = time.value_or(request_.at), candidate.timed = time.has_value();
         candidate.bytes = static_cast<std::int64_t>(fs::file_size(file.file));
-        if (candidate.bytes == 0) throw EnvironmentError("the file is empty");
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
             throw EnvironmentError("the file has more than {} MB", kMostBytes >> 20);
-        const std::string kind = kind_of_file_at(file.name, file.file);
-        if (!is_wanted(kind))
-            throw EnvironmentError(
-                outcome_.assignment.is_report()
-                    ? Message("this is neither a PDF nor a pack (.zip, .tar.gz); ask for one")
-                    : Message("this is not a PDF, no script (.lua) and no pack (.zip, .tar.gz); ask for one"));
-        candidate.part = part_of(outcome_.assignment, request_.stage, kind);
-        candidate.unreadable = kind == "text";
+        RecognisedFile found = recognise(file, outcome_.assignment, request_.stage);
+        candidate.part = found.part, candidate.name = found.name, candidate.remark = found.remark;
+        candidate.unreadable = found.text;
+        if (!found.trouble.empty()) candidate.inspection = unreadable_inspection(found.trouble, found.reason);
         if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
         if (request_.stage == "review") candidate.pair = reviewed_pair(pairs_, *group, report_of(file));
         candidates_.push_back(std::move(candidate));
@@ -208,44 +194,51 @@ class HandInReceiver {
         return fmt::format("{}/{}/{}", c.group.id, part, c.pair ? c.pair->id : 0);
     }
 
-    /// Two files of a group for the same thing: nobody can say which holds, unless they are the same, as platforms give
-    /// a team's file once for each member.
-    void refuse_doubles() {
+    /// Of several files of a group for the same thing nobody can say which holds: they are kept as unreadable, unless
+    /// they are the same, as platforms give a team's file once for each member.
+    void settle_doubles() {
         drop_unreadable_doubles();
-        std::map<std::string, std::vector<const Candidate*>> by_slot;
-        for (const Candidate& c : candidates_) by_slot[slot_of(c, c.part)].push_back(&c);
+        std::map<std::string, std::vector<Candidate*>> by_slot;
+        for (Candidate& c : candidates_) by_slot[slot_of(c, c.part)].push_back(&c);
         std::set<std::string> ambiguous;
         for (const auto& [slot, all] : by_slot) {
             if (all.size() == 1) continue;
-            const std::string content = sha256_of_file(all.front()->file->file);
-            for (const Candidate* c : all)
-                if (sha256_of_file(c->file->file) != content) ambiguous.insert(slot);
+            std::set<std::string> contents;
+            for (Candidate* c : all) contents.insert(c->hash = sha256_of_file(c->file->file));
+            if (contents.size() > 1) ambiguous.insert(slot);
         }
         std::vector<Candidate> single;
         std::set<std::string> taken;
         for (Candidate& c : candidates_) {
-            const std::string slot = slot_of(c, c.part);
-            if (!ambiguous.contains(slot)) {
-                if (taken.insert(slot).second) single.push_back(std::move(c));
-                continue;
+            if (c.part != kUnreadable && ambiguous.contains(slot_of(c, c.part))) {
+                outcome_.refused.push_back(
+                    Message("{}: {} gave several files that could be the {}; receive the one that holds alone",
+                            c.file->source, c.group.name, c.part));
+                c.inspection = unreadable_inspection(
+                    "several", Message("It is one of several files that could be the {}.", c.part));
+                c.part = kUnreadable, c.unreadable = false;
             }
-            outcome_.refused.push_back(
-                Message("{}: {} gave several files that could be the {}; receive the one that holds alone",
-                        c.file->source, c.group.name, c.part));
+            if (taken.insert(slot_of(c, c.part) + (c.part == kUnreadable ? c.hash : "")).second)
+                single.push_back(std::move(c));
         }
         candidates_ = std::move(single);
     }
 
-    /// A text that came beside the PDF that was made of it, or beside the pack.
+    /// What cannot be read and came beside what can: beside the PDF that was made of it, or beside the pack.
     void drop_unreadable_doubles() {
-        std::set<std::string> readable;
-        for (const Candidate& c : candidates_)
-            if (!c.unreadable) readable.insert(slot_of(c, c.part == "pack" ? document_part() : c.part));
-        std::erase_if(candidates_,
-                      [&](const Candidate& c) { return c.unreadable && readable.contains(slot_of(c, c.part)); });
+        std::set<std::string> readable, anything;
+        for (const Candidate& c : candidates_) {
+            if (c.unreadable || c.part == kUnreadable) continue;
+            readable.insert(slot_of(c, c.part == "pack" ? document_part() : c.part));
+            anything.insert(slot_of(c, ""));
+        }
+        std::erase_if(candidates_, [&](const Candidate& c) {
+            return (c.unreadable && readable.contains(slot_of(c, c.part))) ||
+                   (c.part == kUnreadable && anything.contains(slot_of(c, "")));
+        });
     }
 
-    std::string document_part() const { return part_of(outcome_.assignment, request_.stage, "pdf"); }
+    std::string document_part() const { return document_part_of(outcome_.assignment, request_.stage); }
 
     /// A pack's PDF counts as if it had come beside it, unless one did.
     void open_packs() {
@@ -277,6 +270,7 @@ class HandInReceiver {
         packed_.push_back({document.file, whole.name + "/" + document.name, whole.source + "/" + document.name,
                            whole.sender, whole.folder});
         Candidate candidate;
+        candidate.name = packed_.back().name;
         candidate.file = &packed_.back(), candidate.group = pack.group, candidate.pair = pack.pair;
         candidate.at = pack.at, candidate.timed = pack.timed;
         candidate.part = part, candidate.from_pack = true, candidate.made = document.made;
@@ -297,8 +291,10 @@ class HandInReceiver {
         course_.keep_files(files, look, request_.progress);
     }
 
-    std::shared_ptr<const SoughtNames> everybody() const {
-        return std::make_shared<const SoughtNames>(Roster(students_of(course_)));
+    std::shared_ptr<const IdentityMatcher> everybody() const {
+        IdentityMatcher names(students_of(course_));
+        names.add_cited(cited_authors());
+        return std::make_shared<const IdentityMatcher>(std::move(names));
     }
 
     void inspect(Candidate& candidate, const std::optional<Inspector>& inspector) const {
@@ -321,6 +317,7 @@ class HandInReceiver {
                 has_any(candidate, candidate.part))
                 continue;
             outcome_.received.push_back(take(candidate));
+            keep_participant(course_, outcome_.assignment.id, candidate.file->sender, candidate.group);
             if (!outcome_.received.back().known)
                 ++fresh;
             else if (candidate.part == "pack")
@@ -371,13 +368,14 @@ class HandInReceiver {
         received.rules_broken = c.inspection.rules_broken, received.trouble = c.inspection.trouble;
         received.names = c.inspection.names;
         received.from_pack = c.from_pack, received.made = c.made;
+        received.remark = c.remark;
         if (!has_any(c, document_part())) received.missing = c.missing;
         if (c.pair) received.about = c.pair->report_pseudonym(), received.voluntary = c.pair->ended;
         Rows before = db.query(
             "SELECT v.id, v.number, v.hash, s.late, s.id IS NULL FROM versions v LEFT JOIN standing s ON s.id = v.id "
             "WHERE v.assignment = ? AND v.group_id = ? AND v.stage = ? AND ifnull(v.pair, 0) = ? AND v.part = ? ORDER "
-            "BY v.number DESC LIMIT 1",
-            outcome_.assignment.id, c.group.id, request_.stage, pair.value_or(0), c.part);
+            "BY v.part = ? AND v.hash = ? DESC, v.number DESC LIMIT 1",
+            outcome_.assignment.id, c.group.id, request_.stage, pair.value_or(0), c.part, kUnreadable, c.hash);
         const bool any = before.next();
         if (any && before.text(2) == c.hash) {
             received.known = true, received.id = before.integer(0), received.version = before.integer(1);
@@ -395,13 +393,13 @@ class HandInReceiver {
         received.twin = same_as(c);
         received.earlier = earlier_with_the_same(c);
         received.marked_late = c.file->sender.late && received.late == 0;
-        const Receipt receipt{course_.name(), a.name,           c.group.name, request_.stage, c.part, c.file->name,
+        const Receipt receipt{course_.name(), a.name,           c.group.name, request_.stage, c.part, c.name,
                               c.hash,         received.version, c.bytes,      received.late,  c.at,   due};
         db.run(
             "INSERT INTO versions (assignment, group_id, stage, pair, part, number, hash, name, received_at, due_at, "
             "late, findings, signature) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            a.id, c.group.id, request_.stage, pair, c.part, received.version, c.hash, c.file->name, c.at, due,
-            received.late, c.inspection.json, version_signature(course_, receipt));
+            a.id, c.group.id, request_.stage, pair, c.part, received.version, c.hash, c.name, c.at, due, received.late,
+            c.inspection.json, version_signature(course_, receipt));
         received.id = db.getLastInsertRowid();
         // What its receipt tells is when this version came; what counts is when its content did.
         if (Rows standing = db.query("SELECT late FROM standing WHERE id = ?", received.id); standing.next())

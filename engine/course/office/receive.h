@@ -16,7 +16,7 @@ struct ReceiveRequest {
     std::string from;                         ///< a group; empty: by the files' names
     std::vector<std::string> of;  ///< of reviews: the report's pseudonym for each file; empty: by the files' names
     Instant at = 0;               ///< time of receipt, where `time_of` tells none
-    std::function<std::optional<Instant>(const IncomingFile&)> time_of;  ///< may be empty (arrival_times.h)
+    std::function<std::optional<Instant>(const IncomingFile&)> time_of;  ///< may be empty (intake/arrival_times.h)
     Isolation level = Isolation::kFull;
     std::filesystem::path program;
     bool take_as_first = false;  ///< a first version even when the group's report was reviewed already
@@ -38,6 +38,7 @@ struct Received {
     Message missing;           ///< of a pack without the PDF that is wanted, a clause: "no PDF in the pack"
     std::string earlier;       ///< when an earlier version with the same content came: "v1 of Sat 2026-02-28 12:00"
     std::string other_time;    ///< of a known file: when it came by `time_of`, where the store says another time
+    Message remark;            ///< name and content differ, a clause
     bool marked_late = false;  ///< the platform wrote LATE into the name, though the time says nothing of it
     int scores = 0;            ///< that the pack of a review brought
     int rules_broken = 0;

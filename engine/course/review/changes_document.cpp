@@ -4,7 +4,7 @@
 
 #include "base/reader.h"
 #include "course/grading/feedback.h"
-#include "course/names/plain_words.h"
+#include "platform/text/plain_words.h"
 #include "course/review/version_changes.h"
 #include "course/store/side_by_side.h"
 #include "documents/text_lines.h"

@@ -30,22 +30,29 @@ std::vector<PairWish> pair_wishes(Course& course, const Assignment& assignment);
 void wish_pair(Course& course, const Assignment& assignment, const std::string& reviewer, const std::string& author,
                const std::string& wish, const std::string& reason, Instant now);
 
-/// A copy that must not tell whose it is. Only `copy`, one PDF, leaves the course: a pack's text and script stay, so
-/// that names in their comments reach nobody and are not looked for; what the PDF made from them holds is searched.
+/// A copy that must not show whose it is. Only `copy`, one PDF, leaves the course: the text and script of a pack stay,
+/// so that only the PDF made from them is searched for names.
 struct CopyRequest {
     std::filesystem::path pdf;    ///< as it was handed in
     std::filesystem::path pack;   ///< its source, where one was submitted with it or later; else empty
     std::filesystem::path copy;   ///< where the clean copy is to be written
     std::vector<Student> people;  ///< all of the course, with group, name, id and mail address
     std::string group = {};       ///< whose it is
+    bool accept = false;          ///< make the copy although it has hits
 };
 struct CopyOutcome {
     bool made = false;
     std::vector<Message> hits;   ///< why there is no copy: sentences with page and remedy
     std::vector<Message> hints;  ///< where somebody may be meant; they stop nothing
 };
-/// Makes a clean copy and searches it for names; never gives one in which it found any.
+/// Makes an anonymous copy and searches it for names; there is no copy where it finds any, unless they are accepted.
 using AnonymousCopier = std::function<CopyOutcome(const CopyRequest&)>;
+
+/// Groups whose documents are sent although names were found in them: "Page" may be a word and not a student.
+struct AcceptedHits {
+    std::vector<std::string> groups;
+    std::string reason;  ///< for the history
+};
 
 enum class Way {
     kToReviewers,
@@ -65,9 +72,10 @@ struct SendOutcome {
 /// Makes the copies that have not been made yet, or of which a newer version stands (of a report as long as its review
 /// is not written), and puts them into outbox/ASSIGNMENT/WAY/GROUP/. A hit stops that copy only. What is held back is
 /// not sent; what nobody is to get any more is taken out of the outbox. Copies are kept in the store like all that is
-/// handed in. Throws InvalidArgument for a talk, and for reviews that may still come (unless `early`);
+/// handed in. The history records which hits were accepted and why. Throws InvalidArgument for a talk, for
+/// reviews that may still come (unless `early`), and for `accepted` with an unknown group or without a reason;
 /// EnvironmentError for a copy that the store does not hold as it was made.
 SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, Instant now,
-                        const AnonymousCopier& copier, bool early = false);
+                        const AnonymousCopier& copier, bool early = false, const AcceptedHits& accepted = {});
 
 }  // namespace dynlab::inline course

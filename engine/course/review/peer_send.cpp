@@ -20,13 +20,18 @@ namespace fs = std::filesystem;
 
 class CopySender {
   public:
-    CopySender(Course& course, const Assignment& assignment, Way way, Instant now, const AnonymousCopier& copier)
+    CopySender(Course& course, const Assignment& assignment, Way way, Instant now, const AnonymousCopier& copier,
+               const AcceptedHits& accepted)
         : course_(course),
           assignment_(assignment),
           way_(way),
           now_(now),
           copier_(copier),
+          reason_(accepted.reason),
           people_(students_of(course)) {
+        if (!accepted.groups.empty() && reason_.empty())
+            throw InvalidArgument("give a reason for accepting names: it is recorded in the history");
+        for (const std::string& name : accepted.groups) accepted_.insert(group_named(course, name).name);
         outcome_.folder = course.folder() / "outbox" / assignment.name / (to_reviewers() ? "to-review" : "reviews");
     }
 
@@ -129,6 +134,7 @@ class CopySender {
         CopyRequest request{under_its_name(*version), {}, scratch.path() / ".copy" / "copy.pdf", people_, author};
         if (const auto pack = pack_of_document(course_, version->id)) request.pack = under_its_name(*pack);
         fs::create_directories(request.copy.parent_path());
+        request.accept = accepted_.contains(author);
         const CopyOutcome copy = copier_(request);
         const Message document = to_reviewers() ? Message("report") : Message("review");
         if (!copy.made) {
@@ -141,7 +147,10 @@ class CopySender {
         if (!copy.hints.empty() && doubted_.insert(version->id).second)
             outcome_.hints.push_back(
                 Message("{} of {} was sent, but look at it: {}", document, author, sentences(copy.hints)));
-        record(pair, *version, read_file(request.copy));
+        if (!copy.hits.empty() && doubted_.insert(version->id).second)
+            outcome_.hints.push_back(
+                Message("{} of {} was sent with names in it: {}", document, author, sentences(copy.hits)));
+        record(pair, *version, read_file(request.copy), copy.hits.empty() ? "" : author);
     }
 
     /// So that the status stops asking for what cannot be sent.
@@ -153,13 +162,19 @@ class CopySender {
         transaction.commit();
     }
 
-    void record(const ReviewPair& pair, const StandingFile& version, const std::string& content) {
+    /// `accepted`: the group whose hits were accepted; else empty.
+    void record(const ReviewPair& pair, const StandingFile& version, const std::string& content,
+                const std::string& accepted) {
         const std::string hash = course_.keep(content);
         course_.settle({hash});
         Transaction transaction(course_.database());
         course_.record_file(hash, static_cast<std::int64_t>(content.size()), now_);
         course_.database().run("INSERT INTO sendings (pair, way, version, hash, made_at) VALUES (?, ?, ?, ?, ?)",
                                pair.id, way_name(), version.id, hash, now_);
+        if (!accepted.empty() && noted_.insert(version.id).second)
+            course_.note(fmt::format("{}: the {} of {} was sent with names in it; reason: {}", assignment_.name,
+                                     to_reviewers() ? "report" : "review", accepted, reason_),
+                         now_);
         transaction.commit();
         outcome_.again += to_reviewers() ? pair.sent : pair.released;
         put(pair, hash);
@@ -171,21 +186,23 @@ class CopySender {
     Way way_;
     Instant now_;
     const AnonymousCopier& copier_;
+    std::string reason_;
+    std::set<std::string> accepted_;  ///< groups
     std::vector<Student> people_;
-    std::set<std::int64_t> stopped_, doubted_;  ///< versions
-    std::set<fs::path> kept_;                   ///< what is to lie in the outbox
+    std::set<std::int64_t> stopped_, doubted_, noted_;  ///< versions
+    std::set<fs::path> kept_;                           ///< what is to lie in the outbox
     SendOutcome outcome_;
 };
 
 }  // namespace
 
 SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, Instant now,
-                        const AnonymousCopier& copier, bool early) {
+                        const AnonymousCopier& copier, bool early, const AcceptedHits& accepted) {
     refuse_without_reviews(assignment);
     if (way == Way::kToAuthors && !early && now <= assignment.review_due.value_or(0) + assignment.grace)
         throw InvalidArgument("the reviews of {} may still come until {}; wait, or say --early", assignment.name,
                               course.clock().show(assignment.review_due.value_or(0) + assignment.grace));
-    return CopySender(course, assignment, way, now, copier).run();
+    return CopySender(course, assignment, way, now, copier, accepted).run();
 }
 
 }  // namespace dynlab::inline course

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/told_reason.h"
-#include "course/hand_ins/staging.h"
+#include "course/intake/staging.h"
 #include "course/review/version_description.h"
 #include "documents/work_file.h"
 #include "figures/gnuplot_renderer.h"

@@ -9,17 +9,18 @@
 namespace dynlab::inline course {
 
 struct SimilarityRequest {
-    Lesson lesson;  ///< its starter counts for nothing, its worked solution is compared
-    std::filesystem::path submissions, out;
-    std::vector<std::filesystem::path> others;  ///< folders of former years' submissions, or of scripts
+    Lesson lesson;                      ///< its starter counts for nothing, its worked solution is compared
+    std::filesystem::path submissions;  ///< a folder or a platform's zip, as ClassSubmissions takes them
+    std::filesystem::path out;
+    std::vector<std::filesystem::path> others;  ///< former years' submissions (folder or zip), or folders of scripts
     double line = 0.6;                          ///< least share of a pair that is told
     Isolation isolation = Isolation::kFull;
     std::filesystem::path program;  ///< dynlab
 };
 
 struct SimilarityOutcome {
-    std::size_t scripts = 0, pairs = 0;
-    std::vector<Message> complaints;  ///< whole sentences: what could not be compared
+    std::size_t scripts = 0, groups = 0, pairs = 0;  ///< groups: three or more copies; pairs: of what is in none
+    std::vector<Message> complaints;                 ///< whole sentences: what could not be compared
 };
 
 /// Compares the scripts of a class with one another, the worked solution and others, and writes similarity.md and

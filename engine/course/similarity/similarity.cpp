@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>
@@ -18,6 +19,7 @@ constexpr std::size_t kFewest = 8;         // fingerprints in common, about thir
 constexpr double kLeastEvidence = 1.5;     // their weight: as if so many stood in no third script
 constexpr double kNearlyAll = 0.95;        // a share so large is told however many have that code,
 constexpr std::size_t kManyInCommon = 40;  // if it is so much of it
+constexpr double kCopyOfLonger = 0.8;      // a copy has so much of the longer one's code, too
 constexpr std::size_t kGap = 3;            // fingerprints that may lie between two of one passage
 constexpr std::size_t kMostPassages = 3, kMostLines = 30;
 
@@ -71,12 +73,16 @@ class ScriptComparison {
                 const double whole = std::min(weights[a], weights[b]), share = whole > 0 ? weight / whole : 0;
                 const bool enough = weight >= kLeastEvidence || (share >= kNearlyAll && count >= kManyInCommon);
                 if (count < kFewest || !enough || share < line) continue;
-                found.push_back({a, b, std::min(share, 1.0), same_lines(a, b), {}});
+                const double longer = std::max(weights[a], weights[b]);
+                found.push_back({a, b, std::min(share, 1.0), same_lines(a, b), std::min(weight / longer, 1.0), {}});
             }
         }
         std::ranges::stable_sort(found, [](const SimilarPair& x, const SimilarPair& y) { return x.share > y.share; });
-        for (std::size_t k = 0; k < std::min(found.size(), kMostShownPairs); ++k)
-            found[k].passages = passages(found[k].a, found[k].b);
+        std::set<std::pair<std::size_t, std::size_t>> shown;
+        for (const SimilarGroup& group : similar_groups(scripts_, found))
+            if (shown.size() < kMostShownGroups) shown.insert({group.shown.a, group.shown.b});
+        for (SimilarPair& pair : found)
+            if (shown.contains({pair.a, pair.b})) pair.passages = passages(pair.a, pair.b);
         return found;
     }
 
@@ -179,35 +185,131 @@ std::string whole_percent(double share) {
     return fmt::format("{:.0f} %", 100 * share);
 }
 
+std::string percent_range(double least, double most) {
+    const std::string from = whole_percent(least), to = whole_percent(most);
+    return from == to ? to : fmt::format("{:.0f} to {}", 100 * least, to);
+}
+
+/// Scripts joined by pairs.
+class Components {
+  public:
+    explicit Components(std::size_t count) : parent_(count), size_(count, 1) {
+        for (std::size_t i = 0; i < count; ++i) parent_[i] = i;
+    }
+    std::size_t of(std::size_t i) const {
+        while (parent_[i] != i) i = parent_[i];
+        return i;
+    }
+    void join(std::size_t a, std::size_t b) {
+        a = of(a), b = of(b);
+        if (a == b) return;
+        if (size_[a] < size_[b]) std::swap(a, b);  // keeps paths short
+        parent_[b] = a;
+        size_[a] += size_[b];
+    }
+    std::size_t size(std::size_t i) const { return size_[of(i)]; }
+
+  private:
+    std::vector<std::size_t> parent_, size_;
+};
+
+std::string names_of(const std::vector<ComparedScript>& scripts, const SimilarGroup& group) {
+    std::vector<std::string> names;
+    for (const std::size_t member : group.members) names.push_back(readable_markdown(scripts[member].name));
+    if (names.size() > 2) return fmt::format("{}", fmt::join(names, ", "));
+    const auto with_copies = [](const std::string& name, std::size_t copies) {
+        return copies == 0 ? name : fmt::format("{} ({} further copies: see above)", name, copies);
+    };
+    return with_copies(names[0], group.copies_of_first) + " and " + with_copies(names[1], group.copies_of_second);
+}
+
+std::string heading_of(const std::vector<ComparedScript>& scripts, const SimilarGroup& group) {
+    const std::string share = percent_range(group.least_share, group.most_share);
+    if (group.members.size() == 2) return fmt::format("{}: {}", names_of(scripts, group), share);
+    const std::string first = readable_markdown(scripts[group.members[0]].name);
+    return fmt::format("{} and {} others: {}", first, group.members.size() - 1,
+                       group.identical ? "identical files" : share);
+}
+
 }  // namespace
+
+bool SimilarGroup::has(std::size_t script) const {
+    return std::ranges::find(members, script) != members.end();
+}
 
 std::vector<SimilarPair> similar_pairs(const std::vector<ComparedScript>& scripts, const std::string& starter,
                                        double line) {
     return ScriptComparison(scripts, starter).pairs(line);
 }
 
-std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, const std::vector<SimilarPair>& pairs,
+std::vector<SimilarGroup> similar_groups(const std::vector<ComparedScript>& scripts,
+                                         const std::vector<SimilarPair>& pairs) {
+    Components copies(scripts.size());
+    for (const SimilarPair& pair : pairs)
+        if (pair.share >= kNearlyAll && pair.share_of_longer >= kCopyOfLonger) copies.join(pair.a, pair.b);
+    std::vector<SimilarGroup> groups;
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> place;  // in `groups`, by what the pair joins
+    const auto further_copies = [&](std::size_t script) {
+        return copies.size(script) > 2 ? copies.size(script) - 1 : 0;
+    };
+    const auto part_of = [&](std::size_t script) { return copies.size(script) > 2 ? copies.of(script) : script; };
+    for (const SimilarPair& pair : pairs) {
+        const std::size_t a = part_of(pair.a), b = part_of(pair.b);
+        const auto [found, fresh] = place.try_emplace(std::minmax(a, b), groups.size());
+        if (fresh) {
+            SimilarGroup& group = groups.emplace_back();
+            group.shown = pair;
+            group.identical = true;
+            if (a == b)
+                for (std::size_t script = 0; script < scripts.size(); ++script)
+                    if (part_of(script) == a) group.members.push_back(script);
+            if (a != b) {
+                group.members = {pair.a, pair.b};
+                group.copies_of_first = further_copies(pair.a);
+                group.copies_of_second = further_copies(pair.b);
+            }
+            for (const std::size_t member : group.members)
+                group.identical = group.identical && scripts[member].source == scripts[group.members[0]].source;
+        }
+        SimilarGroup& group = groups[found->second];
+        group.least_share = std::min(group.least_share, pair.share);
+        group.most_share = std::max(group.most_share, pair.share);
+        group.least_lines = std::min(group.least_lines, pair.same_lines);
+    }
+    std::ranges::stable_sort(groups, [](const SimilarGroup& x, const SimilarGroup& y) {
+        const bool large_x = x.members.size() > 2, large_y = y.members.size() > 2;
+        if (large_x || large_y) return x.members.size() > y.members.size();
+        return x.most_share > y.most_share;
+    });
+    return groups;
+}
+
+std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, const std::vector<SimilarGroup>& groups,
                                    double line) {
-    constexpr std::size_t most = kMostShownPairs;
+    constexpr std::size_t most = kMostShownGroups;
     std::string text = fmt::format(
-        "# Scripts that look alike\n\nCompared were {} scripts, without comments, layout and the names that they "
-        "chose; what the lesson gave counts for nothing. The pairs that have {} or more of the shorter one's own code "
-        "in common are listed. That says nothing of who wrote it, nor whether it was allowed: look at both.\n\n",
+        "# Scripts that look alike\n\n{} scripts were compared without comments, layout and the names that their "
+        "authors chose; code of the starter does not count. Listed are copies, and pairs with {} or more of the "
+        "shorter script's own code in common. This does not tell who wrote the code, nor whether sharing it was "
+        "allowed: inspect both sides.\n\n",
         scripts.size(), whole_percent(line));
-    if (pairs.empty()) return text + "There are none.\n";
-    text += "| first | second | code in common | lines letter by letter |\n|---|---|---|---|\n";
-    for (std::size_t k = 0; k < std::min(most, pairs.size()); ++k)
-        text += fmt::format("| {} | {} | {} | {} |\n", readable_markdown(scripts[pairs[k].a].name),
-                            readable_markdown(scripts[pairs[k].b].name), whole_percent(pairs[k].share),
-                            whole_percent(pairs[k].same_lines));
-    if (pairs.size() > most) text += fmt::format("\n{} further pairs are in similarity.csv.\n", pairs.size() - most);
-    for (std::size_t k = 0; k < std::min(most, pairs.size()); ++k) {
-        const SimilarPair& pair = pairs[k];
-        text += fmt::format("\n## {} and {}: {}\n\n", readable_markdown(scripts[pair.a].name),
-                            readable_markdown(scripts[pair.b].name), whole_percent(pair.share));
-        for (const CommonPassage& passage : pair.passages)
-            text += quoted_lines(scripts[pair.a], passage.first_a, passage.last_a) +
-                    quoted_lines(scripts[pair.b], passage.first_b, passage.last_b);
+    if (groups.empty()) return text + "There are none.\n";
+    text += "| scripts | code in common | identical lines |\n|---|---|---|\n";
+    for (std::size_t k = 0; k < std::min(most, groups.size()); ++k) {
+        const SimilarGroup& group = groups[k];
+        text += fmt::format("| {} | {} | {} |\n", names_of(scripts, group),
+                            group.identical ? "identical files" : percent_range(group.least_share, group.most_share),
+                            group.members.size() > 2 && !group.identical ? whole_percent(group.least_lines) + " or more"
+                                                                         : whole_percent(group.least_lines));
+    }
+    if (groups.size() > most) text += fmt::format("\n{} further pairs are in similarity.csv.\n", groups.size() - most);
+    for (std::size_t k = 0; k < std::min(most, groups.size()); ++k) {
+        const SimilarGroup& group = groups[k];
+        text += fmt::format("\n## {}\n\n", heading_of(scripts, group));
+        for (const CommonPassage& passage : group.shown.passages) {
+            text += quoted_lines(scripts[group.shown.a], passage.first_a, passage.last_a);
+            if (!group.identical) text += quoted_lines(scripts[group.shown.b], passage.first_b, passage.last_b);
+        }
     }
     return text;
 }

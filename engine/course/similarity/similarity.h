@@ -22,10 +22,22 @@ struct CommonPassage {
 struct SimilarPair {
     std::size_t a = 0, b = 0;  ///< places in the list; b is the one outside of the class, where one is
     double share = 0, same_lines = 0;
-    std::vector<CommonPassage> passages;  ///< the longest first, at most three; of the first kMostShownPairs pairs only
+    double share_of_longer = 0;           ///< as `share`, of the longer one's own fingerprints
+    std::vector<CommonPassage> passages;  ///< the longest first, at most three
 };
 
-inline constexpr std::size_t kMostShownPairs = 100;
+/// Copies of one script, or a pair that looks alike. A script that looks like several copies is paired with one of
+/// them only.
+struct SimilarGroup {
+    std::vector<std::size_t> members;                         ///< places in the list
+    double least_share = 1, most_share = 0, least_lines = 1;  ///< of the pairs of its members
+    std::size_t copies_of_first = 0, copies_of_second = 0;    ///< of a pair: further copies, listed as another group
+    bool identical = false;                                   ///< byte for byte
+    SimilarPair shown;                                        ///< the pair of members that is most alike
+    bool has(std::size_t script) const;
+};
+
+inline constexpr std::size_t kMostShownGroups = 100;
 
 /// Every pair whose share is `line` or more, the largest first. What stands in `starter`, which all were given, counts
 /// for nothing; what many have counts little: a fingerprint weighs one over the number of different scripts with it.
@@ -34,9 +46,14 @@ inline constexpr std::size_t kMostShownPairs = 100;
 std::vector<SimilarPair> similar_pairs(const std::vector<ComparedScript>& scripts, const std::string& starter,
                                        double line);
 
-/// The pairs for the instructor's eye, as Markdown: names, shares, and of each passage both sides. It says nothing of
-/// who did what. At most kMostShownPairs are shown.
-std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, const std::vector<SimilarPair>& pairs,
+/// The pairs as groups. Copies are scripts that are identical, or that a chain of pairs with nearly all code in common
+/// joins; three and more are one group, the largest first. Then come the other pairs, the most alike first.
+std::vector<SimilarGroup> similar_groups(const std::vector<ComparedScript>& scripts,
+                                         const std::vector<SimilarPair>& pairs);
+
+/// The groups for the instructor, as Markdown: names, shares, and of each passage both sides. It says nothing of
+/// who did what. At most kMostShownGroups are shown.
+std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, const std::vector<SimilarGroup>& groups,
                                    double line);
 
 }  // namespace dynlab::inline course

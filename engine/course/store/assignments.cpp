@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "course/hand_ins/lateness.h"
+#include "course/intake/lateness.h"
 #include "course/store/exceptions.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <set>
 
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/small_letters.h"

@@ -8,11 +8,12 @@
 #include <map>
 #include <set>
 
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 #include "course/store/groups.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"
 #include "platform/error.h"
+#include "platform/files/whole_folder.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -70,23 +71,24 @@ const Criterion& criterion_named(const Assignment& assignment, const std::string
 LaidOutWork lay_out_work(Course& course, const Assignment& assignment, const std::string& stage,
                          const fs::path& folder) {
     if (fs::exists(folder)) throw InvalidArgument("{} exists already; name a new folder", folder.string());
-    fs::create_directories(folder);
     const std::map<std::int64_t, GradableVersion> newest = gradable_versions(course, assignment, stage);
     LaidOutWork work;
-    for (const Group& group : groups_of(course)) {
-        const auto found = newest.find(group.id);
-        if (found == newest.end()) {
-            if (!group.dropped_out) work.without.push_back(group.name);
-            continue;
+    make_whole_folder(folder, [&](const fs::path& growing) {
+        for (const Group& group : groups_of(course)) {
+            const auto found = newest.find(group.id);
+            if (found == newest.end()) {
+                if (!group.dropped_out) work.without.push_back(group.name);
+                continue;
+            }
+            const GradableVersion& version = found->second;
+            const fs::path file = version.part == "script" ? growing / group.name / "analysis.lua"
+                                                           : growing / (group.name + archive_ending(version.name));
+            fs::create_directories(file.parent_path());
+            fs::copy_file(course.file(version.hash), file);
+            set_time(file, version.received_at);
+            work.groups.push_back(group.name);
         }
-        const GradableVersion& version = found->second;
-        const fs::path file = version.part == "script" ? folder / group.name / "analysis.lua"
-                                                       : folder / (group.name + archive_ending(version.name));
-        fs::create_directories(file.parent_path());
-        fs::copy_file(course.file(version.hash), file);
-        set_time(file, version.received_at);
-        work.groups.push_back(group.name);
-    }
+    });
     return work;
 }
 

@@ -14,7 +14,8 @@ struct LaidOutWork {
 
 /// Lays out for `dynlab grade` what groups handed in at `stage` ("first", "final"): in `folder`, which is made, of each
 /// group the newest script, as GROUP/analysis.lua, or pack, as GROUP.zip, whichever came last and was not withdrawn.
-/// The files are as old as their versions, for deadlines. Throws InvalidArgument for a folder that exists.
+/// The files are as old as their versions, for deadlines. The folder appears with all of them or not at all. Throws
+/// InvalidArgument for a folder that exists.
 LaidOutWork lay_out_work(Course& course, const Assignment& assignment, const std::string& stage,
                          const std::filesystem::path& folder);
 

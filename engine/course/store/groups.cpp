@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "course/hand_ins/owners.h"
-#include "course/names/name_patterns.h"
+#include "course/anonymity/name_patterns.h"
+#include "course/intake/owners.h"
 #include "numerics/error.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
@@ -263,7 +263,7 @@ RosterChange import_roster(Course& course, const std::filesystem::path& file, bo
             file.string(), listed(roster.columns()));
     RosterChange change = Import(course, roster).run();
     change.unknown_columns = roster.unknown_columns();
-    change.unsought_ids = unsought_numbers(roster.students());
+    change.short_ids = numbers_too_short(roster.students());
     change.converted = roster.converted();
     return change;
 }

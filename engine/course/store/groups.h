@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/message.h"
-#include "course/hand_ins/roster.h"
+#include "course/intake/roster.h"
 #include "course/store/course_store.h"
 
 namespace dynlab::inline course {
@@ -38,7 +38,7 @@ struct RosterChange {
     int students = 0, new_students = 0, changed = 0, moved = 0, new_groups = 0;
     std::vector<std::string> absent;           ///< ids of students who are not in the file; they stay
     std::vector<std::string> unknown_columns;  ///< that were not read
-    Message unsought_ids;                      ///< the sentence about those that are too short to be looked for
+    Message short_ids;                      ///< a sentence about ids that are too short to search for
     bool converted = false;                    ///< see TextTable
 };
 /// Reads a roster (columns id and group, and optionally name, email or mail, moodle, canvas) into the course, whole or

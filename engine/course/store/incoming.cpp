@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "course/hand_ins/folder_copy.h"
-#include "course/hand_ins/notebooks.h"
+#include "course/intake/folder_copy.h"
+#include "course/intake/notebooks.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "workflow/notebooks/notebook.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "course/hand_ins/submission.h"
+#include "course/intake/submission.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline course {

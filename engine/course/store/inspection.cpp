@@ -9,7 +9,8 @@ namespace dynlab::inline course {
 namespace {
 
 Inspection summary_of(const CheckResult& result, const std::string& json_text) {
-    static const std::set<std::string> unreadable = {"not-pdf", "encrypted", "damaged", "too-large", "scanned"};
+    static const std::set<std::string> unreadable = {"not-pdf",        "encrypted",  "damaged", "too-large", "scanned",
+                                                     "closed-archive", "other-kind", "several", "empty"};
     Inspection inspection;
     inspection.json = json_text;
     for (const Finding& finding : result.findings) {
@@ -32,7 +33,7 @@ DocumentStandard standard_of_reports(const std::string& lesson) {
 
 }  // namespace
 
-Inspector::Inspector(std::shared_ptr<const SoughtNames> names, const std::string& lesson) {
+Inspector::Inspector(std::shared_ptr<const IdentityMatcher> names, const std::string& lesson) {
     const auto hold_against = [this](const char* part, const char* template_name) {
         wishes_[part].standard = standard_of(template_name);
     };

@@ -20,7 +20,7 @@ class Inspector {
     /// Reviews are searched for `names`, as they go to others without change; other first versions may be signed, and
     /// are searched when copies of them are made. Reports are held against what `lesson` asks of them, or the lab
     /// report where it is empty or not installed here.
-    Inspector(std::shared_ptr<const SoughtNames> names, const std::string& lesson);
+    Inspector(std::shared_ptr<const IdentityMatcher> names, const std::string& lesson);
 
     /// Whether PDFs under this part are looked at: "report", "slides", "review".
     bool looks_at(const std::string& part) const { return wishes_.contains(part); }

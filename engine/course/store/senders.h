@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "course/hand_ins/owners.h"
+#include "course/intake/owners.h"
 #include "course/store/groups.h"
 
 namespace dynlab::inline course {
 
-/// Whose file it is, by its name or its folder's (hand_ins/owners.h), among the groups of a course.
+/// Whose file it is, by its name or its folder's (intake/owners.h), among the groups of a course.
 class Senders {
   public:
     explicit Senders(Course& course);

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "course/hand_ins/course_clock.h"
+#include "course/intake/course_clock.h"
 #include "course/store/database.h"
 #include "platform/signature.h"
 

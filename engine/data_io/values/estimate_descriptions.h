@@ -35,7 +35,13 @@ DYNLAB_DESCRIBE(FitIteration, theta, loss, change)
 DYNLAB_DESCRIBE(MissedStructure, code, option, value, output, samples, fit_percent, better_fit_percent)
 DYNLAB_DESCRIBE(Diagnostics, missed, assessment)
 
-/// Computed when they are written, which is for programs only.
+/// Computed when it is written, which is for programs only.
+template <class T>
+struct StoredAs<Deferred<T>> {
+    using Form = T;
+    static T form(const Deferred<T>& deferred) { return deferred.get(); }
+    static Deferred<T> value(T&& known) { return std::move(known); }
+};
 template <>
 struct StoredAs<DeferredDiagnostics> {
     using Form = Diagnostics;

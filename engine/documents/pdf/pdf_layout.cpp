@@ -129,6 +129,18 @@ PdfLayout read_all(const fs::path& file, const PdfLimits& limits) {
     return layout_of(document_of(pdf).get(), limits);
 }
 
+std::vector<std::string> texts_of(const fs::path& file, const PdfLimits& limits) {
+    const std::string pdf = with_plain_streams(read_work_file(file));
+    const Document document = document_of(pdf);
+    std::vector<std::string> texts;
+    for (int i = 0; document && i < std::min(document->pages(), limits.pages); ++i)
+        if (const std::unique_ptr<poppler::page> page(document->create_page(i)); page) {
+            const poppler::ustring text = page->text({}, poppler::page::raw_order_layout);
+            texts.push_back(utf8_of(std::u16string(text.begin(), text.end())));
+        }
+    return texts;
+}
+
 /// A page with a letter of a font that has no file.
 std::string smallest_pdf() {
     QPDF pdf;
@@ -159,6 +171,17 @@ PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
         auto layout = from_cbor<PdfLayout>(answer, bounds);
         for (PdfPage& page : layout.pages) std::erase_if(page.words, [](const PdfWord& w) { return !is_placed(w); });
         return layout;
+    } catch (const ValueError&) {
+        refuse(PdfFault::kDamaged, Message("The file is damaged: what is read in it makes no pages."));
+    }
+}
+
+std::vector<std::string> text_in_content_order(const fs::path& file, const PdfLimits& limits) {
+    check_outside(file, limits);
+    const auto work = [&] { return cbor_of(texts_of(file, limits)); };
+    const std::string answer = run_guarded_on_pdf(work, {{limits.time}, limits.memory_bytes, limits.memory_bytes});
+    try {
+        return from_cbor<std::vector<std::string>>(answer);
     } catch (const ValueError&) {
         refuse(PdfFault::kDamaged, Message("The file is damaged: what is read in it makes no pages."));
     }

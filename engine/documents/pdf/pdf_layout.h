@@ -39,6 +39,9 @@ struct PdfLimits {
 /// hostile one can neither crash nor hang the caller. Throws PdfRefusal.
 PdfLayout read_pdf_layout(const std::filesystem::path& file, const PdfLimits& limits = {});
 
+/// The text of each page in the order in which its content prints it: slanted words, too, are whole. Throws PdfRefusal.
+std::vector<std::string> text_in_content_order(const std::filesystem::path& file, const PdfLimits& limits = {});
+
 /// Before many are read, while no other thread runs: has the libraries do once here what they do for the first PDF in a
 /// process, so that no copy needs to.
 void prepare_to_read_pdfs();

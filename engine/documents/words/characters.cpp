@@ -26,14 +26,14 @@ bool is_in_latex_fonts(char32_t c) {
 
 }  // namespace
 
-PrintableCharacters PrintableCharacters::of_latex(const std::string& characters_tex) {
+PrintableCharacters PrintableCharacters::of_latex(const std::string& declarations) {
     PrintableCharacters result;
     const std::string_view declaration = "\\DeclareUnicodeCharacter{";
-    for (std::size_t at = characters_tex.find(declaration); at != std::string::npos;
-         at = characters_tex.find(declaration, at)) {
+    for (std::size_t at = declarations.find(declaration); at != std::string::npos;
+         at = declarations.find(declaration, at)) {
         at += declaration.size();
         std::uint32_t code = 0;
-        std::from_chars(characters_tex.data() + at, characters_tex.data() + characters_tex.size(), code, 16);
+        std::from_chars(declarations.data() + at, declarations.data() + declarations.size(), code, 16);
         result.declared_.insert(static_cast<char32_t>(code));
     }
     return result;
@@ -54,19 +54,14 @@ std::optional<Message> PrintableCharacters::complaint(std::string_view text) con
     while (!text.empty()) {
         const std::optional<char32_t> taken = take_character(text);
         if (!taken) return Message("this is not UTF-8 text; save the file with the encoding UTF-8");
-        const char32_t c = *taken;
-        if (can_print(c)) continue;
-        const std::string code = fmt::format("U+{:04X}", static_cast<std::uint32_t>(c));
-        if (is_control(c)) return Message("the control character {} cannot be printed; remove it", code);
-        if (c >= 0x0300 && c <= 0x036F)
-            return Message(
-                "the combining accent {} cannot be printed; type the letter with its accent as one character", code);
-        return Message(
-            "the character \"{}\" ({}) cannot be printed by LaTeX; write it in words or as a formula between dollar "
-            "signs",
-            utf8_of(c), code);
+        if (is_control(*taken))
+            return Message("the control character {} cannot be printed; remove it", code_of(*taken));
     }
     return std::nullopt;
+}
+
+std::string code_of(char32_t character) {
+    return fmt::format("U+{:04X}", static_cast<std::uint32_t>(character));
 }
 
 }  // namespace dynlab::inline documents

@@ -1,6 +1,5 @@
 #include "numerics/fit/diagnostics.h"
 
-#include <mutex>
 #include <utility>
 
 #include "numerics/fit/integrated_input.h"
@@ -47,53 +46,21 @@ Diagnostics diagnose(const Fit& fit, const IdData& data, const FitOptions& optio
     return {missed_by(fit, data, options), assessment_of(fit, data, options)};
 }
 
-struct DeferredDiagnostics::State {
-    Fit fit;
-    std::shared_ptr<const IdData> data;
-    FitOptions options;
-    std::mutex mutex = {};
-    Diagnostics found = {};
-    bool knows_missed = false, knows_assessment = false;
+DeferredDiagnostics::DeferredDiagnostics(Diagnostics known)
+    : missed_(std::move(known.missed)), assessment_(std::move(known.assessment)) {}
 
-    void forget_data() {
-        if (!knows_missed || !knows_assessment) return;
-        data.reset();
-        fit = {};
-    }
-};
-
-DeferredDiagnostics::DeferredDiagnostics(Diagnostics known) : state_(std::make_shared<State>()) {
-    state_->found = std::move(known);
-    state_->knows_missed = state_->knows_assessment = true;
-}
-
-DeferredDiagnostics::DeferredDiagnostics(Fit fit, std::shared_ptr<const IdData> data, FitOptions options)
-    : state_(std::make_shared<State>()) {
+DeferredDiagnostics::DeferredDiagnostics(Fit fit, std::shared_ptr<const IdData> data, FitOptions options) {
     fit.trace.clear();
     fit.output.resize(0);
     options.cancel = nullptr;  // it may refer to what is gone by then
-    state_->fit = std::move(fit);
-    state_->data = std::move(data);
-    state_->options = std::move(options);
-}
-
-std::optional<MissedStructure> DeferredDiagnostics::missed() const {
-    if (!state_) return std::nullopt;
-    const std::scoped_lock lock(state_->mutex);
-    if (!state_->knows_missed) state_->found.missed = missed_by(state_->fit, *state_->data, state_->options);
-    state_->knows_missed = true;
-    state_->forget_data();
-    return state_->found.missed;
-}
-
-std::shared_ptr<const Assessment> DeferredDiagnostics::assessment() const {
-    if (!state_) return nullptr;
-    const std::scoped_lock lock(state_->mutex);
-    if (!state_->knows_assessment)
-        state_->found.assessment = assessment_of(state_->fit, *state_->data, state_->options);
-    state_->knows_assessment = true;
-    state_->forget_data();
-    return state_->found.assessment;
+    struct Estimation {
+        Fit fit;
+        std::shared_ptr<const IdData> data;
+        FitOptions options;
+    };
+    const auto of = std::make_shared<const Estimation>(Estimation{std::move(fit), std::move(data), std::move(options)});
+    missed_ = decltype(missed_)::later([of] { return missed_by(of->fit, *of->data, of->options); });
+    assessment_ = decltype(assessment_)::later([of] { return assessment_of(of->fit, *of->data, of->options); });
 }
 
 }  // namespace dynlab::inline numerics

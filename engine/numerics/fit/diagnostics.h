@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/deferred.h"
 #include "numerics/fit/assessment.h"
 #include "numerics/fit/fit.h"
 #include "numerics/fit/missed_structure.h"
@@ -32,13 +33,13 @@ class DeferredDiagnostics {
     /// As diagnose() takes them; `data` must not change any more. They are kept until all is computed.
     DeferredDiagnostics(Fit fit, std::shared_ptr<const IdData> data, FitOptions options);
 
-    std::optional<MissedStructure> missed() const;
-    std::shared_ptr<const Assessment> assessment() const;
+    const std::optional<MissedStructure>& missed() const { return missed_.get(); }
+    std::shared_ptr<const Assessment> assessment() const { return assessment_.get(); }
     Diagnostics all() const { return {missed(), assessment()}; }
 
   private:
-    struct State;
-    std::shared_ptr<State> state_;
+    Deferred<std::optional<MissedStructure>> missed_;
+    Deferred<std::shared_ptr<const Assessment>> assessment_;
 };
 
 }  // namespace dynlab::inline numerics

@@ -213,7 +213,7 @@ void find_degrees(const Channel& channel, std::vector<RecordFinding>& findings) 
     if ((unit != "rad" && unit != "radian" && unit != "radians") || swing <= std::numbers::pi) return;
     findings.push_back(
         about(channel, "degrees", Weight::kWarning,
-              Message("{} is declared in rad but swings by +-{}, which would be {} turns. It is "
+              Message("{} is declared in rad but swings by ±{}, which would be {} turns. It is "
                       "probably in degrees: multiply it by pi/180, or declare the unit deg.",
                       subject(channel), significant(swing, 3), significant(swing / (2 * std::numbers::pi), 2)),
               swing));

@@ -8,6 +8,7 @@
 #include "platform/error.h"
 #include "platform/file_blocks.h"
 #include "platform/files/temporary_file.h"
+#include "platform/written_files.h"
 
 namespace dynlab::inline platform {
 
@@ -76,6 +77,7 @@ void ReplacementFile::begin_to_sync() const {
 void ReplacementFile::commit() {
     if (!temporary_.empty()) {  // renamed while it is open: its lock shows that it is in use
         if (retry_interrupted([&] { return ::fsync(fd_.get()); }) != 0) fail_to_write(file_, errno);
+        note_replacement(file_, temporary_);
         if (::rename(temporary_.c_str(), file_.c_str()) == 0) {
             temporary_.clear();
         } else {

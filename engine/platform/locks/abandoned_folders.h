@@ -12,7 +12,7 @@ std::vector<std::filesystem::path> remove_abandoned_folders();
 
 /// Where temporary folders are made: $TMPDIR, or /tmp.
 std::filesystem::path parent_of_temporary_folders();
-/// What mkdtemp makes the name of a temporary folder of: "dynlab-MACHINE-XXXXXX".
-std::string pattern_of_temporary_folders();
+/// What the name of a temporary folder begins with, before six letters and digits: "dynlab-MACHINE-".
+std::string beginning_of_temporary_folders();
 
 }  // namespace dynlab::inline platform

@@ -1,11 +1,13 @@
 #include "platform/text/look_alikes.h"
 
 #include <unicode/uchar.h>
+#include <unicode/unorm2.h>
 #include <unicode/uscript.h>
 #include <unicode/uspoof.h>
 
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <memory>
 #include <string_view>
 
@@ -13,6 +15,14 @@
 
 namespace dynlab::inline platform {
 namespace {
+
+/// By radical from U+2E80 to U+2EF3: the ideograph (Unicode's property Equivalent_Unified_Ideograph). Tables of fonts
+/// give radicals for ideographs.
+constexpr std::u32string_view kIdeographsOfRadicals =
+    U"⺀厂乛乚乙亻冂𠘨刀刂卜㔾小尐兀尣尢𡯂巳幺彑彐忄心扌攵⺚旡日月歺母民氵氺灬爫爬丬牛犭王𤴔目示礻𥫗糹纟罓罒㓁冗𦉫羊𦍌"
+    U"𦍋耂"
+    U"肀聿肉𦥑艹艺艻虎衤覀西见角𧢲讠贝𧾷车辶辷辸邑钅長镸长门𨸏阝雨青韦页风飞食𩙿飠饣𩠐马骨鬼鱼鸟卤麦黄黾斉齐歯齿竜龙龜"
+    U"亀龟";
 
 bool is_latin_letter(char32_t c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -43,6 +53,20 @@ char32_t letter_of_name(char32_t c) {
     return c;
 }
 
+bool is_radical(char32_t c) {
+    return c >= 0x2E80 && c <= 0x2FD5;
+}
+
+char32_t ideograph_of(char32_t radical) {
+    if (const std::size_t index = radical - 0x2E80; index < kIdeographsOfRadicals.size())
+        return kIdeographsOfRadicals[index];
+    UErrorCode status = U_ZERO_ERROR;
+    std::array<UChar, 4> decomposed{};
+    const int length = unorm2_getRawDecomposition(unorm2_getNFKCInstance(&status), static_cast<UChar32>(radical),
+                                                  decomposed.data(), static_cast<int>(decomposed.size()), &status);
+    return U_SUCCESS(status) && length == 1 ? decomposed.front() : radical;
+}
+
 const USpoofChecker* confusables() {
     static const std::unique_ptr<USpoofChecker, void (*)(USpoofChecker*)> checker = [] {
         UErrorCode status = U_ZERO_ERROR;
@@ -55,6 +79,11 @@ const USpoofChecker* confusables() {
 
 char32_t look_alike(char32_t c) {
     if (c < 0x80) return c;
+    if (is_radical(c)) return ideograph_of(c);
+    const double number = u_getNumericValue(static_cast<UChar32>(c));
+    if (u_charType(static_cast<UChar32>(c)) == U_OTHER_NUMBER && number >= 0 && number <= 9 &&
+        number == std::floor(number))
+        return U'0' + static_cast<char32_t>(number);
     if (is_enclosed(c)) return letter_of_name(c);
     if (!u_isalpha(static_cast<UChar32>(c))) return c;
     UErrorCode status = U_ZERO_ERROR;

@@ -36,8 +36,10 @@ inline constexpr std::array kStartOptions = {
         {.initial = "\"auto\"", .choices = kInitialStates, .former = "zero", .member = "initial_state"}),
     option<&FitOptions::offset>(
         "Offset",
-        about("a constant in the output: none, the operating point is removed first (\"remove\"), a "
-              "constant is estimated (\"estimate\"), or the smaller BIC of none and estimate (\"auto\")"),
+        about(
+            "a constant in the output: none, the operating point is removed first (\"remove\"), a "
+            "constant is estimated (\"estimate\"), or the smaller BIC of none and estimate (\"auto\"); where only one "
+            "of InitialState and Offset is given, the other stays \"auto\""),
         {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"})};
 
 inline constexpr OptionEntry kTolerance =

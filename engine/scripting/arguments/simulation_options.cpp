@@ -74,7 +74,7 @@ Predictions prediction_argument(const Call& call, int index, const IdData& data,
 namespace {
 
 const Vector* vector_of(const Estimate& estimate, const char* name) {
-    for (const auto& [own, values] : estimate.vectors)
+    for (const auto& [own, values] : estimate.report().vectors)
         if (own == name) return &values;
     return nullptr;
 }

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "scripting/bind/bindings.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/model.h"
 #include "scripting/runtime/text_form.h"
@@ -30,7 +31,7 @@ constexpr std::array kVectorFields = {
     Member{"arg", field<ComplexVector, [](const ComplexVector& z) { return Vector(z.cwiseArg()); }>}};
 constexpr std::array kComplexVectorOperators = {
     Member{"__len", field<ComplexVector, [](const ComplexVector& z) { return z.size(); }>},
-    Member{"__tostring", field<ComplexVector, complex_vector_text>}};
+    Member{"__tostring", localized_field<ComplexVector, complex_vector_text>}};
 
 constexpr std::array kComplexTypes = {
     TypeEntry{&Boxed<Complex>::type, kNumberFields, {}, kNumberOperators},

@@ -104,20 +104,10 @@ int drive_crane(Call& call) {
 }
 
 constexpr FunctionEntry kControlFunctions[] = {
-    {"lqr",
-     "control",
-     "lqr(A, B, Q, R) -> K, poles",
-     "designs a linear-quadratic state feedback",
-     guarded<lqr>,
-     {},
-     kRegulatorArguments},
-    {"place",
-     "control",
-     "place(A, B, poles) -> K, poles",
-     "places the poles of a system with one input",
-     guarded<place>,
-     {},
-     kPlacementArguments},
+    {"lqr", "control", "lqr(A, B, Q, R) -> K, poles", "designs a linear-quadratic state feedback", guarded<lqr>,
+     kNoOptions, kRegulatorArguments},
+    {"place", "control", "place(A, B, poles) -> K, poles", "places the poles of a system with one input",
+     guarded<place>, kNoOptions, kPlacementArguments},
     {"drive_crane", "control", "drive_crane(controller, {options}) -> table",
      "tries a controller on the course's simulated crane", guarded<drive_crane>, kCraneTables, kCraneArguments},
 };

@@ -2,6 +2,7 @@
 
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/conversions/numeric_operators.h"
 #include "scripting/runtime/text_form.h"
@@ -62,7 +63,7 @@ int matrix_columns(Call& call) {
     return call.give_integer(matrix_self(call).columns);
 }
 int matrix_tostring(Call& call) {
-    return call.give(matrix_text(matrix_self(call).matrix()));
+    return call.give(matrix_text(matrix_self(call).matrix(), reader_of(call)));
 }
 int matrix_equal(Call& call) {
     NumericBlock *a = to_matrix(call.state(), 1), *b = to_matrix(call.state(), 2);

@@ -99,8 +99,7 @@ int field_history(Call& call) {
 
 double noise_variance_of(const Model& model) {
     const Estimate& estimate = estimate_in(model);
-    for (const auto& [name, value] : estimate.numbers)
-        if (name == "noise_variance") return value;
+    if (const std::optional<double> variance = estimate.report().number("noise_variance")) return *variance;
     throw InvalidArgument("{} tells no variance of the noise", estimate.method);
 }
 
@@ -173,8 +172,8 @@ constexpr std::array kModelTypeFields = {
     Member{"IODelay", field<Model, [](const Model& model) { return only_channel(model).delay(); }>},
     Member{"Ts", field<Model, [](const Model& model) { return model.G.Ts(); }>},
     Member{"param", field<Model, [](const Model& model) { return parameters_of(model).values; }>},
-    Member{"std", field<Model, [](const Model& model) { return estimate_in(model).std; }>},
-    Member{"covariance", field<Model, [](const Model& model) { return estimate_in(model).covariance; }>},
+    Member{"std", field<Model, [](const Model& model) { return estimate_in(model).std(); }>},
+    Member{"covariance", field<Model, [](const Model& model) { return estimate_in(model).covariance(); }>},
     Member{"noise_variance", field<Model, noise_variance_of>},
     Member{"robust_std", field<Model, [](const Model& model) { return assessment_of(model)->std; }>},
     Member{"robust_covariance", field<Model, [](const Model& model) { return assessment_of(model)->covariance; }>},
@@ -210,16 +209,17 @@ constexpr std::array kModelTypeOperators = {
     Member{"__tostring", localized_field<Model, channels_text>},
 };
 
-std::string system_text(const StateSpace& s) {
-    return fmt::format("A =\n{}\nB =\n{}\nC =\n{}\nD =\n{}{}", matrix_text(s.A), matrix_text(s.B), matrix_text(s.C),
-                       matrix_text(s.D), s.Ts > 0 ? fmt::format("\nTs = {} s", number_text(s.Ts)) : "");
+std::string system_text(const StateSpace& s, const Reader& reader) {
+    const auto text = [&](const Matrix& matrix) { return matrix_text(matrix, reader); };
+    return fmt::format("A =\n{}\nB =\n{}\nC =\n{}\nD =\n{}{}", text(s.A), text(s.B), text(s.C), text(s.D),
+                       s.Ts > 0 ? fmt::format("\nTs = {} s", number_text(s.Ts)) : "");
 }
 
 constexpr std::array kSystemFields = {
     Member{"A", field<StateSpace, &StateSpace::A>}, Member{"B", field<StateSpace, &StateSpace::B>},
     Member{"C", field<StateSpace, &StateSpace::C>}, Member{"D", field<StateSpace, &StateSpace::D>},
     Member{"Ts", field<StateSpace, &StateSpace::Ts>}};
-constexpr std::array kSystemOperators = {Member{"__tostring", field<StateSpace, system_text>}};
+constexpr std::array kSystemOperators = {Member{"__tostring", localized_field<StateSpace, system_text>}};
 
 Message free_structure_text(const ProcessStructure& structure) {
     return Message("{} with the free parameters {}: procsrivc(data, ...) estimates them", structure.text(),

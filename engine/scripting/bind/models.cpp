@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "numerics/models/convert.h"
 #include "numerics/simulation/stability_margins.h"
@@ -7,6 +8,7 @@
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/localized.h"
 #include "scripting/conversions/numeric.h"
+#include "scripting/conversions/table_fields.h"
 #include "scripting/objects/grey_object.h"
 #include "scripting/objects/model.h"
 #include "scripting/objects/present.h"
@@ -229,27 +231,11 @@ int to_continuous(Call& call) {
     return give_model(call, d2c(model_argument(call, 1, "G").G, method_argument(call, 2)));
 }
 
-int poles(Call& call) {
+/// kGet of the transfer function, the only argument.
+template <auto kGet>
+int of_model(Call& call) {
     call.at_most(1);
-    push_object(call.state(), model_argument(call, 1, "G").G.poles());
-    return 1;
-}
-int zeros_of(Call& call) {
-    call.at_most(1);
-    push_object(call.state(), model_argument(call, 1, "G").G.zeros());
-    return 1;
-}
-int dc_gain(Call& call) {
-    call.at_most(1);
-    return call.give(model_argument(call, 1, "G").G.dc_gain());
-}
-int bandwidth_of(Call& call) {
-    call.at_most(1);
-    return call.give(bandwidth(model_argument(call, 1, "G").G));
-}
-int stable(Call& call) {
-    call.at_most(1);
-    return call.give(model_argument(call, 1, "G").G.stable());
+    return give_value(call, std::invoke(kGet, model_argument(call, 1, "G").G));
 }
 
 /// gain margin, phase margin (degrees), their frequencies (rad/s), delay margin (s)
@@ -301,79 +287,33 @@ constexpr FunctionEntry kModelsFunctions[] = {
      kIdprocArguments},
     {"ss", "models", "ss(A, B, C, D, {options}) -> system; ss(G)", "a state-space model", guarded<make_ss>, kSsTables,
      kSsArguments},
-    {"series", "models", "series(G1, G2) -> G", "one behind the other", guarded<connect_series>, {}, kSeriesArguments},
-    {"parallel",
-     "models",
-     "parallel(G1, G2) -> G",
-     "side by side, outputs added",
-     guarded<connect_parallel>,
-     {},
-     kParallelArguments},
-    {"feedback",
-     "models",
-     "feedback(forward, backward, sign) -> G",
-     "a closed loop, negative feedback unless sign is 1",
-     guarded<connect_feedback>,
-     {},
-     kFeedbackArguments},
-    {"pade",
-     "models",
-     "pade(G, n) -> G",
-     "the delay replaced by an approximation of n poles",
-     guarded<replace_delay>,
-     {},
-     kPadeArguments},
-    {"c2d",
-     "models",
-     "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
-     "discrete-time equal of a continuous-time model",
-     guarded<to_discrete>,
-     {},
-     kDiscreteArguments},
-    {"d2c",
-     "models",
-     "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G",
-     "continuous-time equal of a discrete-time model",
-     guarded<to_continuous>,
-     {},
-     kContinuousArguments},
-    {"pole", "models", "pole(G) -> complex vector", "poles", guarded<poles>, {}, kModelAlone},
-    {"zero", "models", "zero(G) -> complex vector", "zeros", guarded<zeros_of>, {}, kModelAlone},
-    {"dcgain", "models", "dcgain(G) -> K", "steady-state gain", guarded<dc_gain>, {}, kModelAlone},
-    {"damp",
-     "models",
-     "damp(G) -> wn, zeta, T",
-     "natural frequency, damping ratio and time constant of every pole",
-     guarded<damp>,
-     {},
+    {"series", "models", "series(G1, G2) -> G", "one behind the other", guarded<connect_series>, kNoOptions,
+     kSeriesArguments},
+    {"parallel", "models", "parallel(G1, G2) -> G", "side by side, outputs added", guarded<connect_parallel>,
+     kNoOptions, kParallelArguments},
+    {"feedback", "models", "feedback(forward, backward, sign) -> G",
+     "a closed loop, negative feedback unless sign is 1", guarded<connect_feedback>, kNoOptions, kFeedbackArguments},
+    {"pade", "models", "pade(G, n) -> G", "the delay replaced by an approximation of n poles", guarded<replace_delay>,
+     kNoOptions, kPadeArguments},
+    {"c2d", "models", "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
+     "discrete-time equal of a continuous-time model", guarded<to_discrete>, kNoOptions, kDiscreteArguments},
+    {"d2c", "models", "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G", "continuous-time equal of a discrete-time model",
+     guarded<to_continuous>, kNoOptions, kContinuousArguments},
+    {"pole", "models", "pole(G) -> complex vector", "poles", guarded<of_model<&TransferFunction::poles>>, kNoOptions,
      kModelAlone},
-    {"bandwidth",
-     "models",
-     "bandwidth(G) -> w",
-     "frequency (rad/s) at which the gain is 3 dB below its dc value",
-     guarded<bandwidth_of>,
-     {},
+    {"zero", "models", "zero(G) -> complex vector", "zeros", guarded<of_model<&TransferFunction::zeros>>, kNoOptions,
      kModelAlone},
-    {"stable",
-     "models",
-     "stable(G) -> true or false",
-     "whether all poles are stable",
-     guarded<stable>,
-     {},
-     kModelAlone},
-    {"margin",
-     "models",
-     "margin(G) -> Gm, Pm, Wcg, Wcp, Dm",
-     "gain, phase and delay margin of the loop that G closes",
-     guarded<margins>,
-     {},
-     kLoopArguments},
-    {"present",
-     "models",
-     "present(G, ...)",
-     "prints all that is known of models",
-     guarded<present>,
-     {},
+    {"dcgain", "models", "dcgain(G) -> K", "steady-state gain", guarded<of_model<&TransferFunction::dc_gain>>,
+     kNoOptions, kModelAlone},
+    {"damp", "models", "damp(G) -> wn, zeta, T", "natural frequency, damping ratio and time constant of every pole",
+     guarded<damp>, kNoOptions, kModelAlone},
+    {"bandwidth", "models", "bandwidth(G) -> w", "frequency (rad/s) at which the gain is 3 dB below its dc value",
+     guarded<of_model<bandwidth>>, kNoOptions, kModelAlone},
+    {"stable", "models", "stable(G) -> true or false", "whether all poles are stable",
+     guarded<of_model<&TransferFunction::stable>>, kNoOptions, kModelAlone},
+    {"margin", "models", "margin(G) -> Gm, Pm, Wcg, Wcp, Dm", "gain, phase and delay margin of the loop that G closes",
+     guarded<margins>, kNoOptions, kLoopArguments},
+    {"present", "models", "present(G, ...)", "prints all that is known of models", guarded<present>, kNoOptions,
      kPresentArguments},
 };
 

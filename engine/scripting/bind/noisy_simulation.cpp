@@ -104,8 +104,9 @@ double own_noise_std(const Model* model) {
         throw InvalidArgument(
             "{} knows the error of its equation, which is no noise of the output: give the option snr, in dB",
             model->estimate->method);
-    for (const auto& [name, value] : model->estimate->numbers)
-        if (name == "noise_variance" && value >= 0) return std::sqrt(value);
+    if (const std::optional<double> variance = model->estimate->report().number("noise_variance");
+        variance && *variance >= 0)
+        return std::sqrt(*variance);
     throw InvalidArgument("{} tells no variance of the noise: give the option snr, in dB", model->estimate->method);
 }
 
@@ -170,7 +171,7 @@ SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold h
                               input.u.cols());
     if (const auto uncertain = uncertain_model(model))
         return simulation_spread(*uncertain, input.u.col(0), input.Ts, hold, runs, random);
-    if (model.estimate && model.outputs == 1 && model.estimate->covariance.size() > 0) {
+    if (model.estimate && model.outputs == 1 && model.estimate->covariance().size() > 0) {
         const Matrix covariance = model.estimate->trusted_covariance();
         if (model.polynomial) return simulation_spread(*model.polynomial, covariance, input.u, runs, random);
         if (const auto structure = structure_of_estimate(model))
@@ -229,13 +230,8 @@ constexpr FunctionEntry kNoisySimulationFunctions[] = {
     {"simsd", "simulation", "simsd(G, u, Ts, {options}) -> fig, table; simsd(G, data, {...})",
      "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>, kSpreadTables,
      kSpreadArguments},
-    {"bode_values",
-     "simulation",
-     "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
-     "the numbers of bode with their standard deviations",
-     guarded<frequency_values>,
-     {},
-     kValuesArguments},
+    {"bode_values", "simulation", "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
+     "the numbers of bode with their standard deviations", guarded<frequency_values>, kNoOptions, kValuesArguments},
 };
 
 }  // namespace

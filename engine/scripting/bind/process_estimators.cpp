@@ -45,8 +45,8 @@ int read_step_response(Call& call) {
     estimate.theta = result->parameters;
     estimate.message = result->message;
     for (const ReadingPoint& point : result->points) {
-        estimate.numbers.emplace_back(point.name + " time", point.time);
-        estimate.numbers.emplace_back(point.name + " value", point.value);
+        estimate.fields.edit().numbers.emplace_back(point.name + " time", point.time);
+        estimate.fields.edit().numbers.emplace_back(point.name + " value", point.value);
     }
     estimate.step_test = result;
     push_object(call.state(), Model{result->model, {}, std::make_shared<Estimate>(std::move(estimate))});

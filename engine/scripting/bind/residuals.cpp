@@ -79,7 +79,7 @@ ModelDoubts doubts_of(const Call& call, int index) {
     if (model == nullptr || !model->estimate) return {};
     const Estimate& estimate = *model->estimate;
     const std::optional<MissedStructure> missed = estimate.diagnostics.missed();
-    return {undetermined_parameters(estimate.names, estimate.theta, estimate.std),
+    return {undetermined_parameters(estimate.names, estimate.theta, estimate.std()),
             missed ? sentence_of(*missed) : Message()};
 }
 

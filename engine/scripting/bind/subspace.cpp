@@ -30,9 +30,9 @@ constexpr std::array kSubspaceArguments = {
 
 Estimate estimate_of_subspace(const SubspaceFit& result) {
     Estimate estimate = basic_estimate("n4sid", result.fit);
-    estimate.numbers.emplace_back("block_rows", result.block_rows);
-    estimate.vectors.emplace_back("singular_values", result.singular_values);
-    estimate.matrices = {{"initial_states", result.initial_states}};
+    estimate.fields.edit().numbers.emplace_back("block_rows", result.block_rows);
+    estimate.fields.edit().vectors.emplace_back("singular_values", result.singular_values);
+    estimate.fields.edit().matrices = {{"initial_states", result.initial_states}};
     return estimate;
 }
 

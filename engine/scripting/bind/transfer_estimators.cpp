@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "base/catalog.h"
@@ -49,9 +50,14 @@ constexpr std::array kRefinedArguments = {
               "for each channel, those of output 1 first")}};
 constexpr std::array kTransferFunctionArguments = {kDataArgument, kPoleCount, kZeroCount};
 
-/// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta. Their standard errors know the filters' colour.
-template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
-Estimation read_filtered(const Call& call) {
+/// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta.
+struct FilteredCall {
+    StructureMaker structure;
+    SvfOptions options;
+};
+
+template <bool kMomentFunctionals>
+FilteredCall filtered_call(const Call& call) {
     call.at_most(4);
     const auto orders = order_lists(call, 2, kCarxOrders);
     if (orders[0].size() != 1)
@@ -61,20 +67,41 @@ Estimation read_filtered(const Call& call) {
     wanted.lambda = call.number(3, "lambda");
     if constexpr (kMomentFunctionals) wanted.beta = wanted.lambda;
     options.read(wanted);
-    return
-        [structure = structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted](const IdData& data) {
-            Fit fit = kMethod(data, structure(data), wanted);
-            colour_covariance(fit, data, wanted, kInstruments);
-            return fit;
-        };
+    return {structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted};
 }
 
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
+Estimation read_filtered(const Call& call) {
+    return [wanted = filtered_call<kMomentFunctionals>(call)](const IdData& data) {
+        Fit fit = kMethod(data, wanted.structure(data), wanted.options);
+        colour_covariance(fit, data, wanted.options, kInstruments);
+        return fit;
+    };
+}
+
+/// The simulation and standard errors that know the filters' colour take ten times as long as the estimate: they wait
+/// until they are read, unless one of them has a warning.
+template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
 int estimate_filtered(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    Fit result = read_filtered<kMethod, kInstruments, kMomentFunctionals>(call)(data);
-    measure_simulation(result, data);
-    return give_fit(call, call.function_name(), result, FitForm::kEquationError);
+    const FilteredCall wanted = filtered_call<kMomentFunctionals>(call);
+    Fit found = kMethod(data, wanted.structure(data), wanted.options);
+    if (data.sample_count() > kMostColoured) colour_covariance(found, data, wanted.options, kInstruments);
+    if (!std::ranges::all_of(found.models, &TransferFunction::stable)) measure_simulation(found, data);
+    const auto fit = std::make_shared<const Fit>(std::move(found));
+    const auto shared = shared_object<IdData>(call.state(), 1);
+    const auto measured = [fit, shared] {
+        Fit copy = *fit;
+        if (copy.fit_percent.size() == 0) measure_simulation(copy, *shared);
+        return copy;
+    };
+    const auto with_errors = [fit, shared, options = wanted.options] {
+        Fit copy = *fit;
+        if (shared->sample_count() <= kMostColoured) colour_covariance(copy, *shared, options, kInstruments);
+        return copy;
+    };
+    return give_deferring(
+        call, deferred_estimate(call.function_name(), *fit, FitForm::kEquationError, measured, with_errors), *fit);
 }
 
 template <auto kMethod>

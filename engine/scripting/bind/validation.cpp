@@ -129,7 +129,7 @@ void check_one_output(Index outputs) {
 MeasuredModel measured_model(const Call& call, int index) {
     if (const SimulatedModel* simulated = simulated_model(call, index)) {
         check_one_output(simulated->run->output_count());
-        return {simulated->estimate->theta.size(), simulated->estimate->theta, simulated->estimate->covariance};
+        return {simulated->estimate->theta.size(), simulated->estimate->theta, simulated->estimate->covariance()};
     }
     if (const GreyEstimate grey = to_grey_box(call, index)) {
         check_one_output(grey->fit.fit_percent.size());
@@ -141,7 +141,7 @@ MeasuredModel measured_model(const Call& call, int index) {
     const Model model = model_argument(call, index, "G");
     const Index count = parameters_of(model).values.size();
     if (!model.estimate) return {count, {}, {}};
-    return {count, model.estimate->theta, model.estimate->covariance};
+    return {count, model.estimate->theta, model.estimate->covariance()};
 }
 
 int measure_fit(Call& call) {

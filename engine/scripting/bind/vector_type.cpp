@@ -76,7 +76,7 @@ int vector_length(Call& call) {
     return call.give_integer(vector_self(call).rows);
 }
 int vector_tostring(Call& call) {
-    return call.give(vector_text(vector_self(call).vector()));
+    return call.give(vector_text(vector_self(call).vector(), reader_of(call)));
 }
 
 int vector_range(Call& call) {

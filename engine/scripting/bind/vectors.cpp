@@ -77,14 +77,10 @@ Eigen::Map<Vector> room(Call& call, int first) {
     return block.vector();
 }
 
-int zeros(Call& call) {
+template <int kValue>
+int constant(Call& call) {
     call.at_most(2);
-    room(call, 1).setZero();
-    return 1;
-}
-int ones(Call& call) {
-    call.at_most(2);
-    room(call, 1).setOnes();
+    room(call, 1).setConstant(kValue);
     return 1;
 }
 int eye(Call& call) {
@@ -93,22 +89,22 @@ int eye(Call& call) {
     push_matrix(call.state(), n, n).matrix().setIdentity();
     return 1;
 }
-int linspace(Call& call) {
+/// Pushes values with equal steps.
+Eigen::Map<Vector> spaced(Call& call, Index usual_count) {
     call.at_most(3);
     const double first = call.number(1, "first"), last = call.number(2, "last");
     if (!std::isfinite(first) || !std::isfinite(last)) throw InvalidArgument("first and last must be finite numbers");
-    const Index count = call.given(3) ? call.size(3, "n") : 100;
-    push_vector(call.state(), count).vector() = Vector::LinSpaced(count, first, last);
+    const Index count = call.given(3) ? call.size(3, "n") : usual_count;
+    Eigen::Map<Vector> values = push_vector(call.state(), count).vector();
+    values = Vector::LinSpaced(count, first, last);
+    return values;
+}
+int linspace(Call& call) {
+    spaced(call, 100);
     return 1;
 }
-
 int logspace(Call& call) {
-    call.at_most(3);
-    const double first = call.number(1, "first"), last = call.number(2, "last");
-    if (!std::isfinite(first) || !std::isfinite(last)) throw InvalidArgument("first and last must be finite numbers");
-    const Index count = call.given(3) ? call.size(3, "n") : 50;
-    push_vector(call.state(), count).vector() =
-        Vector::LinSpaced(count, first, last).unaryExpr([](double x) { return std::pow(10, x); });
+    for (double& x : spaced(call, 50)) x = std::pow(10, x);
     return 1;
 }
 
@@ -196,9 +192,9 @@ constexpr FunctionEntry kVectorsFunctions[] = {
     {"matrix", "vectors", "matrix{{...}, {...}} or matrix{v1, v2} -> A",
      "a matrix from its rows (tables) or its columns (vectors)", guarded<make_matrix>, kNoOptions,
      kMakeMatrixArguments},
-    {"zeros", "vectors", "zeros(n, m) -> v", "n zeros, or an n x m matrix of zeros", guarded<zeros>, kNoOptions,
+    {"zeros", "vectors", "zeros(n, m) -> v", "n zeros, or an n x m matrix of zeros", guarded<constant<0>>, kNoOptions,
      kZerosArguments},
-    {"ones", "vectors", "ones(n, m) -> v", "n ones, or an n x m matrix of ones", guarded<ones>, kNoOptions,
+    {"ones", "vectors", "ones(n, m) -> v", "n ones, or an n x m matrix of ones", guarded<constant<1>>, kNoOptions,
      kZerosArguments},
     {"eye", "vectors", "eye(n) -> A", "the n x n identity matrix", guarded<eye>, kNoOptions, kEyeArguments},
     {"linspace", "vectors", "linspace(first, last, n) -> v", "n equally spaced values from first to last",

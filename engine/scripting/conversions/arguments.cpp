@@ -241,14 +241,6 @@ Options::Options(const Call& call, int index, OptionTables known)
         for (const OptionEntry& option : table) check_bounds(option);
 }
 
-Options::Options(const Call& call, int index, std::initializer_list<const char*> known)
-    : call_(call), index_(lua_absindex(call.state(), index)) {
-    if (lua_isnoneornil(call.state(), index_))
-        index_ = 0;
-    else
-        check_names({known.begin(), known.end()});
-}
-
 void Options::check_names(const std::vector<std::string>& known) const {
     lua_State* L = call_.state();
     if (lua_type(L, index_) != LUA_TTABLE) {

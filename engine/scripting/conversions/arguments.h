@@ -94,7 +94,6 @@ class Options {
     /// An absent table stands for all defaults. `index` may be any stack index. Numbers are held to the bounds that
     /// their entries state.
     Options(const Call& call, int index, OptionTables known);
-    Options(const Call& call, int index, std::initializer_list<const char*> known);
 
     /// Sets the members of a struct that have an option which is given (conversions/option_member.h).
     template <class T>

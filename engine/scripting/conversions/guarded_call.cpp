@@ -100,7 +100,7 @@ int run_guarded(lua_State* L, Binding body) {
     } catch (const std::bad_alloc&) {
         message = Message("there is not enough memory for this");
     } catch (const std::exception& error) {
-        message = with_script_options(message_of(error));
+        message = with_script_options(message_of(error), {nullptr, context_of(L).option_name});
     }
     if (message.empty()) {
         poll_stop(L);  // of a limit, where it was one

@@ -1,12 +1,11 @@
 #include "scripting/conversions/localized.h"
 
 #include "base/languages.h"
-#include "scripting/conversions/option_words.h"
 
 namespace dynlab::inline scripting {
 
 Reader reader_of(const Call& call) {
-    return {catalog_of(call.context().services.language_code()), option_name};
+    return {catalog_of(call.context().services.language_code()), call.context().option_name};
 }
 
 std::string localized(const Call& call, const Message& message) {

@@ -1,20 +1,14 @@
 #pragma once
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/message.h"
+#include "base/reader.h"
 
 namespace dynlab::inline scripting {
 
-/// The name that scripts have for an option of numerics, MaxIter for max_iterations; in backticks what is none. For
-/// Reader::option_name.
-std::string option_name(std::string_view member);
-/// The message with these names in the place of its OptionName arguments, so that every reader sees them.
-Message with_script_options(const Message& message);
-
-/// The names of numerics' options that have one in scripts.
-std::vector<std::string> translated_options();
+/// The message with the reader's names of options in the place of its OptionName arguments, for every later reader.
+Message with_script_options(const Message& message, const Reader& reader);
 
 /// About an option that is none of these.
 Message unknown_option(const std::string& name, const std::vector<std::string>& known);

@@ -1,10 +1,28 @@
 #include "scripting/interpreter/catalogue.h"
 
+#include <map>
+
 #include "scripting/bind/bindings.h"
 #include "scripting/objects/simulated_model.h"
 #include "scripting/objects/traced_value.h"
 
 namespace dynlab::inline scripting {
+namespace {
+
+/// Of the options that are members of structs of numerics: by the member.
+const std::map<std::string_view, const char*>& names_by_member() {
+    static const std::map<std::string_view, const char*> names = [] {
+        std::map<std::string_view, const char*> made;
+        for (const FunctionEntry& function : catalogue_of_functions())
+            for (const OptionTable table : function.options)
+                for (const OptionEntry& option : table)
+                    if (*option.facts.member != '\0') made.emplace(option.facts.member, option.name);
+        return made;
+    }();
+    return names;
+}
+
+}  // namespace
 
 const std::vector<FunctionEntry>& catalogue_of_functions() {
     static const std::vector<FunctionEntry> catalogue = [] {
@@ -40,6 +58,17 @@ const FunctionEntry* find_function(const std::string& name) {
     for (const FunctionEntry& entry : catalogue_of_functions())
         if (name == entry.name) return &entry;
     return nullptr;
+}
+
+std::string option_name(std::string_view member) {
+    const auto found = names_by_member().find(member);
+    return found == names_by_member().end() ? "`" + std::string(member) + "`" : found->second;
+}
+
+std::vector<std::string> translated_options() {
+    std::vector<std::string> members;
+    for (const auto& [member, name] : names_by_member()) members.emplace_back(member);
+    return members;
 }
 
 const std::vector<TypeEntry>& catalogue_of_types() {

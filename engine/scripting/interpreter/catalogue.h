@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "scripting/runtime/function_entry.h"
@@ -11,6 +13,12 @@ namespace dynlab::inline scripting {
 const std::vector<FunctionEntry>& catalogue_of_functions();
 /// The row of the catalogue; nullptr for other names.
 const FunctionEntry* find_function(const std::string& name);
+
+/// The name that scripts have for an option of numerics, MaxIter for max_iterations; in backticks what is none. For
+/// Reader::option_name.
+std::string option_name(std::string_view member);
+/// The names of numerics' options that have one in scripts.
+std::vector<std::string> translated_options();
 
 /// Every kind of object that scripts can hold.
 const std::vector<TypeEntry>& catalogue_of_types();

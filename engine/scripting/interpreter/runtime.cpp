@@ -146,6 +146,7 @@ Runtime::Runtime(RunOptions options, GnuplotRenderer& renderer)
     call_protected(L, open_library);
     for (const TypeEntry& entry : catalogue_of_types()) context_->types.emplace(entry.type, &entry);
     context_->shown_calls = &shown_calls();
+    context_->option_name = option_name;
     add_functions(catalogue_of_functions(), nullptr);
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/languages.h"
 #include "base/reader.h"
+#include "documents/script_header.h"
 #include "scripting/interpreter/catalogue.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/lint.h"
@@ -123,6 +125,7 @@ json LanguageServer::result_of(const std::string& method, const json& parameters
 
 json LanguageServer::diagnostics_of(const std::string& uri) const {
     const std::string& text = texts_.at(uri);
+    const Reader reader{catalog_of(language_of_script(text)), &option_name};
     json all = json::array();
     for (const LintFinding& found : lint_script(text, uri)) {
         const std::string line = line_of(text, found.line);
@@ -136,7 +139,7 @@ json LanguageServer::diagnostics_of(const std::string& uri) const {
                        {"severity", found.kind == "unused-answer" ? kWarning : kError},
                        {"source", "dynlab"},
                        {"code", found.kind},
-                       {"message", message_text(found.message)}});
+                       {"message", message_text(found.message, reader)}});
     }
     return {{"jsonrpc", "2.0"},
             {"method", "textDocument/publishDiagnostics"},

@@ -75,8 +75,7 @@ class Linter {
         try {
             header_ = parse_percent_script(source_, file_).header;
         } catch (const DocumentError& error) {
-            const LocatedMessage told = take_apart(error.what());
-            add(offset_of_line(std::max(told.line, 1)), "header", Message::verbatim(told.text));
+            add(offset_of_line(std::max(error.place().line, 1)), "header", error.sentence());
         }
     }
 

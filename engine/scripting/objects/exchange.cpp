@@ -49,13 +49,11 @@ void add_polynomials(const Model& model, const TransferFunction& G, VariableTabl
 void add_estimate(const Estimate& estimate, VariableTable& fields) {
     fields["method"] = {estimate.method};
     fields["param"] = {estimate.theta};
-    if (estimate.std.size() > 0) fields["std"] = {estimate.std};
-    if (estimate.covariance.size() > 0) fields["covariance"] = {estimate.covariance};
+    if (estimate.std().size() > 0) fields["std"] = {estimate.std()};
+    if (estimate.covariance().size() > 0) fields["covariance"] = {estimate.covariance()};
     fields["names"] = list_of_texts(estimate.names);
-    for (const auto& [name, value] : estimate.numbers) {
-        if (name == "noise_variance") fields["NoiseVariance"] = {value};
-        if (name == "fit_percent") fields["fit_percent"] = {value};
-    }
+    for (const auto& [name, field] : {std::pair("noise_variance", "NoiseVariance"), {"fit_percent", "fit_percent"}})
+        if (const std::optional<double> value = estimate.report().number(name)) fields[field] = {*value};
 }
 
 Variable signals(const Matrix& columns) {

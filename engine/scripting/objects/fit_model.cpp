@@ -11,7 +11,7 @@ Vector initial_values_of(const Fit& fit) {
     return fit.initial_values.empty() ? Vector() : fit.initial_values.front();
 }
 
-void add_transfer_fields(Estimate& estimate, const Fit& fit) {
+void add_transfer_fields(ReportFields& fields, const Fit& fit) {
     const auto passes = static_cast<Index>(fit.trace.size());
     Vector changes(passes);
     Matrix path(passes, fit.theta.size());
@@ -20,40 +20,39 @@ void add_transfer_fields(Estimate& estimate, const Fit& fit) {
         changes[i] = iteration.change;
         path.row(i) = iteration.theta.transpose();
     }
-    estimate.vectors = {{"fits", fit.fit_percent},       {"delay_grid", fit.delay_grid},
-                        {"delay_loss", fit.delay_loss},  {"initial_values", initial_values_of(fit)},
-                        {"offsets", fit.offsets.col(0)}, {"changes", changes}};
-    estimate.matrices = {{"path", path}};
+    fields.vectors = {{"fits", fit.fit_percent},       {"delay_grid", fit.delay_grid},
+                      {"delay_loss", fit.delay_loss},  {"initial_values", initial_values_of(fit)},
+                      {"offsets", fit.offsets.col(0)}, {"changes", changes}};
+    fields.matrices = {{"path", path}};
 }
 
-void add_noise_fields(Estimate& estimate, const Fit& fit) {
-    estimate.noise = std::make_shared<NoiseModel>(*fit.noise);
-    estimate.numbers.emplace_back("Ts", fit.noise->Ts);
-    estimate.vectors.insert(estimate.vectors.end(), {{"C_std", fit.noise->C_std}, {"D_std", fit.noise->D_std}});
-    estimate.matrices.emplace_back("noise_covariance", fit.noise_covariance);
+void add_noise_fields(ReportFields& fields, const Fit& fit) {
+    fields.numbers.emplace_back("Ts", fit.noise->Ts);
+    fields.vectors.insert(fields.vectors.end(), {{"C_std", fit.noise->C_std}, {"D_std", fit.noise->D_std}});
+    fields.matrices.emplace_back("noise_covariance", fit.noise_covariance);
 }
 
-void add_process_fields(Estimate& estimate, const Fit& fit) {
-    estimate.numbers.emplace_back("offset", fit.offsets(0, 0));
-    estimate.vectors = {{"output", fit.output},
-                        {"initial_values", initial_values_of(fit)},
-                        {"offsets", fit.offsets.col(0)},
-                        {"delay_grid", fit.delay_grid},
-                        {"delay_loss", fit.delay_loss}};
+void add_process_fields(ReportFields& fields, const Fit& fit) {
+    fields.numbers.emplace_back("offset", fit.offsets(0, 0));
+    fields.vectors = {{"output", fit.output},
+                      {"initial_values", initial_values_of(fit)},
+                      {"offsets", fit.offsets.col(0)},
+                      {"delay_grid", fit.delay_grid},
+                      {"delay_loss", fit.delay_loss}};
 }
 
-void add_polynomial_fields(Estimate& estimate, const Fit& fit) {
-    estimate.numbers.emplace_back("prediction_fit_percent", fit.prediction_fit_percent);
+void add_polynomial_fields(ReportFields& fields, const Fit& fit) {
+    fields.numbers.emplace_back("prediction_fit_percent", fit.prediction_fit_percent);
     Vector losses(static_cast<Index>(fit.trace.size()));
     for (Index i = 0; i < losses.size(); ++i) losses[i] = fit.trace[static_cast<std::size_t>(i)].loss;
-    estimate.vectors = {{"offsets", fit.offsets.col(0)}, {"losses", losses}};
+    fields.vectors = {{"offsets", fit.offsets.col(0)}, {"losses", losses}};
 }
 
-void add_characteristic_fields(Estimate& estimate, const StaticCharacteristic& characteristic) {
-    estimate.numbers.emplace_back("linear_fit_percent", characteristic.linear_fit_percent);
-    estimate.vectors = {{"breakpoints", characteristic.breakpoints},
-                        {"levels", characteristic.levels},
-                        {"levels_std", characteristic.levels_std}};
+void add_characteristic_fields(ReportFields& fields, const StaticCharacteristic& characteristic) {
+    fields.numbers.emplace_back("linear_fit_percent", characteristic.linear_fit_percent);
+    fields.vectors = {{"breakpoints", characteristic.breakpoints},
+                      {"levels", characteristic.levels},
+                      {"levels_std", characteristic.levels_std}};
 }
 
 /// Whether theta and covariance are those of the coefficients of the model: not behind a characteristic, nor next to
@@ -77,48 +76,85 @@ void push_fitted(const Call& call, Estimate estimate, const Fit& fit, int user_v
     push_object(call.state(), std::move(model), user_values);
 }
 
-}  // namespace
+ReportFields basic_fields(const Fit& fit) {
+    return {{{"fit_percent", fit.fit_percent[0]}, {"loss", fit.loss}, {"condition_number", fit.condition_number}},
+            {{"fits", fit.fit_percent}}};
+}
 
-Estimate basic_estimate(const char* method, const Fit& fit) {
+ReportFields report_fields(const Fit& fit) {
+    ReportFields fields = basic_fields(fit);
+    fields.vectors.clear();  // those of each kind of fit
+    fields.numbers.insert(fields.numbers.end(), {{"noise_variance", fit.noise_variance[0]},
+                                                 {"iterations", static_cast<double>(fit.trace.size())}});
+    if (!fit.structure.channels.empty()) add_transfer_fields(fields, fit);
+    if (fit.noise) add_noise_fields(fields, fit);
+    if (fit.process) add_process_fields(fields, fit);
+    if (fit.polynomial) add_polynomial_fields(fields, fit);
+    if (fit.characteristic) add_characteristic_fields(fields, *fit.characteristic);
+    return fields;
+}
+
+ParameterErrors errors_of(const Fit& fit) {
+    return {fit.std, fit.covariance};
+}
+
+/// All but errors and what the report says by name.
+Estimate named_estimate(const char* method, const Fit& fit) {
     Estimate estimate;
     estimate.method = method;
     estimate.names = fit.names;
     estimate.theta = fit.theta;
-    estimate.std = fit.std;
-    estimate.covariance = fit.covariance;
     estimate.message = fit.full_message();
     estimate.warnings = fit.warnings;
     estimate.converged = fit.termination == Termination::kConverged;
-    estimate.numbers = {
-        {"fit_percent", fit.fit_percent[0]}, {"loss", fit.loss}, {"condition_number", fit.condition_number}};
-    estimate.vectors = {{"fits", fit.fit_percent}};
+    return estimate;
+}
+
+/// What a fit of one kind says besides.
+void add_kind(Estimate& estimate, const Fit& fit, FitForm form) {
+    estimate.carx = form == FitForm::kEquationError;
+    estimate.of_coefficients = is_of_coefficients(fit);
+    estimate.history = fit.history;
+    if (fit.noise) estimate.noise = std::make_shared<NoiseModel>(*fit.noise);
+}
+
+}  // namespace
+
+Estimate basic_estimate(const char* method, const Fit& fit) {
+    Estimate estimate = named_estimate(method, fit);
+    estimate.errors = errors_of(fit);
+    estimate.fields = basic_fields(fit);
     return estimate;
 }
 
 void push_report(const Call& call, const Estimate& estimate) {
     give_table(call, "method", estimate.method, "message", localized(call, estimate.full_message()), "converged",
                estimate.converged);
-    for (const auto& [name, value] : estimate.numbers) set_field(call, name.c_str(), value);
-    for (const auto& [name, values] : estimate.vectors) set_field(call, name.c_str(), values);
-    for (const auto& [name, values] : estimate.matrices) set_field(call, name.c_str(), values);
+    const ReportFields& fields = estimate.report();
+    for (const auto& [name, value] : fields.numbers) set_field(call, name.c_str(), value);
+    for (const auto& [name, values] : fields.vectors) set_field(call, name.c_str(), values);
+    for (const auto& [name, values] : fields.matrices) set_field(call, name.c_str(), values);
     if (const auto assessment = estimate.diagnostics.assessment())
         set_field(call, "white", assessment->white, "residual_verdict", localized(call, assessment->verdict));
     set_field(call, "warnings", localized(call, estimate.all_warnings()));
 }
 
 Estimate estimate_of(const char* method, const Fit& fit, FitForm form) {
-    Estimate estimate = basic_estimate(method, fit);
-    estimate.carx = form == FitForm::kEquationError;
-    estimate.of_coefficients = is_of_coefficients(fit);
-    estimate.vectors.clear();  // those of each kind of fit
-    estimate.numbers.insert(estimate.numbers.end(), {{"noise_variance", fit.noise_variance[0]},
-                                                     {"iterations", static_cast<double>(fit.trace.size())}});
-    if (!fit.structure.channels.empty()) add_transfer_fields(estimate, fit);
-    estimate.history = fit.history;
-    if (fit.noise) add_noise_fields(estimate, fit);
-    if (fit.process) add_process_fields(estimate, fit);
-    if (fit.polynomial) add_polynomial_fields(estimate, fit);
-    if (fit.characteristic) add_characteristic_fields(estimate, *fit.characteristic);
+    Estimate estimate = named_estimate(method, fit);
+    estimate.errors = errors_of(fit);
+    add_kind(estimate, fit, form);
+    estimate.fields = report_fields(fit);
+    return estimate;
+}
+
+Estimate deferred_estimate(const char* method, const Fit& fit, FitForm form, std::function<Fit()> measured,
+                           std::function<Fit()> with_errors) {
+    Estimate estimate = named_estimate(method, fit);
+    add_kind(estimate, fit, form);
+    estimate.fields =
+        Deferred<ReportFields>::later([measured = std::move(measured)] { return report_fields(measured()); });
+    estimate.errors =
+        Deferred<ParameterErrors>::later([with_errors = std::move(with_errors)] { return errors_of(with_errors()); });
     return estimate;
 }
 
@@ -129,6 +165,10 @@ int give_fit(const Call& call, const char* method, const Fit& fit, FitForm form)
 int give_diagnosed_fit(const Call& call, const char* method, const Fit& fit, const FitOptions& options) {
     Estimate estimate = estimate_of(method, fit);
     estimate.diagnostics = DeferredDiagnostics(fit, shared_object<IdData>(call.state(), 1), options);
+    return give_deferring(call, std::move(estimate), fit);
+}
+
+int give_deferring(const Call& call, Estimate estimate, const Fit& fit) {
     push_fitted(call, std::move(estimate), fit, 1);
     lua_pushvalue(call.state(), 1);  // the data are charged to Lua's memory as long as the model refers to them
     lua_setiuservalue(call.state(), -2, 1);

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {
@@ -14,12 +16,17 @@ enum class FitForm { kOutputError, kEquationError };
 
 /// What a script can ask of a fit. `method` is the Lua name.
 Estimate estimate_of(const char* method, const Fit& fit, FitForm form = FitForm::kOutputError);
+/// The same where each is computed when it is read: the fit with its simulation measured, and with standard errors.
+Estimate deferred_estimate(const char* method, const Fit& fit, FitForm form, std::function<Fit()> measured,
+                           std::function<Fit()> with_errors);
 
 /// Pushes the fitted model with all its channels.
 int give_fit(const Call& call, const char* method, const Fit& fit, FitForm form = FitForm::kOutputError);
 /// The same of an estimation from the data at argument 1 by these options, whose diagnostics (fit/diagnostics.h) are
 /// computed when the script reads them.
 int give_diagnosed_fit(const Call& call, const char* method, const Fit& fit, const FitOptions& options);
+/// The same of an estimate that computes something from the data at argument 1 when it is read.
+int give_deferring(const Call& call, Estimate estimate, const Fit& fit);
 /// The same with what a method says besides.
 int give_estimate(const Call& call, Estimate estimate, const Fit& fit);
 /// The same of a fit with states, which has no theta.

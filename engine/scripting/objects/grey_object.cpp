@@ -14,7 +14,7 @@ std::string parameter_line(const GreyFit& grey, Index i, const Reader& reader) {
     if (grey.model.parameters[place].fixed) return line + message_text(Message("(fixed)"), reader) + "\n";
     if (grey.fit.at_bound[place]) return line + message_text(Message("(at its bound)"), reader) + "\n";
     if (!std::isfinite(grey.fit.std[i])) return line + message_text(Message("(not told by the record)"), reader) + "\n";
-    return line + fmt::format("+- {:<10} ", number(grey.fit.std[i], 3)) +
+    return line + fmt::format("± {:<10} ", number(grey.fit.std[i], 3)) +
            message_text(
                Message("95 %: {} to {}", significant(grey.intervals(i, 0), 5), significant(grey.intervals(i, 1), 5)),
                reader) +
@@ -27,7 +27,7 @@ std::string initial_lines(const GreyFit& grey, const Reader& reader) {
     for (Index k = 0; k < grey.initial_states.cols(); ++k)
         for (Index i = 0; i < grey.initial_states.rows(); ++i) {
             if (grey.initial_std(i, k) == 0) continue;
-            text += fmt::format("  {:<8} {:>12}  +- {}", grey.model.state_names[static_cast<std::size_t>(i)],
+            text += fmt::format("  {:<8} {:>12}  ± {}", grey.model.state_names[static_cast<std::size_t>(i)],
                                 number(grey.initial_states(i, k), 6), number(grey.initial_std(i, k), 3));
             if (grey.initial_states.cols() > 1) text += "  " + message_text(Message("(experiment {})", k + 1), reader);
             text += "\n";

@@ -9,7 +9,7 @@ namespace dynlab::inline scripting {
 std::size_t Boxed<Model>::outside_bytes(const Model& model) {
     std::size_t numbers = static_cast<std::size_t>(model.G.num().size() + model.G.den().size());
     if (model.estimate)
-        for (const auto& [name, values] : model.estimate->vectors) numbers += static_cast<std::size_t>(values.size());
+        if (const ReportFields* fields = model.estimate->fields.known()) numbers += fields->values();
     if (model.estimate && model.estimate->history)
         numbers += static_cast<std::size_t>(2 * model.estimate->history->theta.size());
     return numbers * sizeof(double);
@@ -20,15 +20,28 @@ std::size_t Boxed<StateSpace>::outside_bytes(const StateSpace& system) {
            static_cast<std::size_t>(system.A.size() + system.B.size() + system.C.size() + system.D.size());
 }
 
+std::optional<double> ReportFields::number(std::string_view name) const {
+    for (const auto& [own, value] : numbers)
+        if (own == name) return value;
+    return std::nullopt;
+}
+
+std::size_t ReportFields::values() const {
+    std::size_t sum = 0;
+    for (const auto& [name, values] : vectors) sum += static_cast<std::size_t>(values.size());
+    for (const auto& [name, values] : matrices) sum += static_cast<std::size_t>(values.size());
+    return sum;
+}
+
 Message Estimate::full_message() const {
-    const std::optional<MissedStructure> missed = diagnostics.missed();
+    const std::optional<MissedStructure>& missed = diagnostics.missed();
     if (!missed) return message;
     return message.empty() ? sentence_of(*missed) : sentences({message, sentence_of(*missed)});
 }
 
 std::vector<Message> Estimate::all_warnings() const {
     std::vector<Message> all = warnings;
-    if (const std::optional<MissedStructure> missed = diagnostics.missed()) all.push_back(sentence_of(*missed));
+    if (const std::optional<MissedStructure>& missed = diagnostics.missed()) all.push_back(sentence_of(*missed));
     return all;
 }
 
@@ -39,7 +52,7 @@ std::shared_ptr<const Assessment> Estimate::colour() const {
 
 Matrix Estimate::trusted_covariance() const {
     const auto coloured = colour();
-    return coloured ? coloured->covariance : covariance;
+    return coloured ? coloured->covariance : covariance();
 }
 
 bool holds_model(const Call& call, int index) {
@@ -119,7 +132,7 @@ std::optional<UncertainModel> uncertain_model(const Model& model) {
 }
 
 ModelParameters parameters_of(const Model& model) {
-    if (model.estimate && !model.system) return {model.estimate->names, model.estimate->theta, model.estimate->std};
+    if (model.estimate && !model.system) return {model.estimate->names, model.estimate->theta, model.estimate->std()};
     if (model.process) return {model.process->structure.parameter_names(), model.process->parameters, {}};
     ModelParameters result;
     const Vector &num = model.G.num(), &den = model.G.den();

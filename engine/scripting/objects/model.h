@@ -15,17 +15,31 @@
 
 namespace dynlab::inline scripting {
 
+/// Of estimated parameters, in their order; empty when the method gives none.
+struct ParameterErrors {
+    Vector std;
+    Matrix covariance;
+};
+
+/// What G.report says by name.
+struct ReportFields {
+    std::vector<std::pair<std::string, double>> numbers = {};   ///< fit_percent, noise_variance, iterations, ...
+    std::vector<std::pair<std::string, Vector>> vectors = {};   ///< output, delay_grid, delay_loss, ...
+    std::vector<std::pair<std::string, Matrix>> matrices = {};  ///< path (parameters after each iteration)
+
+    std::optional<double> number(std::string_view name) const;
+    std::size_t values() const;  ///< numbers in vectors and matrices
+};
+
 /// What an estimation method says of a model besides its coefficients.
 struct Estimate {
     std::string method;              ///< Lua name
     std::vector<std::string> names;  ///< of the parameters
-    Vector theta, std;               ///< std is empty when the method gives none
-    Matrix covariance;
-    Message message;                                            ///< how the estimation ended, with its warnings
-    std::vector<Message> warnings;                              ///< of the estimation
-    std::vector<std::pair<std::string, double>> numbers;        ///< fit_percent, noise_variance, iterations, ...
-    std::vector<std::pair<std::string, Vector>> vectors;        ///< output, delay_grid, delay_loss, ...
-    std::vector<std::pair<std::string, Matrix>> matrices = {};  ///< path (parameters after each iteration)
+    Vector theta;
+    Deferred<ParameterErrors> errors;  ///< some methods compute them when they are read
+    Message message;                   ///< how the estimation ended, with its warnings
+    std::vector<Message> warnings;     ///< of the estimation
+    Deferred<ReportFields> fields;
     bool converged = true;
     bool of_coefficients =
         true;           ///< theta and covariance are those of G's coefficients, with the delay where it is free
@@ -40,6 +54,9 @@ struct Estimate {
     std::vector<Message> all_warnings() const;
     /// The assessment of errors that are coloured; nothing for others.
     std::shared_ptr<const Assessment> colour() const;
+    const Vector& std() const { return errors.get().std; }
+    const Matrix& covariance() const { return errors.get().covariance; }
+    const ReportFields& report() const { return fields.get(); }
     /// The robust covariance when the output errors are coloured.
     Matrix trusted_covariance() const;
 };

@@ -3,10 +3,10 @@
 namespace dynlab::inline scripting {
 
 void check_value(const Estimate& estimate, const ValueLimits&) {
-    const Index d = estimate.theta.size(), known = estimate.covariance.rows();
+    const Index d = estimate.theta.size(), known = estimate.covariance().rows();
     const bool named = static_cast<Index>(estimate.names.size()) == d;
-    const bool with_errors = estimate.std.size() == d || estimate.std.size() == 0;
-    const bool with_covariance = known == estimate.covariance.cols() && (known == d || known == 0);
+    const bool with_errors = estimate.std().size() == d || estimate.std().size() == 0;
+    const bool with_covariance = known == estimate.covariance().cols() && (known == d || known == 0);
     if (!named || !with_errors || !with_covariance)
         throw InvalidArgument("its parameters, their names, standard errors and covariance differ in number");
 }

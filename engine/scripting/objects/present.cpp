@@ -90,7 +90,7 @@ std::string Presentation::pole_row(const PoleDescription& row, const ModeUncerta
         return fmt::format("  {:>{}}",
                            std::isfinite(value) ? with_error(value, own_error, digits) : text(Message("none")), width);
     };
-    return fmt::format("  {:<24}", complex_text(row.pole)) +
+    return fmt::format("  {:<24}", complex_text(row.pole, reader_)) +
            cell(row.natural_frequency, 5, &ModeUncertainty::natural_frequency_std, widths.frequency) +
            cell(row.damping_ratio, 4, &ModeUncertainty::damping_ratio_std, widths.damping) +
            cell(row.time_constant, 5, &ModeUncertainty::time_constant_std, widths.time) + "\n";
@@ -119,7 +119,7 @@ std::string Presentation::polynomial_lines(const PolynomialModel& model) const {
         text(Message("Polynomials (weights of the present sample, the one before, ...; those not shown are 1):")) +
         "\n";
     const auto add = [&](const std::string& name, const Vector& p) {
-        if (p.size() > 1 || p[0] != 1) lines += fmt::format("  {:<5} {}\n", name, vector_text(p));
+        if (p.size() > 1 || p[0] != 1) lines += fmt::format("  {:<5} {}\n", name, vector_text(p, reader_));
     };
     add("A", model.A);
     for (std::size_t i = 0; i < model.B.size(); ++i) {
@@ -162,8 +162,8 @@ std::string Presentation::channel_lines(const TransferFunction& G,
 
 std::string Presentation::estimate_lines(const Estimate& estimate) const {
     const auto number = [&estimate](std::string_view name) {
-        const auto found = std::ranges::find(estimate.numbers, name, [](const auto& one) { return one.first; });
-        return found == estimate.numbers.end() ? std::nullopt : std::optional(significant(found->second, 4));
+        const std::optional<double> found = estimate.report().number(name);
+        return found ? std::optional(significant(*found, 4)) : std::nullopt;
     };
     // The message of an estimate from a frequency response says how well it fits.
     const bool of_response = number("frequencies").has_value();

@@ -24,8 +24,9 @@ std::string equations_text(const SimulatedModel& model) {
 
 constexpr std::array kSimulatedFields = {
     Member{"param", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->theta; }>},
-    Member{"std", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->std; }>},
-    Member{"covariance", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->covariance; }>},
+    Member{"std", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->std(); }>},
+    Member{"covariance",
+           field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->covariance(); }>},
     Member{"names", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->names; }>},
     Member{"equations", field<SimulatedModel, &SimulatedModel::equations>},
     Member{"report", guarded<report_of_simulated>},
@@ -43,10 +44,8 @@ TypeEntries simulated_types() {
 
 std::size_t Boxed<SimulatedModel>::outside_bytes(const SimulatedModel& model) {
     const Estimate& estimate = *model.estimate;
-    auto numbers = static_cast<std::size_t>(estimate.theta.size() + estimate.covariance.size());
-    for (const auto& [name, values] : estimate.vectors) numbers += static_cast<std::size_t>(values.size());
-    for (const auto& [name, values] : estimate.matrices) numbers += static_cast<std::size_t>(values.size());
-    return numbers * sizeof(double);
+    const auto numbers = static_cast<std::size_t>(estimate.theta.size() + estimate.covariance().size());
+    return (numbers + estimate.report().values()) * sizeof(double);
 }
 
 const SimulatedModel* simulated_model(const Call& call, int index) {
@@ -74,7 +73,7 @@ std::string presentation(const SimulatedModel& model, const Reader& reader) {
         const auto index = static_cast<Index>(i);
         text += fmt::format("  {:<{}} {:>12}", estimate.names[i], widest,
                             number_text(significant(estimate.theta[index], 6), reader));
-        if (estimate.std.size() > index) text += "  +- " + number_text(significant(estimate.std[index], 3), reader);
+        if (estimate.std().size() > index) text += "  ± " + number_text(significant(estimate.std()[index], 3), reader);
         text += '\n';
     }
     return text + message_text(Message("Estimated by {}.", estimate.method), reader) + "\n" +

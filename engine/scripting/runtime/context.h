@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,9 +41,10 @@ struct RuntimeContext {
     MemoryAccount memory;
     RandomStream random;
     Recorder recorder;
-    std::vector<const FunctionEntry*> functions;          ///< all that scripts can call, later layers' too
-    std::map<const ObjectType*, const TypeEntry*> types;  ///< all kinds of objects that scripts can hold
-    const ShownCalls* shown_calls = nullptr;              ///< calls that show their values where they stand alone
+    std::vector<const FunctionEntry*> functions;             ///< all that scripts can call, later layers' too
+    std::map<const ObjectType*, const TypeEntry*> types;     ///< all kinds of objects that scripts can hold
+    std::string (*option_name)(std::string_view) = nullptr;  ///< for Reader::option_name
+    const ShownCalls* shown_calls = nullptr;                 ///< calls that show their values where they stand alone
     Services services;
 
     lua_State* main = nullptr;

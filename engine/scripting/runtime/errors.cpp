@@ -63,10 +63,9 @@ Message kind_or_value(const std::optional<std::string>& type) {
 }
 
 Message compare_sentence(const std::string& text) {
-    if (auto type = between(text, "attempt to compare two ", " values"))
-        return Message("two values of kind '{}' cannot be compared with < or >", *type);
-    const auto left = between(text, "attempt to compare ", " with ");
-    const auto right = between(text, " with ", "");
+    const auto both = between(text, "attempt to compare two ", " values");
+    const auto left = both ? both : between(text, "attempt to compare ", " with ");
+    const auto right = both ? both : between(text, " with ", "");
     if (left == kComplexNumber || right == kComplexNumber)
         return Message("complex numbers have no order; compare their fields re, im, abs or arg");
     return Message("{} cannot be compared with {} by < or >", kind_or_value(left), kind_or_value(right));

@@ -223,8 +223,11 @@ std::string items_of(const FunctionEntry& function) {
     return items;
 }
 
-/// The page with the items at the beginning of its part "Arguments", which it is given where it has none.
-std::string with_items(std::string page, const std::string& items) {
+/// The page with the signature below its title, and the items at the beginning of its part "Arguments", which it is
+/// given where it has none.
+std::string with_row(std::string page, const FunctionEntry& function) {
+    page.insert(page.find('\n') + 1, fmt::format("\n{}: `{}`\n", function.area, signature_text(function)));
+    const std::string items = items_of(function);
     if (items.empty()) return page;
     static constexpr std::string_view kHeading = "## Arguments\n\n";
     if (const std::size_t at = page.find(kHeading); at != page.npos) {
@@ -252,7 +255,7 @@ std::optional<HelpPage> find_help_page(std::string_view name) {
 }
 
 std::string page_text(const HelpPage& page, const FunctionEntry* function) {
-    return function == nullptr ? std::string(page.text) : with_items(std::string(page.text), items_of(*function));
+    return function == nullptr ? std::string(page.text) : with_row(std::string(page.text), *function);
 }
 
 std::string subject_of(const HelpPage& page) {

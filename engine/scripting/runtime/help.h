@@ -18,7 +18,8 @@ struct HelpPage {
 /// All pages, sorted by name, as reference/*.md and reference/guides/*.md are.
 std::span<const HelpPage> help_pages();
 std::optional<HelpPage> find_help_page(std::string_view name);
-/// The page of a function with its arguments and options, which its row declares; others as they are (nullptr).
+/// The page of a function with its signature, arguments and options, which its row declares; others as they are
+/// (nullptr).
 std::string page_text(const HelpPage& page, const FunctionEntry* function);
 /// What stands behind "guide: " or "subject: " in the third line of a page that is no function's.
 std::string subject_of(const HelpPage& page);

@@ -74,6 +74,13 @@ bool is_rule(const Cells& cells) {
     });
 }
 
+/// How many characters the number of a list's item takes ("12. "); 0 for other lines.
+std::size_t number_length(std::string_view line) {
+    std::size_t digits = 0;
+    while (digits < line.size() && digits < 3 && std::isdigit(static_cast<unsigned char>(line[digits]))) ++digits;
+    return digits > 0 && line.substr(digits).starts_with(". ") ? digits + 2 : 0;
+}
+
 /// As wide as the cells want, the widest made narrower until all fit.
 std::vector<std::size_t> column_widths(const std::vector<Cells>& rows, std::size_t width) {
     std::vector<std::size_t> widths;
@@ -156,15 +163,20 @@ class PageReader {
         }
         const bool row = line.starts_with('|'), heading = line.starts_with('#');
         const bool item = line.starts_with("- ") || line.starts_with("* ");
-        if (line.empty() || heading || item || row != !rows_.empty()) end_block();
-        if (line.empty()) {
-            text_ += '\n';
+        // Within a paragraph a number is no item: a sentence may go on with "2. ".
+        const std::size_t number = block_.empty() || numbered_ ? number_length(line) : 0;
+        const bool formula = block_.empty() && rows_.empty() && !quoted_ && line.starts_with("    ");
+        if (line.empty() || heading || item || number > 0 || row != !rows_.empty()) end_block();
+        numbered_ = number > 0 || (numbered_ && !block_.empty());
+        if (line.empty() || formula) {
+            text_ += line + '\n';
         } else if (heading) {
             const std::string words = without_marks(line.substr(line.find_first_not_of("# ")));
             text_ += words + '\n' + std::string(columns_of(words), line[1] == '#' ? '-' : '=') + '\n';
         } else if (row) {
             if (Cells cells = cells_of(line); !is_rule(cells)) rows_.push_back(std::move(cells));
         } else {
+            if (number > 0) indent_ = number;
             add_words(line, item);
         }
     }
@@ -208,6 +220,7 @@ class PageReader {
 
     std::size_t width_, indent_ = 0;
     bool quoted_ = false, broken_ = false;  // broken_: the block has had a line that its author ended
+    bool numbered_ = false;                 // the block is an item of a numbered list
     std::string text_, block_;
     std::vector<Cells> rows_;
 };

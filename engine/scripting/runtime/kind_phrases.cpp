@@ -20,6 +20,7 @@ const auto& kind_phrases() {
         KindPhrases{"table", Message("a table"), Message("the table")},
         KindPhrases{"function", Message("a function"), Message("the function")},
         KindPhrases{"thread", Message("a thread"), Message("the thread")},
+        KindPhrases{"coroutine", Message("a coroutine"), Message("the coroutine")},
         KindPhrases{"vector", Message("a vector"), Message("the vector")},
         KindPhrases{"matrix", Message("a matrix"), Message("the matrix")},
         KindPhrases{"mask", Message("a mask"), Message("the mask")},

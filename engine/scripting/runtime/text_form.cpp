@@ -6,6 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/languages.h"
+#include "scripting/runtime/context.h"
+
 namespace dynlab::inline scripting {
 namespace {
 
@@ -79,7 +82,9 @@ std::string table_text(lua_State* L, int table, int depth, TextStyle style) {
         entries.push_back(plain_value_text(L, -1, depth + 1, true, style));
         lua_pop(L, 1);
     }
-    if (length > kTableEntries) entries.push_back(fmt::format("... ({} entries)", length));
+    if (length > kTableEntries)
+        entries.push_back("... " + message_text(Message::plural(length, "({} entry)", "({} entries)"),
+                                                {catalog_of(context_of(L).services.language_code())}));
     const std::size_t in_list = entries.size();
     for (std::string& entry : named_entries(L, table, length, depth + 1, style)) entries.push_back(std::move(entry));
     const std::string line = fmt::format("{{{}}}", fmt::join(entries, ", "));
@@ -127,9 +132,13 @@ std::string joined_row(const std::vector<std::string>& cells, const std::vector<
     return row;
 }
 
+std::string size_text(Index size, const Reader& reader) {
+    return message_text(Message::plural(size, "({} value)", "({} values)"), reader);
+}
+
 }  // namespace
 
-std::string vector_text(const VectorView& v) {
+std::string vector_text(const VectorView& v, const Reader& reader) {
     std::string text = "[";
     const bool shortened = v.size() > kLongVector;
     for (Index i = 0; i < v.size(); ++i) {
@@ -139,10 +148,10 @@ std::string vector_text(const VectorView& v) {
         }
         text += (i == 0 ? "" : " ") + number_text(v[i]);
     }
-    return text + (shortened ? fmt::format("] ({} values)", v.size()) : "]");
+    return text + (shortened ? "] " + size_text(v.size(), reader) : "]");
 }
 
-std::string matrix_text(const MatrixView& m) {
+std::string matrix_text(const MatrixView& m, const Reader& reader) {
     const Index rows = std::min(m.rows(), kShownRows), columns = std::min(m.cols(), kShownColumns);
     std::vector<std::vector<std::string>> cells;
     std::vector<std::size_t> widths(static_cast<std::size_t>(columns), 0);
@@ -156,23 +165,22 @@ std::string matrix_text(const MatrixView& m) {
     }
     std::string text;
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i == 0 ? "" : "\n") + joined_row(cells[i], widths);
-    if (rows < m.rows() || columns < m.cols()) text += fmt::format("\n... ({} x {} matrix)", m.rows(), m.cols());
-    if (m.size() == 0) return fmt::format("({} x {} matrix)", m.rows(), m.cols());
-    return text;
+    if (m.size() > 0 && rows == m.rows() && columns == m.cols()) return text;
+    return (m.size() == 0 ? "" : text + "\n... ") +
+           message_text(Message("({} x {} matrix)", m.rows(), m.cols()), reader);
 }
 
-std::string complex_text(const Complex& value, int significant_digits) {
-    const std::string real = number_text(value.real(), significant_digits);
-    if (value.imag() == 0) return real;
-    return fmt::format("{} {} {}i", real, value.imag() < 0 ? "-" : "+",
-                       number_text(std::abs(value.imag()), significant_digits));
+std::string complex_text(const Complex& value, const Reader& reader, int significant_digits) {
+    const auto number = [&](double part) { return number_text(significant(part, significant_digits), reader); };
+    if (value.imag() == 0) return number(value.real());
+    return fmt::format("{} {} {}i", number(value.real()), value.imag() < 0 ? "-" : "+", number(std::abs(value.imag())));
 }
 
-std::string complex_vector_text(const ComplexVector& v) {
+std::string complex_vector_text(const ComplexVector& v, const Reader& reader) {
     std::string text = "[";
     const Index shown = std::min(v.size(), kLongVector);
     for (Index i = 0; i < shown; ++i) text += (i == 0 ? "" : ", ") + complex_text(v[i]);
-    return text + (shown < v.size() ? fmt::format(", ...] ({} values)", v.size()) : "]");
+    return text + (shown < v.size() ? ", ...] " + size_text(v.size(), reader) : "]");
 }
 
 std::string value_text(lua_State* L, int index) {

@@ -71,7 +71,7 @@ answer("noise", std(record.y - compliance*record.u))
 )LUA";
 
 constexpr const char* kChecks =
-    R"LUA(-- The checks of this lesson: `a` holds the answers. The language is told by `dynlab help checks`.
+    R"LUA(-- Students get this file: it computes what it expects (`a`: the answers) from the data. See `dynlab help checks`.
 local record = load("record")
 local compliance = dot(record.u, record.y)/dot(record.u, record.u)
 

@@ -144,7 +144,7 @@ std::string title_of_guide(const HelpPage& page) {
 
 std::string beginning_of(std::string_view help_page) {
     const std::string text(help_page);
-    std::size_t begin = text.find("\n\n", text.find("\n\n") + 2);  // behind title and signature
+    const std::size_t begin = text.find("\n\n");  // behind the title
     if (begin == std::string::npos) return "";
     return trimmed(text.substr(begin, text.find("\n## ", begin) - begin));
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <signal.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
@@ -11,6 +13,7 @@
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
 #include "platform/error.h"
+#include "platform/interrupt.h"
 #include "platform/program_lookup.h"
 #include "platform/text/read_number.h"
 #include "workflow/parts/part.h"
@@ -21,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kSlurmPackage[] = "slurm-client", kJobs[] = "slurm-jobs", kNotedParts[] = "count";
-constexpr auto kSlurmAnswers = std::chrono::seconds(30);
+constexpr auto kSlurmAnswers = std::chrono::seconds(30), kEndOfHosts = std::chrono::seconds(5);
+constexpr auto kBetweenSignals = std::chrono::milliseconds(300);
 constexpr int kPartsOfAHost = 8, kPartsOfASlot = 2;
 
 std::vector<std::string> split_at_commas(const std::string& text) {
@@ -48,13 +52,13 @@ Machines slurm_in(const std::string& list) {
                           value = equal == std::string::npos ? "" : word.substr(equal + 1);
         const bool ours = name == "tasks" || name == "rounds";
         if (!only_of(name, "abcdefghijklmnopqrstuvwxyz-") || value.empty() ||
-            (ours && number_up_to(Part::kMost, value) == 0))
+            (ours && number_up_to(WorkPart::kMost, value) == 0))
             throw EnvironmentError(
                 "\"{}\" in --on slurm:{} is no OPTION=VALUE: tasks=N and rounds=N (up to {}), or any option of sbatch, "
                 "such as partition=short or time=2:00:00",
-                word, list, Part::kMost);
+                word, list, WorkPart::kMost);
         if (ours)
-            (name == "tasks" ? machines.parts : machines.rounds) = number_up_to(Part::kMost, value);
+            (name == "tasks" ? machines.parts : machines.rounds) = number_up_to(WorkPart::kMost, value);
         else
             machines.words.push_back(fmt::format("--{}={}", name, value));
     }
@@ -73,7 +77,7 @@ Machines hosts_in(const std::string& list) {
                 "\"{}\" in --on hosts:{} is no host: write HOST, USER@HOST, or 4/HOST for four parts at once", word,
                 list);
         machines.words.push_back(word);
-        machines.parts = std::min(Part::kMost, machines.parts + kPartsOfASlot * slots);
+        machines.parts = std::min(WorkPart::kMost, machines.parts + kPartsOfASlot * slots);
     }
     return machines;
 }
@@ -122,7 +126,7 @@ Message first_line(const ChildResult& child) {
     return said.empty() ? Message("exit code {}, without a message", child.exit_code) : Message::verbatim(said);
 }
 
-[[noreturn]] void refuse(const ChildResult& child) {
+[[noreturn]] void refuse_work(const ChildResult& child) {
     const std::string& said = child.error_output;
     Message remedy = Message("the options after slurm: in --on are given to sbatch");
     if (said.find("partition") != std::string::npos) {
@@ -144,8 +148,29 @@ std::string submit(const Machines& machines, const fs::path& logs, std::vector<s
     words.insert(words.end(), machines.words.begin(), machines.words.end());
     const ChildResult child = ask_slurm(words, script);
     const std::vector<std::string> id = words_between_spaces(child.output);
-    if (child.exit_code != 0 || id.empty()) refuse(child);
+    if (child.exit_code != 0 || id.empty()) refuse_work(child);
     return id.front().substr(0, id.front().find(';'));  // a cluster's name may follow
+}
+
+/// Its jobs are in process groups of their own, so Ctrl-C is for it to pass on: at the second SIGTERM it ends them, and
+/// with the connections what they do on other hosts.
+ChildResult run_parallel(ChildOptions options) {
+    using Clock = std::chrono::steady_clock;
+    const SlowEnding slow;
+    int process = 0, asked = 0;
+    Clock::time_point next;
+    options.heeds_interrupt = false;
+    options.give_up = [&] {
+        if (!interrupted() || (asked > 0 && Clock::now() < next)) return false;
+        next = Clock::now() + (asked == 0 ? kBetweenSignals : kEndOfHosts);
+        if (asked < 2) ::kill(process, SIGTERM);
+        return ++asked > 2;
+    };
+    ChildProcess parallel(options, "parallel");
+    process = parallel.id();
+    ChildResult done = parallel.wait();
+    throw_if_interrupted();
+    return done;
 }
 
 /// Jobs of an earlier call would do the same work.
@@ -162,11 +187,11 @@ void refuse_queued_jobs(const fs::path& folder) {
 
 }  // namespace
 
-std::optional<Part> part_in(const std::string& text) {
+std::optional<WorkPart> part_in(const std::string& text) {
     const std::size_t slash = text.find('/');
-    const int count = slash == std::string::npos ? 0 : number_up_to(Part::kMost, text.substr(slash + 1));
+    const int count = slash == std::string::npos ? 0 : number_up_to(WorkPart::kMost, text.substr(slash + 1));
     const int index = count == 0 ? 0 : number_up_to(count, text.substr(0, slash));
-    return index == 0 ? std::nullopt : std::optional<Part>({index, count});
+    return index == 0 ? std::nullopt : std::optional<WorkPart>({index, count});
 }
 
 Machines machines_in(const std::string& text) {
@@ -199,13 +224,15 @@ Message submit_to_slurm(const Machines& machines, const WorkInParts& work) {
     ids.push_back(submit(machines, logs, {"--output=slurm-join-%j.txt", "--kill-on-invalid-dep=yes", after_last()},
                          fmt::format(kScript, command_line() + " --join")));
     write_file_atomically(logs / kJobs, fmt::format("{}", fmt::join(ids, ",")));
-    const auto parts = static_cast<std::int64_t>(work.missing.size());
     return Message(
-        "Slurm has {} of {} in job {}; job {} joins them.\n"
+        "{}\n"
         "  follow    squeue --jobs={}; tail {}/slurm-*.txt\n"
         "  cancel    scancel {}\n"
         "  continue  the same command again: what is done stays\n",
-        plural(parts, "{} part", "{} parts"), machines.parts, ids.front(), ids.back(),
+        plural(static_cast<std::int64_t>(work.missing.size()),
+               "Slurm has {} part (of {}) in job {}; job {} joins the parts.",
+               "Slurm has {} parts (of {}) in job {}; job {} joins the parts.", machines.parts, ids.front(),
+               ids.back()),
         fmt::format("{}", fmt::join(ids, ",")), work.folder.string(), fmt::format("{}", fmt::join(ids, " ")));
 }
 
@@ -228,7 +255,7 @@ std::vector<Message> do_on_hosts(const Machines& machines, const WorkInParts& wo
                      command_line() + fmt::format(" --part {{}}/{}", machines.parts),
                      ":::"};
     for (const int part : work.missing) child.command.push_back(std::to_string(part));
-    const ChildResult done = run_child(child, "parallel");
+    const ChildResult done = run_parallel(child);
     std::vector<Message> said;
     std::istringstream lines(done.error_output);
     for (std::string line; std::getline(lines, line) && said.size() < 20;)
@@ -254,7 +281,7 @@ std::string shown_command(const std::string& option) {
 
 int noted_parts(const fs::path& folder) {
     const fs::path file = folder / kNotedParts;
-    return std::max(1, fs::exists(file) ? number_up_to(Part::kMost, read_file(file)) : 1);
+    return std::max(1, fs::exists(file) ? number_up_to(WorkPart::kMost, read_file(file)) : 1);
 }
 
 void note_parts(const fs::path& folder, int parts) {

@@ -8,7 +8,7 @@ namespace dynlab::inline workflow {
 
 /// A share of a list of work: every `count`-th entry, from the `index`-th on, so that neighbours, which take as long,
 /// are spread.
-struct Part {
+struct WorkPart {
     int index = 1, count = 1;  ///< 1 to count, of at most kMost
 
     static constexpr int kMost = 1000;  // MaxArraySize as Slurm comes
@@ -26,6 +26,6 @@ struct MissingParts {
 };
 
 /// That of "3/8"; nothing for any other text.
-std::optional<Part> part_in(const std::string& text);
+std::optional<WorkPart> part_in(const std::string& text);
 
 }  // namespace dynlab::inline workflow

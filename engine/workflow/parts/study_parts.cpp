@@ -27,7 +27,7 @@ std::size_t pieces_of_a_file(std::size_t pieces) {
 }  // namespace
 
 StudyParts::StudyParts(fs::path folder, const PercentScript& script, std::uint32_t seed, int count,
-                       std::optional<Part> part)
+                       std::optional<WorkPart> part)
     : folder_(std::move(folder)), count_(count), part_(part) {
     DigestStream digest;
     digest.add_part(program_identity()).add_part(std::to_string(seed));
@@ -50,20 +50,21 @@ std::vector<std::string> StudyParts::all(const std::vector<fs::path>& files, std
             if (part_ && part_->has(place))
                 write_file_atomically(file, some(first, std::min(size, pieces - first)));
             else
-                missing_.parts.insert(Part{1, count_}.part_of(place));
+                missing_.parts.insert(WorkPart{1, count_}.part_of(place));
         }
         made.push_back(file);
     }
     if (!missing_.parts.empty())
-        throw EnvironmentError("{} of this call of montecarlo are missing",
-                               plural(static_cast<std::int64_t>(missing_.parts.size()), "{} part", "{} parts"));
+        throw EnvironmentError("{}", plural(static_cast<std::int64_t>(missing_.parts.size()),
+                                            "{} part of this call of montecarlo is missing",
+                                            "{} parts of this call of montecarlo are missing"));
     std::vector<std::string> bytes;
     for (const fs::path& file : made) bytes.push_back(read_file(file));
     return bytes;
 }
 
 MissingParts run_study_part(const PercentScript& script, std::uint32_t seed, const fs::path& folder, int count,
-                            std::optional<Part> part) {
+                            std::optional<WorkPart> part) {
     StudyParts parts(folder, script, seed, count, part);
     RunRequest request;
     request.script = script;

@@ -18,7 +18,7 @@ class StudyParts : public CallsInParts {
   public:
     /// With a part, makes what is missing of it; without, nothing.
     StudyParts(std::filesystem::path folder, const PercentScript& script, std::uint32_t seed, int count,
-               std::optional<Part> part);
+               std::optional<WorkPart> part);
 
     std::vector<std::string> all(const std::vector<std::filesystem::path>& files, std::size_t pieces,
                                  const Some& some) override;
@@ -30,13 +30,13 @@ class StudyParts : public CallsInParts {
     std::filesystem::path folder_;
     std::string study_;
     int count_;
-    std::optional<Part> part_;
+    std::optional<WorkPart> part_;
     MissingParts missing_;
 };
 
 /// Runs the script as far as there are parts, quietly, and gives those that are missing then. With a part, makes its
 /// share of the first call that is not complete. Throws EnvironmentError with the script's error.
 MissingParts run_study_part(const PercentScript& script, std::uint32_t seed, const std::filesystem::path& folder,
-                            int count, std::optional<Part> part);
+                            int count, std::optional<WorkPart> part);
 
 }  // namespace dynlab::inline workflow

@@ -53,7 +53,8 @@ TEST(document_rules, that_cannot_be_read_are_refused_by_line) {
     EXPECT_THAT(refusal("title: A\nsections: |\n  Process\n"), HasSubstr("report.md:3: section \"Process\""));
     EXPECT_THAT(refusal("sections: |\n  A | B | perhaps\n"), HasSubstr("optional"));
     EXPECT_THAT(refusal("pages: six\n"), HasSubstr("report.md:2: pages must be a number"));
-    EXPECT_THAT(refusal("appendix_pages: 0\n"), HasSubstr("appendix_pages"));
+    EXPECT_THAT(refusal("appendix_pages: -1\n"), HasSubstr("appendix_pages"));
+    EXPECT_EQ(refusal("appendix_pages: 0\n"), "") << "as if the line were not there";
 }
 
 TEST(document_rules, of_the_lab_report_are_its_headings_in_order) {

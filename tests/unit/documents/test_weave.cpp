@@ -61,6 +61,8 @@ TEST(weave, figures_without_a_caption_are_numbered_and_say_what_their_axes_do) {
     EXPECT_THAT(text, HasSubstr("![y\\_1 (m), voltage (V) over time (s)](figure:a-figure-1){#fig:a-figure-1}"));
     figure->panels[0].y_label = Message("thrust (N)");
     EXPECT_THAT(weave("-- %% id=a\nplot(x)\n", record).text, HasSubstr("![Thrust (N), voltage (V) over"));
+    figure->panels[0].y_label = Message("écart b_{0} e^{-a t}");
+    EXPECT_THAT(weave("-- %% id=a\nplot(x)\n", record).text, HasSubstr("![Écart b~0~ e^-a\\ t^, voltage (V) over"));
     EXPECT_THAT(text, HasSubstr("![From the cell `a`](figure:a-figure-2){#fig:a-figure-2}"));
     EXPECT_THAT(weave("-- ---\n-- title: Essai\n-- language: fr\n-- ---\n-- %% id=a\nplot(x)\n", record).text,
                 HasSubstr("voltage (V) en fonction du temps (s)]"));

@@ -66,7 +66,7 @@ Figure picture(const Message& x_label, const Message& curve) {
 
 TEST(readable_figure, quantities_are_french_and_units_stay) {
     EXPECT_THAT(texts_of(step_plot({{Message::verbatim("G1"), kLag}})), ElementsAre("temps (s)", "amplitude", "G1"));
-    EXPECT_THAT(texts_of(bode_plot({{{}, kLag}})), ElementsAre("module (dB)", "fréquence (rad/s)", "phase (°)"));
+    EXPECT_THAT(texts_of(bode_plot({{{}, kLag}})), ElementsAre("module (dB)", "pulsation (rad/s)", "phase (°)"));
     EXPECT_THAT(texts_of(pole_zero_map({{Message("model {}", 2), kLag}})),
                 ElementsAre("axe réel (1/s)", "axe imaginaire (rad/s)", "modèle 2\u202F: pôles"));
     IdData data(Matrix(Vector{{0.0, 1.0, 2.0}}), Matrix(Vector{{1.0, 1.0, 0.0}}), 0.1);

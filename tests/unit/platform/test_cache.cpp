@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
 #include "platform/atomic_file.h"
+#include "platform/process_group.h"
 #include "platform/temporary_folder.h"
 #include "support/environment_variable.h"
 
@@ -48,6 +50,48 @@ TEST_F(cache, finds_what_was_committed_and_nothing_else) {
     EXPECT_EQ(store.commit(unfinished, "test/key"), store.root() / "test/key");
     EXPECT_EQ(Cache().find("test/key"), store.root() / "test/key");
     EXPECT_FALSE(Cache().find("other/key"));
+}
+
+// oracle: processes that were killed between prepare and commit, and one that is still at work
+TEST_F(cache, unfinished_entries_of_killed_processes_are_removed_by_the_next_one) {
+    const auto unfinished = [&] {
+        std::size_t count = 0;
+        for (const auto& entry : fs::directory_iterator(home_.path() / "dynlab"))
+            count += entry.path().filename().string().starts_with(".new-");
+        return count;
+    };
+    Pipe ready;
+    const auto start = [&] {
+        const pid_t process = ::fork();
+        if (process == 0) {
+            write_file_atomically(Cache().prepare() / "content", "half");
+            write_all(ready.write_end.get(), "x", 1);
+            for (;;) ::pause();
+        }
+        char said = 0;
+        EXPECT_EQ(::read(ready.read_end.get(), &said, 1), 1);
+        return process;
+    };
+    const auto kill_it = [](pid_t process) {
+        ::kill(process, SIGKILL);
+        ::waitpid(process, nullptr, 0);
+    };
+    const auto look_in_another_process = [] {
+        const pid_t process = ::fork();
+        if (process == 0) {
+            const Cache store;
+            ::_exit(0);
+        }
+        ::waitpid(process, nullptr, 0);
+    };
+    const pid_t killed = start(), alive = start();
+    EXPECT_EQ(unfinished(), 2u);
+    kill_it(killed);
+    look_in_another_process();
+    EXPECT_EQ(unfinished(), 1u);
+    kill_it(alive);
+    look_in_another_process();
+    EXPECT_EQ(unfinished(), 0u);
 }
 
 TEST_F(cache, first_of_two_writers_wins) {

@@ -2,7 +2,6 @@
 // link.
 #include "platform/files/plain_file.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -28,29 +27,6 @@ class plain_file : public testing::Test {
     fs::path path(const std::string& name) const { return folder_.path() / name; }
     TemporaryFolder folder_;
 };
-
-TEST_F(plain_file, reads_plain_files_up_to_a_size_and_nothing_else) {
-    EXPECT_EQ(read_plain_file(path("thesis"), 100), "years of work");
-    EXPECT_EQ(read_plain_file(path("thesis"), 13), "years of work");
-    EXPECT_EQ(read_plain_file(path("thesis"), 12), std::nullopt);
-    EXPECT_EQ(start_of_plain_file(path("thesis"), 5), "years");
-    EXPECT_EQ(start_of_plain_file(path("thesis"), 100), "years of work");
-    for (const char* name : {"link", "dangling", "endless", "pipe", "folder", "nothing"}) {
-        EXPECT_EQ(read_plain_file(path(name), 100), std::nullopt) << name;
-        EXPECT_EQ(start_of_plain_file(path(name), 100), "") << name;
-    }
-}
-
-TEST_F(plain_file, opens_nothing_but_plain_files_to_write_and_makes_them_private) {
-    for (const char* name : {"link", "dangling", "endless", "pipe", "folder"})
-        EXPECT_FALSE(open_plain_file(path(name), O_TRUNC)) << name;
-    EXPECT_EQ(read_file(path("thesis")), "years of work");
-    EXPECT_FALSE(fs::exists(path("nothing")));
-    EXPECT_TRUE(open_plain_file(path("log"), O_APPEND));
-    struct stat status {};
-    ASSERT_EQ(::stat(path("log").c_str(), &status), 0);
-    EXPECT_EQ(status.st_mode & 0777, 0600u);
-}
 
 TEST_F(plain_file, replaces_what_stands_there_and_not_what_it_leads_to) {
     ::chmod(path("thesis").c_str(), 0644);

@@ -97,6 +97,25 @@ TEST(utf8, capitals_and_ideographs) {
     for (const char32_t c : {U'a', U'é', U'Й', U'ا'}) EXPECT_FALSE(is_ideograph(c));
 }
 
+// Oracle: the scripts of UAX #24 and their codes of ISO 15924; the directions of UAX #9.
+TEST(utf8, scripts_directions_and_marks) {
+    for (const auto& [c, name, code] : {std::tuple{U'é', "Latin", "Latn"},
+                                        {U'Ω', "Greek", "Grek"},
+                                        {U'Й', "Cyrillic", "Cyrl"},
+                                        {U'द', "Devanagari", "Deva"},
+                                        {U'王', "Han", "Hani"},
+                                        {U'\u0301', "", ""},
+                                        {U'1', "", ""},
+                                        {U'\uE000', "", ""}}) {
+        EXPECT_EQ(script_of(c).name, name);
+        EXPECT_EQ(script_of(c).code, code);
+    }
+    for (const char32_t c : {U'ד', U'م'}) EXPECT_TRUE(is_right_to_left(c));
+    for (const char32_t c : {U'a', U'1', U' ', U'王'}) EXPECT_FALSE(is_right_to_left(c));
+    for (const char32_t c : {U'\u0301', U'\u05B8', U'ि'}) EXPECT_TRUE(is_mark(c));
+    for (const char32_t c : {U'a', U'ד', U'-'}) EXPECT_FALSE(is_mark(c));
+}
+
 // oracle: UAX #11 and what the C library's wcwidth says of the same
 TEST(utf8, columns_of_a_terminal) {
     const Utf8Locale locale;

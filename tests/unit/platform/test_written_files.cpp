@@ -1,4 +1,9 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <functional>
 
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -77,21 +82,44 @@ TEST_F(written_files, changed_by_hand_during_a_session_stay) {
     EXPECT_THROW(written.take(file_), EnvironmentError);
 }
 
-// oracle: a run that ends without its destructor, and a ledger of many runs
-TEST_F(written_files, are_known_after_a_killed_run_and_in_a_long_ledger) {
-    alignas(WrittenFiles) unsigned char place[sizeof(WrittenFiles)];
-    auto* const killed = new (place) WrittenFiles(ledger_);
-    killed->take(file_);
-    write_file_atomically(file_, "half");
+// oracle: what a killed run had written at that moment, or had not
+TEST_F(written_files, of_a_killed_run_are_known_and_what_comes_after_it_is_not) {
+    const auto killed_run = [&](const std::function<void(WrittenFiles&)>& work) {
+        const pid_t process = ::fork();
+        if (process == 0) {
+            WrittenFiles written(ledger_);
+            written.take(file_);
+            work(written);
+            ::raise(SIGKILL);
+        }
+        ::waitpid(process, nullptr, 0);
+    };
+    killed_run([](WrittenFiles&) {});  // before it wrote
+    write_file_atomically(file_, "by hand");
+    EXPECT_THROW(run("x"), EnvironmentError);
+    std::filesystem::remove(file_);
+    killed_run([&](WrittenFiles&) { write_file_atomically(file_, "first"); });
+    run("second");
+    const std::filesystem::path finished = folder_.path() / "finished";
+    write_file_atomically(finished, "third");
+    killed_run([&](WrittenFiles&) { note_replacement(file_, finished); });  // before it was put in place
+    run("fourth");
+    killed_run([&](WrittenFiles&) { place_file_atomically(finished, file_); });
+    EXPECT_EQ(read_file(file_), "third");
+    write_file_atomically(file_, "by hand");
+    EXPECT_THROW(run("x"), EnvironmentError);
+    EXPECT_EQ(read_file(file_), "by hand");
+}
+
+// oracle: a ledger of many runs
+TEST_F(written_files, are_known_in_a_long_ledger) {
     run("whole");
-    EXPECT_EQ(read_file(file_), "whole");
     std::string older;
     while (older.size() < (3u << 20)) older += std::string(64, 'a') + ' ' + std::string(64, 'b') + '\n';
     write_file_atomically(ledger_, older + read_file(ledger_));
     run("again");
     EXPECT_EQ(read_file(file_), "again");
     EXPECT_LT(std::filesystem::file_size(ledger_), 1u << 20);
-    killed->~WrittenFiles();
 }
 
 }  // namespace test_written_files

@@ -40,7 +40,7 @@ TransferStructure ordered_structure(const Call& call, const FrequencyData& respo
 
 int give_response_fit(const Call& call, const FrequencyData& response, const Fit& fit, FitForm form) {
     Estimate estimate = estimate_of(call.function_name(), fit, form);
-    estimate.numbers.emplace_back("frequencies", static_cast<double>(response.w.size()));
+    estimate.fields.edit().numbers.emplace_back("frequencies", static_cast<double>(response.w.size()));
     return give_estimate(call, std::move(estimate), fit);
 }
 

@@ -17,8 +17,10 @@ constexpr std::array kIdgreyOptions = {
     OptionEntry{"states", ValueKind::kAny,
                 about("names of the states, or how many there are; if absent, as many as x0 has values")},
     OptionEntry{
-        "outputs", ValueKind::kAny,
-        about("function(t, x, u, p) that returns a table of outputs; if absent, the outputs are the first states")},
+        "outputs",
+        ValueKind::kAny,
+        about("function(t, x, u, p) that returns a table of outputs; if absent, the outputs are the first states"),
+        {.member = "outputs"}},
     OptionEntry{
         "x0",
         ValueKind::kAny,

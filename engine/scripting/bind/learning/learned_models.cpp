@@ -88,14 +88,16 @@ int estimate_narx(Call& call) {
     wanted.cancel = call.cancel();
     const NarxFit found = narx(data, lags, wanted);
     Estimate estimate = basic_estimate("narx", found.fit);
-    estimate.numbers.insert(estimate.numbers.end(), {{"noise_variance", found.fit.noise_variance[0]},
-                                                     {"prediction_fit_percent", found.fit.prediction_fit_percent}});
+    estimate.fields.edit().numbers.insert(estimate.fields.edit().numbers.end(),
+                                          {{"noise_variance", found.fit.noise_variance[0]},
+                                           {"prediction_fit_percent", found.fit.prediction_fit_percent}});
     Vector reductions(static_cast<Index>(found.steps.size())), criteria(reductions.size());
     for (Index i = 0; i < reductions.size(); ++i) {
         reductions[i] = found.steps[static_cast<std::size_t>(i)].error_reduction;
         criteria[i] = found.steps[static_cast<std::size_t>(i)].bic;
     }
-    estimate.vectors.insert(estimate.vectors.end(), {{"error_reduction", reductions}, {"bic", criteria}});
+    estimate.fields.edit().vectors.insert(estimate.fields.edit().vectors.end(),
+                                          {{"error_reduction", reductions}, {"bic", criteria}});
     push_object(call.state(),
                 SimulatedModel{found.model, std::make_shared<Estimate>(std::move(estimate)), {found.equation}});
     return 1;
@@ -126,8 +128,8 @@ int estimate_sindy(Call& call) {
     wanted.cancel = call.cancel();
     const SindyFit found = sindy(data, library_option(call, options, data), wanted);
     Estimate estimate = basic_estimate("sindy", found.fit);
-    if (found.width) estimate.numbers.emplace_back("width", *found.width);
-    estimate.matrices = {{"coefficients", found.model->coefficients()}};
+    if (found.width) estimate.fields.edit().numbers.emplace_back("width", *found.width);
+    estimate.fields.edit().matrices = {{"coefficients", found.model->coefficients()}};
     push_object(call.state(),
                 SimulatedModel{found.model, std::make_shared<Estimate>(std::move(estimate)), found.equations});
     return 1;
@@ -142,8 +144,9 @@ int estimate_dmdc(Call& call) {
     wanted.cancel = call.cancel();
     const DmdcFit found = dmdc(data, wanted);
     Estimate estimate = basic_estimate("dmdc", found.fit);
-    estimate.numbers.insert(estimate.numbers.end(), {{"rank", found.rank}, {"delays", found.delays}});
-    estimate.vectors.emplace_back("singular_values", found.singular_values);
+    estimate.fields.edit().numbers.insert(estimate.fields.edit().numbers.end(),
+                                          {{"rank", found.rank}, {"delays", found.delays}});
+    estimate.fields.edit().vectors.emplace_back("singular_values", found.singular_values);
     return give_system(call, std::move(estimate), found.fit, found.system);
 }
 

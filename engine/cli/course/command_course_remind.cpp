@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "base/reader.h"
+#include "cli/course/course_commands.h"
+#include "course/export/reminders.h"
+#include "platform/atomic_file.h"
+#include "platform/terminal/terminal_text.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+struct RemindArguments {
+    std::string assignment, out = "mail.csv", at;
+    bool early = false;
+};
+
+int remind(const CourseArguments& where, const RemindArguments& words) {
+    Course course(where.folder);
+    const Assignment assignment = assignment_named(course, words.assignment);
+    const std::vector<Reminder> reminders = reminders_of(course, assignment, time_of(course, words.at), words.early);
+    if (reminders.empty()) {
+        std::cout << message_text(Message("Nothing is missing.")) << '\n';
+        return kDone;
+    }
+    const TextTable mails = reminder_mails(course, assignment, reminders);
+    write_file_atomically(words.out, csv_text(mails));
+    for (const Reminder& reminder : reminders)
+        std::cout << terminal_text(message_text(
+                         Message("{}: {}", reminder.group.name, MessageList{reminder.missing, Join::kSemicolon})))
+                  << '\n';
+    std::vector<std::string> without;
+    for (const auto& row : mails.rows)
+        if (row[0].empty()) without.push_back(row[3]);
+    std::cout << terminal_text(
+                     message_text(plural(std::ssize(mails.rows), "{} message in {}", "{} messages in {}", words.out)))
+              << '\n';
+    if (!without.empty())
+        std::cerr << "dynlab: "
+                  << terminal_text(message_text(
+                         Message("no mail address is known of {}; the roster's column mail has them", listed(without))))
+                  << '\n';
+    return without.empty() ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_remind_command(CLI::App& course, CourseArguments& where, Action& action) {
+    auto words = std::make_shared<RemindArguments>();
+    CLI::App* command = course.add_subcommand("remind", "Write reminders for what is missing or cannot be read");
+    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Default: the only one");
+    command->add_option("-o,--out", words->out, "File to write")->type_name("CSV")->capture_default_str();
+    command->add_flag("--early", words->early, "Also for what is not due yet");
+    add_time_option(*command, words->at);
+    command->footer(
+        "A row for each student: to, subject, text, id, name, group; for the mail merge of any mail program. Subject "
+        "and\n"
+        "text are in the language of the roster's column language. Missing are first versions, reviews, final "
+        "versions,\n"
+        "slides and scripts whose deadline is over, and files that cannot be read.\n"
+        "Example:  dynlab course remind crane\n"
+        "Exit codes: 0 done, 1 no address is known of somebody, 2 wrong usage.");
+    command->callback([&where, words, &action] { action = [&where, words] { return remind(where, *words); }; });
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,368 @@
+#include "course/answers/answers_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "base/reader.h"
+#include "course/answers/hidden_names.h"
+#include "course/answers/written_answers.h"
+#include "course/intake/class_submissions.h"
+#include "course/intake/owners.h"
+#include "course/intake/staging.h"
+#include "data_io/text_table.h"
+#include "documents/document_rules.h"
+#include "documents/text_lines.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/hash.h"
+#include "platform/temporary_folder.h"
+#include "platform/text/read_number.h"
+#include "workflow/student_copy.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+QuestionName question_named(const std::string& text, const Lesson& lesson) {
+    QuestionName question;
+    std::string number = text;
+    if (number.starts_with("q") || number.starts_with("Q")) number.erase(0, 1);
+    if (const auto given = read_number<int>(number); given && *given > 0) {
+        question.number = *given;
+        return question;
+    }
+    question.titles = {folded_title(text)};
+    for (const char* language : {"en", "fr"})
+        if (fs::exists(lesson.report(language)))
+            for (const SectionRule& section : document_rules(read_template(lesson.report(language))).sections)
+                if (question.titles.contains(folded_title(section.english)) ||
+                    question.titles.contains(folded_title(section.french)))
+                    question.titles.insert({folded_title(section.english), folded_title(section.french)});
+    return question;
+}
+
+/// "q3", "conclusion": in names of files.
+std::string slug_of(const QuestionName& question) {
+    if (question.number > 0) return fmt::format("q{}", question.number);
+    return replaced(*question.titles.begin(), " ", "-");
+}
+
+std::vector<TextPart> text_parts_in(const fs::path& folder) {
+    std::vector<TextPart> parts;
+    if (fs::is_regular_file(folder / "analysis.lua"))
+        parts = text_parts_of_script(text_of_source(folder / "analysis.lua"));
+    if (fs::is_regular_file(folder / "report.md"))
+        for (TextPart& part : text_parts_of_report(text_of_source(folder / "report.md")))
+            parts.push_back(std::move(part));
+    return parts;
+}
+
+/// One submission's answer.
+struct Answer {
+    std::string submission, text;
+    int number = 0;
+};
+
+/// The lesson's side of a question.
+struct AskedQuestion {
+    std::string text, solution;  ///< Markdown; may be empty
+};
+
+/// Reads the answers of a class.
+class AnswerCollection {
+  public:
+    explicit AnswerCollection(const AnswersRequest& request)
+        : request_(request), question_(question_named(request.question, request.lesson)) {
+        const TemporaryFolder work;
+        std::vector<TextPart> starter;
+        for (const std::string language : {"", "fr"}) {
+            if (!language.empty() && !fs::exists(request.lesson.tasks(language))) continue;
+            const fs::path copy = work.path() / ("copy" + language);
+            make_student_copy(request.lesson, copy, {}, language);
+            const std::vector<TextPart> parts = text_parts_in(copy);
+            given_.add(parts);
+            if (starter.empty()) starter = parts;
+        }
+        refuse_unknown_question();
+        asked_.text = written_answer(starter, question_, GivenText());
+        asked_.solution =
+            written_answer(text_parts_of_script(text_of_source(request.lesson.script())), question_, given_);
+    }
+
+    void read(AnswersOutcome& outcome) {
+        const ClassSubmissions submissions(request_.submissions, request_.isolation, request_.program, request_.out);
+        const Owners owners(request_.roster);
+        const HiddenNames names(request_.roster);
+        for (const Submission& submission : submissions.all()) {
+            const TemporaryFolder work;
+            try {
+                const StagedWork staged =
+                    stage_submission(submission, work.path(), request_.isolation, request_.program);
+                std::vector<Student> authors = members_of(staged.folder / "group.toml");
+                if (!submission.person.empty()) authors.emplace_back().name = submission.person;
+                for (const std::size_t student : owners.find(submission).students)
+                    authors.push_back(request_.roster[student]);
+                const std::string text = written_answer(text_parts_in(staged.folder), question_, given_);
+                answers_.push_back({submission.name, names.hidden_in(text, authors)});
+            } catch (const SubmissionError& error) {
+                outcome.complaints.push_back(Message("\"{}\": {}", submission.name, error.message()));
+            } catch (const DocumentError& error) {
+                outcome.complaints.push_back(Message("\"{}\": {}", submission.name, error.message()));
+            }
+        }
+        for (const Message& clause : submissions.left_out())
+            outcome.complaints.push_back(Message("{}; it is left out", clause));
+        outcome.submissions = submissions.all().size();
+        outcome.answers = static_cast<std::size_t>(
+            std::ranges::count_if(answers_, [](const Answer& answer) { return !answer.text.empty(); }));
+    }
+
+    /// Numbers that do not follow names: by a hash of these. Those of an earlier call stay.
+    void number(const std::map<std::string, int>& earlier) {
+        int last = 0;
+        for (const auto& [submission, number] : earlier) last = std::max(last, number);
+        std::ranges::sort(answers_, {}, [](const Answer& answer) { return sha256_of(answer.submission); });
+        for (Answer& answer : answers_) {
+            const auto found = earlier.find(answer.submission);
+            answer.number = found == earlier.end() ? ++last : found->second;
+        }
+        std::ranges::sort(answers_, {}, &Answer::number);
+    }
+
+    const QuestionName& question() const { return question_; }
+    const AskedQuestion& asked() const { return asked_; }
+    const std::vector<Answer>& answers() const { return answers_; }
+    std::vector<AnswerGroup> groups() const {
+        std::vector<std::string> texts;
+        for (const Answer& answer : answers_) texts.push_back(answer.text);
+        return groups_of_answers(texts);
+    }
+
+  private:
+    void refuse_unknown_question() const {
+        if (question_.number > 0 ? given_.questions().contains(question_.number)
+                                 : std::ranges::any_of(question_.titles, [&](const std::string& title) {
+                                       return given_.has_heading(title);
+                                   }))
+            return;
+        std::vector<std::string> known;
+        for (const int number : given_.questions()) known.push_back(std::to_string(number));
+        if (question_.number == 0 || known.empty()) {
+            known.clear();
+            for (const std::string& heading : given_.headings()) known.push_back("\"" + folded_title(heading) + "\"");
+        }
+        throw EnvironmentError("{} has no question \"{}\"; it has {}", request_.lesson.slug, request_.question,
+                               listed(known));
+    }
+
+    const AnswersRequest& request_;
+    QuestionName question_;
+    GivenText given_;
+    AskedQuestion asked_;
+    std::vector<Answer> answers_;
+};
+
+/// answers-q3.csv: which number is which submission, and the marks that are filled in.
+class MarkSheet {
+  public:
+    explicit MarkSheet(fs::path file) : file_(std::move(file)) {
+        if (!fs::exists(file_)) return;
+        table_ = read_text_table(file_);
+        for (const char* name : kColumns)
+            if (!table_.column(name))
+                throw EnvironmentError("{}: the column {} is missing; restore it or move the file away", file_.string(),
+                                       name);
+        for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+            const auto number = read_number<int>(cell(i, "number"));
+            if (!number || *number < 1)
+                throw EnvironmentError("{}, line {}: number must be a whole number from 1, but \"{}\" was given",
+                                       file_.string(), table_.lines[i], cell(i, "number"));
+            numbers_[cell(i, "submission")] = *number;
+        }
+    }
+
+    const std::map<std::string, int>& numbers() const { return numbers_; }
+
+    /// Adds rows for those who have none, and says which answers are the same; nothing else changes.
+    void write(const std::vector<Answer>& answers, const std::vector<AnswerGroup>& groups, const std::string& check) {
+        if (table_.names.empty()) table_.names.assign(std::begin(kColumns), std::end(kColumns));
+        for (const Answer& answer : answers) {
+            if (numbers_.contains(answer.submission)) continue;
+            std::vector<std::string> row(table_.names.size());
+            row[*table_.column("number")] = std::to_string(answer.number);
+            row[*table_.column("submission")] = answer.submission;
+            row[*table_.column("check")] = check;
+            table_.rows.push_back(std::move(row));
+        }
+        std::map<std::string, std::string> same_as;
+        for (const AnswerGroup& group : groups)
+            for (const std::size_t member : group.members)
+                if (group.members.size() > 1)
+                    same_as[answers[member].submission] = std::to_string(answers[group.members[0]].number);
+        for (std::vector<std::string>& row : table_.rows)
+            row[*table_.column("same_as")] = same_as[row[*table_.column("submission")]];
+        write_file_atomically(file_, csv_text(table_));
+    }
+
+  private:
+    static constexpr const char* kColumns[] = {"number", "points", "reason", "same_as", "submission", "check"};
+
+    const std::string& cell(std::size_t row, const char* column) const {
+        return table_.rows[row][*table_.column(column)];
+    }
+
+    fs::path file_;
+    TextTable table_;
+    std::map<std::string, int> numbers_;
+};
+
+/// The page in two formats.
+class AnswersPage {
+  public:
+    AnswersPage(const AnswerCollection& collection, const std::vector<AnswerGroup>& groups, const Lesson& lesson,
+                const fs::path& marks)
+        : answers_(collection.answers()), groups_(groups), asked_(collection.asked()), marks_(marks) {
+        const QuestionName& question = collection.question();
+        title_ = question.number > 0 ? message_text(Message("{}: answers to question {}", lesson.slug, question.number))
+                                     : fmt::format("{}: {}", lesson.slug, *question.titles.begin());
+        for (const Answer& answer : answers_)
+            if (answer.text.empty()) empty_.push_back(std::to_string(answer.number));
+    }
+
+    std::string markdown() const {
+        std::string text = fmt::format("# {}\n\n{}\n\n", title_, message_text(explanation()));
+        if (!asked_.text.empty()) text += quoted(asked_.text);
+        if (!asked_.solution.empty())
+            text += fmt::format("## {}\n\n{}", message_text(Message("Reference solution")), quoted(asked_.solution));
+        for (const AnswerGroup& group : groups_) {
+            text += fmt::format("## {}\n\n{}", message_text(heading(group)), quoted(answers_[group.members[0]].text));
+            for (const std::string& note : notes(group)) text += "- " + note + "\n";
+            text += fmt::format("\n{}\n\n", message_text(Message("Points: ____  Reason: ____")));
+        }
+        if (!empty_.empty()) text += message_text(without_answer()) + "\n";
+        return text;
+    }
+
+    std::string html() const {
+        std::string rows;
+        for (const AnswerGroup& group : groups_) {
+            std::string list;
+            for (const std::string& note : notes(group)) list += "<li>" + escaped(note) + "</li>";
+            if (!list.empty()) list = "<ul>" + list + "</ul>";
+            rows +=
+                fmt::format("<tr><th scope=\"row\">{}</th><td><div class=\"answer\">{}</div>{}</td><td></td></tr>\n",
+                            escaped(message_text(heading(group))), escaped(answers_[group.members[0]].text), list);
+        }
+        std::string intro;
+        if (!asked_.text.empty()) intro = fmt::format("<div class=\"answer\">{}</div>\n", escaped(asked_.text));
+        if (!asked_.solution.empty())
+            intro += fmt::format("<details><summary>{}</summary><div class=\"answer\">{}</div></details>\n",
+                                 escaped(message_text(Message("Reference solution"))), escaped(asked_.solution));
+        return fmt::format(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\n"
+            "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
+            "<title>{}</title>\n<style>\nbody{{font-family:sans-serif;max-width:70em;margin:1em auto;padding:0 1em}}\n"
+            "table{{border-collapse:collapse;width:100%}}\nth,td{{border:1px solid;padding:.5em;vertical-align:top;"
+            "text-align:left}}\nth[scope=row]{{width:9em}}\n.answer{{white-space:pre-wrap;overflow-wrap:anywhere}}\n"
+            "</style></head>\n<body>\n<h1>{}</h1>\n<p>{}</p>\n{}<table>\n<thead><tr><th>{}</th><th>{}</th>"
+            "<th>{}</th></tr></thead>\n<tbody>\n{}</tbody>\n</table>\n<p>{}</p>\n</body>\n</html>\n",
+            escaped(title_), escaped(title_), escaped(message_text(explanation())), intro,
+            escaped(message_text(Message("number"))), escaped(message_text(Message("answer"))),
+            escaped(message_text(Message("points, reason"))), rows,
+            empty_.empty() ? "" : escaped(message_text(without_answer())));
+    }
+
+  private:
+    Message explanation() const {
+        return Message(
+            "Submissions have numbers instead of names. Write points and reasons into {}, then add its rows to "
+            "manual.csv of the results.",
+            marks_.filename().string());
+    }
+
+    Message heading(const AnswerGroup& group) const {
+        const int number = answers_[group.members[0]].number;
+        if (group.members.size() == 1) return Message("Answer {}", number);
+        const auto others = static_cast<std::int64_t>(group.members.size() - 1);
+        return Message("Answer {} ({})", number, plural(others, "same in {} other", "same in {} others"));
+    }
+
+    /// The further members of a group, and by what they differ.
+    std::vector<std::string> notes(const AnswerGroup& group) const {
+        std::vector<std::string> notes, equal;
+        for (std::size_t i = 1; i < group.members.size(); ++i) {
+            const std::string number = std::to_string(answers_[group.members[i]].number);
+            if (group.differences[i].empty())
+                equal.push_back(number);
+            else
+                notes.push_back(message_text(Message("nearly the same: {} ({})", number, group.differences[i])));
+        }
+        if (!equal.empty()) notes.insert(notes.begin(), message_text(Message("the same: {}", listed(equal))));
+        return notes;
+    }
+
+    Message without_answer() const { return Message("Without an answer: {}.", listed(empty_)); }
+
+    /// As a block of code, so that nothing in it is markup.
+    static std::string quoted(const std::string& text) {
+        std::size_t longest = 2, run = 0;
+        for (const char c : text) {
+            run = c == '`' ? run + 1 : 0;
+            longest = std::max(longest, run);
+        }
+        const std::string fence(longest + 1, '`');
+        return fmt::format("{0}text\n{1}\n{0}\n\n", fence, text);
+    }
+
+    static std::string escaped(const std::string& text) {
+        std::string result;
+        for (const char c : text) {
+            if (c == '&')
+                result += "&amp;";
+            else if (c == '<')
+                result += "&lt;";
+            else if (c == '>')
+                result += "&gt;";
+            else if (c == '"')
+                result += "&quot;";
+            else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
+                result += c;
+        }
+        return result;
+    }
+
+    const std::vector<Answer>& answers_;
+    const std::vector<AnswerGroup>& groups_;
+    const AskedQuestion& asked_;
+    fs::path marks_;
+    std::string title_;
+    std::vector<std::string> empty_;  ///< numbers
+};
+
+}  // namespace
+
+AnswersOutcome collect_answers(const AnswersRequest& request) {
+    AnswersOutcome outcome;
+    AnswerCollection collection(request);
+    const std::string stem = "answers-" + slug_of(collection.question());
+    outcome.page = request.out / (stem + ".html");
+    outcome.text = request.out / (stem + ".md");
+    outcome.marks = request.out / (stem + ".csv");
+    MarkSheet sheet(outcome.marks);
+    collection.read(outcome);
+    collection.number(sheet.numbers());
+    const std::vector<AnswerGroup> groups = collection.groups();
+    outcome.groups = groups.size();
+    fs::create_directories(request.out);
+    sheet.write(collection.answers(), groups, request.check.empty() ? slug_of(collection.question()) : request.check);
+    const AnswersPage page(collection, groups, request.lesson, outcome.marks);
+    write_file_atomically(outcome.text, page.markdown());
+    write_file_atomically(outcome.page, page.html());
+    return outcome;
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,66 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/message.h"
+
+namespace dynlab::inline course {
+
+/// A table as a learning platform exports and imports it: Moodle's grading worksheet or Canvas's gradebook. Grades and
+/// comments are filled in; every other byte stays as it was: language and order of the columns, separator, quotes, line
+/// ends, byte order mark.
+///
+/// Columns are recognised by known words in several languages, and where those fail by what stands in them:
+///
+/// * Moodle: a column of participants ("Participant 900001"), and the grade in front of the maximum grade.
+/// * Canvas: a second column "ID", and assignments with a number behind their name ("Lab 4 (1234)").
+class PlatformSheet {
+  public:
+    enum class Platform { kMoodle, kCanvas };
+    /// A row that is somebody's; what the file does not say is empty.
+    struct Person {
+        std::size_t row = 0;
+        std::string number, id, mail, name;  ///< number: of Moodle's participant, or Canvas's ID
+    };
+
+    /// `assignment`: the column of Canvas's gradebook to fill in, with or without its number; needed where there are
+    /// several. Throws EnvironmentError where the file is neither table, or its column of grades is not recognised.
+    PlatformSheet(const std::filesystem::path& file, const std::string& assignment);
+
+    Platform platform() const { return platform_; }
+    const std::vector<Person>& people() const { return people_; }
+    const std::vector<Message>& unrecognised() const { return unrecognised_; }  ///< sentences
+    void set_grade(const Person& person, const std::string& points);
+    void set_comment(const Person& person, const std::string& comment);  ///< where the table has such a column
+    std::string text() const;
+
+  private:
+    struct Line {
+        std::vector<std::string> cells;  ///< with their quotes
+        std::string end;                 ///< "\r\n", "\n" or nothing
+    };
+    void split(std::string_view text);
+    void recognise_moodle();
+    void recognise_canvas(const std::string& assignment);
+    void find_people();
+    std::string value(std::size_t row, std::optional<std::size_t> column) const;
+    std::vector<std::size_t> rows() const;  ///< as long as the header
+    std::optional<std::size_t> maximum_column() const;
+    std::string listed_columns() const;
+    void put(std::size_t row, std::size_t column, const std::string& text);
+
+    std::filesystem::path file_;
+    Platform platform_ = Platform::kMoodle;
+    std::string mark_;  ///< byte order mark, if any
+    char separator_ = ',';
+    bool decimal_comma_ = false;
+    std::vector<Line> lines_;
+    std::vector<std::string> names_;  ///< of the columns, as words without accents
+    std::optional<std::size_t> number_, id_, mail_, name_, grade_, comment_;
+    std::vector<Person> people_;
+    std::vector<Message> unrecognised_;
+};
+
+}  // namespace dynlab::inline course

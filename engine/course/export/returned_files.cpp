@@ -1,0 +1,176 @@
+#include "course/export/returned_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/reader.h"
+#include "course/export/mailing.h"
+#include "course/export/platform_sheet.h"
+#include "course/intake/owners.h"
+#include "course/office/receive.h"
+#include "course/store/groups.h"
+#include "course/store/participants.h"
+#include "numerics/error.h"
+#include "platform/atomic_file.h"
+#include "platform/hash.h"
+#include "platform/text/small_letters.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FileToReturn {
+    std::string place;  ///< "to-review/report-07.pdf"
+    std::string content, hash;
+    bool is_new = true;
+    std::string name() const { return fs::path(place).filename(); }
+};
+
+class Returner {
+  public:
+    Returner(Course& course, const Assignment& assignment, const ReturnRequest& request)
+        : course_(course), assignment_(assignment), request_(request) {
+        for (const Student& student : students_of(course)) students_[student.id] = student;
+        if (request.moodle) settle_numbers();
+    }
+
+    ReturnOutcome run() {
+        if (fs::exists(request_.folder))
+            throw InvalidArgument("{} exists already; name a new folder", request_.folder.string());
+        for (const Group& group : groups_of(course_)) collect(group);
+        if (outcome_.files.empty()) return std::move(outcome_);
+        lay_out();
+        remember();
+        return std::move(outcome_);
+    }
+
+  private:
+    void settle_numbers() {
+        std::map<std::string, std::string> numbers = participants_of(course_, assignment_.id);
+        if (!request_.worksheet.empty()) numbers = numbers_in(PlatformSheet(request_.worksheet, ""));
+        for (const auto& [id, number] : numbers)
+            if (const Student& student = students_[id]; !student.moodle.empty() && student.moodle != number)
+                ++outcome_.other_numbers;
+        for (auto& [id, student] : students_) {
+            const auto found = numbers.find(id);
+            if (found != numbers.end())
+                student.moodle = found->second;
+            else if (outcome_.other_numbers > 0 || !request_.worksheet.empty())
+                student.moodle.clear();
+        }
+    }
+
+    /// By student: whose id, mail or, where nobody else has it, name stands there.
+    std::map<std::string, std::string> numbers_in(const PlatformSheet& sheet) const {
+        std::map<std::string, std::string> numbers;
+        for (const PlatformSheet::Person& person : sheet.people()) {
+            std::vector<std::string> certain, named;
+            for (const auto& [id, student] : students_) {
+                const bool same_mail =
+                    !person.mail.empty() && in_small_letters(student.mail) == in_small_letters(person.mail);
+                if (id == person.id || same_mail) certain.push_back(id);
+                if (same_person(student.name, person.name)) named.push_back(id);
+            }
+            const std::vector<std::string>& found = certain.empty() ? named : certain;
+            if (found.size() == 1) numbers[found.front()] = person.number;
+        }
+        return numbers;
+    }
+
+    void collect(const Group& group) {
+        std::vector<FileToReturn> files;
+        for (const char* way : {"to-review", "reviews"}) {
+            const fs::path folder = course_.folder() / "outbox" / assignment_.name / way / group.name;
+            if (!fs::exists(folder)) continue;
+            for (const auto& entry : fs::directory_iterator(folder))
+                add(files, group, std::string(way) + "/" + entry.path().filename().string(), entry.path());
+        }
+        for (Rows rows = course_.database().query("SELECT id FROM versions WHERE assignment = ? AND group_id = ?",
+                                                  assignment_.id, group.id);
+             rows.next();) {
+            const fs::path receipt = write_receipt(course_, rows.integer(0));
+            add(files, group, "receipts/" + receipt.filename().string(), receipt);
+        }
+        if (files.empty()) return;
+        std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
+        for (const FileToReturn& file : files) outcome_.files[group.name].push_back(file.name());
+        groups_.emplace_back(group, std::move(files));
+    }
+
+    void add(std::vector<FileToReturn>& files, const Group& group, const std::string& place, const fs::path& from) {
+        FileToReturn file{place, read_file(from), {}};
+        file.hash = sha256_of(file.content);
+        Rows newest = course_.database().query(
+            "SELECT hash FROM returns WHERE group_id = ? AND place = ? ORDER BY id DESC LIMIT 1", group.id,
+            assignment_.name + "/" + place);
+        file.is_new = !newest.next() || newest.text(0) != file.hash;
+        if (request_.all || file.is_new) files.push_back(std::move(file));
+    }
+
+    void lay_out() {
+        const fs::path growing = request_.folder.string() + ".unfinished";
+        fs::remove_all(growing);
+        std::vector<Mailing> mailings;
+        MoodleFeedback moodle;
+        for (const auto& [group, files] : groups_) {
+            fs::create_directories(growing / group.name);
+            for (const FileToReturn& file : files)
+                write_file_atomically(growing / group.name / file.name(), file.content);
+            address(group, files, mailings, moodle);
+        }
+        write_file_atomically(growing / "mail.csv", csv_text(mailing_list(mailings)));
+        if (request_.moodle) moodle.write(growing / "moodle.zip");
+        fs::permissions(growing, fs::perms::owner_all);
+        fs::rename(growing, request_.folder);
+    }
+
+    void address(const Group& group, const std::vector<FileToReturn>& files, std::vector<Mailing>& mailings,
+                 MoodleFeedback& moodle) {
+        bool reached = false;
+        for (const std::string& id : group.members) {
+            const Student& student = students_[id];
+            Mailing mailing{{id, student.name, group.name, student.mail, student.moodle}, {}, false};
+            reached = reached || !student.mail.empty();
+            if (request_.moodle && student.moodle.empty()) outcome_.without_number.push_back(id);
+            for (const FileToReturn& file : files) {
+                mailing.files.push_back(group.name + "/" + file.name());
+                mailing.is_new = mailing.is_new || file.is_new;
+                moodle.add(mailing.to, file.name(), file.content);
+            }
+            mailings.push_back(std::move(mailing));
+        }
+        if (!reached) outcome_.without_mail.push_back(group.name);
+    }
+
+    void remember() {
+        Transaction transaction(course_.database());
+        std::int64_t count = 0;
+        for (const auto& [group, files] : groups_)
+            for (const FileToReturn& file : files) {
+                course_.database().run("INSERT INTO returns (group_id, place, hash, made_at) VALUES (?, ?, ?, ?)",
+                                       group.id, assignment_.name + "/" + file.place, file.hash, request_.now);
+                ++count;
+            }
+        const Message files = plural(count, "{} file", "{} files"),
+                      groups = plural(static_cast<std::int64_t>(groups_.size()), "{} group", "{} groups");
+        course_.note(message_text(Message("{}: {} returned to {}", assignment_.name, files, groups)), request_.now);
+        transaction.commit();
+    }
+
+    Course& course_;
+    const Assignment& assignment_;
+    const ReturnRequest& request_;
+    std::map<std::string, Student> students_;
+    std::vector<std::pair<Group, std::vector<FileToReturn>>> groups_;
+    ReturnOutcome outcome_;
+};
+
+}  // namespace
+
+ReturnOutcome return_files(Course& course, const Assignment& assignment, const ReturnRequest& request) {
+    return Returner(course, assignment, request).run();
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,18 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "workflow/lesson_catalogue.h"
+
+namespace dynlab::inline course {
+
+/// What the author of a checks.lua says to students, each sentence once: the texts of say, hint, about, message and
+/// judge.
+std::vector<std::string> sentences_of_checks(const std::string& source);
+
+/// Writes what is to be translated, in English, into the lesson's folder: tasks.LANGUAGE.lua with the text cells, where
+/// there is none, and the sentences that checks.LANGUAGE.po lacks. Returns the files that it wrote.
+std::vector<std::filesystem::path> write_translation_skeleton(const Lesson& lesson, const std::string& language);
+
+}  // namespace dynlab::inline course

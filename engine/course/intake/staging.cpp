@@ -1,0 +1,347 @@
+#include "course/intake/staging.h"
+
+#include <fmt/format.h>
+#include <re2/re2.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "course/intake/folder_copy.h"
+#include "course/intake/notebooks.h"
+#include "course/intake/owners.h"
+#include "data_io/tables/text_decoding.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
+#include "platform/text/foreign_text.h"
+#include "platform/text/small_letters.h"
+#include "workflow/given_script.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kScript[] = "analysis.lua";
+constexpr int kMostArchives = 8, kDeepestNesting = 3;
+constexpr auto kSameTime = std::chrono::seconds(2);  // the step of times in a zip
+
+/// A place where a script was found.
+struct FoundScript {
+    fs::path folder;
+    std::string shown;  ///< "work_v2.zip", "lab4/final"
+    fs::file_time_type written;
+};
+
+bool is_of_systems(const fs::path& path) {
+    const std::string name = path.filename().string();
+    return name.starts_with('.') || name == "__MACOSX";
+}
+
+/// All plain files below, but those that systems add, sorted.
+std::vector<fs::path> files_below(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
+        if (is_of_systems(entry->path())) {
+            entry.disable_recursion_pending();
+        } else if (entry->symlink_status().type() == fs::file_type::regular) {
+            files.push_back(entry->path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::string shown_place(const fs::path& file, const fs::path& from) {
+    return utf8_of_name(file.lexically_relative(from).string());
+}
+
+/// A name without its numbers, and the last of these: versions of one work have equal words.
+struct VersionName {
+    std::vector<std::string> words;
+    long number = 0;
+};
+
+VersionName version_of(const std::string& shown) {
+    static const std::set<std::string> kVersion = {"v", "version", "copy", "vers"};
+    VersionName version;
+    for (const std::string& word : words_of_name(archive_stem(shown).value_or(shown))) {
+        const bool number = word.front() >= '0' && word.front() <= '9';
+        if (number && word.size() < 10) version.number = std::stol(word);
+        if (!number && !kVersion.contains(word)) version.words.push_back(word);
+    }
+    return version;
+}
+
+/// The newest, where one is; nothing where that cannot be told.
+std::optional<FoundScript> newest_of(const std::vector<FoundScript>& found) {
+    std::vector<VersionName> versions;
+    for (const FoundScript& script : found) versions.push_back(version_of(script.shown));
+    const bool one_work = std::all_of(versions.begin(), versions.end(),
+                                      [&](const VersionName& v) { return v.words == versions.front().words; });
+    const auto newest_by = [&](const auto& newer) -> std::optional<FoundScript> {
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            bool newest = true;
+            for (std::size_t k = 0; k < found.size(); ++k) newest = newest && (k == i || newer(i, k));
+            if (newest) return found[i];
+        }
+        return {};
+    };
+    const auto by_number = newest_by([&](auto i, auto k) { return versions[i].number > versions[k].number; });
+    if (one_work && by_number) return by_number;
+    return newest_by([&](auto i, auto k) { return found[i].written > found[k].written + kSameTime; });
+}
+
+/// PowerShell's > writes UTF-16. Nothing but a byte order mark at its start tells of it.
+void make_utf8(const fs::path& script) {
+    constexpr std::uintmax_t kMostText = 4u << 20;
+    if (fs::file_size(script) > kMostText) return;
+    const std::string bytes = read_file(script), mark = bytes.substr(0, 2);
+    if (mark != "\xFF\xFE" && mark != "\xFE\xFF") return;
+    const fs::file_time_type written = fs::last_write_time(script);
+    std::vector<Message> notes;
+    try {
+        write_file_atomically(script, decoded_text(script, bytes, notes));
+    } catch (const EnvironmentError&) {
+        throw SubmissionError("Its analysis.lua is no text: save it in UTF-8 and hand it in again.");
+    }
+    fs::last_write_time(script, written);
+}
+
+/// "my%20analysis.lua" as "my analysis.lua".
+std::string without_percent_signs(const std::string& name) {
+    std::string plain;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        unsigned code = 0;
+        const char* const digits = name.data() + i + 1;
+        const bool encoded =
+            name[i] == '%' && i + 2 < name.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+        plain += encoded ? static_cast<char>(code) : name[i];
+        if (encoded) i += 2;
+    }
+    return plain;
+}
+
+/// "analysis.lua" or "analysis.ipynb" for what browsers, systems and platforms make of these names: another case, .txt
+/// at the end, "my%20analysis.lua", "analysis (1).lua", "analysis-1.lua", "ada_4711_analysis.lua"; else empty.
+std::string name_meant_by(const std::string& name) {
+    static const RE2 kForm(R"((?:.*[ _-])?analysis(?:[ _-]?\(?\d+\)?|[ _-]copy)?(\.lua|\.ipynb)(?:\.txt)?)",
+                           RE2::Latin1);
+    std::string ending;
+    if (!RE2::FullMatch(in_small_letters(without_percent_signs(name)), kForm, &ending)) return "";
+    return "analysis" + ending;
+}
+
+/// A PDF or another file of bytes under a script's name would be graded as a script without answers.
+void refuse_other_content(const fs::path& script) {
+    constexpr std::size_t kStart = 1024;
+    std::ifstream in(script, std::ios::binary);
+    std::string start(kStart, '\0');
+    in.read(start.data(), static_cast<std::streamsize>(kStart));
+    start.resize(static_cast<std::size_t>(in.gcount()));
+    if (start.starts_with("%PDF-"))
+        throw SubmissionError("Its analysis.lua is a PDF under another name: submit the script.");
+    if (start.find('\0') != std::string::npos)
+        throw SubmissionError("Its analysis.lua is not a text: submit the script, saved in UTF-8.");
+}
+
+MessageList listed_places(const std::vector<FoundScript>& found) {
+    std::vector<std::string> shown;
+    for (const FoundScript& script : found) shown.push_back(fmt::format("\"{}\"", script.shown));
+    return listed(shown);
+}
+
+class Stager {
+  public:
+    Stager(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,
+           const SubmissionLimits& limits)
+        : submission_(submission), to_(to), root_(to / "unpacked"), level_(level), program_(program), limits_(limits) {
+        limits_.keep_times = true;  // they tell which version is the newest
+    }
+
+    StagedWork stage() {
+        fill_root();
+        take_notebooks_in(root_);
+        std::vector<FoundScript> found = scripts_in(root_, "");
+        if (found.empty()) open_archives(root_, "", 1, found);
+        if (found.empty() && take_other_names()) found = scripts_in(root_, "");
+        if (found.empty()) throw SubmissionError(obstacle());
+        if (found.size() == 1) return staged(found.front(), renamed_);
+        const std::optional<FoundScript> newest = newest_of(found);
+        if (!newest)
+            throw SubmissionError(
+                "There are several folders with an analysis.lua, and which is the newest cannot be told: {}. Hand in "
+                "one.",
+                listed_places(found));
+        return staged(*newest, Message("of {}, \"{}\" was taken as the newest", listed_places(found), newest->shown));
+    }
+
+  private:
+    StagedWork staged(const FoundScript& script, const Message& remark) const {
+        make_utf8(script.folder / kScript);
+        refuse_other_content(script.folder / kScript);
+        return {script.folder, remark, "", of_notebooks_.contains(script.folder)};
+    }
+
+    void take_notebooks_in(const fs::path& folder) {
+        for (const fs::path& place : take_notebooks(folder)) of_notebooks_.insert(place);
+    }
+
+    /// Where no file has the name itself: files whose name was changed on their way, one a folder at most.
+    bool take_other_names() {
+        std::map<fs::path, std::vector<fs::path>> meant;
+        for (const fs::path& file : files_below(root_))
+            if (!name_meant_by(file.filename().string()).empty()) meant[file.parent_path()].push_back(file);
+        for (const auto& [folder, files] : meant) {
+            if (files.size() > 1) continue;
+            const std::string name = name_meant_by(files.front().filename().string());
+            renamed_ = Message("\"{}\" was taken as {}", shown_place(files.front(), root_), name);
+            fs::rename(files.front(), folder / name);
+        }
+        if (!renamed_.empty()) take_notebooks_in(root_);
+        return !renamed_.empty();
+    }
+
+    void fill_root() {
+        if (submission_.archive) {
+            note_left_out(unpack_submission(submission_.path, root_, level_, program_, limits_), "");
+            return;
+        }
+        fs::create_directories(root_);
+        if (!submission_.loose.empty()) {
+            for (const LooseFile& file : submission_.loose) copy_loose(file);
+            return;
+        }
+        const FolderCopy copy = copy_folder(submission_.path, root_, limits_.bytes, limits_.files);
+        if (copy.too_large) too_large();
+        for (const std::string& name : copy.left_out)
+            note_left_out({Message("\"{}\" is a link or not a regular file", utf8_of_name(name))}, "");
+    }
+
+    void note_left_out(const std::vector<Message>& clauses, const std::string& archive) {
+        for (const Message& clause : clauses)
+            left_out_.push_back(archive.empty() ? clause : Message("in \"{}\", {}", archive, clause));
+    }
+
+    [[noreturn]] void too_large() const {
+        throw SubmissionError("It is too large: at most {} files and {} MB are looked at.", limits_.files,
+                              limits_.bytes >> 20);
+    }
+
+    void copy_loose(const LooseFile& file) const {
+        static const RE2 of_platform(R"((?:.*_)?analysis(?:-\d+)?(\.lua|\.ipynb))", RE2::Latin1);
+        if (fs::file_size(file.path) > limits_.bytes) too_large();
+        std::string ending;
+        fs::path to = root_ / (RE2::FullMatch(file.name, of_platform, &ending) ? "analysis" + ending : file.name);
+        for (int i = 2; fs::exists(to); ++i) to = root_ / fmt::format("{} {}", i, file.name);
+        fs::copy_file(file.path, to);
+        fs::last_write_time(to, fs::last_write_time(file.path));
+    }
+
+    std::vector<FoundScript> scripts_in(const fs::path& folder, const std::string& archive) const {
+        std::vector<FoundScript> found;
+        for (const fs::path& file : files_below(folder)) {
+            if (file.filename() != kScript) continue;
+            const std::string place = file.parent_path() == folder ? "" : shown_place(file.parent_path(), folder);
+            found.push_back({file.parent_path(), archive + (archive.empty() || place.empty() ? "" : "/") + place,
+                             fs::last_write_time(file)});
+        }
+        return found;
+    }
+
+    void open_archives(const fs::path& folder, const std::string& shown, int depth, std::vector<FoundScript>& found) {
+        for (const fs::path& file : files_below(folder)) {
+            if (!archive_stem(file.filename().string()) || ++opened_ > kMostArchives) continue;
+            const fs::path to = to_ / fmt::format("archive-{}", opened_);
+            const std::string name = shown + (shown.empty() ? "" : "/") + shown_place(file, folder);
+            try {
+                note_left_out(unpack_submission(file, to, level_, program_, limits_), name);
+                take_notebooks_in(to);
+            } catch (const SubmissionError& error) {
+                damage_ = Message("\"{}\": {}", name, error.message());
+                continue;
+            }
+            const std::vector<FoundScript> here = scripts_in(to, name);
+            found.insert(found.end(), here.begin(), here.end());
+            if (here.empty() && depth < kDeepestNesting) open_archives(to, name, depth + 1, found);
+        }
+    }
+
+    /// What is there instead of a script.
+    Message obstacle() const {
+        std::vector<std::string> near, others;
+        bool notebook = false;
+        for (const auto& entry : fs::directory_iterator(to_))
+            for (const fs::path& file : files_below(entry.path())) {
+                const std::string name = shown_place(file, entry.path()), lower = in_small_letters(name);
+                if (lower.ends_with(".ipynb")) notebook = true;
+                const bool script =
+                    lower.ends_with(".lua") || lower.ends_with(".ipynb") || lower.find(".lua.") != std::string::npos;
+                (script ? near : others).push_back(fmt::format("\"{}\"", name));
+            }
+        std::sort(near.begin(), near.end());
+        std::sort(others.begin(), others.end());
+        if (near.empty() && others.empty())
+            return left_out_.empty()
+                       ? Message("It is empty: there is no analysis.lua in it.")
+                       : with_rest(Message("Nothing in it can be read, so that there is no analysis.lua in it."));
+        if (!near.empty())
+            return with_rest(Message("There is no analysis.lua in it, but {}: hand it in under the name {}.",
+                                     listed(shortened_list(near)), notebook ? "analysis.ipynb" : "analysis.lua"));
+        if (const std::string kind = closed_kind(others); !kind.empty())
+            return with_rest(
+                Message("There is no analysis.lua in it, only {} ({} archives cannot be opened here; zip and "
+                        "tar can); hand in the folder that dynlab new made.",
+                        listed(shortened_list(others)), kind));
+        return with_rest(Message("There is no analysis.lua in it, only {}; hand in the folder that dynlab new made.",
+                                 listed(shortened_list(others))));
+    }
+
+    /// And what was not unpacked or copied, and why: the script may be among it.
+    Message with_rest(Message obstacle) const {
+        std::vector<Message> said = {std::move(obstacle)};
+        if (!left_out_.empty())
+            said.push_back(Message("Left out: {}.", MessageList{shortened_list(left_out_), Join::kSemicolon}));
+        if (!damage_.empty()) said.push_back(damage_);
+        return sentences(std::move(said));
+    }
+
+    template <class Item>
+    static std::vector<Item> shortened_list(std::vector<Item> items) {
+        constexpr std::size_t kMost = 3;
+        if (items.size() > kMost) items.resize(kMost), items.push_back(Item("..."));
+        return items;
+    }
+
+    /// The ending of an archive that cannot be opened; empty where there is none.
+    static std::string closed_kind(const std::vector<std::string>& names) {
+        for (const std::string kind : {".rar", ".7z"})
+            for (const std::string& name : names)
+                if (in_small_letters(name).ends_with(kind + "\"")) return kind;
+        return "";
+    }
+
+    const Submission& submission_;
+    const fs::path to_, root_;
+    const Isolation level_;
+    const fs::path& program_;
+    SubmissionLimits limits_;
+    int opened_ = 0;
+    std::set<fs::path> of_notebooks_;  ///< folders whose script was a notebook
+    std::vector<Message> left_out_;    ///< and why, a clause each
+    Message renamed_;                  ///< of a script that came under another name
+    Message damage_;                   ///< of the last archive that could not be opened
+};
+
+}  // namespace
+
+StagedWork stage_submission(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,
+                            const SubmissionLimits& limits) {
+    StagedWork staged = Stager(submission, to, level, program, limits).stage();
+    staged.language = language_of_work(staged.folder);
+    return staged;
+}
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "base/message.h"
+#include "course/intake/submission.h"
+
+namespace dynlab::inline course {
+
+struct StagedWork {
+    std::filesystem::path folder;  ///< holds analysis.lua
+    Message remark;                ///< for the instructor: which of several versions was taken; else empty
+    std::string language{};        ///< of the work, see language_of_work
+    bool of_notebook = false;      ///< its analysis.lua was an analysis.ipynb
+};
+
+/// Brings a submission's files into `to`, an empty folder, and finds analysis.lua: at any depth, in archives within
+/// archives as well where there is none outside of them; a notebook analysis.ipynb becomes one (notebooks.h). Of
+/// several the newest is taken: by the numbers in their names
+/// ("work.zip", "work_v2.zip"), else by the scripts' times. A script to whose name a platform added
+/// ("..._analysis.lua", "analysis-1.lua") is taken under its own, and where there is none, one whose name a browser or
+/// a system changed ("Analysis.lua", "analysis.lua.txt", "analysis (1).lua"); one in UTF-16 is brought to UTF-8.
+/// Archives are unpacked in a box by `program`. Throws SubmissionError with a sentence for the student: there is none,
+/// with what there is instead; several of one age; too large.
+StagedWork stage_submission(const Submission& submission, const std::filesystem::path& to, Isolation level,
+                            const std::filesystem::path& program, const SubmissionLimits& limits = {});
+
+}  // namespace dynlab::inline course

@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+
+#include "base/message.h"
+#include "course/store/assignments.h"
+#include "course/store/incoming.h"
+#include "course/store/inspection.h"
+
+namespace dynlab::inline course {
+
+/// The part under which files are kept that nobody can read as what the assignment wants: they leave a trace and a
+/// receipt, and replace nothing.
+inline constexpr const char* kUnreadable = "unreadable";
+
+/// What a file that came in is. Its content says so; its name counts only where the content leaves it open.
+struct RecognisedFile {
+    std::string part;     ///< report, slides, script, review, pack; kUnreadable
+    std::string name;     ///< under which it is kept: a PDF's ends in .pdf, so that all that follows knows it
+    std::string trouble;  ///< id of why nobody can read it: "empty", "closed-archive", "other-kind"; else empty
+    Message reason;       ///< the same in a sentence
+    Message remark;       ///< a clause where name and content differ
+    bool text = false;    ///< a word processor's: kept as the document, which it is, though no PDF
+};
+/// `stage`: "first", "review" or "final". Throws EnvironmentError for a file that cannot be opened.
+RecognisedFile recognise(const IncomingFile& file, const Assignment& assignment, const std::string& stage);
+
+/// The part of the assignment's document: "report", "slides" or "review".
+std::string document_part_of(const Assignment& assignment, const std::string& stage);
+
+/// What is kept beside a file that nobody can read.
+Inspection unreadable_inspection(const std::string& trouble, const Message& reason);
+
+}  // namespace dynlab::inline course

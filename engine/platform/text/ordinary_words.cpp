@@ -1,0 +1,95 @@
+#include "platform/text/ordinary_words.h"
+
+#include "platform/text/word_set.h"
+
+namespace dynlab::inline platform {
+namespace {
+
+/// Words that are surnames or given names as well, names of the field (methods, units, authors that reports cite), and
+/// of programs that write themselves into documents; folded.
+constexpr std::string_view kOrdinaryWords =
+    "abel able ackermann acre acrobat admin adobe akaike alder alpha america ampere anderson ange angel annex "
+    "anonymous appendix apple april arbre arch archer arnoldi array ash astrom auger august austin author authors "
+    "avril azur back backlund bacon bailey baker ball bank banks barber bartlett bas bass battle bayes beach beamer "
+    "bean bear beau bell belle bellman bench bender berger bernard bernoulli berry bessel best beta bijou bird "
+    "birkhoff bishop black blackman blanc blanche blank block bloom blue board bode bohlin bohr bois boltzmann bon "
+    "bond bonne bonnet book booth bordeaux bosse bottou boucher boulanger bound bourgeois bow bowl box branch brand "
+    "bras breton bridge bridges bright bristol brittany brook brooks brown brun bruno bud bull burg burn burns bush "
+    "butcher butler butter butterworth cable cairo camp cane canon caratheodory card carlo carpenter carre carter case "
+    "cash castle catalog cauchy cayley cerf chain chaine champ champs chance chapel chapter charbon charge charlotte "
+    "charpentier charrette chart chase chat chateau chauvin chebyshev chelsea chemin cheval chevalier chevre china "
+    "chirikov cholesky chrome church clair claire clark clarke class clay clerc cloche close cloutier coast code cohen "
+    "coin cole colin column comte content contents cook coon cooper corbeau cordier core coriolis corner cost coste "
+    "cote couleur coulomb count counts cour courbe court cousin couture craft cramer crane crank creator croix cross "
+    "crow curve cycle dahlin dakota dale danielson data date david day dean dear debian deep degree delta dernier "
+    "descartes desert dial diamond dimanche diophantus dirac dirichlet doe doppler dormand doux draft drew drive droit "
+    "droite drop duck duhamel duke dur durbin dwell dyer earl early earth east easy eau ecole edge eglise eight eighth "
+    "einstein elder eleven end english entree entry epson error etoile etude euclid euler evans even event evrard "
+    "exact excel fact factor faible fair faith falls false faraday farmer fast faure feature fer ferme fevrier "
+    "fibonacci field fields fifth figure figures file fille fils filter fin finch first fish fisher fit five fletcher "
+    "fleur fleury flint flood florence flow flower flowers fold font fontaine force ford forest form fort forte fosse "
+    "foster foulon fountain four fourier fournier fourth fowler fox frame franc francais france frank franks free "
+    "freeman french frobenius frost fuller gage gain gale galerkin galileo galton game gamma gap garde garden gardner "
+    "garnier gates gauche gauss gaussian gauthier gay gendre gentle german gershgorin ghostscript gibbs gift gilles "
+    "gilson givens givre glass glover gnuplot gold golden good goodman google gout grace gram grand grande granger "
+    "grant grassmann grave graves gray great green grey grid gros grosse ground group groups grove groves guerin "
+    "guerre guess guy hadamard half hall hamilton hammerstein hamming hand hands hankel hann hardy harp harris hart "
+    "haut hay head heat heath heaviside heisenberg held helmholtz hermite hertz hessenberg hessian heureux high "
+    "hilbert hill hills hiver hobbs holder hole holiday holland home hood hook hooke hooper hope hopkinson horn horne "
+    "house householder houston huber hunt hunter hurwitz huygens hyperref image inch index india info input iron "
+    "israel item jack jacobi jacobian james jardin jaune jay jenkins jersey jeune john join joli jolly jones jordan "
+    "joule jour joy judge juin june jury just juste justice kailath kaiser kalman karhunen keen keep kelvin key keys "
+    "keywords kids kind king kirchhoff kleinman knight knot kolmogorov kronecker krylov kutta label lac lacroix lag "
+    "lagrange laguerre lake lamb lamp lanczos land landau lane lang langevin laplace large last latex latin laurent "
+    "law lawn lay layer lead leaf league lean leave lebesgue leclerc left legendre leger legere leibniz lens lent "
+    "lente leroy level levenberg lever levier levinson lewis libre lieu light lily limb limit limits lincoln line "
+    "lines link linux lion lipschitz list lit little live ljung loan lock logic london long longue loop lord loss love "
+    "low lowe luatex lucky luenberger lundi lyapunov maclaurin madison main maison maitre major mann map marble march "
+    "marchand marche mardi marechal mark markov marks marquardt mars marsh marshall mason masse master masters matin "
+    "matlab matrix maxwell may mayne mcbride mead meadows mealy means measure media mehra member members memory mercer "
+    "mercier mercy merit merle merry mesure method metric meunier michel microsoft midi might miles milieu mill miller "
+    "mills mint mode model modele module moine moler monday monnier mont montagne monte moon moor moore moreau morin "
+    "morrow morse moss moteur motion motor moulin mount mountain mouton mur music nail name names nash near neige "
+    "nelder new newman newton newtonian nichols nicholson nicolas night nine ninth nobel noble node noel noir noire "
+    "noise nom norm north note nouveau null number nussbaum nut nyquist oak oakes object octave octobre office offset "
+    "ohm olive olympic ombre omega one open order origin osborn outline output owen pace pack pade padgett page pages "
+    "paille pain paine pair palais palier palm palmer palmgren pandoc panel parent paris park parker parks parseval "
+    "parson part partie pas pascal pass patch path pattern paul peace peak pearl pearson penny penrose pepper perfect "
+    "perrin perron perry petit petite phase picard piece pied pierre pike pine pitt pixel place plage plain plan "
+    "planck plane plant plat plate pleine plot plus poids poincare point poirier poisson pole pomme pond pont "
+    "pontryagin pool poole pope poppler port porte porter potter poulain poulet pound powder power powers prandtl "
+    "pratt premier prev prevot price pride prieur prime prince prior probe process processus proctor producer "
+    "professor proof prudhomme pseudo pseudonym puits pulley pulse pump python quade quanser quartz query quick quote "
+    "radius ragazzini rain rameau ramp ramsey random range ranger rank rao raphson rapport rate ratio ray rayleigh "
+    "rayon read reader real recherche record red reed regard region regnier reid renard report resource resources rest "
+    "reste result results retard review reynolds riccati rice rich richardson riche riemann right ring rise rissanen "
+    "river rivers riviere road robert robin robot roche rock rod rode roi roll roman rond root rose rosenbrock rouge "
+    "round rousseau routh roux row roy royal royer ruelle rule run runge runner rush sable sagara sage sales salle "
+    "salt samedi sample samples sand sands sans sargan sauvage savage sawyer scale schmidt school schur schwarz score "
+    "script sea seal search season second section seidel self senior sense serie series serif serrure set settings "
+    "seul seven seventh shade shaft shannon shape share sharp shaw sheep shell shepherd shift ship shore short siecle "
+    "siemens sigma sign signal silver simon simpson simulink sine singer single sinha six sixth size skia skinner skip "
+    "sky slater slope small smart smith snow soderstrom soleil solid son sort sortie source souris south southwell "
+    "space span spear speed spline spring square stable stack stage star start state station steel steep steiglitz "
+    "stem step steps stern steward still stirling stock stoica stokes stone storm stream street strejc stribeck string "
+    "strong stuart student students style subject such suite sum summer summers sun sunday surface swan sweep sweet "
+    "swift swing switch sydney sylvester symbol system systeme table tableau tache tail takagi taller tanner target "
+    "task taylor teacher team temps ten tension tenth term terme terre tesla tessier test tete tex text texte thank "
+    "theil theme theta third thorn thorpe three threshold tick tikhonov time tison title todd toeplitz tool top total "
+    "tour toussaint tower towers trace track trailer train travel travers tree trend tresor trial true truth tsypkin "
+    "tube tucker tukey tune turn turner tustin twelve twist two type unbehauen under union unit user users vale valeur "
+    "valle vallee value valve vandermonde vane vector vent verdier version vert verte victor victoria vidal vieille "
+    "vieux view vigne vigneron ville vine vivant voice void voisin volt volta volterra volume vrai wade wahlberg wake "
+    "wald walk walker wall walls walsh ward warden warm warner washington water waters watt watts wave way weaver webb "
+    "weber week weeks weight welch well wells west wheel wheeler white whittaker whole wide widrow width wiener wigner "
+    "wild will willow wilson wind windows winter winters wire wise with wold wolf wood woods word work works worth "
+    "wright writer wronskian xetex yard year york young yule zadeh zero zhu ziegler";
+
+}  // namespace
+
+bool is_ordinary_word(const std::string& folded) {
+    static const std::unordered_set<std::string_view> words = word_set(kOrdinaryWords);
+    return words.contains(folded);
+}
+
+}  // namespace dynlab::inline platform
