@@ -198,7 +198,8 @@ ManualMarks::ManualMarks(const fs::path& results, const ClassWork& work, const s
     const MarkedItems items(work);
     std::map<std::string, double> most;  // by check
     for (const CheckDescription& check : checks) most[check.id] = check.points, most[kWholeSubmission] += check.points;
-    for (const MarksFile::Row& row : MarksFile(results).rows()) {
+    const MarksFile file(results);
+    for (const MarksFile::Row& row : file.rows()) {
         if (!row.points) continue;
         const auto complain = [&](const Message& what) {
             complaints_.push_back(Message("{}, line {}: {}", kMarksFile, row.line, what));
