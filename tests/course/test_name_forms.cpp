@@ -82,7 +82,7 @@ TEST(name_forms, groups_in_other_words) {
 TEST(name_forms, surnames_in_small_letters_and_identifiers) {
     expect_certain({"fig_lovelace.pdf", "lovelace_hopper", "crane_lovelace2", "a.lovelace", "LovelaceHopper",
                     "author = lovelace", "plotHopper(x)", "/srv/hopper/crane", "hopper@laptop", "data_hopper = 3"});
-    expect_hint({"the hopper of the mill"});
+    expect_hint({"the hopper of the mill", "a lovelace of it"});
 }
 
 TEST(name_forms, short_names_with_initials_and_together) {
@@ -103,12 +103,12 @@ TEST(name_forms, folders_and_prompts) {
 }
 
 TEST(name_forms, letters_that_look_like_others) {
-    expect_certain({"by L\u043Evel\u0430ce",                             // Cyrillic o and a
-                    "\u041D\u043Epper",                                  // Cyrillic capital En, o
-                    "L\u03BFvelace",                                     // Greek omicron
-                    "\u029F\u1D0F\u1D20\u1D07\u029F\u1D00\u1D04\u1D07",  // small capitals
-                    "\u1D38\u1D52\u1D5B\u1D49\u02E1\u1D43\u1D9C\u1D49",  // raised letters
+    expect_certain({"by L\u043Evel\u0430ce",  // Cyrillic o and a
+                    "\u041D\u043Epper",       // Cyrillic capital En, o
+                    "L\u03BFvelace",          // Greek omicron
                     "L\uFE0Fove\u2061lace", "Love\u180Elace", "Lo\u202Cvelace", "\u24C1ovelace"});
+    expect_hint({"\u029F\u1D0F\u1D20\u1D07\u029F\u1D00\u1D04\u1D07",    // small capitals
+                 "\u1D38\u1D52\u1D5B\u1D49\u02E1\u1D43\u1D9C\u1D49"});  // raised letters
     expect_certain({"НОВИКОВ", "Новиков", "новиков Сергей"});
 }
 

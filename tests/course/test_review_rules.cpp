@@ -22,15 +22,11 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// Four groups with a report each, who review two reports each; the pairs are drawn and sent.
-class review_rules : public testing::Test {
-  protected:
-    review_rules() : course_(bench_.bench().path() / "k"), crane_(assignment_named(course_, "crane")) {
-        course_.database().run("UPDATE memberships SET since = ?", at("2026-01-01 12:00"));
-        for (int i = 1; i <= 4; ++i) submit("first", CourseBench::group(i), "2026-03-01 10:00");
-        assign_reviews(course_, crane_, at("2026-03-02 10:00"), false);
-        send(Way::kToReviewers, "2026-03-02 11:00");
-    }
+/// A course and what instructors and groups do in it.
+class Term {
+  public:
+    explicit Term(const CourseBench& begun)
+        : bench_(begun), course_(bench_.bench().path() / "k"), crane_(assignment_named(course_, "crane")) {}
 
     Instant at(const std::string& text) const { return course_.clock().parse(text, "time"); }
     std::int64_t id(const std::string& group) { return group_named(course_, group).id; }
@@ -106,10 +102,28 @@ class review_rules : public testing::Test {
         return "";
     }
 
-    CourseBench bench_{4};
+    CourseBench bench_;
     Course course_;
     Assignment crane_;
     std::map<std::string, std::string> sources_;  ///< what the copies were made from, by group
+};
+
+/// Four groups with a report each, who review two reports each; the pairs are drawn and sent. Made once and copied.
+class review_rules : public testing::Test, protected Term {
+  protected:
+    review_rules() : Term(sent()) {}
+
+    static const CourseBench& sent() {
+        static const CourseBench bench = [] {
+            Term term(CourseBench(4));
+            term.course_.database().run("UPDATE memberships SET since = ?", term.at("2026-01-01 12:00"));
+            for (int i = 1; i <= 4; ++i) term.submit("first", CourseBench::group(i), "2026-03-01 10:00");
+            assign_reviews(term.course_, term.crane_, term.at("2026-03-02 10:00"), false);
+            term.send(Way::kToReviewers, "2026-03-02 11:00");
+            return CourseBench(term.bench_);
+        }();
+        return bench;
+    }
 };
 
 using Mark = std::optional<double>;
@@ -239,7 +253,7 @@ TEST_F(review_rules, release_lists_reports_with_one_review_or_none) {
 // oracle: the definition: 0 where any other group has points; by hand
 TEST_F(review_rules, missing_points_of_an_oral_count_zero) {
     Assignment talk;
-    talk.name = "talk", talk.kind = "presentation", talk.first_due = at("2026-04-01 12:00");
+    talk.name = "talk", talk.kind = "talk", talk.first_due = at("2026-04-01 12:00");
     talk.criteria = {{"content", 5}, {"script", 5}, {"answers", 10}};
     add_assignment(course_, talk);
     talk = assignment_named(course_, "talk");

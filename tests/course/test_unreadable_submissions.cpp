@@ -86,7 +86,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
          {std::pair("capital", "Analysis.lua"), std::pair("copy", "my analysis (2).lua"),
           std::pair("text", "analysis.lua.txt"), std::pair("encoded", "my%20analysis.lua")}) {
         EXPECT_EQ(bench.result(name).at("score"), bench.result("right").at("score")) << name;
-        EXPECT_THAT(work.read("out/summary.md"), HasSubstr(fmt::format("\"{}\" was taken as analysis.lua", file)));
+        EXPECT_THAT(work.read("out/summary.md"), HasSubstr(fmt::format("{}\u201D was taken as analysis.lua", file)));
     }
     EXPECT_THAT(graded.output, HasSubstr("  \"silent\" ran to its end but gave no answer\n"));
     EXPECT_THAT(graded.output, Not(HasSubstr("right")));

@@ -149,6 +149,7 @@ TEST(help, leads_on_from_toolboxes_methods_and_lua) {
 
 TEST(help, finds_pages_by_words) {
     const auto all = functions();
+    EXPECT_THAT(help_search("logo", all), HasSubstr("guide-own-course"));
     const std::string delay = help_search("delay", all);
     EXPECT_LT(delay.find("delayest"), delay.find("tfsrivc"));  // names come before pages
     for (const char* word : {"report", "cells", "noise", "csv", "colour", "Young"})

@@ -237,6 +237,10 @@ TEST(messages_in_french, are_as_written_by_hand) {
     const std::string order = told_in("fr", kRecord + "srivcstruc(d, {poles = {1, 2}, zeros = {0, 1}})");
     EXPECT_THAT(order, testing::AllOf(HasSubstr("Structure recommandée : 2 pôles et "), HasSubstr(" (R_T^2 = 0,9")));
     EXPECT_THAT(order, HasSubstr("pôles zéros"));
+    EXPECT_THAT(told_in("fr", "present(tf({2}, {1, 0.6, 1.7}))"), HasSubstr("  -0,3 + 1,2689i "));
+    EXPECT_THAT(told_in("fr", "print(zeros(100), zeros(20, 20))"),
+                testing::AllOf(HasSubstr("] (100 valeurs)"), HasSubstr("... (matrice 20 x 20)")));
+    EXPECT_THAT(told_in("fr", kRecord + "resid(d, G0)"), HasSubstr("y1\u202F: L'erreur"));
 }
 
 TEST(messages_in_french, of_scripts_own_stay_and_english_scripts_are_english) {

@@ -112,7 +112,7 @@ std::vector<std::string> page_lines(const PdfPage& page) {
     return lines;
 }
 
-std::string joined(const std::vector<std::string>& lines) {
+std::string text_of_lines(const std::vector<std::string>& lines) {
     std::string text;
     for (const std::string& line : lines) text += line + "\n";
     return text;
@@ -180,7 +180,7 @@ class AnonymitySearch {
         for (const PdfPage& page : layout.pages) {
             const std::vector<std::string> lines = page_lines(page);
             ++number;
-            search({TextPlace::kText, number, "", joined(lines)}, TextManner::kProse);
+            search({TextPlace::kText, number, "", text_of_lines(lines)}, TextManner::kProse);
             if (static_cast<std::size_t>(number) <= in_content_order.size())
                 search({TextPlace::kText, number, "", in_content_order[static_cast<std::size_t>(number) - 1]},
                        TextManner::kProse);
@@ -270,13 +270,14 @@ class AnonymitySearch {
         if (!known_.emplace(hit.who, text.place, text.page, hit.kind).second) return;
         if (hit.ordinary) return add_word(text.page, hit);
         const PlaceText& place = text_about(text.place);
-        const Message where = text.detail.empty() ? place.where : Message("{} ({})", place.where, text.detail);
+        const Message where =
+            text.detail.empty() ? place.where : Message("{} ({})", place.where, printable(text.detail, 40));
         found_.push_back({place.id, hit.certain ? Severity::kRule : Severity::kHint, text.page, "",
                           sentence_about(hit, where, excerpt_of(hit)), place.remedy});
     }
 
     void add_word(int page, const NameHit& hit) {
-        if (!ordinary_.insert(hit.who).second || ordinary_.size() > kMaxWords) return;
+        if (!ordinary_.insert(hit.written).second || ordinary_.size() > kMaxWords) return;
         if (words_.empty()) first_word_ = page;
         words_ += (words_.empty() ? "\"" : ", \"") + printable(hit.written, 40) + "\" (" + std::to_string(page) + ")";
     }

@@ -1,5 +1,6 @@
 #include "course/anonymity/identity_matcher.h"
 
+#include <re2/re2.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -112,15 +113,15 @@ std::string squeezed(std::string_view text, std::vector<std::size_t>* offsets) {
     return result;
 }
 
-/// The path of a page on the web is nobody's home.
+/// The path of a page on the web is not a home folder.
 bool is_in_address(std::string_view text, std::size_t at) {
     const std::size_t blank = text.substr(0, at).find_last_of(" \n\t(<\"");
     const std::string_view word = text.substr(blank == std::string_view::npos ? 0 : blank + 1, at - (blank + 1));
     return word.find("http://") != std::string_view::npos || word.find("https://") != std::string_view::npos;
 }
 
-/// Folders that are nobody's, and names that stand in instructions.
-bool is_nobodys(const std::string& user) {
+/// Accounts that are not a person's, and names in instructions.
+bool is_of_no_person(const std::string& user) {
     return user.size() < 2 ||
            is_one_of(user, {"user", "users", "username", "name", "you", "your", "me", "student", "students", "shared",
                             "public", "default", "guest", "runner", "home", "root"});
@@ -156,22 +157,6 @@ std::string percent_decoded(std::string_view text) {
 
 NameHit hit_of(std::string_view text, const std::string& who, NameKind kind, std::size_t begin, std::size_t end) {
     return {who, kind, true, false, std::string(text.substr(begin, end - begin)), begin, end};
-}
-
-/// What a terminal shows before a command: ada@laptop:~$
-void find_prompts(std::string_view text, std::vector<NameHit>& hits) {
-    const auto is_of_name = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
-    };
-    for (std::size_t at = text.find(":~"); at != std::string_view::npos; at = text.find(":~", at + 1)) {
-        std::size_t host = at;
-        while (host > 0 && is_of_name(text[host - 1])) --host;
-        if (host == at || host == 0 || text[host - 1] != '@') continue;
-        std::size_t begin = host - 1;
-        while (begin > 0 && is_of_name(text[begin - 1])) --begin;
-        if (!is_nobodys(squeezed(text.substr(begin, host - 1 - begin), nullptr)))
-            hits.push_back(hit_of(text, std::string(text.substr(begin, at - begin)), NameKind::kHome, begin, at));
-    }
 }
 
 }  // namespace
@@ -238,7 +223,7 @@ void IdentityMatcher::add_writings(const Student& student, bool own) {
 
 void IdentityMatcher::add_account(const fs::path& home) {
     const std::string folder = home.lexically_normal().string();
-    if (std::ranges::count(folder, '/') >= 2 && !is_nobodys(home.filename().string())) homes_.push_back(folder);
+    if (std::ranges::count(folder, '/') >= 2 && !is_of_no_person(home.filename().string())) homes_.push_back(folder);
 }
 
 void IdentityMatcher::index(NamePattern pattern) {
@@ -279,7 +264,7 @@ void IdentityMatcher::find_patterns(const Tokens& tokens, std::string_view text,
             if (pattern.ordinary && (passed_over || cited || !as_name)) continue;
             if (alone && (is_cited(pattern, tokens, i, end) || (cited && cited_.contains(pattern.letters)))) continue;
             bool certain = pattern.given_only ? identifier && pattern.own : pattern.whole || !cited;
-            if (in_small && !identifier && !pattern.own) certain = false;
+            if (in_small && !identifier && !(pattern.own && is_labelled(tokens, i))) certain = false;
             if (pattern.bare && !pattern.own) certain = false;
             if (pattern.ordinary || (match->parted && alone)) certain = false;
             if (pattern.whole && cited_names_.contains(pattern.letters)) certain = false;
@@ -301,22 +286,16 @@ void IdentityMatcher::find_addresses(std::string_view text, std::vector<NameHit>
 }
 
 void IdentityMatcher::find_paths(std::string_view text, std::vector<NameHit>& hits) const {
-    constexpr std::string_view kRoots[] = {"/home/",  "/home1/", "/home2/",   "/home3/",   "/homes/",
-                                           "/users/", "/Users/", "\\Users\\", "\\users\\", "\\home\\"};
-    for (const std::string_view root : kRoots) {
-        for (std::size_t at = text.find(root); at != std::string_view::npos; at = text.find(root, at + 1)) {
-            const std::size_t begin = at + root.size();
-            std::size_t end = begin;
-            while (end < text.size() && static_cast<unsigned char>(text[end]) > ' ' &&
-                   std::string_view("/\\()<>\"':;,").find(text[end]) == std::string_view::npos)
-                ++end;
-            if (is_in_address(text, at)) continue;
-            const std::string user = squeezed(text.substr(begin, end - begin), nullptr);
-            if (!is_nobodys(user))
-                hits.push_back(hit_of(text, std::string(text.substr(at, end - at)), NameKind::kHome, at, end));
+    static const re2::RE2 folder(R"re(((?:/home\d?/|/homes/|/[Uu]sers/|\\[Uu]sers\\|\\home\\)([^\s/\\()<>"':;,]+)))re");
+    static const re2::RE2 prompt(R"re((([\w.-]+)@[\w.-]+):~)re");  // ada@laptop:~$
+    for (const re2::RE2* const place : {&folder, &prompt}) {
+        re2::StringPiece rest(text.data(), text.size()), whole, user;
+        while (re2::RE2::FindAndConsume(&rest, *place, &whole, &user)) {
+            const auto begin = static_cast<std::size_t>(whole.data() - text.data());
+            if (is_in_address(text, begin) || is_of_no_person(squeezed({user.data(), user.size()}, nullptr))) continue;
+            hits.push_back(hit_of(text, std::string(whole), NameKind::kHome, begin, begin + whole.size()));
         }
     }
-    find_prompts(text, hits);
     for (const std::string& home : homes_) {
         const std::size_t at = text.find(home);
         if (at != std::string_view::npos) hits.push_back(hit_of(text, home, NameKind::kHome, at, at + home.size()));

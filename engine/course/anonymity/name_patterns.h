@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/message.h"
-#include "course/anonymity/name_tokens.h"
 #include "course/intake/roster.h"
+#include "platform/text/name_tokens.h"
 
 namespace dynlab::inline course {
 

@@ -211,9 +211,8 @@ void PlatformSheet::find_people() {
 }
 
 void PlatformSheet::put(std::size_t row, std::size_t column, const std::string& text) {
-    std::string cell = csv_cell(text);
-    if (!cell.starts_with('"') && cell.find(separator_) != std::string::npos) cell = '"' + cell + '"';
-    lines_[row].cells[column] = std::move(cell);
+    const bool separated = text.find(separator_) != std::string::npos;
+    lines_[row].cells[column] = number_in_cell(text) && !separated ? text : csv_cell(text);
 }
 
 void PlatformSheet::set_grade(const Person& person, const std::string& points) {

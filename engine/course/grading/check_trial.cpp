@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/reader.h"
@@ -81,13 +82,15 @@ std::vector<std::pair<std::string, CheckedSubmission>> typed_in(const CheckedSub
     constexpr double kNear = 0.1;
     std::vector<std::pair<std::string, CheckedSubmission>> typed;
     for (const auto& [name, answer] : solution.runs.at(kMainRun).answers) {
-        const std::optional<double> value = number_in_cell(answer.json);
+        auto json = nlohmann::json::parse(answer.json, nullptr, false);
+        if (!json.is_object() || !json.contains("value") || !json["value"].is_number()) continue;
+        const auto value = json["value"].get<double>();
         for (const double number : numbers) {
-            if (!value || std::abs(std::abs(*value) - number) > kNear * std::abs(*value)) continue;
-            const std::string text = fmt::format("{}", *value < 0 ? -number : number);
+            if (std::abs(std::abs(value) - number) > kNear * std::abs(value)) continue;
+            json["value"] = value < 0 ? -number : number;
             CheckedSubmission one = starter;
-            one.runs.at(kMainRun).answers[name] = {answer.kind, text};
-            typed.emplace_back(name + " = " + text, std::move(one));
+            one.runs.at(kMainRun).answers[name] = {answer.kind, json.dump()};
+            typed.emplace_back(fmt::format("{} = {}", name, json["value"].get<double>()), std::move(one));
         }
     }
     return typed;

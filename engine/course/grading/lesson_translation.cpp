@@ -36,9 +36,11 @@ std::string words_to_translate(const Lesson& lesson, const std::string& language
                                               "text/plain; charset=UTF-8\\n\"\n",
                                               language);
     const Catalog catalog(text);
-    for (const std::string& sentence : sentences_of_checks(read_text(lesson.folder / "checks.lua")))
-        if (catalog.translation(sentence).empty() && text.find("msgid \"" + sentence + "\"") == std::string::npos)
-            text += fmt::format("\nmsgid \"{}\"\nmsgstr \"\"\n", replaced(sentence, "\"", "\\\""));
+    for (const std::string& sentence : sentences_of_checks(read_text(lesson.folder / "checks.lua"))) {
+        const std::string id = fmt::format("msgid \"{}\"\n", replaced(sentence, "\"", "\\\""));
+        if (catalog.translation(sentence).empty() && text.find(id) == std::string::npos)
+            text += "\n" + id + "msgstr \"\"\n";
+    }
     return text;
 }
 

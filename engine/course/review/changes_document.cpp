@@ -4,11 +4,11 @@
 
 #include "base/reader.h"
 #include "course/grading/feedback.h"
-#include "platform/text/plain_words.h"
 #include "course/review/version_changes.h"
 #include "course/store/side_by_side.h"
 #include "documents/text_lines.h"
 #include "platform/terminal/aligned_table.h"
+#include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {

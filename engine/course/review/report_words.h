@@ -14,7 +14,7 @@ struct ReportWord {
 };
 
 /// At most so many words of a report are compared.
-inline constexpr std::size_t kMaxReportWords = 50'000;
+inline constexpr std::size_t kMaxReportWords = 20'000;
 
 /// Of the Markdown that `dynlab report` makes. Rules of tables are not words.
 std::vector<ReportWord> words_of_markdown(const std::string& markdown);

@@ -172,7 +172,8 @@ class Pruning {
             Object file = descriptor.getKey(key);
             if (!file.isStream()) continue;
             const std::string number = std::to_string(names_.size() + 1);
-            const auto& [entry, added] = names_.emplace(descriptor.getKey("/FontName").getName(), "/AAAAAA+Font" + number);
+            const auto& [entry, added] =
+                names_.emplace(descriptor.getKey("/FontName").getName(), "/AAAAAA+Font" + number);
             descriptor.replaceKey("/FontName", Object::newName(entry->second));
             descriptor.removeKey("/FontFamily");
             const StreamContent content = stream_content(file, most_);

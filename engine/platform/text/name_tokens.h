@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dynlab::inline course {
+namespace dynlab::inline platform {
 
 /// What stands between a token and the one before it.
 enum class Gap {
@@ -34,4 +34,4 @@ std::vector<NameToken> name_tokens(std::string_view utf8, Reading reading = Read
 /// Whether the tokens are others than those of the plain reading.
 bool reads_otherwise(std::string_view utf8, Reading reading);
 
-}  // namespace dynlab::inline course
+}  // namespace dynlab::inline platform

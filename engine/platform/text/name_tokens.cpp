@@ -1,9 +1,9 @@
-#include "course/anonymity/name_tokens.h"
+#include "platform/text/name_tokens.h"
 
 #include "platform/text/look_alikes.h"
 #include "platform/utf8.h"
 
-namespace dynlab::inline course {
+namespace dynlab::inline platform {
 namespace {
 
 constexpr std::size_t kNarrowest = 3;  ///< signs
@@ -13,10 +13,10 @@ bool is_unseen(char32_t c) {
            c == 0x3000;
 }
 
-constexpr char32_t kSoftHyphen = 0xAD;
+constexpr char32_t kHyphenation = 0xAD;
 
 bool is_hyphen(char32_t c) {
-    return c == '-' || c == 0x2010 || c == 0x2011 || c == kSoftHyphen;
+    return c == '-' || c == 0x2010 || c == 0x2011 || c == kHyphenation;
 }
 
 bool is_line_end(char32_t c) {
@@ -26,7 +26,7 @@ bool is_line_end(char32_t c) {
 /// A soft hyphen is a sign where a line ends behind it.
 bool is_unheard(char32_t c, std::string_view rest) {
     if (!is_silent(c)) return false;
-    if (c != kSoftHyphen) return true;
+    if (c != kHyphenation) return true;
     while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
     return rest.empty() || !is_line_end(static_cast<unsigned char>(rest.front()));
 }
@@ -109,4 +109,4 @@ bool reads_otherwise(std::string_view utf8, Reading reading) {
     return false;
 }
 
-}  // namespace dynlab::inline course
+}  // namespace dynlab::inline platform
