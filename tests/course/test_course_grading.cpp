@@ -78,6 +78,9 @@ TEST_F(course_grading, lab_is_graded_marked_extended_and_totalled) {
     EXPECT_THAT(done({"export", "--at", "2026-03-05 12:00"}),
                 AllOf(HasSubstr("lab4 percent (weight 1)"), HasSubstr("group-02,100,100,,"),
                       HasSubstr("group-01,83.33,83.33,,")));
+    EXPECT_THAT(done({"marks", "lab4"}), ::testing::ContainsRegex("group-01 +v1 +5 of 6"));
+    EXPECT_THAT(done({"export", "lab4"}),
+                ::testing::ContainsRegex("223,Max Mustermann,,,,group-02,2026-03-01 13:00,[^,]*,6,6,0,100,"));
     EXPECT_EQ(grade().exit_code, 0);
     EXPECT_THAT(book(), HasSubstr("223,Max Mustermann,group-02,graded,6,6,0,"));
 }

@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/reader.h"
 #include "course/course_bench.h"
 #include "course/office/course_totals.h"
+#include "course/office/deadline_import.h"
 #include "course/office/who.h"
 #include "course/store/marks.h"
 #include "course/store/refusals.h"
@@ -153,6 +155,31 @@ TEST(course_labs, who_tells_all_of_a_student_by_any_name) {
             << name;
     EXPECT_THAT(who_text(course.course(), "s2", now), Not(HasSubstr("see me")));
     EXPECT_THROW(who_text(course.course(), "Mallory", now), InvalidArgument);
+}
+
+// oracle: the rows of the table; the same table again changes nothing
+TEST(course_labs, table_of_deadlines_becomes_extensions_and_times_of_receipt) {
+    LabCourse course;
+    course.grade(course.submit(1, "2026-03-02 11:00"), 4, 6);
+    course.grade(course.submit(2, "2026-03-02 11:00"), 4, 6);
+    course.grade(course.submit(3, "2026-03-02 11:00"), 4, 6);
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "deadlines.csv";
+    write_file_atomically(file,
+                          "submission,deadline,extra,received,percent_per_day\n*,2026-03-01 10:00,,,20\n"
+                          "Student 2,,2 d,,\ngroup 3,,,2026-03-01 09:00,\ngroup-9,2026-03-05 12:00,,,\n");
+    const Instant now = course.at("2026-03-04 12:00");
+    const DeadlineImport done = import_deadlines(course.course(), course.lab(), file, now);
+    EXPECT_EQ(done.extended, 1);
+    EXPECT_EQ(done.corrected, 1);
+    ASSERT_EQ(done.complaints.size(), 1u);
+    EXPECT_THAT(message_text(done.complaints.front()), HasSubstr("the row of \"group-9\": there is no group"));
+    EXPECT_EQ(course.lab().costs.late_day, 20);
+    EXPECT_EQ(course.earned(1), 6);  // two days begun
+    EXPECT_EQ(course.earned(2), 10);
+    EXPECT_EQ(course.earned(3), 10);
+    const DeadlineImport again = import_deadlines(course.course(), course.lab(), file, now);
+    EXPECT_EQ(again.extended + again.corrected, 0);
 }
 
 // oracle: the file that came and was not taken

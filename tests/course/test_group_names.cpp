@@ -70,6 +70,29 @@ TEST(group_names, ambiguous_and_unknown_names_are_refused) {
     EXPECT_THROW(student_named(course, "Wei Li"), InvalidArgument);
 }
 
+// oracle: finding of a term: Moodle's "Groupe 01" and the roster's group-01 became two groups
+TEST(group_names, another_spelling_in_a_later_roster_is_the_known_group) {
+    ClassOfNames names;
+    names.read("id,group\n221,Groupe 8\n222,GROUP_08\n12,\n");
+    names.read("id,group\n13,group-12\n");  // not that of student 12, who works alone
+    EXPECT_EQ(names.meant("221"), "group-08");
+    EXPECT_EQ(names.meant("222"), "group-08");
+    EXPECT_EQ(names.meant("13"), "group-12");
+    EXPECT_EQ(names.meant("12"), "12");
+    names.read("id,group\n221,group-08\n222,Groupe 8\n");  // both in one roster: they are two
+    EXPECT_EQ(names.meant("222"), "Groupe 8");
+    EXPECT_EQ(names.meant("221"), "group-08");
+}
+
+// oracle: the platform writes the family's name first
+TEST(group_names, the_same_words_in_another_order_are_no_former_name) {
+    ClassOfNames names;
+    names.read("id,name,group\n222,Min-jun Kim,group-08\n223,Anne Durand,group-09\n");
+    Course course = names.open();
+    EXPECT_THAT(student_named(course, "222").former, ::testing::IsEmpty());
+    EXPECT_EQ(student_named(course, "223").former.size(), 1u);
+}
+
 // oracle: the definition: who was in the group at that instant; the first group counts from the beginning
 TEST(group_names, membership_is_the_one_at_the_time) {
     ClassOfNames names;

@@ -290,6 +290,8 @@ TEST(hand_in_names, a_course_takes_files_by_the_same_names) {
     EXPECT_THAT(taken.output, HasSubstr("4 files taken, 0 late"));
     for (int i = 1; i <= 4; ++i) EXPECT_THAT(taken.output, HasSubstr(CourseBench::group(i)));
     EXPECT_THAT(taken.error_output, HasSubstr("no group and no student of the course is called \"group-77\""));
+    EXPECT_THAT(bench.course({"status", "crane"}).output, HasSubstr("Not taken: report.pdf, Sun 2026-03-01 10:00: "));
+    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("all there and unaltered"));
     EXPECT_THAT(taken.output + taken.error_output, Not(HasSubstr("01-times")));
 }
 

@@ -9,6 +9,7 @@
 #include "cli/course/course_commands.h"
 #include "course/office/course_export.h"
 #include "course/office/course_status.h"
+#include "course/office/deadline_import.h"
 #include "course/office/who.h"
 #include "course/store/assignments.h"
 #include "course/store/groups.h"
@@ -69,9 +70,20 @@ int import_people(const CourseArguments& where, const std::string& file, bool no
     return kDone;
 }
 
+int import_table(const CourseArguments& where, const std::string& assignment, const std::string& file) {
+    Course opened(where.folder);
+    const Assignment a = assignment_named(opened, assignment);
+    const DeadlineImport done = import_deadlines(opened, a, file, CourseClock::now());
+    for (const Message& complaint : done.complaints)
+        std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
+    std::cout << fmt::format("{}: {} extended, {} with another time of receipt.\n", a.name, done.extended,
+                             done.corrected);
+    return done.complaints.empty() ? kDone : kFailed;
+}
+
 void add_import(CLI::App& course, CourseArguments& where, Action& action) {
     struct Arguments {
-        std::string file, folder, from = ".";
+        std::string file, folder, assignment, from = ".";
         bool no_groups = false;
     };
     auto words = std::make_shared<Arguments>();
@@ -80,6 +92,8 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
         ->required();
     command->add_option("DIR", words->folder, "Of a JSON export instead of a roster: folder of the new course");
     command->add_flag("--no-groups", words->no_groups, "The file has no column group: new students work alone");
+    command->add_option("--deadlines", words->assignment, "FILE is a table of deadlines of this assignment")
+        ->type_name("ASSIGNMENT");
     command->add_option("--from", words->from, "Of a JSON export: folder of the old course, with its files and key")
         ->capture_default_str();
     command->footer(
@@ -92,9 +106,11 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
         "in the file stays, and so does what has no column in it.\n"
         "Examples:\n"
         "  dynlab course import roster.csv\n"
+        "  dynlab course import deadlines.csv --deadlines lab4    as dynlab grade takes them\n"
         "  dynlab course import course.json copy --from signals-2026    from course export --json");
     command->callback([&where, words, &action] {
         action = [&where, words]() -> int {
+            if (!words->assignment.empty()) return import_table(where, words->assignment, words->file);
             if (words->folder.empty()) return import_people(where, words->file, words->no_groups);
             import_course(words->file, words->from, words->folder);
             std::cout << fmt::format("Course made in {} from {}.\n", words->folder, words->file);

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
+#include <map>
 
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
@@ -10,6 +12,7 @@
 #include "course/review/oral_marks.h"
 #include "course/store/graded_work.h"
 #include "course/store/groups.h"
+#include "course/store/marks.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
@@ -132,9 +135,24 @@ void tell_students_and_comments(Course& course, const Assignment& a, const Marks
     if (!comments.empty()) std::cout << "\nComments:\n" << terminal_text(comments);
 }
 
+int show_lab_marks(Course& course, const Assignment& a) {
+    std::map<std::int64_t, std::string> names;
+    for (const Group& group : groups_of(course)) names[group.id] = group.name;
+    std::vector<std::vector<std::string>> rows;
+    for (const LabMark& mark : lab_marks(course, a))
+        rows.push_back({names[mark.group], mark.number > 0 ? fmt::format("v{}", mark.number) : "-",
+                        mark.earned ? fmt::format("{:.4g} of {:.4g}", *mark.earned, mark.possible) : "-",
+                        mark.penalty > 0 ? fmt::format("{:.4g}", mark.penalty) : "-",
+                        mark.by_hand ? "yours: " + mark.reason : ""});
+    std::ranges::sort(rows);
+    std::cout << terminal_text(aligned_table({"group", "version", "points", "penalty", "remark"}, rows));
+    return kDone;
+}
+
 int marks(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
+    if (a.is_lab()) return show_lab_marks(course, a);
     const Marks all = course_marks(course, a, time_of(course, words.at));
     std::vector<std::string> header = {"group"};
     for (const Criterion& c : a.criteria) header.push_back(fmt::format("{} /{}", c.name, c.most));

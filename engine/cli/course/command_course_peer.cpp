@@ -7,6 +7,7 @@
 #include "course/anonymity/anonymous_copy.h"
 #include "course/export/returned_files.h"
 #include "course/review/peer_review.h"
+#include "numerics/error.h"
 #include "platform/program_lookup.h"
 #include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"

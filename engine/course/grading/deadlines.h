@@ -42,10 +42,12 @@ class Deadlines {
     std::vector<std::string> strays(const std::vector<Submission>& submissions,
                                     const std::vector<std::string>& known) const;
 
-  private:
     struct Rule : LatePolicy {
         std::optional<long> received;
     };
+    const std::map<std::string, Rule>& rules() const { return rules_; }  ///< by the names in the table; * for all
+
+  private:
     const Rule* rule_for(const Submission& submission, const std::vector<std::string>& also) const;
 
     std::map<std::string, Rule> rules_;

@@ -15,6 +15,7 @@
 #include "course/review/review_marks.h"
 #include "course/store/course_schema.h"
 #include "course/store/groups.h"
+#include "course/store/marks.h"
 #include "course/store/newest_versions.h"
 #include "data_io/text_table.h"
 #include "data_io/values/json_values.h"
@@ -53,6 +54,30 @@ std::map<std::int64_t, std::string> remarks_by_reviewer(Course& course, const As
                                 mark.retaliation ? ", perhaps in return for a bad one" : "");
         }
     return remarks;
+}
+
+/// A row a student, with the mark of the group's work that counts, or the student's own.
+std::string lab_csv(Course& course, const Assignment& a) {
+    TextTable table;
+    table.names = {"id",   "name",   "mail",     "moodle",  "canvas",  "group", "submission",
+                   "late", "points", "possible", "penalty", "percent", "reason"};
+    auto versions = newest_versions(course, a);
+    const auto authors = author_groups(course, a);
+    for (const Student& s : students_of(course)) {
+        std::vector<std::string> row = {s.id, s.name, s.mail, s.moodle, s.canvas, s.group};
+        if (const auto author = authors.find(s.id); author != authors.end()) {
+            const auto came = arrival(course, versions[author->second]["first"], a.document());
+            row.insert(row.end(), {came.first, came.second});
+            const std::vector<LabMark> marks = lab_marks(course, a, s.id);
+            if (const auto mark = std::ranges::find(marks, author->second, &LabMark::group); mark != marks.end())
+                row.insert(row.end(),
+                           {percent_text(mark->earned), fmt::format("{:.4g}", mark->possible),
+                            fmt::format("{:.4g}", mark->penalty), percent_text(mark->percent()), mark->reason});
+        }
+        row.resize(table.names.size());
+        table.rows.push_back(std::move(row));
+    }
+    return csv_text(table);
 }
 
 /// A whole number, a number, a text or null.
@@ -182,6 +207,7 @@ CourseExport read_export(const fs::path& file) {
 }  // namespace
 
 std::string marks_csv(Course& course, const Assignment& a) {
+    if (a.is_lab()) return lab_csv(course, a);
     TextTable table;
     table.names = {"id",
                    "name",

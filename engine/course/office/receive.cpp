@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/reader.h"
 #include "course/office/packed_document.h"
 #include "course/office/recognised_file.h"
 #include "course/review/pack_scores.h"
@@ -18,6 +19,7 @@
 #include "course/store/inspection.h"
 #include "course/store/participants.h"
 #include "course/store/receipts.h"
+#include "course/store/refusals.h"
 #include "course/store/senders.h"
 #include "course/store/side_by_side.h"
 #include "documents/pdf/pdf_layout.h"
@@ -110,6 +112,9 @@ class HandInReceiver {
         } catch (const std::runtime_error& error) {
             if (!incoming_.batch()) throw EnvironmentError("{}: {}", file.source, message_of(error));
             outcome_.refused.push_back(Message("{}: {}", file.source, message_of(error)));
+            const std::string why = message_text(message_of(error)),
+                              hash = kept_content(course_, file.file, kMostBytes);
+            refused_.push_back({{}, request_.stage, file.name, hash, why, request_.at});
         }
     }
 
@@ -323,6 +328,7 @@ class HandInReceiver {
             else if (candidate.part == "pack")
                 known_packs.insert(slot_of(candidate, "pack"));
         }
+        for (const RefusedFile& file : refused_) record_refused(course_, outcome_.assignment, file);
         if (fresh > 0)
             course_.note(fmt::format("{}: {} received, {}", outcome_.assignment.name, fresh, request_.stage),
                          request_.at);
@@ -420,8 +426,9 @@ class HandInReceiver {
     std::optional<Group> from_;
     std::vector<ReviewPair> pairs_;
     std::vector<Candidate> candidates_;
-    TemporaryFolder opened_;           ///< what packs held
-    std::deque<IncomingFile> packed_;  ///< candidates point to them
+    TemporaryFolder opened_;            ///< what packs held
+    std::deque<IncomingFile> packed_;   ///< candidates point to them
+    std::vector<RefusedFile> refused_;  ///< of senders who are not known, or too large
     ReceiveOutcome outcome_;
 };
 

@@ -57,7 +57,9 @@ class Import {
 
     RosterChange run() {
         Transaction transaction(db_);
-        for (Rows rows = db_.query("SELECT name FROM groups"); rows.next();) groups_before_.push_back(rows.text(0));
+        // The group of a student alone is called by the id, which is no spelling of another name.
+        for (Rows rows = db_.query("SELECT name FROM groups WHERE name NOT IN (SELECT id FROM students)"); rows.next();)
+            groups_before_.push_back(rows.text(0));
         for (const Student& student : roster_.students())
             for (const std::string& name : names_in(student.group)) in_file_.insert(in_small_letters(name));
         std::set<std::string> present;

@@ -2,7 +2,17 @@
 
 #include <fmt/format.h>
 
+#include "platform/atomic_file.h"
+
 namespace dynlab::inline course {
+
+std::string kept_content(const Course& course, const std::filesystem::path& file, std::uintmax_t most_bytes) {
+    const std::uintmax_t bytes = std::filesystem::file_size(file);
+    if (bytes == 0 || bytes > most_bytes) return "";
+    const std::string hash = course.keep(read_file(file));
+    course.settle({hash});
+    return hash;
+}
 
 void record_refused(Course& course, const Assignment& assignment, const RefusedFile& file) {
     const std::optional<std::string> hash = file.hash.empty() ? std::nullopt : std::optional(file.hash);
@@ -13,6 +23,8 @@ void record_refused(Course& course, const Assignment& assignment, const RefusedF
                                assignment.id, file.group.value_or(0), file.stage, file.name, file.hash, file.reason)
                            .next();
     if (known) return;
+    if (hash)
+        course.record_file(*hash, static_cast<std::int64_t>(std::filesystem::file_size(course.file(*hash))), file.at);
     course.database().run(
         "INSERT INTO refusals (assignment, group_id, stage, name, hash, reason, received_at) VALUES (?, ?, ?, ?, ?, ?, "
         "?)",

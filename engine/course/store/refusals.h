@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,8 +17,11 @@ struct RefusedFile {
     Instant at = 0;
 };
 
+/// Before a transaction: keeps the content of a file; returns its hash, or nothing for an empty or too large one.
+std::string kept_content(const Course& course, const std::filesystem::path& file, std::uintmax_t most_bytes);
+
 /// Within a transaction: leaves a trace of a file. The same file of the same sender, refused for the same reason, is
-/// noted once. A hash must be known to the store (Course::record_file).
+/// noted once.
 void record_refused(Course& course, const Assignment& assignment, const RefusedFile& file);
 
 /// In the order in which they came; with `open_only` those after which the group has submitted nothing that was taken.
