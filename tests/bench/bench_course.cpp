@@ -30,8 +30,8 @@ void prepare(const Workbench& bench) {
     bench.write("roster.csv", roster);
     must_succeed(bench.shell("cd in && zip -q ../class.zip *.pdf"));
     must_succeed(bench.dynlab({"course", "init", "k"}));
-    must_succeed(bench.dynlab({"course", "--course", "k", "roster", "import", "roster.csv"}));
-    must_succeed(bench.dynlab({"course", "--course", "k", "assignment", "add", "crane", "--first", "2026-03-01 12:00",
+    must_succeed(bench.dynlab({"course", "--course", "k", "import", "roster.csv"}));
+    must_succeed(bench.dynlab({"course", "--course", "k", "assignment", "crane", "--first", "2026-03-01 12:00",
                                "--review", "2026-03-08 12:00", "--final", "2026-03-15 12:00"}));
 }
 
@@ -44,7 +44,7 @@ void measure_course(Report& report) {
         must_succeed(bench.dynlab({"course", "--course", "k", "receive", "class.zip", "--at", "2026-03-01 10:00"}));
     });
     const double assigned = median_seconds(1, [&] {
-        must_succeed(bench.dynlab({"course", "--course", "k", "peer", "assign", "--at", "2026-03-02 10:00"}));
+        must_succeed(bench.dynlab({"course", "--course", "k", "review", "assign", "--at", "2026-03-02 10:00"}));
     });
     rusage used{};
     ::getrusage(RUSAGE_CHILDREN, &used);

@@ -53,7 +53,7 @@ class CourseBench {
     ChildResult hand_in(const std::string& file, const std::string& content, const std::string& at,
                         std::vector<std::string> more = {}) const {
         bench_.write(file, content);
-        std::vector<std::string> words = {"receive", file, "--at", at, "--isolation", level()};
+        std::vector<std::string> words = {"submit", file, "--at", at, "--isolation", level()};
         words.insert(words.end(), more.begin(), more.end());
         return course(words);
     }

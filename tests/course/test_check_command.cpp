@@ -84,8 +84,9 @@ TEST(check_command, of_whom_no_number_is_looked_for_is_told) {
     const Workbench bench;
     make_folder(bench);
     bench.write("short.csv", "id,name\ns1,Ada King\n20214711,Bo Ek\n7,Cy Orr\n");
-    EXPECT_THAT(bench.dynlab({"check", "mine", "--roster", "short.csv"}).error_output,
-                HasSubstr("short.csv: documents are not searched for ids of fewer than 3 letters and digits (2, such as s1)"));
+    EXPECT_THAT(
+        bench.dynlab({"check", "mine", "--roster", "short.csv"}).error_output,
+        HasSubstr("short.csv: documents are not searched for ids of fewer than 3 letters and digits (2, such as s1)"));
     bench.write("long.csv", "id,name\n20214711,Bo Ek\n");
     EXPECT_THAT(bench.dynlab({"check", "mine", "--roster", "long.csv"}).error_output, Not(HasSubstr("long.csv")));
 }

@@ -40,9 +40,9 @@ class corrections_of_reviews : public corrections {
             CourseBench made(4);
             for (int i = 1; i <= 4; ++i)
                 made.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
-            CourseBench::expect_done(made.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
-            CourseBench::expect_done(made.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
-            EXPECT_THAT(made.course({"peer", "send", "--at", "2026-03-02 11:00"}).output,
+            CourseBench::expect_done(made.course({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+            CourseBench::expect_done(made.course({"review", "assign", "--at", "2026-03-02 10:00"}));
+            EXPECT_THAT(made.course({"review", "send", "--at", "2026-03-02 11:00"}).output,
                         HasSubstr("8 sent now, 0 before"));
             return made;
         }();
@@ -54,10 +54,10 @@ TEST_F(corrections, a_time_of_receipt_is_corrected_by_a_further_receipt) {
     course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 19:00", {"--no-checks"});
     EXPECT_THAT(status(), HasSubstr("v1 late 7 h"));
     const std::string before = signed_rows();
-    EXPECT_THAT(course({"time", "crane", "group-01", "2026-03-01 11:30", "--reason", ""}).error_output,
+    EXPECT_THAT(course({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", ""}).error_output,
                 HasSubstr("say why"));
-    EXPECT_EQ(course({"time", "crane", "group-02", "2026-03-01 11:30", "--reason", "x"}).exit_code, 1);
-    done({"time", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's log"});
+    EXPECT_EQ(course({"set-received", "crane", "group-02", "2026-03-01 11:30", "--reason", "x"}).exit_code, 1);
+    done({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's log"});
     EXPECT_THAT(status(), Not(HasSubstr("late")));
     EXPECT_EQ(signed_rows(), before);
     const std::string corrected = shell("cat k/receipts/crane/*-corrected-1.txt");
@@ -65,7 +65,7 @@ TEST_F(corrections, a_time_of_receipt_is_corrected_by_a_further_receipt) {
                                  HasSubstr("late: no\n")));
     EXPECT_THAT(shell("$DYNLAB verify $(ls k/receipts/crane/*-corrected-1.txt) group-01.pdf --key k/course.pub"),
                 HasSubstr("genuine, for this very file, signed by the course \"k\""));
-    done({"time", "crane", "group-01", "2026-03-01 13:00", "--reason", "no, an hour after"});
+    done({"set-received", "crane", "group-01", "2026-03-01 13:00", "--reason", "no, an hour after"});
     EXPECT_THAT(status(), HasSubstr("v1 late 1 h"));
     EXPECT_THAT(shell("ls k/receipts/crane | wc -l"), HasSubstr("3"));
     EXPECT_THAT(done({"history"}), AllOf(HasSubstr("reason: the platform's log"), HasSubstr("no, an hour after")));
@@ -81,14 +81,14 @@ TEST_F(corrections, times_come_from_the_platform_s_worksheet) {
     for (const char* id : {"1", "2", "3"})
         course_.bench().write("all/Student " + std::string(id) + "_90000" + id + "_assignsubmission_file_/report.pdf",
                               small_pdf(id));
-    EXPECT_THAT(done({"receive", "all", "--at", "2026-03-01 19:00", "--times", "sheet.csv", "--no-checks"}),
+    EXPECT_THAT(done({"submit", "all", "--at", "2026-03-01 19:00", "--times", "sheet.csv", "--no-checks"}),
                 AllOf(ContainsRegex("group-01 .* in time"), ContainsRegex("group-02 .* late by 11 min"),
                       ContainsRegex("group-03 .* late by 7 h")));
     course_.bench().write("bad.csv", "Identifier,Grade\nParticipant 1,3\n");
-    EXPECT_THAT(course({"receive", "all", "--times", "bad.csv"}).error_output,
+    EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output,
                 HasSubstr("bad.csv: wanted are a column"));
     course_.bench().write("bad.csv", "group,time\ngroup-01,tomorrow\n");
-    EXPECT_THAT(course({"receive", "all", "--times", "bad.csv"}).error_output, HasSubstr("bad.csv, line 2: the time"));
+    EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output, HasSubstr("bad.csv, line 2: the time"));
 }
 
 TEST_F(corrections, times_come_from_the_archive) {
@@ -97,7 +97,7 @@ TEST_F(corrections, times_come_from_the_archive) {
     course_.bench().shell(
         "TZ=UTC touch -d '2026-03-01 11:00' in/group-01/report.pdf && TZ=UTC touch -d '2026-03-01 14:00' "
         "in/group-02/report.pdf && cd in && tar czf ../all.tar.gz .");
-    EXPECT_THAT(done({"receive", "all.tar.gz", "--at", "2026-03-05 19:00", "--times", "archive", "--no-checks",
+    EXPECT_THAT(done({"submit", "all.tar.gz", "--at", "2026-03-05 19:00", "--times", "archive", "--no-checks",
                       "--isolation", CourseBench::level()}),
                 AllOf(ContainsRegex("group-01 .* in time"), ContainsRegex("group-02 .* late by 2 h")));
 }
@@ -110,19 +110,19 @@ TEST_F(corrections, lateness_follows_deadlines_and_extensions) {
                                 ContainsRegex("group-01 +1 +v1  "), ContainsRegex("group-02 +1 +v1 late 2 h")));
     done({"extend", "crane", "group-01", "--end", "--reason", "no paper came"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v1 late 2 h"));
-    done({"assignment", "change", "crane", "--first", "2026-03-01 14:00", "--reason", "server down"});
+    done({"assignment", "crane", "--first", "2026-03-01 14:00", "--reason", "server down"});
     EXPECT_THAT(status(), Not(HasSubstr("v1 late")));
-    done({"assignment", "change", "crane", "--first", "2026-03-01 09:00", "--reason", "typed too late"});
+    done({"assignment", "crane", "--first", "2026-03-01 09:00", "--reason", "typed too late"});
     EXPECT_THAT(status(), ContainsRegex("group-02 +1 +v1 late 5 h"));
     EXPECT_THAT(done({"history"}),
                 HasSubstr("first 2026-03-01 09:00:00 UTC instead of 2026-03-01 14:00:00 UTC; reason: typed too late"));
-    EXPECT_THAT(course({"assignment", "change", "crane", "--first", "2026-03-09 09:00", "--reason", "x"}).error_output,
+    EXPECT_THAT(course({"assignment", "crane", "--first", "2026-03-09 09:00", "--reason", "x"}).error_output,
                 HasSubstr("must come after"));
     EXPECT_EQ(course({"extend", "crane", "group-01", "--reason", "x"}).exit_code, 1);
 }
 
 TEST_F(corrections, a_version_with_the_content_of_an_earlier_one_is_as_late_as_that) {
-    done({"assignment", "change", "crane", "--costs", "late-day:10", "--reason", "rules"});
+    done({"assignment", "crane", "--costs", "late-day:10", "--reason", "rules"});
     const auto hand_in = [&](const std::string& text, const std::string& at) {
         return course_.hand_in("group-01.pdf", small_pdf(text), at, {"--no-checks"}).output;
     };
@@ -137,7 +137,7 @@ TEST_F(corrections, a_version_with_the_content_of_an_earlier_one_is_as_late_as_t
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3 late 18 h  "));  // no other of its content stands
     done({"restore", "crane", "group-01", "--version", "1", "--reason", "no"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3  "));
-    done({"time", "crane", "group-01", "2026-03-01 14:00", "--version", "1", "--reason", "the platform's log"});
+    done({"set-received", "crane", "group-01", "2026-03-01 14:00", "--version", "1", "--reason", "the platform's log"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3 late 2 h  "));
 }
 
@@ -161,46 +161,45 @@ TEST_F(corrections, a_version_is_withdrawn_and_stands_again) {
 }
 
 TEST_F(corrections, an_override_is_taken_back) {
-    done({"override", "crane", "group-01", "work", "60", "--reason", "paper"});
+    done({"mark", "crane", "group-01", "work", "60", "--reason", "paper"});
     EXPECT_THAT(done({"marks", "crane"}), HasSubstr("60.0 (yours)"));
     done({"withdraw", "crane", "group-01", "--mark", "work", "--reason", "found"});
     EXPECT_THAT(done({"marks", "crane"}), Not(HasSubstr("yours")));
     EXPECT_THAT(course({"withdraw", "crane", "group-01", "--mark", "work", "--reason", "x"}).error_output,
                 HasSubstr("you have set no mark of group-01"));
-    done({"override", "crane", "group-01", "work", "105", "--force", "--reason", "more than was asked"});
+    done({"mark", "crane", "group-01", "work", "105", "--force", "--reason", "more than was asked"});
     EXPECT_THAT(done({"marks", "crane"}), HasSubstr("105.0 (yours)"));
 }
 
 TEST_F(corrections, an_assignment_is_removed_while_nothing_hangs_on_it) {
-    done({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"});
-    EXPECT_THAT(done({"oral", "sheet", "talk"}), HasSubstr("group,content,slides,delivery,answers"));
-    done({"assignment", "remove", "talk", "--reason", "mistyped"});
+    done({"assignment", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"});
+    EXPECT_THAT(done({"scores", "--sheet", "talk"}), HasSubstr("group,content,slides,delivery,answers"));
+    done({"assignment", "--remove", "talk", "--reason", "mistyped"});
     EXPECT_THAT(done({"status"}), Not(HasSubstr("talk")));
     EXPECT_THAT(done({"history"}), HasSubstr("assignment talk removed"));
     course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
-    EXPECT_THAT(course({"assignment", "remove", "crane", "--reason", "x"}).error_output,
+    EXPECT_THAT(course({"assignment", "--remove", "crane", "--reason", "x"}).error_output,
                 HasSubstr("something hangs on it (its versions)"));
 }
 
 TEST_F(corrections_of_reviews, a_newer_version_goes_out_again_or_is_held_back) {
     const std::string sent = shell("cat k/outbox/crane/to-review/*/*.pdf | sha256sum");
     course_.hand_in("group-01.pdf", small_pdf("better"), "2026-03-02 12:00", {"--no-checks"});
-    EXPECT_THAT(status(),
-                AllOf(HasSubstr("a newer version than was sent: peer send"), HasSubstr("Next: dynlab course peer "
-                                                                                       "send crane")));
-    done({"hold", "crane", "group-01", "--reason", "to be read first"});
+    EXPECT_THAT(status(), AllOf(HasSubstr("a newer version than was sent: review send"),
+                                HasSubstr("Next: dynlab course review send crane")));
+    done({"withhold", "crane", "group-01", "--reason", "to be read first"});
     EXPECT_THAT(status(), AllOf(HasSubstr("its report is held back"), Not(HasSubstr("a newer version than was sent"))));
-    const std::string held = done({"peer", "send", "--at", "2026-03-02 13:00"});
+    const std::string held = done({"review", "send", "--at", "2026-03-02 13:00"});
     EXPECT_THAT(held, AllOf(HasSubstr("0 sent now"), HasSubstr("6 before"), HasSubstr("2 held back"),
                             HasSubstr("Taken out of the folder: group-0")));
     EXPECT_THAT(shell("ls k/outbox/crane/to-review/*/*.pdf | wc -l"), HasSubstr("6"));
-    done({"hold", "crane", "group-01", "--end", "--reason", "read"});
-    EXPECT_THAT(done({"peer", "send", "--at", "2026-03-02 14:00"}),
+    done({"withhold", "crane", "group-01", "--end", "--reason", "read"});
+    EXPECT_THAT(done({"review", "send", "--at", "2026-03-02 14:00"}),
                 HasSubstr("2 sent now (2 in a newer version), 6 before"));
-    EXPECT_THAT(done({"peer", "send", "--at", "2026-03-02 14:00"}), HasSubstr("0 sent now, 8 before"));
+    EXPECT_THAT(done({"review", "send", "--at", "2026-03-02 14:00"}), HasSubstr("0 sent now, 8 before"));
     EXPECT_NE(shell("cat k/outbox/crane/to-review/*/*.pdf | sha256sum"), sent);
     EXPECT_THAT(status(), Not(HasSubstr("newer version")));
-    EXPECT_THAT(course({"hold", "crane", "group-01", "--end", "--reason", "x"}).error_output,
+    EXPECT_THAT(course({"withhold", "crane", "group-01", "--end", "--reason", "x"}).error_output,
                 HasSubstr("not held back"));
 }
 
@@ -209,46 +208,47 @@ TEST_F(corrections_of_reviews, a_newer_review_goes_out_again_and_a_withdrawn_one
         shell("basename $(ls k/outbox/crane/to-review/group-01/*.pdf | head -1) .pdf | tr -d '\\n'");
     const auto review = [&](const std::string& text) {
         return course_.bench().write("r.pdf", small_pdf(text)),
-               done({"review", "receive", "r.pdf", "--from", "group-01", "--of", report, "--at", "2026-03-08 10:00",
+               done({"review", "collect", "r.pdf", "--from", "group-01", "--of", report, "--at", "2026-03-08 10:00",
                      "--no-checks"});
     };
     review("good work");
-    EXPECT_THAT(done({"release", "--at", "2026-03-09 10:00"}), HasSubstr("1 sent now"));
+    EXPECT_THAT(done({"review", "release", "--at", "2026-03-09 10:00"}), HasSubstr("1 sent now"));
     review("good work, but the units are missing");
-    EXPECT_THAT(status("2026-03-09 11:00"), AllOf(HasSubstr("a newer review than was released: release"),
-                                                  HasSubstr("Next: dynlab course release")));
-    EXPECT_THAT(done({"release", "--at", "2026-03-09 12:00"}), HasSubstr("1 sent now (1 in a newer version)"));
+    EXPECT_THAT(status("2026-03-09 11:00"), AllOf(HasSubstr("a newer review than was released: review release"),
+                                                  HasSubstr("Next: dynlab course review release")));
+    EXPECT_THAT(done({"review", "release", "--at", "2026-03-09 12:00"}),
+                HasSubstr("1 sent now (1 in a newer version)"));
     done({"withdraw", "crane", "group-01", "--stage", "review", "--of", report, "--reason", "wrong form"});
     done({"withdraw", "crane", "group-01", "--stage", "review", "--of", report, "--reason", "this too"});
-    EXPECT_THAT(done({"release", "--at", "2026-03-09 13:00"}),
+    EXPECT_THAT(done({"review", "release", "--at", "2026-03-09 13:00"}),
                 AllOf(HasSubstr("0 sent now"), HasSubstr("Taken out of the folder: group-0")));
     EXPECT_THAT(shell("ls k/outbox/crane/reviews/*/*.pdf | wc -l"), HasSubstr("0"));
 }
 
 TEST_F(corrections_of_reviews, pairs_are_set_and_forbidden_by_hand) {
     const auto reads = [&](const std::string& who, const std::string& whose) {
-        return shell("$DYNLAB course --course k peer show crane | awk '$1 == \"" + who + "\" && $3 == \"" + whose +
+        return shell("$DYNLAB course --course k review pairs crane | awk '$1 == \"" + who + "\" && $3 == \"" + whose +
                      "\" && $NF != \"back\"' | wc -l") == "1\n";
     };
     const std::string partner = reads("group-01", "group-02") ? "group-02" : "group-03";
     ASSERT_TRUE(reads("group-01", partner));
-    done({"peer", "forbid", "crane", "group-01", partner, "--reason", "they share a flat"});
-    done({"peer", "assign", "--at", "2026-03-02 12:00"});
+    done({"review", "pairs", "--forbid", "crane", "group-01", partner, "--reason", "they share a flat"});
+    done({"review", "assign", "--at", "2026-03-02 12:00"});
     EXPECT_FALSE(reads("group-01", partner));
     EXPECT_FALSE(reads(partner, "group-01"));
-    done({"peer", "free", "crane", "group-01", partner, "--reason", "moved out"});
-    done({"peer", "set", "crane", partner, "group-01", "--reason", "agreed"});
-    done({"peer", "assign", "--at", "2026-03-02 13:00"});
+    done({"review", "pairs", "--free", "crane", "group-01", partner, "--reason", "moved out"});
+    done({"review", "pairs", "--set", "crane", partner, "group-01", "--reason", "agreed"});
+    done({"review", "assign", "--at", "2026-03-02 13:00"});
     EXPECT_TRUE(reads(partner, "group-01"));
-    EXPECT_EQ(course({"peer", "set", "crane", "group-01", "group-01", "--reason", "x"}).exit_code, 1);
+    EXPECT_EQ(course({"review", "pairs", "--set", "crane", "group-01", "group-01", "--reason", "x"}).exit_code, 1);
 }
 
 TEST_F(corrections_of_reviews, who_joins_the_authors_reviews_them_no_more) {
     const std::string author =
-        shell("$DYNLAB course --course k peer show crane | awk '$1 == \"group-01\" {print $3; exit}'").substr(0, 8);
+        shell("$DYNLAB course --course k review pairs crane | awk '$1 == \"group-01\" {print $3; exit}'").substr(0, 8);
     course_.bench().write("roster.csv", "id,name,group\ns" + author.substr(7) + ",Student,group-01\n");
-    done({"roster", "import", "roster.csv"});
-    EXPECT_THAT(done({"peer", "assign", "--at", "2026-03-02 12:00"}), Not(HasSubstr("0 taken back")));
+    done({"import", "roster.csv"});
+    EXPECT_THAT(done({"review", "assign", "--at", "2026-03-02 12:00"}), Not(HasSubstr("0 taken back")));
     EXPECT_THAT(shell("sqlite3 k/course.db \"SELECT ended_reason FROM pairs WHERE ended_at IS NOT NULL\""),
                 HasSubstr("they share a member"));
 }
@@ -256,15 +256,15 @@ TEST_F(corrections_of_reviews, who_joins_the_authors_reviews_them_no_more) {
 TEST_F(corrections, the_same_bytes_of_two_groups_are_told_and_a_team_s_copies_are_one) {
     course_.bench().write("in/group-01.pdf", small_pdf("one"));
     course_.bench().write("in/group-02.pdf", small_pdf("one"));
-    EXPECT_THAT(done({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}),
+    EXPECT_THAT(done({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}),
                 HasSubstr("the same file as group-01's"));
     EXPECT_THAT(status(), AllOf(HasSubstr("handed in the same file as group-01"),
                                 HasSubstr("handed in the same file as group-02")));
     course_.bench().write("roster.csv", "id,name,group\ns3,Student 3,group-03\ns4,Student 4,group-03\n");
-    done({"roster", "import", "roster.csv"});
+    done({"import", "roster.csv"});
     for (const char* name : {"Student 3_900003", "Student 4_900004"})
         course_.bench().write("team/" + std::string(name) + "_assignsubmission_file_/report.pdf", small_pdf("three"));
-    EXPECT_THAT(done({"receive", "team", "--at", "2026-03-01 10:00", "--no-checks"}), HasSubstr("1 file taken"));
+    EXPECT_THAT(done({"submit", "team", "--at", "2026-03-01 10:00", "--no-checks"}), HasSubstr("1 file taken"));
 }
 
 }  // namespace test_corrections

@@ -72,15 +72,15 @@ std::int64_t version_of(Database& database) {
 TEST(course_conversion, keeps_the_full_history_and_the_old_file) {
     CourseBench bench(3, 1);
     const auto done = [&](std::vector<std::string> words) { CourseBench::expect_done(bench.course(std::move(words))); };
-    done({"assignment", "add", "slides", "--kind", "talk", "--first", "2026-04-01 12:00", "--costs", "late-day:10"});
+    done({"assignment", "slides", "--kind", "talk", "--first", "2026-04-01 12:00", "--costs", "late-day:10"});
     for (int i = 1; i <= 3; ++i) {
         const std::string file = CourseBench::group(i) + ".pdf";
         CourseBench::expect_done(
             bench.hand_in(file, small_pdf(file), "2026-02-27 12:00", {"--assignment", "crane", "--no-checks"}));
     }
-    done({"peer", "assign", "crane", "--at", "2026-03-02 10:00"});
+    done({"review", "assign", "crane", "--at", "2026-03-02 10:00"});
     done({"extend", "crane", "group-02", "2026-03-20 12:00", "--stage", "final", "--reason", "illness"});
-    done({"override", "crane", "group-03", "work", "60", "--reason", "on paper"});
+    done({"mark", "crane", "group-03", "work", "60", "--reason", "on paper"});
     const std::filesystem::path folder = bench.bench().path("k"), kept = folder / "course.db.before-version-6";
     const auto tables = make_old(folder);
     std::string before;

@@ -44,7 +44,7 @@ class course_faults : public ::testing::Test {
             bench_.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
         bench_.bench().write("try_all", kTryAll);
         bench_.bench().write("receive", "receive in --no-checks --at 2026-03-01T10:00");
-        bench_.bench().write("assign", "peer assign --at 2026-03-02T10:00");
+        bench_.bench().write("assign", "review assign --at 2026-03-02T10:00");
     }
     ChildResult try_all(const std::string& command, const std::string& fault, const std::string& between,
                         const std::string& after) {
@@ -52,7 +52,7 @@ class course_faults : public ::testing::Test {
                                     ")\" " + fault + " '" + between + "' '" + after + "'");
     }
     void receive_all() {
-        CourseBench::expect_done(bench_.course({"receive", "in", "--no-checks", "--at", "2026-03-01 10:00"}));
+        CourseBench::expect_done(bench_.course({"submit", "in", "--no-checks", "--at", "2026-03-01 10:00"}));
     }
 
     CourseBench bench_;
@@ -75,9 +75,9 @@ TEST_F(course_faults, a_kill_anywhere_while_receiving_loses_nothing) {
 
 // After a kill there are no pairs, or all of them, which a repetition leaves as they are.
 constexpr const char* kNoneOrAll =
-    " && course peer show >pairs && [ $(grep -c allotted pairs) = 0 -o $(grep -c allotted pairs) = 4 ]";
+    " && course review pairs >pairs && [ $(grep -c allotted pairs) = 0 -o $(grep -c allotted pairs) = 4 ]";
 constexpr const char* kAllAsBefore =
-    "course peer show >after && [ $(grep -c allotted after) = 4 ] && "
+    "course review pairs >after && [ $(grep -c allotted after) = 4 ] && "
     "{ ! grep -q allotted pairs || cmp -s pairs after; }";
 
 // oracle: counting; the pairs themselves are drawn again where the kill came before they were stored
@@ -93,8 +93,7 @@ TEST_F(course_faults, a_kill_anywhere_in_other_commands_loses_nothing) {
     receive_all();
     bench_.bench().write("more.csv", "id,name,group\ns1,Student One,group-02\ns9,Student 9,group-09\n");
     const std::vector<std::pair<std::string, std::string>> commands = {
-        {"roster import more.csv",
-         "SELECT id, name FROM students; SELECT student, group_id, until IS NULL FROM memberships"},
+        {"import more.csv", "SELECT id, name FROM students; SELECT student, group_id, until IS NULL FROM memberships"},
         {"assignment add second --first 2026-04-01T12:00 --review 2026-04-08T12:00 --final 2026-04-15T12:00",
          "SELECT name, first_due FROM assignments; SELECT * FROM criteria"},
         {"override crane group-02 work 80 --reason late",
@@ -123,8 +122,8 @@ ask hash 'ORDER BY hash' | cmp -s - outbox
 TEST_F(course_faults, a_kill_anywhere_while_sending_copies_loses_none) {
     if (obstacle_to(Isolation::kFull)) GTEST_SKIP() << "no bubblewrap here";
     CourseBench::expect_done(
-        bench_.course({"receive", "in/group-01.pdf", "in/group-02.pdf", "--no-checks", "--at", "2026-03-01 10:00"}));
-    CourseBench::expect_done(bench_.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+        bench_.course({"submit", "in/group-01.pdf", "in/group-02.pdf", "--no-checks", "--at", "2026-03-01 10:00"}));
+    CourseBench::expect_done(bench_.course({"review", "assign", "--at", "2026-03-02 10:00"}));
     bench_.bench().write("all_sent", kAllSent);
     const auto try_sending = [&](const std::string& command, const std::string& way, const std::string& folder) {
         bench_.bench().write("command", command);
@@ -134,12 +133,12 @@ TEST_F(course_faults, a_kill_anywhere_while_sending_copies_loses_none) {
         EXPECT_THAT(tried.output, ContainsRegex("failed at [1-9][0-9] places")) << command;
         CourseBench::expect_done(bench_.bench().shell("$DYNLAB course --course k " + command));
     };
-    try_sending("peer send --at 2026-03-02T11:00", "to reviewer", "to-review");
+    try_sending("review send --at 2026-03-02T11:00", "to reviewer", "to-review");
     bench_.bench().write("review.pdf", small_pdf("The data are good."));
     CourseBench::expect_done(bench_.bench().shell(
-        "set -e; $DYNLAB course --course k peer show | awk '$NF == \"sent\" {print $1, $2}' | while read -r group "
+        "set -e; $DYNLAB course --course k review pairs | awk '$NF == \"sent\" {print $1, $2}' | while read -r group "
         "report; do\n"
-        "$DYNLAB course --course k review receive review.pdf --from $group --of $report --no-checks "
+        "$DYNLAB course --course k review collect review.pdf --from $group --of $report --no-checks "
         "--at 2026-03-04T10:00; done"));
     try_sending("release --at 2026-03-09T11:00", "to author", "reviews");
 }
@@ -187,8 +186,8 @@ TEST_F(course_faults, a_folder_that_may_not_be_written_to_is_named) {
     receive_all();
     const std::string before = bench_.dump();
     bench_.bench().shell("mkdir more && cp in/group-01.pdf more/group-02.pdf");
-    for (const char* command : {"receive more --no-checks --at 2026-03-01T11:00", "roster drop group-01",
-                                "peer assign --at 2026-03-02T10:00"}) {
+    for (const char* command :
+         {"receive more --no-checks --at 2026-03-01T11:00", "drop group-01", "review assign --at 2026-03-02T10:00"}) {
         const ChildResult refused = bench_.bench().shell(
             std::string("bwrap --dev-bind / / --ro-bind $PWD/k $PWD/k $DYNLAB course --course $PWD/k ") + command);
         EXPECT_EQ(refused.exit_code, 1) << command;

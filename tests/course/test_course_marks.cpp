@@ -37,9 +37,9 @@ class ScoredCourse {
             CourseBench made(4, 3);
             for (int i = 1; i <= 4; ++i)
                 made.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
-            CourseBench::expect_done(made.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
-            CourseBench::expect_done(made.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
-            made.bench().write("pairs", made.course({"peer", "show"}).output);
+            CourseBench::expect_done(made.course({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+            CourseBench::expect_done(made.course({"review", "assign", "--at", "2026-03-02 10:00"}));
+            made.bench().write("pairs", made.course({"review", "pairs"}).output);
             return made;
         }();
         return bench;
@@ -76,17 +76,17 @@ TEST(course_marks, the_instructor_has_the_last_word_and_gives_a_reason) {
     course.read();
     CourseBench& bench = course.bench();
     const std::string before = bench.dump();
-    EXPECT_EQ(bench.course({"override", "crane", "group-04", "reviews", "75"}).exit_code, 2);
-    EXPECT_THAT(bench.course({"override", "crane", "group-04", "reviews", "75", "--reason", ""}).error_output,
+    EXPECT_EQ(bench.course({"mark", "crane", "group-04", "reviews", "75"}).exit_code, 2);
+    EXPECT_THAT(bench.course({"mark", "crane", "group-04", "reviews", "75", "--reason", ""}).error_output,
                 HasSubstr("say why"));
-    EXPECT_THAT(bench.course({"override", "crane", "group-04", "reviews", "201", "--force", "--reason", "x"}).error_output,
+    EXPECT_THAT(bench.course({"mark", "crane", "group-04", "reviews", "201", "--force", "--reason", "x"}).error_output,
                 HasSubstr("from 0 to 200 percent, but 201 was given"));
-    EXPECT_THAT(bench.course({"override", "crane", "group-04", "voice", "75", "--reason", "x"}).error_output,
+    EXPECT_THAT(bench.course({"mark", "crane", "group-04", "voice", "75", "--reason", "x"}).error_output,
                 HasSubstr("crane has marks of work and reviews, but \"voice\" was given"));
     EXPECT_EQ(bench.dump(), before);
-    CourseBench::expect_done(bench.course({"override", "crane", "group-04", "reviews", "70", "--reason", "too hard"}));
+    CourseBench::expect_done(bench.course({"mark", "crane", "group-04", "reviews", "70", "--reason", "too hard"}));
     CourseBench::expect_done(
-        bench.course({"override", "crane", "group-04", "reviews", "75", "--reason", "hard, but with reasons"}));
+        bench.course({"mark", "crane", "group-04", "reviews", "75", "--reason", "hard, but with reasons"}));
     EXPECT_THAT(course.marks(), ContainsRegex("group-04 .* 75\\.0 \\(yours\\)"));
     EXPECT_THAT(bench.course({"export", "crane"}).output,
                 AllOf(HasSubstr("\"hard, but with reasons\""), Not(HasSubstr("too hard"))));
@@ -118,33 +118,32 @@ TEST(course_marks, wrong_scores_are_refused_with_their_line) {
 // oracle: what a presentation is: slides and script, one deadline, a sheet for the oral
 TEST(course_marks, of_a_talk_come_from_the_sheet_of_the_oral) {
     CourseBench bench(3);
-    CourseBench::expect_done(bench.course({"assignment", "add", "talk", "--kind", "talk", "--first",
-                                           "2026-04-01 12:00", "--criteria", "content:10,figures:5,answers:5"}));
+    CourseBench::expect_done(bench.course({"assignment", "talk", "--kind", "talk", "--first", "2026-04-01 12:00",
+                                           "--criteria", "content:10,figures:5,answers:5"}));
     for (int i = 1; i <= 2; ++i) {
         bench.bench().write("in/" + CourseBench::group(i) + "/slides.pdf", small_pdf("slide"));
         bench.bench().write("in/" + CourseBench::group(i) + "/talk.lua", "print(1)\n");
     }
     bench.bench().write("in/group-03/talk.lua", "print(2)\n");
-    const ChildResult taken = bench.course({"receive", "in", "--assignment", "talk", "--at", "2026-04-01 11:00"});
+    const ChildResult taken = bench.course({"submit", "in", "--assignment", "talk", "--at", "2026-04-01 11:00"});
     EXPECT_THAT(taken.output, AllOf(HasSubstr("5 files taken, 0 late"), ContainsRegex("group-01 +slides +v1"),
                                     ContainsRegex("group-01 +script +v1")));
     bench.bench().write("group-03.pdf", small_pdf("late slide"));
-    EXPECT_THAT(bench.course({"receive", "group-03.pdf", "--assignment", "talk", "--at", "2026-04-01 13:30"}).output,
+    EXPECT_THAT(bench.course({"submit", "group-03.pdf", "--assignment", "talk", "--at", "2026-04-01 13:30"}).output,
                 ContainsRegex("group-03 +slides +v1 +late by 1 h 30 min"));
     EXPECT_THAT(bench.course({"status", "talk", "--at", "2026-04-02 10:00"}).output,
                 AllOf(HasSubstr("script"), Not(HasSubstr("final version"))));
     for (const char* stage : {"review", "final"})
         EXPECT_THAT(bench.course({stage, "receive", "group-03.pdf", "--assignment", "talk"}).error_output,
                     HasSubstr("talk is a talk: it has no "));
-    EXPECT_THAT(bench.course({"peer", "assign", "talk", "--at", "2026-04-02 10:00"}).error_output,
-                HasSubstr("talk"));
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"peer", "send", "talk"},
-                                                  {"peer", "show", "talk"},
-                                                  {"release", "talk"},
-                                                  {"override", "talk", "group-01", "reviews", "80", "--reason", "x"}})
+    EXPECT_THAT(bench.course({"review", "assign", "talk", "--at", "2026-04-02 10:00"}).error_output, HasSubstr("talk"));
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"review", "send", "talk"},
+                                                  {"review", "pairs", "talk"},
+                                                  {"review", "release", "talk"},
+                                                  {"mark", "talk", "group-01", "reviews", "80", "--reason", "x"}})
         EXPECT_THAT(bench.course(words).error_output, HasSubstr("talk is a talk: it has no reviews"));
-    EXPECT_THAT(bench.course({"oral", "sheet", "crane"}).error_output, HasSubstr("crane is a report: "));
-    EXPECT_EQ(bench.course({"oral", "sheet", "talk"}).output,
+    EXPECT_THAT(bench.course({"scores", "--sheet", "crane"}).error_output, HasSubstr("crane is a report: "));
+    EXPECT_EQ(bench.course({"scores", "--sheet", "talk"}).output,
               "group,content,figures,answers,comment\r\ngroup-01,,,,\r\ngroup-02,,,,\r\ngroup-03,,,,\r\n");
     bench.bench().write("oral.csv", "group,content,figures,answers\ngroup-01,8,5,3\ngroup-02,10,,\n");
     EXPECT_THAT(bench.course({"scores", "talk", "oral.csv"}).output, HasSubstr("talk: 4 new scores."));
@@ -152,7 +151,7 @@ TEST(course_marks, of_a_talk_come_from_the_sheet_of_the_oral) {
     EXPECT_THAT(marks, ContainsRegex("group-01 +8 +5 +3 +80\\.0"));
     EXPECT_THAT(marks, ContainsRegex("group-02 +10 +0 +0 +50\\.0"));  // others have points there
     EXPECT_THAT(marks, ContainsRegex("group-03 +- +- +- +- "));
-    EXPECT_THAT(bench.course({"oral", "sheet", "talk"}).output, HasSubstr("group-01,8,5,3,\r\n"));
+    EXPECT_THAT(bench.course({"scores", "--sheet", "talk"}).output, HasSubstr("group-01,8,5,3,\r\n"));
     bench.bench().write("oral.csv", "group,content\ngroup-01,11\n");
     EXPECT_THAT(bench.course({"scores", "talk", "oral.csv"}).error_output,
                 HasSubstr("content must be a number from 0 to 10, but \"11\" was given"));
@@ -173,13 +172,12 @@ TEST(course_marks, the_instructor_is_a_reviewer_whom_others_are_held_against) {
                 AllOf(ContainsRegex("group-04 +4\\.5 .* 90\\.0 "), ContainsRegex("group-01 .* 73\\.3")));
     bench.bench().write("group-04.pdf", small_pdf("final"));
     CourseBench::expect_done(
-        bench.course({"final", "receive", "group-04.pdf", "--at", "2026-03-14 10:00", "--no-checks"}));
+        bench.course({"submit", "--stage", "final", "group-04.pdf", "--at", "2026-03-14 10:00", "--no-checks"}));
     bench.bench().write("final.csv", "group,data,steps,conclusions,strength,suggestions\ngroup-04,5,5,5,5,5\n");
     CourseBench::expect_done(bench.course({"scores", "crane", "final.csv", "--stage", "final"}));
     EXPECT_THAT(course.marks(), AllOf(ContainsRegex("group-04 +4\\.5 .* 95\\.0 "),
                                       HasSubstr("group-04: the final version has 100.0 percent, 50 percent of")));
-    CourseBench::expect_done(
-        bench.course({"assignment", "change", "crane", "--final-weight", "20", "--reason", "as announced"}));
+    CourseBench::expect_done(bench.course({"assignment", "crane", "--final-weight", "20", "--reason", "as announced"}));
     EXPECT_THAT(course.marks(), ContainsRegex("group-04 +4\\.5 .* 92\\.0 "));
 }
 
@@ -189,11 +187,12 @@ TEST(course_marks, what_is_late_or_missing_costs_what_the_course_says) {
     ScoredCourse course({"- 3 2 5", "4 - 2 5", "4 3 - 5", "5 3 2 -"});
     CourseBench& bench = course.bench();
     course.read();
-    CourseBench::expect_done(bench.course({"time", "crane", "group-01", "2026-03-02 13:00", "--reason", "log"}));
-    EXPECT_THAT(bench.course({"assignment", "change", "crane", "--costs", "late:5", "--reason", "x"}).error_output,
+    CourseBench::expect_done(
+        bench.course({"set-received", "crane", "group-01", "2026-03-02 13:00", "--reason", "log"}));
+    EXPECT_THAT(bench.course({"assignment", "crane", "--costs", "late:5", "--reason", "x"}).error_output,
                 HasSubstr("costs are late-day, missing-final, late-review and missing-review"));
-    CourseBench::expect_done(bench.course({"assignment", "change", "crane", "--costs",
-                                           "late-day:5,missing-final:15,missing-review:10", "--reason", "rules"}));
+    CourseBench::expect_done(bench.course(
+        {"assignment", "crane", "--costs", "late-day:5,missing-final:15,missing-review:10", "--reason", "rules"}));
     const auto marks = [&](const std::string& at) { return bench.course({"marks", "crane", "--at", at}).output; };
     EXPECT_THAT(marks("2026-03-07 12:00"), AllOf(ContainsRegex("group-01 .* 70\\.0 "), Not(HasSubstr("missing"))));
     const std::string reviewed = marks("2026-03-10 12:00"), all = marks("2026-03-20 12:00");
@@ -208,8 +207,7 @@ TEST(course_marks, what_is_late_or_missing_costs_what_the_course_says) {
 // oracle: the sheet
 TEST(course_marks, a_forgotten_cell_is_told) {
     CourseBench bench(2);
-    CourseBench::expect_done(
-        bench.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
+    CourseBench::expect_done(bench.course({"assignment", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
     bench.bench().write("oral.csv", "group,content,slides,delivery,answers\ngroup-01,4,3,,5\ngroup-02,4,4,4,4\n");
     CourseBench::expect_done(bench.course({"scores", "talk", "oral.csv"}));
     EXPECT_THAT(bench.course({"marks", "talk"}).output,
@@ -220,11 +218,10 @@ TEST(course_marks, a_forgotten_cell_is_told) {
 TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
     CourseBench bench(2);
     bench.bench().write("roster.csv", "id,name,group\ns1,Ada King,group-01\ns2,Bo Ek,group-01\ns3,Cy Li,group-02\n");
-    CourseBench::expect_done(bench.course({"roster", "import", "roster.csv"}));
-    CourseBench::expect_done(
-        bench.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00",
-                      "--criteria", "content:5,answers:5", "--costs", "late-day:10"}));
-    EXPECT_EQ(bench.course({"oral", "sheet", "talk", "--students"}).output,
+    CourseBench::expect_done(bench.course({"import", "roster.csv"}));
+    CourseBench::expect_done(bench.course({"assignment", "talk", "--kind", "talk", "--first", "2026-04-01 12:00",
+                                           "--criteria", "content:5,answers:5", "--costs", "late-day:10"}));
+    EXPECT_EQ(bench.course({"scores", "--sheet", "talk", "--students"}).output,
               "group,student,name,content,answers,comment\r\ngroup-01,,,,,\r\ngroup-01,s1,Ada King,,,\r\n"
               "group-01,s2,Bo Ek,,,\r\ngroup-02,,,,,\r\ngroup-02,s3,Cy Li,,,\r\n");
     const auto read = [&](const std::string& csv) {
@@ -250,13 +247,13 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
     EXPECT_THAT(bench.course({"export", "talk"}).output,
                 AllOf(ContainsRegex("s1,Ada King[^\n]*,a good plot of the poles\r\n"),
                       HasSubstr(",\"a good plot of the poles; knew the bias\"\r\n")));
-    EXPECT_THAT(bench.course({"oral", "sheet", "talk", "--students"}).output,
+    EXPECT_THAT(bench.course({"scores", "--sheet", "talk", "--students"}).output,
                 HasSubstr("group-01,s2,Bo Ek,,5,knew the bias\r\n"));
     bench.bench().write("group-01.pdf", small_pdf("slide"));
     CourseBench::expect_done(
-        bench.course({"receive", "group-01.pdf", "--assignment", "talk", "--at", "2026-04-02 11:00", "--no-checks"}));
+        bench.course({"submit", "group-01.pdf", "--assignment", "talk", "--at", "2026-04-02 11:00", "--no-checks"}));
     EXPECT_EQ(mark_of("s1") + " " + mark_of("s2"), "60 80");
-    CourseBench::expect_done(bench.course({"override", "talk", "group-01", "work", "50", "--reason", "film only"}));
+    CourseBench::expect_done(bench.course({"mark", "talk", "group-01", "work", "50", "--reason", "film only"}));
     EXPECT_EQ(mark_of("s1") + " " + mark_of("s2"), "50 50");
     CourseBench::expect_done(bench.course({"withdraw", "talk", "group-01", "--mark", "work", "--reason", "no"}));
     CourseBench::expect_done(read("student,answers\nBo Ek,-\n"));  // by name; the group's points hold again
@@ -270,18 +267,18 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
     EXPECT_THAT(read("group,content\ngroup-01,x\n").error_output,
                 HasSubstr("content must be a number from 0 to 5, but \"x\" was given"));
     EXPECT_EQ(bench.dump(), before);
-    EXPECT_THAT(bench.course({"assignment", "remove", "talk", "--reason", "x"}).error_output, HasSubstr("hangs on it"));
+    EXPECT_THAT(bench.course({"assignment", "--remove", "talk", "--reason", "x"}).error_output,
+                HasSubstr("hangs on it"));
 }
 
 // oracle: a permutation, the same each time, of groups that are neither all in the order of their names
 TEST(course_marks, the_order_of_talks_is_drawn) {
     CourseBench bench(16);  // one of 16! orders is that of the names
-    CourseBench::expect_done(
-        bench.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
-    const std::string drawn = bench.course({"oral", "sheet", "talk", "--drawn"}).output;
-    const std::string plain = bench.course({"oral", "sheet", "talk"}).output;
+    CourseBench::expect_done(bench.course({"assignment", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
+    const std::string drawn = bench.course({"scores", "--sheet", "talk", "--drawn"}).output;
+    const std::string plain = bench.course({"scores", "--sheet", "talk"}).output;
     EXPECT_NE(drawn, plain);
-    EXPECT_EQ(bench.course({"oral", "sheet", "talk", "--drawn"}).output, drawn);
+    EXPECT_EQ(bench.course({"scores", "--sheet", "talk", "--drawn"}).output, drawn);
     const auto sorted = [](std::string text) { return std::sort(text.begin(), text.end()), text; };
     EXPECT_EQ(sorted(drawn), sorted(plain));
 }
@@ -308,12 +305,12 @@ TEST(course_marks, scores_come_with_the_reviews_packs) {
     CourseBench bench(2, 1);
     for (const char* group : {"group-01", "group-02"})
         bench.hand_in(std::string(group) + ".pdf", small_pdf(group), "2026-03-01 10:00", {"--no-checks"});
-    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+    CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-02 10:00"}));
     bench.bench().write("r/analysis.lua", script);
     bench.bench().write("r/review.pdf", small_pdf("a review"));
     bench.bench().shell("tar czf r.tar.gz -C r .");
     EXPECT_THAT(bench
-                    .course({"review", "receive", "r.tar.gz", "--from", "group-01", "--at", "2026-03-08 10:00",
+                    .course({"review", "collect", "r.tar.gz", "--from", "group-01", "--at", "2026-03-08 10:00",
                              "--no-checks", "--isolation", CourseBench::level()})
                     .output,
                 HasSubstr("3 scores read"));

@@ -111,7 +111,7 @@ TEST(course_store, keeps_versions_and_tells_lateness) {
     const std::string status = bench.course({"status", "crane", "--at", "2026-03-01 14:00"}).output;
     EXPECT_THAT(status, HasSubstr("v2 (v1 in time)"));
     EXPECT_THAT(status, HasSubstr("v1 damaged"));
-    EXPECT_THAT(status, HasSubstr("ask for the first version, or roster drop"));
+    EXPECT_THAT(status, HasSubstr("ask for the first version, or drop"));
     EXPECT_THAT(status, HasSubstr("3 groups: 2 handed in, 1 unreadable, 1 missing."));
 }
 
@@ -127,32 +127,31 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
         EXPECT_EQ(bench.dump(), before) << message;
     };
     bench.bench().write("columns.csv", "number,name\n1,Ada\n");
-    refused({"roster", "import", "columns.csv"}, "the column id is missing; there are number, name");
+    refused({"import", "columns.csv"}, "the column id is missing; there are number, name");
     bench.bench().write("twice.csv", "id,name\ns8,Ada\ns9,Bo\ns8,Eve\n");
-    refused({"roster", "import", "twice.csv"}, "twice.csv, line 4: the id \"s8\" occurs twice");
+    refused({"import", "twice.csv"}, "twice.csv, line 4: the id \"s8\" occurs twice");
     bench.bench().write("empty.csv", "id,name\n");
-    refused({"roster", "import", "empty.csv"}, "there are no students");
-    refused({"receive", "nowhere.pdf"}, "there is no file or folder 'nowhere.pdf'");
+    refused({"import", "empty.csv"}, "there are no students");
+    refused({"submit", "nowhere.pdf"}, "there is no file or folder 'nowhere.pdf'");
     bench.bench().write("gruop-02.pdf", small_pdf("x"));
-    refused({"receive", "gruop-02.pdf"},
+    refused({"submit", "gruop-02.pdf"},
             "no group and no student of the course is called \"gruop-02\" (the nearest is group-02)");
-    refused({"receive", "gruop-02.pdf", "--from", "group-9"}, "there is no group \"group-9\"");
-    refused({"receive", "gruop-02.pdf", "--assignment", "crame"}, "did you mean crane?");
-    refused({"assignment", "add", "b", "--first", "2026-03-09 12:00", "--review", "2026-03-08 12:00", "--final",
+    refused({"submit", "gruop-02.pdf", "--from", "group-9"}, "there is no group \"group-9\"");
+    refused({"submit", "gruop-02.pdf", "--assignment", "crame"}, "did you mean crane?");
+    refused({"assignment", "b", "--first", "2026-03-09 12:00", "--review", "2026-03-08 12:00", "--final",
              "2026-03-15 12:00"},
             "the deadline of the reviews (Sun 2026-03-08 12:00) must come after that of the first version");
-    refused({"assignment", "add", "b", "--first", "2026-03-09"}, "--first must be a time such as");
-    refused({"assignment", "add", "../b", "--first", "2026-03-09 12:00"}, "must be a short word");
-    refused({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-03-09 12:00", "--final",
-             "2026-03-12 12:00"},
+    refused({"assignment", "b", "--first", "2026-03-09"}, "--first must be a time such as");
+    refused({"assignment", "../b", "--first", "2026-03-09 12:00"}, "must be a short word");
+    refused({"assignment", "talk", "--kind", "talk", "--first", "2026-03-09 12:00", "--final", "2026-03-12 12:00"},
             "a talk has one deadline");
-    refused({"assignment", "add", "crane", "--first", "2026-02-01 12:00", "--review", "2026-03-08 12:00", "--final",
+    refused({"assignment", "crane", "--first", "2026-02-01 12:00", "--review", "2026-03-08 12:00", "--final",
              "2026-03-15 12:00"},
             "only deadlines may move, to later ones");
-    refused({"roster", "drop", "group-77"}, "there is no group");
+    refused({"drop", "group-77"}, "there is no group");
     for (const char* group : {"../../up", "a/b", "..", "in\ntwo", ".hidden", "\u202Eback"}) {
         bench.bench().write("odd.csv", fmt::format("id,name,group\ns77,Zoe,\"{}\"\n", group));
-        refused({"roster", "import", "odd.csv"}, "cannot name a folder");
+        refused({"import", "odd.csv"}, "cannot name a folder");
     }
 }
 
@@ -161,7 +160,7 @@ TEST(course_store, a_roster_changes_what_it_has_columns_for) {
     CourseBench bench(2);
     const auto import = [&](const std::string& csv, std::vector<std::string> more = {}) {
         bench.bench().write("more.csv", csv);
-        std::vector<std::string> words = {"roster", "import", "more.csv"};
+        std::vector<std::string> words = {"import", "more.csv"};
         words.insert(words.end(), more.begin(), more.end());
         return bench.course(words);
     };
@@ -205,12 +204,12 @@ TEST(course_store, groups_of_a_mistaken_roster_do_not_count) {
     CourseBench bench(2);
     bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00");
     bench.bench().write("wrong.csv", "id,group\ns1,wrong-1\ns2,wrong-2\n");
-    CourseBench::expect_done(bench.course({"roster", "import", "wrong.csv"}));
+    CourseBench::expect_done(bench.course({"import", "wrong.csv"}));
     EXPECT_THAT(bench.course({"status"}).output, AllOf(HasSubstr("3 groups"), HasSubstr("group-01")));  // has work
-    CourseBench::expect_done(bench.course({"roster", "import", "roster.csv"}));
+    CourseBench::expect_done(bench.course({"import", "roster.csv"}));
     const std::string status = bench.course({"status"}).output;
     EXPECT_THAT(status, AllOf(HasSubstr("k: 2 groups\n"), HasSubstr("group-02"), Not(HasSubstr("wrong"))));
-    EXPECT_THAT(bench.course({"peer", "assign", "--at", "2026-03-02 10:00"}).error_output, Not(HasSubstr("map")));
+    EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-02 10:00"}).error_output, Not(HasSubstr("map")));
 }
 
 // oracle: what each platform documents of its export, and the zip's own names
@@ -231,7 +230,7 @@ TEST(course_store, takes_a_platform_s_zip_and_leaves_out_what_leads_outside) {
         "z.close()\nEND");
     ASSERT_EQ(made.exit_code, 0) << made.error_output;
     const ChildResult taken =
-        bench.course({"receive", "class.zip", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
+        bench.course({"submit", "class.zip", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
     EXPECT_EQ(taken.exit_code, 1);
     EXPECT_THAT(taken.output, AllOf(HasSubstr("2 files taken, 0 late"), HasSubstr("group-01"), HasSubstr("group-03")));
     EXPECT_THAT(taken.error_output, AllOf(HasSubstr("\"../../escaped.pdf\" leads outside"),

@@ -14,8 +14,8 @@ using ::testing::Not;
 class graded_work : public ::testing::Test {
   protected:
     graded_work() : bench_(4, 1) {
-        CourseBench::expect_done(bench_.course({"assignment", "add", "talk", "--kind", "talk", "--first",
-                                                "2026-04-01 12:00", "--criteria", "clarity:5,script:10"}));
+        CourseBench::expect_done(bench_.course({"assignment", "talk", "--kind", "talk", "--first", "2026-04-01 12:00",
+                                                "--criteria", "clarity:5,script:10"}));
         const Workbench& work = bench_.bench();
         work.write("home/lessons/99_small/lesson.lua",
                    "-- ---\n-- title: Small\n-- lesson: 99_small\n-- answers:\n--   x: number\n--   y: number\n-- "
@@ -39,7 +39,7 @@ TEST_F(graded_work, of_a_talk_becomes_scores_of_a_criterion) {
     receive("group-01.lua", "answer('x', 42)\nanswer('y', 1)\n", "2026-03-31 10:00");
     work.write("p/analysis.lua", "answer('y', 1)\n");
     work.shell("cd p && zip -q ../group-03.zip analysis.lua");
-    CourseBench::expect_done(bench_.course({"receive", "group-03.zip", "--assignment", "talk", "--no-checks", "--at",
+    CourseBench::expect_done(bench_.course({"submit", "group-03.zip", "--assignment", "talk", "--no-checks", "--at",
                                             "2026-03-31 11:00", "--isolation", CourseBench::level()}));
     const ChildResult laid_out = bench_.course({"work", "talk", "-o", "work"});
     EXPECT_EQ(laid_out.exit_code, 1);

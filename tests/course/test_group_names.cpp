@@ -120,7 +120,7 @@ TEST(group_names, work_belongs_to_the_members_when_it_was_submitted) {
     take(1, "2026-02-27 12:00");
     take(2, "2026-02-27 12:00");
     bench.bench().write("moved.csv", "id,group\ns1,group-02\n");
-    CourseBench::expect_done(bench.course({"roster", "import", "moved.csv"}));
+    CourseBench::expect_done(bench.course({"import", "moved.csv"}));
     Course course(bench.bench().path("k"));
     const Assignment crane = assignment_named(course, "crane");
     const std::int64_t first = group_named(course, "group-01").id, second = group_named(course, "group-02").id,

@@ -286,7 +286,7 @@ TEST(hand_in_names, a_course_takes_files_by_the_same_names) {
     work.write("in/Group 1/analysis_out/01-times.pdf", small_pdf("a figure"));
     work.write("in/group-78/analysis_out/01-times.pdf", small_pdf("another figure"));
     const ChildResult taken =
-        bench.course({"receive", "in", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
+        bench.course({"submit", "in", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
     EXPECT_THAT(taken.output, HasSubstr("4 files taken, 0 late"));
     for (int i = 1; i <= 4; ++i) EXPECT_THAT(taken.output, HasSubstr(CourseBench::group(i)));
     EXPECT_THAT(taken.error_output, HasSubstr("no group and no student of the course is called \"group-77\""));

@@ -143,7 +143,7 @@ class MadeUpCourse {
 
     /// What the instructor has beside the course when this line is typed.
     void prepare(const std::string& line) const {
-        if (line.find("course roster import") != std::string::npos) {
+        if (line.find("course import") != std::string::npos) {
             std::string roster = "id,name,group,email,moodle\n", worksheet = "full name,time\n";
             for (int i = 1; i <= kGroups; ++i) {
                 roster += fmt::format("s{0},Student {0},{1},s{0}@course.example,90000{0}\n", i, CourseBench::group(i));
@@ -175,7 +175,7 @@ class MadeUpCourse {
     void write_reviews() const {
         std::string scores = "reviewer,report,data,steps,conclusions,strength,suggestions\n";
         static const std::regex pair("group-0(\\d) +(report-\\d+) +group-0\\d +.* sent");
-        const std::string pairs = in_shell(work_, "signals", "dynlab course peer show crane").output;
+        const std::string pairs = in_shell(work_, "signals", "dynlab course review pairs crane").output;
         for (std::sregex_iterator it(pairs.begin(), pairs.end(), pair), end; it != end; ++it) {
             const std::string reviewer = (*it)[1], report = (*it)[2];
             work_.write("export/" + folder_of(std::stoi(reviewer)) + "review-" + report + ".pdf",
@@ -197,7 +197,7 @@ TEST(instructor_guides, a_course_with_reviews_and_its_corrections_run_as_printed
     const MadeUpCourse made_up(work);
     const bool boxes = !obstacle_to(Isolation::kFull);
     const auto run = [&](std::string command) {
-        if (!boxes && command.find(" receive ") != std::string::npos) command += " --isolation process";
+        if (!boxes && std::regex_search(command, std::regex(" (submit|collect) "))) command += " --isolation process";
         const ChildResult result =
             in_shell(work, std::filesystem::exists(work.path("signals")) ? "signals" : "", command);
         const bool findings = command.find(" findings ") != std::string::npos;  // they are there: rules are broken
@@ -210,7 +210,7 @@ TEST(instructor_guides, a_course_with_reviews_and_its_corrections_run_as_printed
         made_up.prepare(command);
         const ChildResult result = run(command);
         if (command.starts_with("dynlab course status")) status = result.output;
-        if (command.find(" receive ") != std::string::npos) {
+        if (std::regex_search(command, std::regex(" (submit|collect) "))) {
             EXPECT_THAT(result.output, HasSubstr("group-07"));
         }
     }
@@ -233,8 +233,8 @@ TEST(instructor_guides, a_course_with_reviews_and_its_corrections_run_as_printed
                                                 {"DIR", "review-form"}})
             if (const auto at = command.find(placeholder); at != std::string::npos)
                 command.replace(at, placeholder.size(), word);
-        if (command.find(" remove carne") != std::string::npos)
-            run("dynlab course assignment add carne --first '2026-02-28 13:00' --review '2026-03-04 13:00' --final "
+        if (command.find(" carne --remove") != std::string::npos)
+            run("dynlab course assignment carne --first '2026-02-28 13:00' --review '2026-03-04 13:00' --final "
                 "'2026-03-07 14:00'");
         run(command);
         corrections += command.find("--reason") != std::string::npos;

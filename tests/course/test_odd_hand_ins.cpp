@@ -36,12 +36,12 @@ TEST(odd_hand_ins, what_a_word_processor_wrote_is_kept_and_flagged) {
     bench.bench().write("in/group-02.pdf", small_pdf("two"));
     bench.bench().write("in/Student 3_900003_assignsubmission_file_/mine.doc", "text");
     bench.bench().write("in/Student 3_900003_assignsubmission_file_/mine.pdf", small_pdf("three"));
-    EXPECT_THAT(told(bench.course({"receive", "in", "--at", kInTime, "--isolation", bench.level()})),
+    EXPECT_THAT(told(bench.course({"submit", "in", "--at", kInTime, "--isolation", bench.level()})),
                 AllOf(HasSubstr("2 files taken"), Not(HasSubstr("not-pdf"))));
     // The same for reviews, whichever report they are of.
-    told(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
+    told(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     bench.bench().write("review.docx", "text");
-    EXPECT_THAT(told(bench.course({"review", "receive", "review.docx", "--from", "group-02", "--at", kInTime})),
+    EXPECT_THAT(told(bench.course({"review", "collect", "review.docx", "--from", "group-02", "--at", kInTime})),
                 ContainsRegex("group-02 +report-[0-9]+ +v1 +in time +not-pdf: ask"));
 }
 
@@ -49,15 +49,15 @@ TEST(odd_hand_ins, several_reviews_are_told_in_one_call) {
     CourseBench bench(4, 2);
     for (int i = 1; i <= 4; ++i)
         told(bench.hand_in(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)), kInTime, {"--no-checks"}));
-    told(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
+    told(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     std::string reports =
-        shell(bench, "$DYNLAB course --course k peer show crane | awk '$1 == \"group-01\" {print $2}'");
+        shell(bench, "$DYNLAB course --course k review pairs crane | awk '$1 == \"group-01\" {print $2}'");
     const std::string first = reports.substr(0, reports.find('\n'));
     const std::string second = reports.substr(first.size() + 1, reports.size() - first.size() - 2);
     bench.bench().write("a.pdf", small_pdf("of the second"));
     bench.bench().write("b.pdf", small_pdf("of the first"));
     const auto receive = [&](const std::vector<std::string>& of) {
-        std::vector<std::string> words = {"review", "receive"};
+        std::vector<std::string> words = {"review", "collect"};
         for (const std::string& report : of) words.insert(words.end(), {"--of", report});
         words.insert(words.end(), {"a.pdf", "b.pdf", "--from", "group-01", "--at", "2026-03-02 10:00", "--no-checks"});
         return bench.course(words);
@@ -78,14 +78,14 @@ TEST(odd_hand_ins, a_version_that_was_there_before_and_a_review_as_a_report_are_
     told(bench.hand_in("group-01.pdf", small_pdf("other"), "2026-03-01 11:00", {"--no-checks"}));
     EXPECT_THAT(told(bench.hand_in("group-01.pdf", small_pdf("1"), "2026-03-01 18:00", {"--no-checks"})),
                 ContainsRegex("v3 +in time +the same file as v1 of Sun 2026-03-01 10:00"));
-    told(bench.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+    told(bench.course({"review", "assign", "--at", "2026-03-02 10:00"}));
     EXPECT_THAT(told(bench.course({"findings", "group-01"})), Not(HasSubstr("No copy")));
     bench.bench().write("review.pdf", small_pdf("a review"));
     told(bench.course(
-        {"review", "receive", "review.pdf", "--from", "group-02", "--at", "2026-03-03 10:00", "--no-checks"}));
+        {"review", "collect", "review.pdf", "--from", "group-02", "--at", "2026-03-03 10:00", "--no-checks"}));
     bench.bench().write("mine.pdf", small_pdf("a review"));
-    EXPECT_THAT(told(bench.course(
-                    {"final", "receive", "mine.pdf", "--from", "group-02", "--at", "2026-03-10 10:00", "--no-checks"})),
+    EXPECT_THAT(told(bench.course({"submit", "--stage", "final", "mine.pdf", "--from", "group-02", "--at",
+                                   "2026-03-10 10:00", "--no-checks"})),
                 HasSubstr("the same file as a review by group-02"));
 }
 
@@ -95,29 +95,29 @@ TEST(odd_hand_ins, another_time_of_a_known_file_is_told) {
         bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)));
     bench.bench().write("times.csv", "group,time\ngroup-01,2026-03-01 11:30\n");
     const auto receive = [&](std::vector<std::string> more) {
-        more.insert(more.begin(), {"receive", "in", "--at", "2026-03-01 19:00", "--no-checks"});
+        more.insert(more.begin(), {"submit", "in", "--at", "2026-03-01 19:00", "--no-checks"});
         return told(bench.course(more));
     };
     EXPECT_THAT(receive({}), ContainsRegex("group-01 +report +v1 +late by 7 h"));
     EXPECT_THAT(receive({"--times", "times.csv"}),
                 AllOf(ContainsRegex("group-01 .*known already; by --times it came Sun 2026-03-01 11:30: dynlab course "
-                                    "time corrects that"),
+                                    "set-received corrects that"),
                       ContainsRegex("group-02 .*known already, nothing changed")));
-    told(bench.course({"time", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's list"}));
+    told(bench.course({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's list"}));
     EXPECT_THAT(receive({"--times", "times.csv"}), ContainsRegex("group-01 .*in time +known already, nothing changed"));
 }
 
 TEST(odd_hand_ins, reports_are_held_against_what_their_lesson_asks_for) {
     CourseBench bench(1, 1);
     const auto add = [&](const std::string& name, const std::string& lesson) {
-        return bench.course({"assignment", "add", name, "--lesson", lesson, "--first", "2026-03-01 12:00", "--review",
+        return bench.course({"assignment", name, "--lesson", lesson, "--first", "2026-03-01 12:00", "--review",
                              "2026-03-08 12:00", "--final", "2026-03-15 12:00", "--reviews", "1"});
     };
     told(add("lines", "02"));
     told(add("labs", "03_crane"));
     EXPECT_THAT(add("none", "22").error_output,
                 AllOf(HasSubstr("there is no lesson or folder '22'; the lessons are "), HasSubstr("02_least_squares")));
-    EXPECT_THAT(bench.course({"assignment", "change", "lines", "--lesson", "22", "--reason", "a slip"}).error_output,
+    EXPECT_THAT(bench.course({"assignment", "lines", "--lesson", "22", "--reason", "a slip"}).error_output,
                 HasSubstr("there is no lesson or folder '22'"));
     told(bench.hand_in("group-01.pdf", small_pdf("The winning times"), kInTime, {"--assignment", "lines"}));
     EXPECT_THAT(bench.course({"findings", "group-01", "--assignment", "lines"}).output,
@@ -133,20 +133,20 @@ TEST(odd_hand_ins, the_findings_of_a_report_tell_that_its_copy_did_not_go_out) {
     CourseBench bench(2, 1);
     told(bench.hand_in("group-01.pdf", small_pdf("A report by Student 1 of this course"), kInTime));
     told(bench.hand_in("group-02.pdf", small_pdf("A report"), kInTime));
-    told(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
-    EXPECT_THAT(told(bench.course({"peer", "send", "--at", "2026-03-01 13:30"}), 1), HasSubstr("1 stopped"));
+    told(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
+    EXPECT_THAT(told(bench.course({"review", "send", "--at", "2026-03-01 13:30"}), 1), HasSubstr("1 stopped"));
     EXPECT_THAT(told(bench.course({"findings", "group-01"}), 1),
-                HasSubstr("No copy of it has gone to others yet: dynlab course peer send crane tells why"));
+                HasSubstr("No copy of it has gone to others yet: dynlab course review send crane tells why"));
     EXPECT_THAT(told(bench.course({"findings", "group-02"}), 1), Not(HasSubstr("No copy")));
 }
 
 TEST(odd_hand_ins, what_canvas_calls_late_is_told_where_the_time_does_not_say_so) {
     CourseBench bench(2, 1);
     bench.bench().write("roster.csv", "id,name,group,canvas\ns1,Student 1,group-01,31\ns2,Student 2,group-02,32\n");
-    told(bench.course({"roster", "import", "roster.csv"}));
+    told(bench.course({"import", "roster.csv"}));
     bench.bench().write("in/student1_LATE_31_77_report.pdf", small_pdf("1"));
     bench.bench().write("in/student2_32_78_report.pdf", small_pdf("2"));
-    EXPECT_THAT(told(bench.course({"receive", "in", "--at", kInTime, "--no-checks", "--isolation", bench.level()})),
+    EXPECT_THAT(told(bench.course({"submit", "in", "--at", kInTime, "--no-checks", "--isolation", bench.level()})),
                 AllOf(ContainsRegex("group-01 +report +v1 +in time +the platform calls it late: see --times"),
                       ContainsRegex("group-02 +report +v1 +in time *\n")));
 }

@@ -61,7 +61,8 @@ TEST(packed_hand_ins, the_report_of_a_pack_counts) {
     const std::string status = bench.course({"status", "crane", "--at", "2026-03-01 13:00"}).output;
     EXPECT_THAT(status, AllOf(ContainsRegex("group-01 +1 +v1"), ContainsRegex("group-03 .*no PDF in the pack: ask"),
                               HasSubstr("4 groups: 2 handed in, 2 missing.")));
-    EXPECT_THAT(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}).output, HasSubstr("2 groups, 2 reviews"));
+    EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}).output,
+                HasSubstr("2 groups, 2 reviews"));
     EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("all there and unaltered"));
     const std::string before = bench.dump();
     CourseBench::expect_done(receive(bench, all, kInTime));
@@ -108,7 +109,7 @@ TEST(packed_hand_ins, a_pack_is_a_review_only_with_a_pdf) {
     CourseBench bench(2, 1);
     for (const char* group : {"group-01", "group-02"})
         bench.hand_in(std::string(group) + ".pdf", small_pdf(group), kInTime);
-    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
+    CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     pack(bench, "group-01", {}, "words", "error('stopped')\n");
     pack(bench, "group-02", {"remarks.pdf"});
     const ChildResult taken = receive(bench, {"group-01.zip", "group-02.zip"}, "2026-03-09 10:00", {"review"});
@@ -128,11 +129,11 @@ TEST(packed_hand_ins, late_reviews_and_late_second_versions_are_told_apart) {
     CourseBench bench(3, 1);
     for (int i = 1; i <= 3; ++i) bench.hand_in(CourseBench::group(i) + ".pdf", small_pdf("one"), kInTime);
     bench.hand_in("group-01.pdf", small_pdf("two"), "2026-03-01 13:00");
-    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 14:00"}));
+    CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 14:00"}));
     bench.hand_in("r.pdf", small_pdf("r1"), "2026-03-07 10:00", {"--assignment", "crane"});
     const auto review = [&](const char* group, const char* text, const char* at) {
         bench.bench().write("r.pdf", small_pdf(text));
-        CourseBench::expect_done(bench.course({"review", "receive", "r.pdf", "--from", group, "--at", at}));
+        CourseBench::expect_done(bench.course({"review", "collect", "r.pdf", "--from", group, "--at", at}));
     };
     review("group-01", "good", "2026-03-07 10:00"), review("group-01", "better", "2026-03-09 10:00");
     review("group-02", "good", "2026-03-09 10:00");
@@ -151,29 +152,30 @@ TEST(packed_hand_ins, a_first_version_after_the_reviews_is_asked_about) {
     CourseBench bench(2, 1);
     for (const char* group : {"group-01", "group-02"})
         bench.hand_in(std::string(group) + ".pdf", small_pdf(group), kInTime);
-    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
+    CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     CourseBench::expect_done(bench.hand_in("group-01.pdf", small_pdf("more"), "2026-03-09 10:00"));  // nobody reads it
-    bench.bench().shell(  // as peer send and release record it
+    bench.bench().shell(  // as review send and release record it
         "sqlite3 k/course.db \"INSERT INTO sendings (pair, way, version, hash, made_at) SELECT p.id, 'to reviewer', "
         "v.id, "
         "v.hash, 0 FROM pairs p JOIN versions v ON v.group_id = p.author WHERE v.number = 1\"");
     CourseBench::expect_done(bench.hand_in("group-02.pdf", small_pdf("again"), "2026-03-07 10:00"));  // while they read
     EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-07 12:00"}).output,
-                HasSubstr("Next: dynlab course peer send crane"));  // the newer one of group-02
+                HasSubstr("Next: dynlab course review send crane"));  // the newer one of group-02
     const std::string before = bench.dump();
     const ChildResult late = bench.hand_in("group-02.pdf", small_pdf("last"), "2026-03-09 10:00");
     EXPECT_EQ(late.exit_code, 1);
     EXPECT_THAT(
         late.error_output,
-        HasSubstr("the reviews of group-02 are due: did you mean dynlab course final receive? --first takes it as "
-                  "a first version all the same"));
+        HasSubstr(
+            "the reviews of group-02 are due: did you mean dynlab course submit --stage final? --first takes it as "
+            "a first version all the same"));
     EXPECT_EQ(bench.dump(), before);
     bench.bench().shell(
         "sqlite3 k/course.db \"INSERT INTO sendings (pair, way, version, hash, made_at) SELECT pair, 'to author', "
         "version, "
         "hash, 0 FROM sendings\"");
     EXPECT_THAT(bench.hand_in("group-02.pdf", small_pdf("last"), "2026-03-07 10:00").error_output,
-                HasSubstr("the reviews of group-02 are released: did you mean dynlab course final receive?"));
+                HasSubstr("the reviews of group-02 are released: did you mean dynlab course submit --stage final?"));
     EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-09 12:00"}).output,
                 HasSubstr("Next: dynlab course scores crane FILE.csv, then dynlab course marks crane"));
     CourseBench::expect_done(bench.hand_in("group-02.pdf", small_pdf("again"), "2026-03-09 10:00"));  // known

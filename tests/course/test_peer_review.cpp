@@ -13,7 +13,7 @@ using ::testing::Not;
 void hand_in_all(CourseBench& bench, int groups) {
     for (int i = 1; i <= groups; ++i)
         bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
-    CourseBench::expect_done(bench.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+    CourseBench::expect_done(bench.course({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
 }
 
 // oracle: medians and distances by hand
@@ -38,26 +38,29 @@ TEST(peer_review, marks_by_median_and_distance) {
 TEST(peer_review, allots_mends_and_takes_reviews) {
     CourseBench bench(6);
     hand_in_all(bench, 6);
-    EXPECT_THAT(bench.course({"peer", "assign", "--at", "2026-03-01 11:00"}).error_output, HasSubstr("--early"));
-    const ChildResult assigned = bench.course({"peer", "assign", "--at", "2026-03-01 13:00"});
+    EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-01 11:00"}).error_output, HasSubstr("--early"));
+    const ChildResult assigned = bench.course({"review", "assign", "--at", "2026-03-01 13:00"});
     EXPECT_THAT(assigned.output, HasSubstr("6 groups, 12 reviews: 12 new, 0 taken back."));
     const std::string before = bench.dump();
-    EXPECT_THAT(bench.course({"peer", "assign", "--at", "2026-03-01 14:00"}).output, HasSubstr("0 new, 0 taken back"));
+    EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-01 14:00"}).output,
+                HasSubstr("0 new, 0 taken back"));
     EXPECT_EQ(bench.dump(), before);
     const ChildResult stray = bench.hand_in("stray.pdf", small_pdf("x"), "2026-03-02 10:00", {"--from", "group-01"});
     CourseBench::expect_done(stray);
     bench.bench().write("r.pdf", small_pdf("a review"));
     const std::string report =
-        bench.bench().shell("$DYNLAB course --course k peer show | awk '$1 == \"group-02\" {print $2; exit}'").output;
+        bench.bench()
+            .shell("$DYNLAB course --course k review pairs | awk '$1 == \"group-02\" {print $2; exit}'")
+            .output;
     const std::string name = report.substr(0, report.find('\n'));
-    EXPECT_THAT(bench.course({"review", "receive", "r.pdf", "--from", "group-02"}).error_output,
+    EXPECT_THAT(bench.course({"review", "collect", "r.pdf", "--from", "group-02"}).error_output,
                 HasSubstr("it does not tell which report it reviews; group-02 was given report-"));
     CourseBench::expect_done(
-        bench.course({"review", "receive", "r.pdf", "--from", "group-02", "--of", name, "--at", "2026-03-05 10:00"}));
-    CourseBench::expect_done(bench.course({"roster", "drop", "group-02", "--reason", "ill"}));
-    const ChildResult mended = bench.course({"peer", "assign", "--at", "2026-03-06 13:00"});
+        bench.course({"review", "collect", "r.pdf", "--from", "group-02", "--of", name, "--at", "2026-03-05 10:00"}));
+    CourseBench::expect_done(bench.course({"drop", "group-02", "--reason", "ill"}));
+    const ChildResult mended = bench.course({"review", "assign", "--at", "2026-03-06 13:00"});
     CourseBench::expect_done(mended);
-    const std::string pairs = bench.course({"peer", "show"}).output;
+    const std::string pairs = bench.course({"review", "pairs"}).output;
     EXPECT_THAT(pairs, ::testing::ContainsRegex("group-02 +" + name + ".* written"));
     EXPECT_THAT(bench.course({"status", "--at", "2026-03-06 14:00"}).output, HasSubstr("dropped out"));
 }
@@ -68,7 +71,7 @@ TEST(peer_review, seeks_former_names_and_counts_copies) {
     const auto roster = [&](const std::string& first) {
         bench.bench().write("names.csv", "id,name,group,email\n" + first +
                                              "s2,Bo Ek,group-02,\ns3,Cy Ost,group-03,\ns4,Di Uhl,group-04,\n");
-        CourseBench::expect_done(bench.course({"roster", "import", "names.csv"}));
+        CourseBench::expect_done(bench.course({"import", "names.csv"}));
     };
     roster("s1,Wilhelmina Rutherford,group-01,zwirner@a.example\n");
     roster("s1,Wilma Rathenau,group-01,wr@a.example\n");
@@ -76,23 +79,23 @@ TEST(peer_review, seeks_former_names_and_counts_copies) {
                                             "four"};
     for (int i = 1; i <= 4; ++i)
         bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf(texts[static_cast<std::size_t>(i) - 1]));
-    CourseBench::expect_done(bench.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
-    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
-    const ChildResult sent = bench.course({"peer", "send", "--at", "2026-03-01 14:00"});
+    CourseBench::expect_done(bench.course({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+    CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
+    const ChildResult sent = bench.course({"review", "send", "--at", "2026-03-01 14:00"});
     EXPECT_THAT(sent.output, HasSubstr("4 sent now, 0 before, 4 stopped, 0 not come yet"));
     EXPECT_THAT(sent.error_output,
                 AllOf(HasSubstr("report of group-01 was not sent: page 1: "), HasSubstr("Wilhelmina Rutherford"),
                       HasSubstr("mail address"), HasSubstr("report of group-02 was not sent: page 1: ")));
     EXPECT_EQ(std::count(sent.error_output.begin(), sent.error_output.end(), '\n'), 2);
     const std::string status = bench.course({"status", "--at", "2026-03-01 15:00"}).output;
-    EXPECT_THAT(status, ::testing::ContainsRegex("group-01 .* its copy was not sent: peer send tells why\n"
-                                                 "group-02 .* its copy was not sent: peer send tells why\n"
+    EXPECT_THAT(status, ::testing::ContainsRegex("group-01 .* its copy was not sent: review send tells why\n"
+                                                 "group-02 .* its copy was not sent: review send tells why\n"
                                                  "group-03 [^\n:]*\ngroup-04 [^\n:]*\n"));
-    EXPECT_THAT(bench.course({"peer", "send", "--accept", "group-01"}).error_output, HasSubstr("--reason"));
-    EXPECT_THAT(bench.course({"peer", "send", "--accept", "group-77", "--reason", "x"}).error_output,
+    EXPECT_THAT(bench.course({"review", "send", "--accept", "group-01"}).error_output, HasSubstr("--reason"));
+    EXPECT_THAT(bench.course({"review", "send", "--accept", "group-77", "--reason", "x"}).error_output,
                 HasSubstr("group-77"));
     const ChildResult accepted =
-        bench.course({"peer", "send", "--accept", "group-01", "--reason", "agreed", "--at", "2026-03-01 16:00"});
+        bench.course({"review", "send", "--accept", "group-01", "--reason", "agreed", "--at", "2026-03-01 16:00"});
     EXPECT_THAT(accepted.output, HasSubstr("2 sent now, 4 before, 2 stopped, 0 not come yet"));
     EXPECT_THAT(accepted.error_output, AllOf(HasSubstr("report of group-01 was sent with names in it: page 1: "),
                                              HasSubstr("report of group-02 was not sent: page 1: ")));
@@ -109,14 +112,14 @@ TEST(peer_review, seeks_the_groups_that_a_student_was_in_before) {
     for (const std::string first : {"lynx-77", "group-01"}) {
         bench.bench().write("names.csv",
                             "id,name,group\ns1,Ada Ek," + first + "\ns2,Bo Ost,group-02\ns3,Cy Uhl,group-03\n");
-        CourseBench::expect_done(bench.course({"roster", "import", "names.csv"}));
+        CourseBench::expect_done(bench.course({"import", "names.csv"}));
     }
     const std::vector<std::string> texts = {"written by lynx-77", "two", "three"};
     for (int i = 1; i <= 3; ++i)
         bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf(texts[static_cast<std::size_t>(i) - 1]));
-    CourseBench::expect_done(bench.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
-    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
-    const ChildResult sent = bench.course({"peer", "send", "--at", "2026-03-01 14:00"});
+    CourseBench::expect_done(bench.course({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+    CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
+    const ChildResult sent = bench.course({"review", "send", "--at", "2026-03-01 14:00"});
     EXPECT_THAT(sent.error_output, AllOf(HasSubstr("report of group-01 was not sent: page 1: "), HasSubstr("lynx-77")));
     EXPECT_EQ(std::count(sent.error_output.begin(), sent.error_output.end(), '\n'), 1);
 }
@@ -125,20 +128,21 @@ TEST(peer_review, seeks_the_groups_that_a_student_was_in_before) {
 TEST(peer_review, releases_reviews_after_their_deadline) {
     CourseBench bench(4);
     hand_in_all(bench, 4);
-    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-01 13:00"}));
-    const ChildResult early = bench.course({"release", "--at", "2026-03-08 12:10"});
+    CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
+    const ChildResult early = bench.course({"review", "release", "--at", "2026-03-08 12:10"});
     EXPECT_EQ(early.exit_code, 1);
     EXPECT_THAT(early.error_output, HasSubstr("the reviews of crane may still come until Sun 2026-03-08 12:10; wait, "
                                               "or say --early"));
-    EXPECT_THAT(bench.course({"release", "--at", "2026-03-08 12:10", "--early"}).output, HasSubstr("8 not come yet"));
-    EXPECT_THAT(bench.course({"release", "--at", "2026-03-08 12:11"}).output, HasSubstr("8 not come yet"));
+    EXPECT_THAT(bench.course({"review", "release", "--at", "2026-03-08 12:10", "--early"}).output,
+                HasSubstr("8 not come yet"));
+    EXPECT_THAT(bench.course({"review", "release", "--at", "2026-03-08 12:11"}).output, HasSubstr("8 not come yet"));
 }
 
 // oracle: equality of stores
 TEST(peer_review, exports_and_imports_an_equal_store) {
     CourseBench bench(4, 1);
     hand_in_all(bench, 4);
-    bench.course({"peer", "assign", "--at", "2026-03-01 13:00"});
+    bench.course({"review", "assign", "--at", "2026-03-01 13:00"});
     bench.bench().write("s.csv", "reviewer,data,steps,conclusions,strength,suggestions\ngroup-01,5,4,3,4.5,2\n");
     CourseBench::expect_done(bench.course({"scores", "crane", "s.csv"}));
     EXPECT_THAT(bench.course({"scores", "crane", "s.csv"}).output, HasSubstr("0 new scores"));
@@ -146,7 +150,7 @@ TEST(peer_review, exports_and_imports_an_equal_store) {
     EXPECT_THAT(bench.course({"scores", "crane", "bad.csv"}).error_output,
                 HasSubstr("bad.csv, line 3: data must be a number from 0 to 5, but \"9\" was given"));
     CourseBench::expect_done(
-        bench.course({"override", "crane", "group-02", "work", "80", "--reason", "=cmd|' /C calc'!A0"}));
+        bench.course({"mark", "crane", "group-02", "work", "80", "--reason", "=cmd|' /C calc'!A0"}));
     const std::string csv = bench.course({"export", "crane"}).output;
     EXPECT_THAT(csv, HasSubstr("s2,Student 2,,,,group-02"));
     EXPECT_THAT(csv, HasSubstr(",80,'=cmd|"));
@@ -204,15 +208,15 @@ TEST(peer_review, survives_being_killed_at_any_moment) {
         bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
     const ChildResult killed = bench.bench().shell(
         "set -e; killed=0; mkdir rounds; cp -r k rounds/k; begun=$(date +%s%N)\n"
-        "$DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null\n"
+        "$DYNLAB course --course rounds/k submit in --no-checks --at '2026-03-01 10:00' >/dev/null\n"
         "took=$(( ($(date +%s%N) - begun)/1000 )); rm -r rounds/k\n"  // microseconds
         "for round in $(seq 30); do\n"
         "  cp -r k rounds/k\n"
-        "  $DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null 2>&1 &\n"
+        "  $DYNLAB course --course rounds/k submit in --no-checks --at '2026-03-01 10:00' >/dev/null 2>&1 &\n"
         "  sleep $(printf 0.%06d $((took*round/30))); kill -9 $! 2>/dev/null && killed=$((killed + 1)); wait $! "
         "2>/dev/null "
         "|| true\n"
-        "  $DYNLAB course --course rounds/k receive in --no-checks --at '2026-03-01 10:00' >/dev/null\n"
+        "  $DYNLAB course --course rounds/k submit in --no-checks --at '2026-03-01 10:00' >/dev/null\n"
         "  $DYNLAB course --course rounds/k verify | grep -q '8 files, 8 versions: all there' || { echo round $round; "
         "exit 1; }\n"
         "  rm -r rounds/k\n"
@@ -227,15 +231,15 @@ TEST(peer_review, keeps_two_writers_apart) {
     for (int i = 1; i <= 8; ++i)
         bench.bench().write((i % 2 == 0 ? "even/" : "odd/") + CourseBench::group(i) + ".pdf", small_pdf("r"));
     const ChildResult both = bench.bench().shell(
-        "$DYNLAB course --course k receive even --at '2026-03-01 10:00' & "
-        "$DYNLAB course --course k receive odd --at '2026-03-01 10:00'; a=$?; wait $!; echo $a $?");
+        "$DYNLAB course --course k submit even --at '2026-03-01 10:00' & "
+        "$DYNLAB course --course k submit odd --at '2026-03-01 10:00'; a=$?; wait $!; echo $a $?");
     EXPECT_THAT(both.output, HasSubstr("\n0 0\n"));
     EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("1 file, 8 versions: all there"));
     const ChildResult blocked = bench.bench().shell(
         "(echo 'BEGIN IMMEDIATE;'; echo '.shell touch begun'; sleep 20) 2>/dev/null | sqlite3 k/course.db >/dev/null "
         "2>&1 & "
         "until [ -e begun ]; do sleep 0.02; done; "
-        "$DYNLAB course --course k roster drop group-01; code=$?; kill $!; exit $code");
+        "$DYNLAB course --course k drop group-01; code=$?; kill $!; exit $code");
     EXPECT_EQ(blocked.exit_code, 1);
     EXPECT_THAT(blocked.error_output, HasSubstr("another dynlab is writing to this course; nothing was changed"));
 }

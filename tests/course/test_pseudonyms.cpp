@@ -20,7 +20,7 @@ using ::testing::Not;
 void hand_in_all(CourseBench& bench, int groups) {
     for (int i = 1; i <= groups; ++i)
         bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
-    CourseBench::expect_done(bench.course({"receive", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+    CourseBench::expect_done(bench.course({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
 }
 
 /// Numbers by role and group, and pairs.
@@ -114,12 +114,12 @@ TEST(pseudonyms, no_seed_is_stored_printed_or_accepted) {
     hand_in_all(bench, 3);
     std::string told;
     for (const std::vector<std::string>& words :
-         std::vector<std::vector<std::string>>{{"peer", "assign", "--at", "2026-03-02 10:00"},
-                                               {"peer", "send", "--at", "2026-03-02 11:00"},
-                                               {"peer", "show"},
+         std::vector<std::vector<std::string>>{{"review", "assign", "--at", "2026-03-02 10:00"},
+                                               {"review", "send", "--at", "2026-03-02 11:00"},
+                                               {"review", "pairs"},
                                                {"status"},
                                                {"history"},
-                                               {"assignment", "add", "--help"},
+                                               {"assignment", "--help"},
                                                {"export", "--json"}}) {
         const ChildResult result = bench.course(words);
         told += result.output + result.error_output;
@@ -127,29 +127,28 @@ TEST(pseudonyms, no_seed_is_stored_printed_or_accepted) {
     told += bench.dump() + bench.bench().shell("cat k/receipts/*/*").output;
     EXPECT_THAT(told, HasSubstr("3 groups, 3 reviews: 3 new"));
     EXPECT_THAT(told, Not(HasSubstr("seed")));
-    EXPECT_EQ(bench
-                  .course({"assignment", "add", "next", "--kind", "talk", "--first", "2026-04-01 12:00",
-                           "--seed", "7"})
-                  .exit_code,
-              2);
+    EXPECT_EQ(
+        bench.course({"assignment", "next", "--kind", "talk", "--first", "2026-04-01 12:00", "--seed", "7"}).exit_code,
+        2);
 }
 
 // oracle: the pairs as the earlier version stored and showed them
 TEST(pseudonyms, of_a_store_with_a_seed_stay_as_they_were_drawn) {
     CourseBench bench(6);
     hand_in_all(bench, 6);
-    CourseBench::expect_done(bench.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
-    const std::string before = bench.course({"peer", "show"}).output;
+    CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-02 10:00"}));
+    const std::string before = bench.course({"review", "pairs"}).output;
     CourseBench::expect_done(bench.bench().shell(
         "for table in assignments allocations; do\n"
         "sqlite3 k/course.db \"ALTER TABLE $table ADD COLUMN seed INTEGER NOT NULL DEFAULT 4711\"; done\n"
         "sqlite3 k/course.db 'DROP TABLE marks; DROP TABLE results; DROP TABLE refusals; ALTER TABLE students DROP "
         "COLUMN "
         "own_data; ALTER TABLE students DROP COLUMN language; PRAGMA user_version = 4'"));
-    EXPECT_EQ(bench.course({"peer", "show"}).output, before);
+    EXPECT_EQ(bench.course({"review", "pairs"}).output, before);
     EXPECT_THAT(bench.dump(), Not(HasSubstr("seed")));
-    EXPECT_THAT(bench.course({"peer", "assign", "--at", "2026-03-02 11:00"}).output, HasSubstr("0 new, 0 taken back"));
-    EXPECT_EQ(bench.course({"peer", "show"}).output, before);
+    EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-02 11:00"}).output,
+                HasSubstr("0 new, 0 taken back"));
+    EXPECT_EQ(bench.course({"review", "pairs"}).output, before);
     EXPECT_EQ(bench.course({"verify"}).exit_code, 0);
 }
 

@@ -130,7 +130,7 @@ TEST_F(receipts, bad_keys_and_words_are_told) {
 }
 
 TEST_F(receipts, the_public_key_is_shown_and_the_secret_is_not) {
-    const ChildResult shown = course_.course({"key"});
+    const ChildResult shown = course_.course({"verify", "--key"});
     EXPECT_EQ(shown.exit_code, 0) << shown.error_output;
     EXPECT_THAT(shown.output, AllOf(HasSubstr(read("mine/course.pub")), HasSubstr("k/course.pub")));
     const std::string secret = read("k/course.key");

@@ -25,13 +25,13 @@ TEST(returns, bring_what_is_new_for_whom) {
         return result.output + result.error_output;
     };
     const auto shell = [&](const std::string& command) { return course.bench().shell(command).output; };
-    done({"roster", "import", "roster.csv"});
+    done({"import", "roster.csv"});
     for (int i = 1; i <= 3; ++i)
         course.hand_in(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)), "2026-03-01 10:00",
                        {"--no-checks"});
-    done({"peer", "assign", "--at", "2026-03-02 10:00"});
-    done({"peer", "send", "--at", "2026-03-02 11:00"});
-    const std::string told = done({"return", "crane", "--out", "monday", "--moodle"});
+    done({"review", "assign", "--at", "2026-03-02 10:00"});
+    done({"review", "send", "--at", "2026-03-02 11:00"});
+    const std::string told = done({"deliver", "crane", "--out", "monday", "--moodle"});
     EXPECT_THAT(told, AllOf(HasSubstr("group-01: 00001-group-01-first-report.txt, report-"),
                             HasSubstr("For 3 groups, in monday"), HasSubstr("no mail address is known of group-02")));
     EXPECT_EQ(shell("ls monday/*/report-*.pdf | wc -l"), "3\n");
@@ -44,17 +44,17 @@ TEST(returns, bring_what_is_new_for_whom) {
     EXPECT_THAT(shell("python3 -c \"import zipfile; print(zipfile.ZipFile('monday/moodle.zip').namelist())\""),
                 AllOf(HasSubstr("Ada Müller_900001_assignfeedback_file_/report-"),
                       HasSubstr("Student 3_900003_assignfeedback_file_/00003-group-03-first-report.txt")));
-    EXPECT_THAT(done({"return", "crane", "--out", "tuesday"}), HasSubstr("Nothing is new for anybody."));
+    EXPECT_THAT(done({"deliver", "crane", "--out", "tuesday"}), HasSubstr("Nothing is new for anybody."));
     EXPECT_EQ(shell("ls -d tuesday 2>/dev/null"), "");
     // A newer version is new for its reviewer, and its receipt for the group; nothing else.
     course.hand_in("group-01.pdf", small_pdf("better"), "2026-03-02 12:00", {"--no-checks"});
-    done({"peer", "send", "--at", "2026-03-02 13:00"});
-    done({"return", "crane", "--out", "wednesday"});
+    done({"review", "send", "--at", "2026-03-02 13:00"});
+    done({"deliver", "crane", "--out", "wednesday"});
     EXPECT_EQ(shell("find wednesday -name '*.pdf' | wc -l"), "1\n");
     EXPECT_EQ(shell("find wednesday -name '*.txt' | wc -l"), "1\n");
-    done({"return", "crane", "--out", "all", "--all"});
+    done({"deliver", "crane", "--out", "all", "--all"});
     EXPECT_EQ(shell("find all -name '*.pdf' | wc -l"), "3\n");
-    EXPECT_THAT(course.course({"return", "crane", "--out", "all"}).error_output, HasSubstr("exists already"));
+    EXPECT_THAT(course.course({"deliver", "crane", "--out", "all"}).error_output, HasSubstr("exists already"));
     done({"verify"});
 }
 

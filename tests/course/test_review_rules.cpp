@@ -294,11 +294,11 @@ TEST_F(review_rules, status_does_not_ask_to_release_a_stopped_review) {
     const auto status = [&](const std::string& time) { return assignment_status(course_, crane_, at(time)); };
     const ReviewPair pair = pair_of("group-01");
     submit("review", "group-01", "2026-03-05 10:00", pair.report_pseudonym());
-    EXPECT_THAT(status("2026-03-09 09:00"), HasSubstr("Next: dynlab course release"));
+    EXPECT_THAT(status("2026-03-09 09:00"), HasSubstr("Next: dynlab course review release"));
     EXPECT_EQ(send(Way::kToAuthors, "2026-03-09 10:00", {"group-01"}).stopped, 1);
-    EXPECT_THAT(status("2026-03-09 11:00"), Not(HasSubstr("Next: dynlab course release")));
+    EXPECT_THAT(status("2026-03-09 11:00"), Not(HasSubstr("Next: dynlab course review release")));
     submit("review", "group-01", "2026-03-09 12:00", pair.report_pseudonym(), "without a name");
-    EXPECT_THAT(status("2026-03-09 13:00"), HasSubstr("Next: dynlab course release"));
+    EXPECT_THAT(status("2026-03-09 13:00"), HasSubstr("Next: dynlab course review release"));
 }
 
 // oracle: the message

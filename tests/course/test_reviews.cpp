@@ -78,20 +78,20 @@ TEST(reviews, that_name_somebody_are_told_of_at_receipt) {
     const Workbench& bench = course.bench();
     for (int i = 1; i <= 3; ++i)
         bench.write("in/" + CourseBench::group(i) + ".pdf", small_pdf("by Student " + std::to_string(i)));
-    const ChildResult first = course.course({"receive", "in", "--at", "2026-03-01 10:00"});
+    const ChildResult first = course.course({"submit", "in", "--at", "2026-03-01 10:00"});
     EXPECT_THAT(first.output,
                 AllOf(HasSubstr("rules broken"), Not(HasSubstr("names somebody"))));  // they may be signed
-    CourseBench::expect_done(course.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+    CourseBench::expect_done(course.course({"review", "assign", "--at", "2026-03-02 10:00"}));
     make_review(bench, "fair", kAnswer);
     make_review(bench, "loose", std::string(kAnswer) + "Student 3 of group-03 told us more.");
     const auto hand_in = [&](const std::string& file, int place) {
         const std::string report =
             bench
-                .shell("$DYNLAB course --course k peer show | awk '$1 == \"group-01\" {print $2}' | sed -n " +
+                .shell("$DYNLAB course --course k review pairs | awk '$1 == \"group-01\" {print $2}' | sed -n " +
                        std::to_string(place) + "p")
                 .output;
         return course
-            .course({"review", "receive", file, "--from", "group-01", "--of", report.substr(0, report.find('\n')),
+            .course({"review", "collect", file, "--from", "group-01", "--of", report.substr(0, report.find('\n')),
                      "--at", "2026-03-03 10:00"})
             .output;
     };
@@ -99,16 +99,16 @@ TEST(reviews, that_name_somebody_are_told_of_at_receipt) {
     EXPECT_THAT(hand_in("loose.pdf", 2), HasSubstr("rules broken: it names somebody"));
     const ChildResult findings = course.course({"findings", "group-01", "--stage", "review"});
     EXPECT_EQ(findings.exit_code, 1);
-    EXPECT_THAT(findings.output,
-                AllOf(ContainsRegex("reviews: review of report-[0-9]+ v1, received Tue 2026-03-03 10:00"),
-                      HasSubstr("nothing to mend; checked as peer_review: names of 3 people"),
-                      HasSubstr("The name of Student 3 is in the text"),
-                      HasSubstr("The group group-03 is in the text")));
-    const ChildResult released = course.course({"release", "--at", "2026-03-09 10:00"});
+    EXPECT_THAT(
+        findings.output,
+        AllOf(ContainsRegex("reviews: review of report-[0-9]+ v1, received Tue 2026-03-03 10:00"),
+              HasSubstr("nothing to mend; checked as peer_review: names of 3 people"),
+              HasSubstr("The name of Student 3 is in the text"), HasSubstr("The group group-03 is in the text")));
+    const ChildResult released = course.course({"review", "release", "--at", "2026-03-09 10:00"});
     EXPECT_THAT(released.output, HasSubstr("1 sent now"));
     EXPECT_THAT(released.error_output, HasSubstr("review of group-01 was not sent: page 1: The name of Student 3"));
     EXPECT_THAT(course.course({"status", "--at", "2026-03-09 11:00"}).output,
-                ::testing::ContainsRegex("group-01 .* a review by it was not released: release tells why\n"));
+                ::testing::ContainsRegex("group-01 .* a review by it was not released: review release tells why\n"));
 }
 
 // oracle: what dynlab check says of the same file

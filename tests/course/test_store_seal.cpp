@@ -19,9 +19,9 @@ class store_seal : public testing::Test {
                 CourseBench::expect_done(made.hand_in(CourseBench::group(i) + ".pdf",
                                                       small_pdf("report " + std::to_string(i)), "2026-03-01 10:00",
                                                       {"--no-checks"}));
-            CourseBench::expect_done(made.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
-            CourseBench::expect_done(made.course({"peer", "send", "--at", "2026-03-02 11:00"}));
-            CourseBench::expect_done(made.course({"override", "crane", "group-01", "work", "60", "--reason", "paper"}));
+            CourseBench::expect_done(made.course({"review", "assign", "--at", "2026-03-02 10:00"}));
+            CourseBench::expect_done(made.course({"review", "send", "--at", "2026-03-02 11:00"}));
+            CourseBench::expect_done(made.course({"mark", "crane", "group-01", "work", "60", "--reason", "paper"}));
             return made;
         }();
         return bench;
@@ -43,7 +43,7 @@ TEST_F(store_seal, an_untouched_course_is_whole) {
     EXPECT_EQ(told.exit_code, 0) << told.error_output;
     // Nothing new, no seal.
     const std::string before = shell("sqlite3 k/course.db 'SELECT count(*) FROM seals'").output;
-    CourseBench::expect_done(course_.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+    CourseBench::expect_done(course_.course({"review", "assign", "--at", "2026-03-02 10:00"}));
     EXPECT_EQ(shell("sqlite3 k/course.db 'SELECT count(*) FROM seals'").output, before);
 }
 
@@ -72,7 +72,7 @@ TEST_F(store_seal, a_copy_that_was_swapped_for_the_original_is_not_sent) {
     CourseBench::expect_done(shell(
         "sqlite3 k/course.db \"UPDATE sendings SET hash = (SELECT hash FROM versions WHERE id = sendings.version)\" "
         "&& rm -r k/outbox/crane"));
-    const ChildResult sent = course_.course({"peer", "send", "--at", "2026-03-02 12:00"});
+    const ChildResult sent = course_.course({"review", "send", "--at", "2026-03-02 12:00"});
     EXPECT_EQ(sent.exit_code, 1);
     EXPECT_THAT(sent.error_output, HasSubstr("is not as it was made; nothing more was sent"));
     EXPECT_EQ(shell("find k/outbox -name '*.pdf' | wc -l").output, "0\n");

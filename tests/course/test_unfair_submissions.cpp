@@ -178,7 +178,8 @@ TEST(unfair_submissions, names_that_are_no_text_and_endless_messages_stop_nothin
     EXPECT_EQ(GradingBench::score(bench.result("loop")), 5);
     EXPECT_EQ(GradingBench::score(bench.result("latiné")), 5);
     EXPECT_THAT(GradingBench::trouble(bench.result("sparse")), HasSubstr("too large: at most 2000 files and 200 MB"));
-    EXPECT_THAT(graded.output, AllOf(HasSubstr("need"), HasSubstr(" attention:\n"), HasSubstr("  \"sparse\" cannot be read")));
+    EXPECT_THAT(graded.output,
+                AllOf(HasSubstr("need"), HasSubstr(" attention:\n"), HasSubstr("  \"sparse\" cannot be read")));
     EXPECT_LT(read_file(work.path("out/results/talks/results.json")).size(), 20000u);
     EXPECT_TRUE(std::filesystem::exists(work.path("out/summary.pdf")));
     EXPECT_EQ(work.shell("grep -c ',graded,' out/gradebook.csv").output, "4\n");

@@ -160,7 +160,7 @@ data = open('SYS26-Bericht Kran-5512.zip', 'rb').read().replace('é.pdf'.encode(
 open('SYS26-Bericht Kran-5512.zip', 'wb').write(data)
 )");
     const ChildResult taken = bench.course(
-        {"receive", "SYS26-Bericht Kran-5512.zip", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
+        {"submit", "SYS26-Bericht Kran-5512.zip", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
     EXPECT_THAT(taken.output, AllOf(HasSubstr("2 files taken, 0 late"), HasSubstr("group-01"), HasSubstr("group-02")));
     EXPECT_THAT(taken.error_output, AllOf(HasSubstr("the name of a file in it cannot be read; it was left out"),
                                           Not(HasSubstr("leads outside"))));

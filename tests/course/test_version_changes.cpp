@@ -47,7 +47,7 @@ class version_changes : public ::testing::Test {
         CourseBench::expect_done(bench_.bench().dynlab({"pack", name, "-o", name + ".zip"}));
     }
     void take(const std::string& file, const std::string& group, bool final = false) {
-        std::vector<std::string> words = {"receive",     file,          "--from",
+        std::vector<std::string> words = {"submit",      file,          "--from",
                                           group,         "--at",        final ? "2026-03-14 10:00" : "2026-03-01 10:00",
                                           "--no-checks", "--isolation", CourseBench::level()};
         if (final) words.insert(words.begin(), "final");
@@ -56,12 +56,12 @@ class version_changes : public ::testing::Test {
     /// Everybody who handed in gets and writes a review.
     void review(const std::string& text) {
         make("review", text);
-        CourseBench::expect_done(bench_.course({"peer", "assign", "--at", "2026-03-02 10:00"}));
+        CourseBench::expect_done(bench_.course({"review", "assign", "--at", "2026-03-02 10:00"}));
         const ChildResult sent = bench_.bench().shell(
-            "set -e; $DYNLAB course --course k peer send --at '2026-03-02 11:00'\n"
-            "for g in $($DYNLAB course --course k peer show | awk '$NF == \"sent\" {print $1}'); do\n"
-            "$DYNLAB course --course k review receive review.pdf --from $g --at '2026-03-05 10:00' --no-checks; done\n"
-            "$DYNLAB course --course k release --at '2026-03-09 10:00'");
+            "set -e; $DYNLAB course --course k review send --at '2026-03-02 11:00'\n"
+            "for g in $($DYNLAB course --course k review pairs | awk '$NF == \"sent\" {print $1}'); do\n"
+            "$DYNLAB course --course k review collect review.pdf --from $g --at '2026-03-05 10:00' --no-checks; done\n"
+            "$DYNLAB course --course k review release --at '2026-03-09 10:00'");
         CourseBench::expect_done(sent);
     }
     ChildResult changes(std::vector<std::string> more = {}) {
@@ -120,7 +120,7 @@ TEST_F(version_changes, documents_show_changed_words_values_and_reviews) {
     CourseBench::expect_done(changes({"group-01", "--out", "out"}));
     EXPECT_EQ(bench_.bench().read("out/group-01.pdf"), pdf);
     EXPECT_THAT(changes({"group-9"}).error_output, HasSubstr("group-9"));
-    EXPECT_EQ(bench_.course({"final", "changes", "--isolation", CourseBench::level()}).output, result.output);
+    EXPECT_EQ(bench_.course({"changes", "--isolation", CourseBench::level()}).output, result.output);
 }
 
 // oracle: the texts come out as they went in, and nothing is wider than the page
@@ -160,10 +160,8 @@ TEST_F(version_changes, say_when_nothing_can_be_compared) {
     CourseBench::expect_done(changes({"--out", "out"}));
     EXPECT_THAT(document("group-01"), HasSubstr("Final version: The pack’s analysis cannot be run"));
     EXPECT_THAT(document("group-01"), HasSubstr("Values can be compared where both versions have a pack"));
-    CourseBench::expect_done(
-        bench_.course({"assignment", "add", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
-    EXPECT_THAT(changes({"--assignment", "talk"}).error_output,
-                HasSubstr("talk is a talk: it has no final version"));
+    CourseBench::expect_done(bench_.course({"assignment", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
+    EXPECT_THAT(changes({"--assignment", "talk"}).error_output, HasSubstr("talk is a talk: it has no final version"));
 }
 
 }  // namespace test_version_changes

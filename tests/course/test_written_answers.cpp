@@ -264,7 +264,7 @@ TEST(written_answers, the_commands_read_a_course_and_a_folder) {
     work.shell(
         "$DYNLAB new 04 w && cd w && sed -i '0,/^-- \\*Your answer:\\*/s//-- A COE, says Student 1./' analysis.lua");
     CourseBench::expect_done(bench.course(
-        {"assignment", "add", "talk", "--kind", "presentation", "--lesson", "04", "--first", "2026-04-01 12:00"}));
+        {"assignment", "talk", "--kind", "presentation", "--lesson", "04", "--first", "2026-04-01 12:00"}));
     CourseBench::expect_done(
         bench.hand_in("group-01.lua", work.read("w/analysis.lua"), "2026-03-30 10:00", {"--assignment", "talk"}));
     const ChildResult of_course = bench.course({"answers", "talk", "--question", "1", "-o", "out"});

@@ -85,7 +85,7 @@ int extend_for_one(Course& course, const Assignment& a, const CorrectionArgument
 int hold_back(Course& course, const Assignment& a, const CorrectionArguments& words) {
     hold(course, a, words.wanted, !words.end, words.reason, time_of(course, words.at));
     std::cout << fmt::format("{}; dynlab course {} {} does the rest.\n", words.end ? "Free again" : "Held back",
-                             words.wanted.stage == "review" ? "release" : "peer send", a.name);
+                             words.wanted.stage == "review" ? "review release" : "review send", a.name);
     return kDone;
 }
 
@@ -168,7 +168,7 @@ void add_correction_commands(CLI::App& course, CourseArguments& where, Action& a
     add_reason(time);
     time.app->footer(
         "Lateness follows, and the group gets a further signed receipt. The first one stays.\n"
-        "Example:  dynlab course time crane group-05 \"2026-02-28 12:55\" --reason \"Moodle's log\"");
+        "Example:  dynlab course set-received crane group-05 \"2026-02-28 12:55\" --reason \"Moodle's log\"");
     add_withdrawals(course, where, action);
 
     const auto longer =
@@ -189,7 +189,7 @@ void add_correction_commands(CLI::App& course, CourseArguments& where, Action& a
     kept.app->add_flag("--end", kept.words->end, "Do not hold it back any more");
     add_reason(kept);
     kept.app->footer(
-        "Example:  dynlab course hold crane group-05 --stage review --of report-17 --reason \"insulting\"");
+        "Example:  dynlab course withhold crane group-05 --stage review --of report-17 --reason \"insulting\"");
 
     CLI::App* history = course.add_subcommand("history", "All that was done in the course, with the reasons");
     history->footer("Example:  dynlab course history");

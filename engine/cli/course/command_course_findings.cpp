@@ -35,7 +35,8 @@ void tell_of_copies(Course& course, const Assignment& assignment, const Group& g
     }
     if (others && missing)
         std::cout << fmt::format("No copy of {} has gone to others yet: dynlab course {} {} tells why\n",
-                                 reviews ? "a review" : "it", reviews ? "release" : "peer send", assignment.name);
+                                 reviews ? "a review" : "it", reviews ? "review release" : "review send",
+                                 assignment.name);
 }
 
 int show_findings(const CourseArguments& where, const FindingsArguments& words) {

@@ -225,7 +225,7 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         ->type_name("CRITERION");
     scored.app->footer(
         "A line a review: reviewer,report,data,... with the reviewing group and the report's\n"
-        "pseudonym, as peer show has them; the reviewer \"instructor\" is you. The latest score counts; - takes a "
+        "pseudonym, as review pairs has them; the reviewer \"instructor\" is you. The latest score counts; - takes a "
         "score\n"
         "back, an empty cell changes nothing. Scores of a withdrawn review do not count until it is restored. Scores "
         "in\n"

@@ -100,7 +100,7 @@ int wish(const CourseArguments& where, const PeerArguments& words, const char* w
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
     wish_pair(course, assignment, words.reviewer, words.author, wanted, words.reason, time_of(course, words.at));
-    std::cout << fmt::format("Noted; dynlab course peer assign {} does it.\n", assignment.name);
+    std::cout << fmt::format("Noted; dynlab course review assign {} does it.\n", assignment.name);
     return kDone;
 }
 
@@ -176,9 +176,9 @@ void add_return(CLI::App& course, CourseArguments& where, Action& action) {
     command->add_flag("--all", words->all, "Also what was returned before");
     add_time_option(*command, words->at);
     command->footer(
-        "After peer send and release. mail.csv has a row a student: id, name, group, mail, files, new. What was\n"
+        "After review send and release. mail.csv has a row a student: id, name, group, mail, files, new. What was\n"
         "returned is remembered; newer versions are new again.\n"
-        "Example:  dynlab course return crane --out monday --moodle");
+        "Example:  dynlab course deliver crane --out monday --moodle");
     command->callback([&where, words, &action] { action = [&where, words] { return give_back(where, *words); }; });
 }
 
@@ -218,7 +218,7 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
             action, assign)
         ->footer(
             "Each group writes, and gets, the same number of reviews; what is written or sent stays. May be repeated.\n"
-            "Example:  dynlab course peer assign crane");
+            "Example:  dynlab course review assign crane");
     add_one(*peer, "send", "Make anonymous copies of the reports for their reviewers", where, action, send_reports)
         ->footer(
             "A name in a copy stops that copy; dynlab prints where it is. Where no person is meant, --accept sends "
@@ -229,7 +229,7 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
     add_one(*peer, "release", "Make anonymous copies of the reviews for the authors", where, action, release)
         ->footer(
             "A review with a name in it is stopped, like a report. Repeated, the command makes only what is new.\n"
-            "Example:  dynlab course release crane");
+            "Example:  dynlab course review release crane");
     add_return(course, where, action);
     add_one(*peer, "pairs", "Show the pairs with their pseudonyms (for you only), or set or forbid one", where, action,
             pairs)

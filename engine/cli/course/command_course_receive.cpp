@@ -33,7 +33,7 @@ Message remark(const Received& r) {
     if (!r.missing.empty()) return Message("{}: ask for one", r.missing);
     if (r.withdrawn) return Message("known and withdrawn; dynlab course restore lets it stand again");
     if (!r.other_time.empty())
-        return Message("known already; by --times it came {}: dynlab course time corrects that", r.other_time);
+        return Message("known already; by --times it came {}: dynlab course set-received corrects that", r.other_time);
     if (r.known) return Message("known already, nothing changed");
     MessageList clauses{{}, Join::kSemicolon};
     if (r.voluntary) clauses.items.push_back(Message("voluntary: the report was taken back; the review has no marks"));

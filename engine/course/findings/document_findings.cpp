@@ -4,13 +4,13 @@
 #include <tuple>
 
 #include "base/message.h"
+#include "course/anonymity/anonymity_findings.h"
 #include "course/findings/document_text.h"
 #include "course/findings/figure_findings.h"
 #include "course/findings/language_findings.h"
 #include "course/findings/layout_findings.h"
 #include "course/findings/leftover_findings.h"
 #include "course/findings/section_findings.h"
-#include "course/anonymity/anonymity_findings.h"
 #include "documents/percent_script.h"
 #include "documents/template_file.h"
 #include "platform/atomic_file.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "course/intake/finding.h"
 #include "course/anonymity/identity_matcher.h"
+#include "course/intake/finding.h"
 #include "documents/document_rules.h"
 #include "documents/pdf/pdf_layout.h"
 #include "workflow/lesson_catalogue.h"

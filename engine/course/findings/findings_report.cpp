@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "course/boxes/told_reason.h"
 #include "course/findings/finding_description.h"
-#include "platform/text/plain_words.h"
 #include "data_io/values/json_values.h"
+#include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {

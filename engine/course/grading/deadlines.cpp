@@ -135,8 +135,7 @@ Deadlines::Deadlines(const fs::path& file) {
         Rule rule = all != rules_.end() ? all->second : Rule{};
         if (who != kForAll) rule.received.reset();
         const std::optional<long> deadline = table.time(row, "deadline"), extra = table.duration(row, "extra");
-        if (!deadline && all == rules_.end())
-            table.fail(row, "deadline", Message("a time such as 2026-03-01 18:00"));
+        if (!deadline && all == rules_.end()) table.fail(row, "deadline", Message("a time such as 2026-03-01 18:00"));
         rule.deadline = deadline.value_or(rule.deadline) + extra.value_or(0);
         if (const auto received = table.time(row, "received")) rule.received = received;
         rule.grace = table.duration(row, "grace").value_or(rule.grace);

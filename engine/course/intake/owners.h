@@ -11,7 +11,7 @@
 
 namespace dynlab::inline course {
 
-/// Whose a hand-in is: the one matcher of `grade` and `course receive`. It goes by names and numbers that a platform or
+/// Whose a hand-in is: the one matcher of `grade` and `course submit`. It goes by names and numbers that a platform or
 /// a person wrote on the outside, never by what stands in the work. Names are compared by their letters, folded as
 /// Unicode has them ("LEFEVRE Élise", "lefevreelise", "Müller" and "Mueller"), in any order of their parts; groups by
 /// their words and numbers ("group-03", "Group 3", "gruppe_03_final"). What one member hands in is the group's.

@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "base/reader.h"
-#include "platform/text/plain_words.h"
 #include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
 #include "course/store/course_schema.h"
@@ -21,6 +20,7 @@
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {

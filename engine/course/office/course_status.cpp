@@ -220,9 +220,9 @@ class Status {
         if (found == first.end()) {
             only_pack(first, "");
             if (things.empty() && due_over("first"))
-                things.push_back(assignment_.is_lab()      ? "ask for the submission, or roster drop"
-                                 : assignment_.is_report() ? "ask for the first version, or roster drop"
-                                                           : "ask for the slides, or roster drop");
+                things.push_back(assignment_.is_lab()      ? "ask for the submission, or drop"
+                                 : assignment_.is_report() ? "ask for the first version, or drop"
+                                                           : "ask for the slides, or drop");
             return join(things);
         }
         if (assignment_.is_talk()) {
@@ -243,26 +243,26 @@ class Status {
                 return p.reviewer == id &&
                        kindred_.contains(std::pair(std::min(p.reviewer, p.author), std::max(p.reviewer, p.author)));
             }))
-            things.push_back("reviews a report of a present or former member: peer assign");
+            things.push_back("reviews a report of a present or former member: review assign");
         if (is_held(course_, assignment_, id, {})) things.push_back("its report is held back");
         if (any_pair([id](const ReviewPair& p) { return p.author == id && p.newer_report; }) &&
             !is_held(course_, assignment_, id, {}))
-            things.push_back("a newer version than was sent: peer send");
+            things.push_back("a newer version than was sent: review send");
         if (any_pair([&](const ReviewPair& p) {
                 return p.reviewer == id && p.newer_review && !is_held(course_, assignment_, id, p.id);
             }))
-            things.push_back("a newer review than was released: release");
+            things.push_back("a newer review than was released: review release");
         if (any_pair([&](const ReviewPair& p) { return p.reviewer == id && is_held(course_, assignment_, id, p.id); }))
             things.push_back("a review by it is held back");
         if (any_pair([](const ReviewPair& p) { return p.sent; }) &&
             any_pair([id](const ReviewPair& p) { return p.author == id && !p.sent && !p.written; }) &&
             !is_held(course_, assignment_, id, {}))
-            things.push_back("its copy was not sent: peer send tells why");
+            things.push_back("its copy was not sent: review send tells why");
         if (any_pair([](const ReviewPair& p) { return p.released; }) && any_pair([&](const ReviewPair& p) {
                 return p.reviewer == id && p.written && !p.released && !is_held(course_, assignment_, id, p.id);
             }))
-            things.push_back("a review by it was not released: release tells why");
-        if (!pairs_.empty() && !in_allocation(group.id)) things.push_back("came after the allocation: peer assign");
+            things.push_back("a review by it was not released: review release tells why");
+        if (!pairs_.empty() && !in_allocation(group.id)) things.push_back("came after the allocation: review assign");
         int open = 0;
         for (const ReviewPair& pair : pairs_) {
             if (pair.reviewer != group.id || pair.ended || pair.written) continue;
@@ -300,25 +300,25 @@ class Status {
         const auto command = [&](const char* words) {
             return fmt::format("dynlab course {} {}", words, assignment_.name);
         };
-        if (present_ == 0) return fmt::format("dynlab course receive FILE... --assignment {}", assignment_.name);
+        if (present_ == 0) return fmt::format("dynlab course submit FILE... --assignment {}", assignment_.name);
         if (assignment_.is_lab()) return command("grade");
-        if (!assignment_.is_report()) return command("oral sheet");
+        if (!assignment_.is_report()) return command("scores --sheet");
         if (now_ <= assignment_.first_due + assignment_.grace) return {};
-        if (pairs_.empty() || unassigned_ > 0) return command("peer assign");
+        if (pairs_.empty() || unassigned_ > 0) return command("review assign");
         if (any_pair([this](const ReviewPair& p) {
                 return ((!p.sent && !p.written) || p.newer_report) && !p.stopped_report &&
                        !is_held(course_, assignment_, p.author, {});
             }))
-            return command("peer send");
+            return command("review send");
         if (any_pair([this](const ReviewPair& p) {
                 return ((p.written && !p.released) || p.newer_review) && !p.stopped_review &&
                        !is_held(course_, assignment_, p.reviewer, p.id);
             }) &&
             now_ > *assignment_.review_due + assignment_.grace)
-            return command("release");
+            return command("review release");
         const bool released = any_pair([](const ReviewPair& p) { return p.released; });
         if (!released)
-            return fmt::format("wait for reviews, dynlab course review receive FILE... --assignment {}",
+            return fmt::format("wait for reviews, dynlab course review collect FILE... --assignment {}",
                                assignment_.name);
         if (now_ > *assignment_.final_due)
             return (finals_ > 0 ? command("changes --assignment") + ", then " : "") + command("export");
@@ -360,7 +360,7 @@ std::string course_summary(Course& course, Instant now) {
         };
         rows.push_back({a.name, a.kind, shown(a.first_due), shown(a.review_due), shown(a.final_due)});
     }
-    if (rows.empty()) return text + "No assignments yet: dynlab course assignment add NAME --first TIME ...\n";
+    if (rows.empty()) return text + "No assignments yet: dynlab course assignment NAME --first TIME ...\n";
     return text + aligned_table({"assignment", "kind", "first version", "reviews", "final version"}, rows);
 }
 

@@ -104,8 +104,8 @@ std::string totals_csv(Course& course, Instant now) {
             if (own.back().missing) missing.push_back(assignments[i].name);
             if (own.back().open) open.push_back(assignments[i].name);
         }
-        row.insert(row.end(), {mark_text(weighted_total(assignments, own)),
-                               fmt::format("{}", fmt::join(missing, ", ")), fmt::format("{}", fmt::join(open, ", "))});
+        row.insert(row.end(), {mark_text(weighted_total(assignments, own)), fmt::format("{}", fmt::join(missing, ", ")),
+                               fmt::format("{}", fmt::join(open, ", "))});
         table.rows.push_back(std::move(row));
     }
     return csv_text(table);

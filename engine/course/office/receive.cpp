@@ -177,11 +177,11 @@ class HandInReceiver {
         if (is_known(candidate, sha256_of(read_file(candidate.file->file)))) return;
         throw released
             ? EnvironmentError(
-                  "the reviews of {} are released: did you mean dynlab course final receive? --first takes it "
+                  "the reviews of {} are released: did you mean dynlab course submit --stage final? --first takes it "
                   "as a first version all the same",
                   candidate.group.name)
             : EnvironmentError(
-                  "the reviews of {} are due: did you mean dynlab course final receive? --first takes it as a "
+                  "the reviews of {} are due: did you mean dynlab course submit --stage final? --first takes it as a "
                   "first version all the same",
                   candidate.group.name);
     }

@@ -221,8 +221,7 @@ std::vector<Assignment> assignments_of(Course& course) {
 
 Assignment assignment_named(Course& course, const std::string& name) {
     const std::vector<Assignment> all = assignments_of(course);
-    if (all.empty())
-        throw InvalidArgument("the course has no assignments yet; add one with dynlab course assignment add");
+    if (all.empty()) throw InvalidArgument("the course has no assignments yet; add one with dynlab course assignment");
     if (name.empty() && all.size() == 1) return all.front();
     std::vector<std::string> names;
     for (const Assignment& assignment : all) {

@@ -38,7 +38,7 @@ struct RosterChange {
     int students = 0, new_students = 0, changed = 0, moved = 0, new_groups = 0;
     std::vector<std::string> absent;           ///< ids of students who are not in the file; they stay
     std::vector<std::string> unknown_columns;  ///< that were not read
-    Message short_ids;                      ///< a sentence about ids that are too short to search for
+    Message short_ids;                         ///< a sentence about ids that are too short to search for
     bool converted = false;                    ///< see TextTable
 };
 /// Reads a roster (columns id and group, and optionally name, email or mail, moodle, canvas) into the course, whole or
