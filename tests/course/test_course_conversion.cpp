@@ -89,7 +89,7 @@ TEST(course_conversion, keeps_the_full_history_and_the_old_file) {
         ASSERT_EQ(version_of(old), static_cast<std::int64_t>(kBefore));
         before = content_of(old, tables);
     }
-    ASSERT_THAT(before, HasSubstr("talk"));
+    ASSERT_THAT(before, HasSubstr("|presentation|"));
     ASSERT_THAT(before, HasSubstr("illness"));
     {
         Course course(folder);

@@ -190,7 +190,7 @@ TEST(course_marks, what_is_late_or_missing_costs_what_the_course_says) {
     CourseBench::expect_done(
         bench.course({"set-received", "crane", "group-01", "2026-03-02 13:00", "--reason", "log"}));
     EXPECT_THAT(bench.course({"assignment", "crane", "--costs", "late:5", "--reason", "x"}).error_output,
-                HasSubstr("costs are late-day, missing-final, late-review and missing-review"));
+                HasSubstr("costs are late-day, late-most, missing-final, late-review and missing-review"));
     CourseBench::expect_done(bench.course(
         {"assignment", "crane", "--costs", "late-day:5,missing-final:15,missing-review:10", "--reason", "rules"}));
     const auto marks = [&](const std::string& at) { return bench.course({"marks", "crane", "--at", at}).output; };

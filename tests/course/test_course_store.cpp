@@ -176,9 +176,11 @@ TEST(course_store, a_roster_changes_what_it_has_columns_for) {
     EXPECT_THAT(graded.error_output, Not(HasSubstr("unknown")));  // dynlab grade reads them
     EXPECT_THAT(graded.error_output,
                 HasSubstr("documents are not searched for ids of fewer than 3 letters and digits (2, such as s1)"));
-    EXPECT_EQ(rows("SELECT * FROM students"), "s1|Ada King|ada@a.example|11|21\ns2|Bo Ek|bo@a.example||\n");
+    EXPECT_EQ(rows("SELECT id, name, mail, moodle, canvas FROM students"),
+              "s1|Ada King|ada@a.example|11|21\ns2|Bo Ek|bo@a.example||\n");
     CourseBench::expect_done(import("id,group,mail\ns1,group-02,king@a.example\n"));
-    EXPECT_EQ(rows("SELECT * FROM students"), "s1|Ada King|king@a.example|11|21\ns2|Bo Ek|bo@a.example||\n");
+    EXPECT_EQ(rows("SELECT id, name, mail, moodle, canvas FROM students"),
+              "s1|Ada King|king@a.example|11|21\ns2|Bo Ek|bo@a.example||\n");
     EXPECT_EQ(rows("SELECT student, name, mail FROM former_names"),
               "s1|Ada King|ada@a.example\ns1|Student 1|\ns2|Student 2|\n");
 
@@ -232,12 +234,12 @@ TEST(course_store, takes_a_platform_s_zip_and_leaves_out_what_leads_outside) {
     const ChildResult taken =
         bench.course({"submit", "class.zip", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
     EXPECT_EQ(taken.exit_code, 1);
-    EXPECT_THAT(taken.output, AllOf(HasSubstr("2 files taken, 0 late"), HasSubstr("group-01"), HasSubstr("group-03")));
+    EXPECT_THAT(taken.output, AllOf(HasSubstr("3 files taken, 0 late"), HasSubstr("group-01"), HasSubstr("group-03")));
     EXPECT_THAT(taken.error_output, AllOf(HasSubstr("\"../../escaped.pdf\" leads outside"),
                                           HasSubstr("called \"elsenobody\""), Not(HasSubstr("notes.txt"))));
     EXPECT_FALSE(std::filesystem::exists(bench.bench().path("escaped.pdf")));
     EXPECT_FALSE(std::filesystem::exists("/tmp/escaped.pdf"));
-    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("2 files, 2 versions: all there and unaltered"));
+    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("3 files, 3 versions: all there and unaltered"));
 }
 
 // oracle: the versions of the tables

@@ -67,7 +67,7 @@ TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
     const ChildResult waiting = bench.grade(again);
     EXPECT_EQ(waiting.exit_code, 1);
     EXPECT_THAT(waiting.output,
-                AllOf(HasSubstr("2 late:\n  \"a\": late by "), HasSubstr("2 need your eye:"),
+                AllOf(HasSubstr("2 late:\n  \"a\": late by "), HasSubstr("2 notes need attention:"),
                       HasSubstr("a penalty of 100 % is not applied yet: accept it with --accept-late")));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",a,graded,5,5,0,"));
     std::vector<std::string> accepted = all;

@@ -45,7 +45,8 @@ class MarkedClass {
     double points(const std::string& submission) const { return marks().applied(graded(submission)).earned(); }
     std::string complaints() const {
         std::string text;
-        for (const Message& sentence : marks().complaints()) text += message_text(sentence) + "\n";
+        const ManualMarks given = marks();
+        for (const Message& sentence : given.complaints()) text += message_text(sentence) + "\n";
         return text;
     }
     static Grade graded(const std::string& submission) {

@@ -87,7 +87,7 @@ TEST_F(shell_completion, knows_what_stands_where) {
     EXPECT_THAT(offered({"grade", "in", "--keep", "n"}), ElementsAre("newest"));
     EXPECT_THAT(offered({"report", "--ti"}), ElementsAre("--timings"));
     EXPECT_THAT(offered({"report", "--stay"}), IsEmpty()) << "a hidden option";
-    EXPECT_THAT(offered({"course", "roster", "im"}), ElementsAre("import"));
+    EXPECT_THAT(offered({"course", "review", "rel"}), ElementsAre("release"));
     EXPECT_THAT(offered({"course", "status", "--cou"}), ElementsAre("--course")) << "of the command above";
     EXPECT_THAT(offered({"new", "02", "x", ""}), IsEmpty()) << "there is no third word";
     EXPECT_THAT(offered({"run", "-e", ""}), IsEmpty()) << "code";

@@ -121,7 +121,7 @@ TEST(help, lays_out_the_forms_of_a_page) {
 
 TEST(help, numbered_items_and_formulas_keep_their_lines) {
     EXPECT_EQ(laid_out("Steps:\n\n1. Make a folder\n   first.\n2. Write.\n\n10. Read all of it.\n\nEnd\n", 14),
-              "Steps:\n\n1. Make a\n   folder\n   first.\n2. Write.\n\n10. Read all\n    of it.\n\nEnd\n");
+              "Steps:\n\n1. Make a\n   folder\n   first.\n2. Write.\n\n10. Read\n    all of it.\n\nEnd\n");
     EXPECT_EQ(laid_out("A sentence of lesson\n2. It goes on.\n", 40), "A sentence of lesson 2. It goes on.\n");
     EXPECT_EQ(laid_out("Then\n\n    d = a * b        percent\n    mark = `d`\n\nEnd\n", 20),
               "Then\n\n    d = a * b        percent\n    mark = `d`\n\nEnd\n");

@@ -383,7 +383,7 @@ Owners::Found Owners::as_written(const Submission& submission) const {
 std::vector<std::string> Owners::names() const {
     std::vector<std::string> all;
     for (const auto& [name, owner] : group_names_) all.push_back(name);
-    for (const Student& student : students_) all.push_back(student.name);
+    for (const Student& student : students_) all.push_back(student.name), all.push_back(student.id);
     return all;
 }
 
