@@ -18,7 +18,8 @@ namespace {
 
 /// By radical from U+2E80 to U+2EF3: the ideograph (Unicode's property Equivalent_Unified_Ideograph). Tables of fonts
 /// give radicals for ideographs.
-// clang-format off: it splits literals of wide letters differently each time
+// It splits literals of wide letters differently each time.
+// clang-format off
 constexpr std::u32string_view kIdeographsOfRadicals =
     U"⺀厂乛乚乙亻冂𠘨刀刂卜㔾小尐兀尣尢𡯂巳幺彑彐忄心扌攵⺚旡日月歺母民氵氺灬爫爬丬"
     U"牛"
