@@ -306,14 +306,14 @@ TEST(grading, a_check_that_comes_to_no_end_costs_nobody_else) {
         EXPECT_EQ(points(bench.result(fmt::format("s{:02}", i))), (std::vector<double>{i == 4 ? 0.0 : 1.0, 1})) << i;
 }
 
-/// All that a run of grade wrote, but the logs and the kept run of the worked solution, in which stands how long it
-/// took.
+/// All that a run of grade wrote, but what differs by nature: logs, the kept run of the worked solution, which says how
+/// long it took, and the options that OUT was made with, which name folders.
 std::map<std::string, std::string> files_of(GradingBench& bench) {
     std::map<std::string, std::string> files;
     const std::filesystem::path out = bench.bench().path("out");
     for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
         if (entry.is_regular_file() && entry.path().filename() != "log.txt" &&
-            entry.path().filename() != ".worked_solution.cbor")
+            entry.path().filename() != ".worked_solution.cbor" && entry.path().filename() != "grading.json")
             files[entry.path().lexically_relative(out)] = read_file(entry.path());
     return files;
 }

@@ -45,7 +45,8 @@ std::map<std::string, std::int64_t> author_groups(Course& course, const Assignme
     std::map<std::string, std::int64_t> authors, present;
     // The group of several that counts comes last: a present one, the first by name.
     for (Rows rows = course.database().query(
-             "SELECT m.student, m.group_id, m.since, m.until, m.since = min(m.since) OVER (PARTITION BY m.student) "
+             "SELECT m.student, m.group_id, m.since, m.until, "
+             "rank() OVER (PARTITION BY m.student ORDER BY m.since, m.until IS NULL) = 1 "
              "FROM memberships m JOIN groups g ON g.id = m.group_id ORDER BY m.until IS NULL, g.name DESC, m.since");
          rows.next();) {
         const std::string student = rows.text(0);

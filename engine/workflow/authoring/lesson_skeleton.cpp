@@ -84,7 +84,7 @@ check { id = "stiffness", points = 3, about = "The stiffness of the spring",
     hint = "Which of the two, force or elongation, is divided by the other?" }
 
 check { id = "noise", points = 2, about = "The measuring errors",
-    test = function(a) return near(a.noise, std(record.y - compliance*record.u), {rel = 0.05}) end,
+    test = function(a) return near(a.noise, std(record.y - compliance*record.u), {rel = 0.04}) end,
     hint = "What does the model leave over?" }
 )LUA";
 
