@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kContextWords = 15;   ///< unchanged words around a change
-constexpr std::size_t kMaxWordLength = 40;  ///< characters that fit on a line
+constexpr std::size_t kContextWords = 15;  ///< unchanged words around a change
+constexpr std::size_t kMaxWordLength =
+    30;  ///< characters that fit on a line behind a few words, as wide as they may be
 constexpr std::size_t kMaxShownWords = 20'000;
 constexpr std::size_t kMaxRows = 60;
 
