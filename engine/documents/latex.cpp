@@ -28,6 +28,7 @@ using namespace std::chrono_literals;
 
 constexpr int kMostPasses = 4;
 constexpr std::uint64_t kMemoryLimit = 1u << 30, kLargestFile = 64u << 20;
+constexpr std::uint64_t kLualatexMemoryLimit = 4ull << 30;  // reading the Chinese, Arabic and other fonts of a class
 constexpr std::array kAuxiliaryFiles = {"main.aux", "main.out", "main.toc"};
 
 /// The program that sets a document.
@@ -238,7 +239,7 @@ class LatexRun {
         }
         child.processor_time = 120s;
         child.timeout = 1200s;  // of a machine that others keep busy
-        child.memory_bytes = kMemoryLimit;
+        child.memory_bytes = engine_.program == kLualatex.program ? kLualatexMemoryLimit : kMemoryLimit;
         child.file_bytes = kLargestFile;
         return child;
     }

@@ -41,6 +41,12 @@ TEST_F(boxed_documents, print_names_in_all_scripts_and_say_so_once) {
                 HasSubstr("LuaLaTeX makes this PDF, which takes longer, because pdflatex cannot print \"Д\" (U+0414)"));
 }
 
+// The fonts of all scripts of a class are read at once, which takes more memory than those of one document.
+TEST_F(boxed_documents, print_a_class_of_many_scripts) {
+    const std::string page = feedback_to("Nguyễn, Дмитрий, 王小明, 김민준, محمد, გიორგი");
+    for (const char* name : {"Nguyễn", "Дмитрий", "王小明", "김민준", "გიორგი"}) EXPECT_THAT(page, HasSubstr(name));
+}
+
 TEST_F(boxed_documents, replace_only_the_letter_that_no_font_has) {
     const std::string page = feedback_to("Дмитрий \uE000");
     EXPECT_THAT(page, HasSubstr("Дмитрий ?"));
