@@ -126,7 +126,9 @@ void tell_students_and_comments(Course& course, const Assignment& a, const Marks
             for (const StudentMark& own : mark.students) {
                 std::vector<std::string> row = {group.name, own.student, names[own.student]};
                 for (const auto& points : own.points) row.push_back(points ? fmt::format("{}", *points) : "-");
-                row.push_back(percent(mark.work_mark_of(own.student), mark.work_override.has_value()));
+                const GivenMark* const given = all.own_mark(own.student, "work");
+                row.push_back(given ? percent(given->points, true)
+                                    : percent(mark.work_mark_of(own.student), mark.work_override.has_value()));
                 rows.push_back(row);
             }
         }

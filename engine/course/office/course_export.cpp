@@ -250,9 +250,13 @@ std::string marks_csv(Course& course, const Assignment& a) {
                 if (pair.reviewer == id && !pair.ended)
                     ++all, written += pair.written, late = std::max(late, pair.late);
             row.insert(row.end(), {first.first, first.second, all > 0 ? fmt::format("{} of {}", written, all) : "",
-                                   all > 0 ? hours_text(late) : "", a.is_report() ? last.first : "", last.second,
-                                   percent_text(mark->work_mark_of(s.id)), mark->work_reason,
-                                   percent_text(mark->reviews_mark()), mark->reviews_reason});
+                                   all > 0 ? hours_text(late) : "", a.is_report() ? last.first : "", last.second});
+            const GivenMark *const work = marks.own_mark(s.id, "work"),
+                            *const reviews = marks.own_mark(s.id, "reviews");
+            row.insert(row.end(), {percent_text(work ? work->points : mark->work_mark_of(s.id)),
+                                   work ? work->reason : mark->work_reason,
+                                   percent_text(reviews ? reviews->points : mark->reviews_mark()),
+                                   reviews ? reviews->reason : mark->reviews_reason});
             std::vector<std::string> remarks;
             const Group& group = groups.at(id);
             if (group.name != s.group) remarks.push_back("marks of " + group.name + ", the group at the submission");
