@@ -184,9 +184,10 @@ int marks(const CourseArguments& where, const MarkArguments& words) {
 
 int export_course(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
+    const Instant now = time_of(course, words.at);
     return give_out(words.json                 ? course_json(course)
-                    : words.assignment.empty() ? totals_csv(course, time_of(course, words.at))
-                                               : marks_csv(course, assignment_named(course, words.assignment)),
+                    : words.assignment.empty() ? totals_csv(course, now)
+                                               : marks_csv(course, assignment_named(course, words.assignment), now),
                     words.out);
 }
 

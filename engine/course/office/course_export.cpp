@@ -206,7 +206,7 @@ CourseExport read_export(const fs::path& file) {
 
 }  // namespace
 
-std::string marks_csv(Course& course, const Assignment& a) {
+std::string marks_csv(Course& course, const Assignment& a, Instant now) {
     if (a.is_lab()) return lab_csv(course, a);
     TextTable table;
     table.names = {"id",
@@ -226,7 +226,7 @@ std::string marks_csv(Course& course, const Assignment& a) {
                    "reviews percent",
                    "reviews reason",
                    "remarks"};
-    const Marks marks = course_marks(course, a);
+    const Marks marks = course_marks(course, a, now);
     const auto of_reviewers = remarks_by_reviewer(course, a, marks);
     const std::vector<ReviewPair> pairs = review_pairs(course, a);
     const auto authors = author_groups(course, a);
