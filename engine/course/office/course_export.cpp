@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <variant>
 
 #include "base/error.h"
@@ -63,12 +64,15 @@ std::string lab_csv(Course& course, const Assignment& a) {
                    "late", "points", "possible", "penalty", "percent", "reason"};
     auto versions = newest_versions(course, a);
     const auto authors = author_groups(course, a);
+    std::set<std::string> with_own;  // students with marks of their own
+    for (const GivenMark& mark : marks_in_force(course, a)) with_own.insert(mark.student);
+    const std::vector<LabMark> of_groups = lab_marks(course, a);
     for (const Student& s : students_of(course)) {
         std::vector<std::string> row = {s.id, s.name, s.mail, s.moodle, s.canvas, s.group};
         if (const auto author = authors.find(s.id); author != authors.end()) {
             const auto came = arrival(course, versions[author->second]["first"], a.document());
             row.insert(row.end(), {came.first, came.second});
-            const std::vector<LabMark> marks = lab_marks(course, a, s.id);
+            const std::vector<LabMark> marks = with_own.contains(s.id) ? lab_marks(course, a, s.id) : of_groups;
             if (const auto mark = std::ranges::find(marks, author->second, &LabMark::group); mark != marks.end())
                 row.insert(row.end(),
                            {percent_text(mark->earned), fmt::format("{:.4g}", mark->possible),
