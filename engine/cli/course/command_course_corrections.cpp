@@ -42,7 +42,8 @@ int take_back_mark(Course& course, const Assignment& a, const CorrectionArgument
         Transaction transaction(course.database());
         bool found = false;
         for (const GivenMark& mark : marks_in_force(course, a)) {
-            if (mark.student != student || (!words.alone && mark.group != group.id) || mark.item != words.mark) continue;
+            if (mark.student != student || (!words.alone && mark.group != group.id) || mark.item != words.mark)
+                continue;
             give_mark(course, a, {mark.group, student, words.mark, {}, words.reason}, now);
             found = true;
         }

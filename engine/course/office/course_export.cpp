@@ -255,8 +255,8 @@ std::string marks_csv(Course& course, const Assignment& a, Instant now) {
                     ++all, written += pair.written, late = std::max(late, pair.late);
             row.insert(row.end(), {first.first, first.second, all > 0 ? fmt::format("{} of {}", written, all) : "",
                                    all > 0 ? hours_text(late) : "", a.is_report() ? last.first : "", last.second});
-            const GivenMark *const work = marks.own_mark(s.id, "work"),
-                            *const reviews = marks.own_mark(s.id, "reviews");
+            const GivenMark *const work = marks.own_mark(s.id, "work"), *const reviews =
+                                                                            marks.own_mark(s.id, "reviews");
             row.insert(row.end(), {percent_text(work ? work->points : mark->work_mark_of(s.id)),
                                    work ? work->reason : mark->work_reason,
                                    percent_text(reviews ? reviews->points : mark->reviews_mark()),
