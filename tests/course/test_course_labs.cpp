@@ -197,5 +197,21 @@ TEST(course_labs, refused_files_are_open_until_something_is_taken) {
     EXPECT_EQ(refused_files(course.course(), course.lab()).size(), 1u);
 }
 
+// oracle: what came from somebody unknown was taken when the instructor said whose it is
+TEST(course_labs, refused_file_that_is_taken_later_is_not_open) {
+    LabCourse course;
+    const std::string time = "2026-02-28 13:00";
+    const std::string hash = course.course().keep(CourseBench::group(2) + time);  // what submit() gives
+    course.course().settle({hash});
+    {
+        Transaction transaction(course.course().database());
+        record_refused(course.course(), course.lab(), {{}, "first", "x.lua", hash, "of nobody", course.at(time)});
+        transaction.commit();
+    }
+    EXPECT_EQ(refused_files(course.course(), course.lab(), true).size(), 1u);
+    course.submit(2, time);
+    EXPECT_EQ(refused_files(course.course(), course.lab(), true).size(), 0u);
+}
+
 }  // namespace test_course_labs
 }  // namespace dynlab::test

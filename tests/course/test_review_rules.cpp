@@ -188,6 +188,14 @@ TEST_F(review_rules, scores_without_a_submission_are_refused) {
     EXPECT_EQ(work_of(id("group-02")), Mark());
 }
 
+// oracle: the mark that was given
+TEST_F(review_rules, export_has_the_mark_that_one_student_alone_was_given) {
+    Transaction transaction(course_.database());
+    give_mark(course_, crane_, {id("group-03"), "s3", "work", 77, "oral"}, at("2026-03-06 10:00"));
+    transaction.commit();
+    EXPECT_THAT(marks_csv(course_, crane_), HasSubstr(",77,oral,"));
+}
+
 // oracle: the group at the time of the first version; another one has a mark of its own
 TEST_F(review_rules, marks_follow_the_membership_at_the_submission) {
     const auto mine = [&](const std::string& group, const std::string& points) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iostream>
 
 #include "cli/course/course_commands.h"
@@ -18,7 +17,7 @@ namespace {
 struct CorrectionArguments {
     std::string assignment, time, reason, at, mark;
     HandedInWanted wanted;
-    bool end = false;
+    bool end = false, alone = false;
 };
 using Correct = int (*)(Course&, const Assignment&, const CorrectionArguments&);
 
@@ -32,23 +31,26 @@ int correct_time(Course& course, const Assignment& a, const CorrectionArguments&
 
 int take_back_mark(Course& course, const Assignment& a, const CorrectionArguments& words) {
     const Instant now = time_of(course, words.at);
-    const Group group = group_named(course, words.wanted.group);
-    if (!a.is_lab()) {
-        if (words.mark != "work" && words.mark != "reviews")
-            throw InvalidArgument("{} has marks of work and reviews: --mark work, or --mark reviews", a.name);
+    if (!a.is_lab() && words.mark != "work" && words.mark != "reviews")
+        throw InvalidArgument("{} has marks of work and reviews: --mark work, or --mark reviews", a.name);
+    const std::string student = words.alone ? student_named(course, words.wanted.group).id : "";
+    const Group group = words.alone ? Group() : group_named(course, words.wanted.group);
+    const std::string& whose = words.alone ? student : group.name;
+    if (!a.is_lab() && !words.alone) {
         take_back_override(course, a, group.name, words.mark, words.reason, now);
     } else {
         Transaction transaction(course.database());
-        const auto own = [&](const GivenMark& mark) {
-            return mark.group == group.id && mark.student.empty() && mark.item == words.mark;
-        };
-        if (std::ranges::none_of(marks_in_force(course, a), own))
-            throw InvalidArgument("{} has no mark of yours for {}", group.name, words.mark);
-        give_mark(course, a, {group.id, "", words.mark, {}, words.reason}, now);
+        bool found = false;
+        for (const GivenMark& mark : marks_in_force(course, a)) {
+            if (mark.student != student || (!words.alone && mark.group != group.id) || mark.item != words.mark)
+                continue;
+            give_mark(course, a, {mark.group, student, words.mark, {}, words.reason}, now);
+            found = true;
+        }
+        if (!found) throw InvalidArgument("{} has no mark of yours for {}", whose, words.mark);
         transaction.commit();
     }
-    std::cout << terminal_text(
-        fmt::format("{}: your mark of {} ({}) is taken back.\n", a.name, group.name, words.mark));
+    std::cout << terminal_text(fmt::format("{}: your mark of {} ({}) is taken back.\n", a.name, whose, words.mark));
     return kDone;
 }
 
@@ -144,6 +146,8 @@ void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
     add_file_options(away);
     away.app->add_option("--mark", away.words->mark,
                          "Your own mark instead of a file: work or reviews, of a lab a check or *");
+    away.app->add_flag("--alone", away.words->alone, "The mark of this student only, as course mark --alone set it")
+        ->needs("--mark");
     add_reason(away);
     away.app->footer(
         "The version before holds then, or none. The file, its receipt and this entry stay.\n"

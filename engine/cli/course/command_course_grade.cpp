@@ -12,6 +12,7 @@
 #include "course/store/exceptions.h"
 #include "course/store/groups.h"
 #include "course/store/marks.h"
+#include "course/store/newest_versions.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"
 #include "platform/program_lookup.h"
@@ -79,7 +80,7 @@ void mark_lab(Course& course, const Assignment& a, const GivenMark& mark, const 
 
 void mark_percent(Course& course, const Assignment& a, const GivenMark& mark, const MarkWords& words) {
     const Instant now = time_of(course, words.at);
-    const std::string group = group_named(course, words.who).name;
+    const std::string group = mark.student.empty() ? group_named(course, words.who).name : "";
     if (*mark.points > 100 && !words.force)
         throw InvalidArgument("{} percent are more than 100; correct it, or give --force", *mark.points);
     if (mark.student.empty()) {
@@ -98,8 +99,14 @@ int set_mark(const CourseArguments& where, const MarkWords& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     GivenMark mark;
-    mark.group = group_named(course, words.who).id;
-    if (words.alone) mark.student = student_named(course, words.who).id;
+    if (words.alone) {  // with the work of the group that the student submitted with
+        mark.student = student_named(course, words.who).id;
+        const auto authors = author_groups(course, a);
+        const auto author = authors.find(mark.student);
+        mark.group = author != authors.end() ? author->second : group_named(course, mark.student).id;
+    } else {
+        mark.group = group_named(course, words.who).id;
+    }
     mark.item = words.mark.size() > 1 ? words.mark.front() : a.is_lab() ? kWholeItem : "work";
     mark.points = number_in_cell(words.mark.back());
     mark.reason = words.reason;

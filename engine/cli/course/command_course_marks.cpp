@@ -126,7 +126,9 @@ void tell_students_and_comments(Course& course, const Assignment& a, const Marks
             for (const StudentMark& own : mark.students) {
                 std::vector<std::string> row = {group.name, own.student, names[own.student]};
                 for (const auto& points : own.points) row.push_back(points ? fmt::format("{}", *points) : "-");
-                row.push_back(percent(mark.work_mark_of(own.student), mark.work_override.has_value()));
+                const GivenMark* const given = all.own_mark(own.student, "work");
+                row.push_back(given ? percent(given->points, true)
+                                    : percent(mark.work_mark_of(own.student), mark.work_override.has_value()));
                 rows.push_back(row);
             }
         }
@@ -182,9 +184,10 @@ int marks(const CourseArguments& where, const MarkArguments& words) {
 
 int export_course(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
+    const Instant now = time_of(course, words.at);
     return give_out(words.json                 ? course_json(course)
-                    : words.assignment.empty() ? totals_csv(course, time_of(course, words.at))
-                                               : marks_csv(course, assignment_named(course, words.assignment)),
+                    : words.assignment.empty() ? totals_csv(course, now)
+                                               : marks_csv(course, assignment_named(course, words.assignment), now),
                     words.out);
 }
 

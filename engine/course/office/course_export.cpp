@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <variant>
 
 #include "base/error.h"
@@ -63,12 +64,15 @@ std::string lab_csv(Course& course, const Assignment& a) {
                    "late", "points", "possible", "penalty", "percent", "reason"};
     auto versions = newest_versions(course, a);
     const auto authors = author_groups(course, a);
+    std::set<std::string> with_own;  // students with marks of their own
+    for (const GivenMark& mark : marks_in_force(course, a)) with_own.insert(mark.student);
+    const std::vector<LabMark> of_groups = lab_marks(course, a);
     for (const Student& s : students_of(course)) {
         std::vector<std::string> row = {s.id, s.name, s.mail, s.moodle, s.canvas, s.group};
         if (const auto author = authors.find(s.id); author != authors.end()) {
             const auto came = arrival(course, versions[author->second]["first"], a.document());
             row.insert(row.end(), {came.first, came.second});
-            const std::vector<LabMark> marks = lab_marks(course, a, s.id);
+            const std::vector<LabMark> marks = with_own.contains(s.id) ? lab_marks(course, a, s.id) : of_groups;
             if (const auto mark = std::ranges::find(marks, author->second, &LabMark::group); mark != marks.end())
                 row.insert(row.end(),
                            {percent_text(mark->earned), fmt::format("{:.4g}", mark->possible),
@@ -206,7 +210,7 @@ CourseExport read_export(const fs::path& file) {
 
 }  // namespace
 
-std::string marks_csv(Course& course, const Assignment& a) {
+std::string marks_csv(Course& course, const Assignment& a, Instant now) {
     if (a.is_lab()) return lab_csv(course, a);
     TextTable table;
     table.names = {"id",
@@ -226,7 +230,7 @@ std::string marks_csv(Course& course, const Assignment& a) {
                    "reviews percent",
                    "reviews reason",
                    "remarks"};
-    const Marks marks = course_marks(course, a);
+    const Marks marks = course_marks(course, a, now);
     const auto of_reviewers = remarks_by_reviewer(course, a, marks);
     const std::vector<ReviewPair> pairs = review_pairs(course, a);
     const auto authors = author_groups(course, a);
@@ -250,9 +254,13 @@ std::string marks_csv(Course& course, const Assignment& a) {
                 if (pair.reviewer == id && !pair.ended)
                     ++all, written += pair.written, late = std::max(late, pair.late);
             row.insert(row.end(), {first.first, first.second, all > 0 ? fmt::format("{} of {}", written, all) : "",
-                                   all > 0 ? hours_text(late) : "", a.is_report() ? last.first : "", last.second,
-                                   percent_text(mark->work_mark_of(s.id)), mark->work_reason,
-                                   percent_text(mark->reviews_mark()), mark->reviews_reason});
+                                   all > 0 ? hours_text(late) : "", a.is_report() ? last.first : "", last.second});
+            const GivenMark *const work = marks.own_mark(s.id, "work"), *const reviews =
+                                                                            marks.own_mark(s.id, "reviews");
+            row.insert(row.end(), {percent_text(work ? work->points : mark->work_mark_of(s.id)),
+                                   work ? work->reason : mark->work_reason,
+                                   percent_text(reviews ? reviews->points : mark->reviews_mark()),
+                                   reviews ? reviews->reason : mark->reviews_reason});
             std::vector<std::string> remarks;
             const Group& group = groups.at(id);
             if (group.name != s.group) remarks.push_back("marks of " + group.name + ", the group at the submission");

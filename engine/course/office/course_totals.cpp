@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "course/review/review_marks.h"
 #include "course/store/exceptions.h"
@@ -19,22 +20,23 @@ namespace {
 class AssignmentMarks {
   public:
     AssignmentMarks(Course& course, const Assignment& assignment, Instant now) : course_(course), a_(assignment) {
-        for (const GivenMark& mark : marks_in_force(course, assignment))
-            if (!mark.student.empty()) own_[mark.student].push_back(mark);
-        if (a_.is_lab())
-            labs_ = lab_marks(course, assignment);
-        else
+        if (!a_.is_lab()) {
             marks_ = course_marks(course, assignment, now);
+            return;
+        }
+        labs_ = lab_marks(course, assignment);
+        for (const GivenMark& mark : marks_in_force(course, assignment))
+            if (!mark.student.empty()) with_own_.insert(mark.student);
     }
 
     std::optional<double> percent(std::int64_t group, const std::string& student) const {
-        const auto own = own_.find(student);
-        if (a_.is_lab()) return lab_percent(own == own_.end() ? labs_ : lab_marks(course_, a_, student), group);
+        if (a_.is_lab())
+            return lab_percent(with_own_.contains(student) ? lab_marks(course_, a_, student) : labs_, group);
         const auto mark = std::ranges::find(marks_.groups, group, &GroupMark::group);
         std::optional<double> work, reviews;
         if (mark != marks_.groups.end()) work = mark->work_mark_of(student), reviews = mark->reviews_mark();
-        if (own != own_.end())
-            for (const GivenMark& given : own->second) (given.item == "reviews" ? reviews : work) = given.points;
+        if (const GivenMark* const own = marks_.own_mark(student, "work")) work = own->points;
+        if (const GivenMark* const own = marks_.own_mark(student, "reviews")) reviews = own->points;
         if (!work || !reviews || !a_.is_report()) return work;
         const double share = a_.reviews_weight / 100;
         return (1 - share) * *work + share * *reviews;
@@ -48,7 +50,7 @@ class AssignmentMarks {
 
     Course& course_;
     const Assignment& a_;
-    std::map<std::string, std::vector<GivenMark>> own_;  ///< by student
+    std::set<std::string> with_own_;  ///< students with marks of their own, in a lab
     std::vector<LabMark> labs_;
     Marks marks_;
 };

@@ -143,10 +143,13 @@ class WhoIs {
         for (const Student& person : people_) names.push_back(person.id);
         const auto names_one = [&](const std::string& line) {
             return std::ranges::any_of(names, [&](const std::string& name) {
-                const std::size_t at = (" " + line + " ").find(" " + name);
-                if (name.empty() || at == std::string::npos) return false;
-                const char after = (line + " ")[at + name.size()];
-                return !std::isalnum(static_cast<unsigned char>(after)) && after != '-';
+                if (name.empty()) return false;
+                const std::string words = " " + line + " ";
+                for (std::size_t at = words.find(" " + name); at != words.npos; at = words.find(" " + name, at + 1)) {
+                    const char after = words[at + name.size() + 1];
+                    if (!std::isalnum(static_cast<unsigned char>(after)) && after != '-') return true;
+                }
+                return false;
             });
         };
         std::string text;

@@ -108,6 +108,13 @@ std::optional<double> GroupMark::work_mark_of(const std::string& student) const 
     return own ? own->work : work_mark();
 }
 
+const GivenMark* Marks::own_mark(const std::string& student, const std::string& item) const {
+    const GivenMark* found = nullptr;
+    for (const GivenMark& mark : own)
+        if (mark.student == student && mark.item == item) found = &mark;
+    return found;
+}
+
 Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews,
                const std::vector<std::int64_t>& groups) {
     const ReviewMarker marking(criteria, reviews);

@@ -5,6 +5,7 @@
 
 #include "course/review/review_pairs.h"
 #include "course/store/assignments.h"
+#include "course/store/marks.h"
 
 namespace dynlab::inline course {
 
@@ -52,6 +53,9 @@ struct GroupMark {
 struct Marks {
     std::vector<GroupMark> groups;
     std::vector<ReviewMark> reviews;
+    std::vector<GivenMark> own;  ///< the instructor's word for single students, which goes before that for the group
+    /// Item: "work" or "reviews"; null where the group's mark counts.
+    const GivenMark* own_mark(const std::string& student, const std::string& item) const;
 };
 
 /// Marks from scores. A report's mark is 100 sum of medians / sum of most. A reviewer's is the mean over the reviews of

@@ -287,6 +287,8 @@ Marks course_marks(Course& course, const Assignment& a, Instant now) {
             (work ? mark.work_override : mark.reviews_override) = holds ? std::optional(rows.number(2)) : std::nullopt;
             (work ? mark.work_reason : mark.reviews_reason) = holds ? rows.text(3) : "";
         }
+    for (GivenMark& mark : marks_in_force(course, a))
+        if (!mark.student.empty()) marks.own.push_back(std::move(mark));
     return marks;
 }
 

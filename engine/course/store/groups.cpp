@@ -169,7 +169,7 @@ std::vector<Group> groups_of(Course& course) {
     for (Rows rows = course.database().query(
              "SELECT id, name, left_at FROM groups WHERE id IN (SELECT group_id FROM memberships WHERE until IS NULL "
              "UNION SELECT group_id FROM versions UNION SELECT group_id FROM oral_scores UNION SELECT group_id FROM "
-             "overrides) ORDER BY name");
+             "overrides UNION SELECT group_id FROM marks) ORDER BY name");
          rows.next();) {
         index[rows.integer(0)] = groups.size();
         groups.push_back({rows.integer(0), rows.text(1), !rows.isColumnNull(2), {}});

@@ -36,8 +36,8 @@ std::vector<RefusedFile> refused_files(Course& course, const Assignment& assignm
     std::vector<RefusedFile> files;
     for (Rows rows = course.database().query(
              "SELECT group_id, stage, name, ifnull(hash, ''), reason, received_at, EXISTS (SELECT 1 FROM standing s "
-             "WHERE s.assignment = r.assignment AND s.group_id = r.group_id AND s.stage = r.stage AND s.received_at >= "
-             "r.received_at) FROM refusals r WHERE assignment = ? ORDER BY id",
+             "WHERE s.assignment = r.assignment AND (s.hash = r.hash OR s.group_id = r.group_id AND s.stage = r.stage "
+             "AND s.received_at >= r.received_at)) FROM refusals r WHERE assignment = ? ORDER BY id",
              assignment.id);
          rows.next();)
         if (!open_only || rows.integer(6) == 0)

@@ -24,7 +24,8 @@ std::string kept_content(const Course& course, const std::filesystem::path& file
 /// noted once.
 void record_refused(Course& course, const Assignment& assignment, const RefusedFile& file);
 
-/// In the order in which they came; with `open_only` those after which the group has submitted nothing that was taken.
+/// In the order in which they came; with `open_only` those that were not taken later, and after which the group has
+/// submitted nothing that was taken.
 std::vector<RefusedFile> refused_files(Course& course, const Assignment& assignment, bool open_only = false);
 
 }  // namespace dynlab::inline course
