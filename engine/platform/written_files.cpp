@@ -152,7 +152,7 @@ std::set<std::string> WrittenFiles::known_contents(const std::string& path_hash)
     for (std::string line; std::getline(stream, line);) {
         if (!line.starts_with(path_hash + ' ')) continue;
         const std::string content = line.substr(path_hash.size() + 1);
-        if (content.front() == kAboutToBe) {
+        if (content.starts_with(kAboutToBe)) {
             known.insert(content.substr(1));
         } else {
             known.clear();

@@ -95,13 +95,16 @@ TEST(gradebook_memory, a_later_call_goes_on_with_the_options_of_the_first) {
     work.write("secret.txt", "first");
     work.write("roster.csv", "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n");
     work.write("deadlines.csv", "submission,deadline\n*,2096-03-01 18:00\n");
+    work.write("times.csv", "group,time\ngroup-1,2096-03-01 20:00\n");
     EXPECT_EQ(work.dynlab({"grade", "in", "--out", "out"}).exit_code, 2);  // nothing to go on with: no lesson
     ASSERT_EQ(bench
                   .grade({"--checks", "own", "--secret", "secret.txt", "--roster", "roster.csv", "--deadlines",
-                          "deadlines.csv", "--timezone", "Europe/Paris", "--timeout", "2", "--keep", "newest"})
+                          "deadlines.csv", "--times", "times.csv", "--timezone", "Europe/Paris", "--timeout", "2",
+                          "--keep", "newest"})
                   .exit_code,
               0);
     const std::string book = work.read("out/gradebook.csv");
+    EXPECT_THAT(book, HasSubstr("received 2096-03-01 20:00"));
     const ChildResult again = work.shell("mkdir below && cd below && \"$DYNLAB\" grade ../in --out ../out --no-pdf");
     EXPECT_EQ(again.exit_code, 0) << again.error_output;
     EXPECT_THAT(again.output, HasSubstr("0 graded now, 1 unchanged"));

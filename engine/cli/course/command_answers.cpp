@@ -33,8 +33,8 @@ void add_answers_options(CLI::App& command, AnswersArguments& args) {
 constexpr char kFiles[] =
     "Submissions have numbers, and names and ids of the roster become [name]. Equal and nearly equal answers are "
     "shown\n"
-    "once. Fill in points and reason in answers-qN.csv and add its rows to manual.csv of the results. A further call\n"
-    "keeps the numbers and everything that you filled in.\n";
+    "once. Fill in points and reason in answers-qN.csv, then copy submission (as who), check, points and reason into\n"
+    "marks.csv of the results. A further call keeps the numbers and everything that you filled in.\n";
 
 int print_answers(AnswersRequest request) {
     request.isolation = strongest_isolation();

@@ -51,6 +51,7 @@ GradeArguments completed(GradeArguments words) {
     take(words.roster, then.roster);
     take(words.owners, then.owners);
     take(words.deadlines, then.deadlines);
+    take(words.times, then.times);
     take(words.timezone, then.timezone);
     take(words.keep, then.keep, "best");
     take(words.isolation, then.isolation, "full");
@@ -174,7 +175,7 @@ void add_grade(CLI::App& app, Action& action) {
             "When each was submitted: Moodle's grading worksheet or another CSV (column id, identifier, group, "
             "name or mail, and time). Default: the times of the files")
         ->type_name("CSV")
-        ->check(CLI::ExistingFile);
+        ->check(CLI::ExistingFile | CLI::IsMember({kNone}));
     command
         ->add_option("--timezone", words->timezone,
                      "Time zone of deadlines and of times in zips. Default: this machine's")

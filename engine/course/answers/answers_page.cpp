@@ -279,8 +279,9 @@ class AnswersPage {
   private:
     Message explanation() const {
         return Message(
-            "Submissions have numbers instead of names. Write points and reasons into {}, then add its rows to "
-            "manual.csv of the results.",
+            "Submissions have numbers instead of names. Write points and reasons into {}, then copy submission (as "
+            "who), "
+            "check, points and reason into marks.csv of the results.",
             marks_.filename().string());
     }
 

@@ -29,7 +29,7 @@ struct AnswersOutcome {
 /// Puts all answers to one question on one page, out/answers-q3.html and .md, under numbers that do not follow the
 /// names of the submissions; names and ids of the roster become "[name]". Answers that say the same are shown once.
 /// out/answers-q3.csv has a row for each submission with its number and empty columns points and reason, to be filled
-/// in and added to manual.csv: a later call keeps its numbers and everything that was filled in. Throws
+/// in and copied into marks.csv: a later call keeps its numbers and everything that was filled in. Throws
 /// EnvironmentError where the lesson has no such question (the message lists those it has), or the CSV cannot be read.
 AnswersOutcome collect_answers(const AnswersRequest& request);
 

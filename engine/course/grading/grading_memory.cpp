@@ -28,11 +28,20 @@ struct GradingMemory {
     RememberedInput lesson_checks, checks, secret, roster, owners, deadlines;
     std::string keep, timezone, isolation;
     int timeout = 0;
+    std::string times;  ///< where the times of receipt are; they may change, as all penalties are computed each time
 };
 
 DYNLAB_DESCRIBE(RememberedInput, name, hash, path)
-DYNLAB_DESCRIBE(GradingMemory, lesson, lesson_checks, checks, secret, roster, owners, deadlines, keep, timezone,
-                isolation, timeout)
+
+template <Is<GradingMemory> T, class V>
+void describe(T& object, V& member) {
+    auto& [lesson, lesson_checks, checks, secret, roster, owners, deadlines, keep, timezone, isolation, timeout,
+           times] = object;
+    member("lesson", lesson), member("lesson_checks", lesson_checks), member("checks", checks);
+    member("secret", secret), member("roster", roster), member("owners", owners), member("deadlines", deadlines);
+    member("keep", keep), member("timezone", timezone), member("isolation", isolation), member("timeout", timeout);
+    member.unless_empty("times", times);
+}
 
 RememberedInput remembered_file(const std::optional<fs::path>& file) {
     if (!file) return {};
@@ -120,6 +129,7 @@ std::optional<RememberedOptions> remembered_options(const fs::path& out) {
                              then->keep,
                              then->timezone,
                              then->isolation,
+                             then->times.empty() ? "" : fs::proximate(then->times).string(),
                              then->timeout};
 }
 
@@ -138,6 +148,7 @@ void remember_inputs(const FolderRequest& request) {
     now.isolation = isolation_name(request.options.setup.isolation);
     now.timeout = static_cast<int>(
         std::chrono::duration_cast<std::chrono::seconds>(request.options.setup.time.processor).count());
+    if (request.sources.times) now.times = fs::absolute(*request.sources.times).lexically_normal().string();
     const std::optional<GradingMemory> then = read_memory(request.options.out);
     if (request.again && !request.sources.only.empty())
         throw EnvironmentError("--again grades all of the class again; leave --only out");

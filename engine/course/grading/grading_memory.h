@@ -10,7 +10,7 @@ struct FolderRequest;
 /// The options that a folder of results was made with: a later run goes on with those that it is not given. Files are
 /// named as they are seen from the current folder; texts are empty where the option was not given.
 struct RememberedOptions {
-    std::string lesson, checks, secret, roster, owners, deadlines, keep, timezone, isolation;
+    std::string lesson, checks, secret, roster, owners, deadlines, keep, timezone, isolation, times;
     int timeout = 0;  ///< s
 };
 std::optional<RememberedOptions> remembered_options(const std::filesystem::path& out);

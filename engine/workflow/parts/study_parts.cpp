@@ -1,6 +1,7 @@
 #include "workflow/parts/study_parts.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "figures/gnuplot_renderer.h"
@@ -43,6 +44,7 @@ std::vector<std::string> StudyParts::all(const std::vector<fs::path>& files, std
     const std::string call = digest.digest().hex();
     const std::size_t size = pieces_of_a_file(pieces);
     std::vector<fs::path> made;
+    std::set<int> missing;  // a member only below: what `some` throws is the script's error, whatever else is missing
     for (std::size_t first = 0; first < pieces; first += size) {
         const fs::path file = folder_ / (call + "-" + std::to_string(first) + ".cbor");
         const std::size_t place = made.size();
@@ -50,10 +52,11 @@ std::vector<std::string> StudyParts::all(const std::vector<fs::path>& files, std
             if (part_ && part_->has(place))
                 write_file_atomically(file, some(first, std::min(size, pieces - first)));
             else
-                missing_.parts.insert(WorkPart{1, count_}.part_of(place));
+                missing.insert(WorkPart{1, count_}.part_of(place));
         }
         made.push_back(file);
     }
+    missing_.parts.merge(missing);
     if (!missing_.parts.empty())
         throw EnvironmentError("{}", plural(static_cast<std::int64_t>(missing_.parts.size()),
                                             "{} part of this call of montecarlo is missing",

@@ -101,5 +101,12 @@ TEST_F(study_parts, errors_of_the_script_are_passed_on) {
     EXPECT_THROW(run("error('no')\n", WorkPart{1, 2}), EnvironmentError);
 }
 
+TEST_F(study_parts, an_error_in_a_part_is_not_taken_for_other_parts_that_are_missing) {
+    StudyParts parts(folder(), script(kFirst), 1, 2, WorkPart{2, 2});
+    const auto fails = [](std::size_t, std::size_t) -> std::string { throw EnvironmentError("no"); };
+    EXPECT_THROW(parts.all({}, 4, fails), EnvironmentError);
+    EXPECT_THAT(parts.missing().parts, IsEmpty());
+}
+
 }  // namespace test_study_parts
 }  // namespace dynlab::test
