@@ -280,8 +280,7 @@ class AnswersPage {
     Message explanation() const {
         return Message(
             "Submissions have numbers instead of names. Write points and reasons into {}, then copy submission (as "
-            "who), "
-            "check, points and reason into marks.csv of the results.",
+            "who), check, points and reason into marks.csv of the results.",
             marks_.filename().string());
     }
 

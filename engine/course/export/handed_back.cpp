@@ -219,13 +219,13 @@ class Outbox {
         std::int64_t unknown = 0;
         for (const PlatformSheet::Person& person : sheet_->people()) {
             const std::ptrdiff_t found = student_of(person, sheet_->platform(), students_);
-            if (found < 0) {
+            // Each student has one row: a second one that fits, by the name alone, is another person's.
+            if (found < 0 || !rows_.emplace(static_cast<std::size_t>(found), person).second) {
                 ++unknown;
                 continue;
             }
             MarkedStudent& student = students_[static_cast<std::size_t>(found)];
             (moodle ? student.moodle : student.canvas) = person.number;
-            rows_.emplace(static_cast<std::size_t>(found), person);
         }
         if (unknown > 0)
             result_.notes.push_back(plural(unknown, "{} row of {} fits nobody with a submission and stays as it was",

@@ -72,22 +72,16 @@ class GradingRules {
     /// unless `anew`; an empty name keeps nothing.
     std::vector<Message> try_solution(const std::filesystem::path& memory = {}, bool anew = false);
 
-    /// Ids of the checks that are left ungraded. Who did not try the solution is told of them by who did.
-    const std::set<std::string>& broken_checks() const { return broken_; }
-    void leave_ungraded(std::set<std::string> checks) { broken_ = std::move(checks); }
-
     /// What the checks say of each of these. Throws EnvironmentError where they come to no end.
     std::vector<std::vector<TriedCheck>> tried(const std::vector<CheckedSubmission>& submissions) const;
 
     /// Of all that a submission's marks depend on, and of what its runs do, which other checks may leave as it is.
     std::string fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
     std::string run_fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
-    std::size_t runs_of_a_submission() const { return 1 + reruns_.size(); }
     const GradingSetup& setup() const { return setup_; }
     const std::vector<CheckDescription>& checks() const { return checks_; }
 
-    /// Seconds of processor time of the worked solution's runs, by name; none where it was not tried.
-    const std::map<std::string, double>& solution_seconds() const { return solution_seconds_; }
+    /// Seconds of processor time of the worked solution's runs, by name, where it is not tried here.
     void compare_with_solution(std::map<std::string, double> seconds) { solution_seconds_ = std::move(seconds); }
     /// A sentence where the worked solution leaves little time to slower ones.
     std::optional<Message> note_on_time() const;
