@@ -108,6 +108,23 @@ TEST_F(leaks, pages_that_cannot_be_searched_are_hints) {
                 ElementsAre("(not-searchable 2)"));
 }
 
+// Oracle: the objects of the file: two bookmarks of which each is next to the other; a second page that is not counted.
+TEST_F(leaks, damaged_outlines_and_page_trees_are_searched_to_their_end) {
+    const std::string hello = std::string("BT /F1 12 Tf 72 700 Td (The gain is known, and the oscillation is damped ") +
+                              "after a while.) Tj 0 -14 Td (Nothing else is shown here.) Tj ET\n";
+    const std::string form = stream_of("", "/Type/XObject/Subtype/Form/BBox[0 0 9 9]");
+    EXPECT_THAT(
+        found(page_with(hello, "/Outlines 7 0 R", "",
+                        {form, "<</First 8 0 R/Last 9 0 R/Count 2>>", "<</Title(Start)/Parent 7 0 R/Next 9 0 R>>",
+                         "<</Title(by Brandtner)/Parent 7 0 R/Next 8 0 R/First 8 0 R>>"})),
+        ElementsAre("name-in-bookmark 0"));
+    const std::string own = read(page_with(
+        hello, "", "",
+        {form, "<</Type/Page/Parent 2 0 R/MediaBox[0 0 595 842]/Contents 4 0 R/Resources<</Font<</F1 5 0 R>>>>>>"}));
+    write("own.pdf", updated(own, 2, "<</Type/Pages/Kids[3 0 R 7 0 R]/Count 1>>"));
+    EXPECT_THAT(found(file("own.pdf")), ElementsAre("(not-searchable 2)"));
+}
+
 // Words that are names as well, numbers that are no students', cited authors, names of the field.
 TEST_F(leaks, ten_clean_documents_raise_no_alarm) {
     const std::string words =

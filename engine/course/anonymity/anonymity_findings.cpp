@@ -44,11 +44,13 @@ struct InsideOfPdf {
 DYNLAB_DESCRIBE(PlacedText, place, page, detail, text)
 DYNLAB_DESCRIBE(InsideOfPdf, texts, pictures, drawn)
 
-void add_bookmarks(Object bookmark, std::vector<PlacedText>& texts) {
+/// Each bookmark once, also where they are linked in a circle.
+void add_bookmarks(Object bookmark, std::set<QPDFObjGen>& known, std::vector<PlacedText>& texts) {
     for (; bookmark.isDictionary(); bookmark = bookmark.getKey("/Next")) {
+        if (bookmark.isIndirect() && !known.insert(bookmark.getObjGen()).second) return;
         if (Object title = bookmark.getKey("/Title"); title.isString())
             texts.push_back({TextPlace::kBookmark, 0, "", title.getUTF8Value()});
-        add_bookmarks(bookmark.getKey("/First"), texts);
+        add_bookmarks(bookmark.getKey("/First"), known, texts);
     }
 }
 
@@ -81,7 +83,8 @@ InsideOfPdf read_inside(const fs::path& file, const PdfObjectLimits& limits) {
                     read.texts.push_back({TextPlace::kMetadata, 0, key.substr(1), Object(value).getUTF8Value()});
         if (Object xmp = pdf.getRoot().getKey("/Metadata"); xmp.isStream())
             read.texts.push_back({TextPlace::kMetadata, 0, "XMP", stream_content(xmp, limits.bytes_inside).bytes});
-        add_bookmarks(pdf.getRoot().getKey("/Outlines"), read.texts);
+        std::set<QPDFObjGen> bookmarks;
+        add_bookmarks(pdf.getRoot().getKey("/Outlines"), bookmarks, read.texts);
         int number = 0;
         for (const Object& page : pdf.getAllPages()) add_page(page, ++number, limits.bytes_inside, read);
         return cbor_of(read);
@@ -197,8 +200,9 @@ class AnonymitySearch {
                 if (text.detail == "Author" && !found && !plain_words(text.text).empty()) author_ = text.text;
             }
             std::set<int> pages(read.pictures.begin(), read.pictures.end());
-            for (const int page : read.drawn)
-                if (layout.pages.at(static_cast<std::size_t>(page - 1)).words.empty()) pages.insert(page);
+            for (const int page : read.drawn)  // more pages than Poppler finds where the file miscounts them
+                if (page > std::ssize(layout.pages) || layout.pages[static_cast<std::size_t>(page - 1)].words.empty())
+                    pages.insert(page);
             unsearchable_.assign(pages.begin(), pages.end());
         } catch (const PdfRefusal& refusal) {
             trouble_ = refusal.message();
