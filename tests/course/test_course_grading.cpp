@@ -103,5 +103,66 @@ TEST_F(course_grading, marks_above_the_maximum_are_refused_and_marks_are_taken_b
     EXPECT_THAT(course({"grade", "nosuch"}).error_output, HasSubstr("there is no assignment \"nosuch\""));
 }
 
+// oracle: the marks that the instructor typed, in the order of typing; a command counts where the file did not change
+TEST_F(course_grading, a_corrected_mark_stays_though_it_was_given_before) {
+    submit("group-01", kSolution, "2026-02-27 12:00");
+    grade();
+    const auto typed = [&](const std::string& points) {
+        std::string rows = work().read("k/marks/lab4/marks.csv");
+        const std::size_t at = rows.find("group-01,q,") + 11;
+        work().write("k/marks/lab4/marks.csv", rows.replace(at, rows.find(',', at) - at, points));
+        EXPECT_EQ(grade().exit_code, 0);
+        EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), HasSubstr("group-01,q," + points + ","));
+        EXPECT_THAT(done({"marks", "lab4"}),
+                    ::testing::ContainsRegex("group-01 +v1 +" + std::to_string(2 + std::stoi(points)) + " of 6"));
+    };
+    typed("3"), typed("4"), typed("3");
+    done({"mark", "lab4", "group-01", "q", "1", "--reason", "copied"});
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), HasSubstr("group-01,q,1,copied"));
+    typed("3");
+    EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), HasSubstr("group-01,q,3,copied"));
+}
+
+// oracle: each version's own mark; one of the whole group replaces both
+TEST_F(course_grading, each_version_has_marks_of_its_own) {
+    submit("group-01", kSolution, "2026-02-27 12:00");
+    submit("group-01", "answer('x', 42)\n-- better\n", "2026-02-28 12:00");
+    grade();
+    std::string rows = work().read("k/marks/lab4/marks.csv");
+    ASSERT_THAT(rows, AllOf(HasSubstr("group-01,q,,"), HasSubstr("group-01 v2,q,,")));
+    rows.replace(rows.find("group-01,q,,"), 12, "group-01,q,1,");
+    work().write("k/marks/lab4/marks.csv", rows);
+    EXPECT_EQ(grade().exit_code, 1) << "the second version is not marked yet";
+    rows = work().read("k/marks/lab4/marks.csv");
+    ASSERT_THAT(rows, AllOf(HasSubstr("group-01,q,1,"), HasSubstr("group-01 v2,q,,")));
+    rows.replace(rows.find("group-01 v2,q,,"), 15, "group-01 v2,q,4,");
+    work().write("k/marks/lab4/marks.csv", rows);
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(work().read("k/marks/lab4/marks.csv"),
+                AllOf(HasSubstr("group-01,q,1,"), HasSubstr("group-01 v2,q,4,")));
+    EXPECT_THAT(done({"marks", "lab4"}), ::testing::ContainsRegex("group-01 +v2 +6 of 6"));
+    done({"mark", "lab4", "group-01", "q", "2", "--reason", "both alike"});
+    EXPECT_EQ(grade().exit_code, 0);
+    EXPECT_THAT(work().read("k/marks/lab4/marks.csv"),
+                AllOf(HasSubstr("group-01,q,2,both alike"), HasSubstr("group-01 v2,q,2,both alike")));
+    EXPECT_THAT(done({"marks", "lab4"}), ::testing::ContainsRegex("group-01 +v[12] +4 of 6"));
+    done({"withdraw", "lab4", "group-01", "--mark", "q", "--reason", "to be read again"});
+    EXPECT_EQ(grade().exit_code, 1);
+    EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), AllOf(HasSubstr("group-01,q,,"), HasSubstr("group-01 v2,q,,")));
+}
+
+// oracle: the message, and the total without the refused mark
+TEST_F(course_grading, a_row_above_the_maximum_does_not_reach_the_total) {
+    submit("group-01", kSolution, "2026-02-27 12:00");
+    grade();
+    std::string rows = work().read("k/marks/lab4/marks.csv");
+    rows.replace(rows.find("group-01,q,,"), 12, "group-01,q,40,");
+    work().write("k/marks/lab4/marks.csv", rows);
+    EXPECT_THAT(grade().error_output, HasSubstr("gets 40 points for the check \"q\", which has 4"));
+    EXPECT_THAT(done({"marks", "lab4"}), Not(HasSubstr("42 of 6")));
+    EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), HasSubstr("group-01,q,40,")) << "nothing typed is lost";
+}
+
 }  // namespace test_course_grading
 }  // namespace dynlab::test

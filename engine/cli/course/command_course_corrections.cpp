@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <set>
 
 #include "cli/course/course_commands.h"
 #include "course/corrections/corrections.h"
@@ -40,14 +41,14 @@ int take_back_mark(Course& course, const Assignment& a, const CorrectionArgument
         take_back_override(course, a, group.name, words.mark, words.reason, now);
     } else {
         Transaction transaction(course.database());
-        bool found = false;
+        std::set<std::int64_t> groups;  // of which all versions lose the mark at once
         for (const GivenMark& mark : marks_in_force(course, a)) {
             if (mark.student != student || (!words.alone && mark.group != group.id) || mark.item != words.mark)
                 continue;
-            give_mark(course, a, {mark.group, student, words.mark, {}, words.reason}, now);
-            found = true;
+            if (groups.insert(mark.group).second)
+                give_mark(course, a, {mark.group, student, words.mark, {}, words.reason}, now);
         }
-        if (!found) throw InvalidArgument("{} has no mark of yours for {}", whose, words.mark);
+        if (groups.empty()) throw InvalidArgument("{} has no mark of yours for {}", whose, words.mark);
         transaction.commit();
     }
     std::cout << terminal_text(fmt::format("{}: your mark of {} ({}) is taken back.\n", a.name, whose, words.mark));

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "course/grading/deadlines.h"
+#include "course/grading/feedback.h"
 #include "course/store/groups.h"
 #include "course/store/marks.h"
 #include "numerics/error.h"
@@ -51,15 +53,30 @@ class CourseWork {
     const ClassWork& work() const { return work_; }
     std::int64_t version(std::size_t item) const { return versions_[item]; }
     const std::map<std::int64_t, Group>& groups() const { return groups_; }
-    /// Whose a row of marks.csv is: a group's, or of one of its versions.
-    std::optional<std::int64_t> group_of(const std::string& who) const {
+    /// What a row of marks.csv is about: a version by its name, else all versions of a group. Nothing for a name that
+    /// fits neither; the grading complains of the row.
+    struct Marked {
+        std::int64_t group = 0, version = 0;
+        auto operator<=>(const Marked&) const = default;
+    };
+    std::optional<Marked> marked_by(const std::string& who) const {
         for (std::size_t i = 0; i < work_.items.size(); ++i)
-            if (work_.items[i].submission.name == who) return groups_of_items_[i];
+            if (work_.items[i].submission.name == who) return Marked{groups_of_items_[i], versions_[i]};
         try {
-            return group_named(course_, who).id;
+            return Marked{group_named(course_, who).id, 0};
         } catch (const InvalidArgument&) {
-            return {};  // the grading complains of the row
+            return {};
         }
+    }
+    /// Names under which a mark stands in marks.csv: of its version, of each version of its group, or of the group
+    /// where it submitted nothing.
+    std::vector<std::string> names_of(const GivenMark& mark) const {
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < work_.items.size(); ++i)
+            if (groups_of_items_[i] == mark.group && (mark.version == 0 || mark.version == versions_[i]))
+                names.push_back(work_.items[i].submission.name);
+        if (names.empty() && mark.version == 0) names.push_back(groups_.at(mark.group).name);
+        return names;
     }
 
   private:
@@ -120,37 +137,90 @@ class CourseWork {
     std::vector<std::int64_t> versions_, groups_of_items_;  ///< of the items
 };
 
-/// Brings marks.csv and the marks of the store together: the newer of the two is in force. A row that says what the
-/// store once had is the older one.
-void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const fs::path& results) {
+/// The marks in force, by what they are about and the check.
+class MarksInForce {
+  public:
+    explicit MarksInForce(const std::vector<GivenMark>& marks) {
+        for (const GivenMark& mark : marks)
+            if (mark.student.empty()) marks_[{{mark.group, mark.version}, mark.item}] = mark;
+    }
+    /// That of a version, or else of all versions of its group; null where there is none.
+    const GivenMark* of(const CourseWork::Marked& marked, const std::string& check) const {
+        for (const std::int64_t version : {marked.version, std::int64_t{0}})
+            if (const auto found = marks_.find({{marked.group, version}, check}); found != marks_.end())
+                return &found->second;
+        return nullptr;
+    }
+
+  private:
+    std::map<std::pair<CourseWork::Marked, std::string>, GivenMark> marks_;
+};
+
+/// Whether a row of the file says what a mark says; points are compared as they are printed.
+bool says(const MarksFile::Row& row, const GivenMark* mark) {
+    if (mark == nullptr || !row.points) return mark == nullptr && !row.points;
+    return points_text(*row.points) == points_text(*mark->points) && row.reason == mark->reason;
+}
+
+/// Up to which mark file and store were brought together.
+class JoinedMarks {
+  public:
+    JoinedMarks(Course& course, const Assignment& assignment)
+        : course_(course), setting_(fmt::format("marks joined {}", assignment.id)) {}
+    std::optional<std::int64_t> last() const {
+        Rows rows = course_.database().query("SELECT CAST(value AS INTEGER) FROM course WHERE key = ?", setting_);
+        return rows.next() ? std::optional(rows.integer(0)) : std::nullopt;
+    }
+    void note(std::int64_t mark) const {
+        Transaction transaction(course_.database());
+        course_.database().run(
+            "INSERT INTO course VALUES (?, ?) ON CONFLICT DO UPDATE SET value = excluded.value WHERE value <> "
+            "excluded.value",
+            setting_, std::to_string(mark));
+        transaction.commit();
+    }
+
+  private:
+    Course& course_;
+    std::string setting_;
+};
+
+/// Brings marks.csv and the marks of the store together. A row that differs from what the two had in common last time
+/// was changed by the instructor and goes into the store; one that does not follows the store. An emptied row takes
+/// nothing back: it is filled again.
+void join_marks(Course& course, const Assignment& assignment, const CourseWork& work,
+                const std::map<std::string, double>& most, const fs::path& results) {
     MarksFile file(results);
-    std::map<std::pair<std::int64_t, std::string>, std::vector<GivenMark>> history;
-    for (const GivenMark& mark : marks_ever_given(course, assignment))
-        if (mark.student.empty()) history[{mark.group, mark.item}].push_back(mark);
-    Transaction transaction(course.database());
-    for (const MarksFile::Row& row : std::vector(file.rows())) {
-        const auto group = work.group_of(row.who);
-        if (!group) continue;
-        const auto& known = history[{*group, row.check}];
-        const auto same = [&row](const GivenMark& mark) {
-            return mark.points == row.points && mark.reason == row.reason;
-        };
-        if (!known.empty() && (std::ranges::any_of(known, same) || !row.points)) {
-            if (!same(known.back())) file.fill(row.who, row.check, known.back().points, known.back().reason);
-        } else if (row.points) {
-            give_mark(course, assignment, {*group, "", row.check, row.points, row.reason}, CourseClock::now());
-        }
+    const JoinedMarks joined(course, assignment);
+    Transaction transaction(course.database());  // a mark that a command gives meanwhile comes with the next join
+    const std::optional<std::int64_t> last = joined.last();
+    const MarksInForce before(last ? marks_in_force(course, assignment, last) : std::vector<GivenMark>());
+    const MarksInForce now(marks_in_force(course, assignment));
+    std::vector<MarksFile::Row> filled;
+    for (const MarksFile::Row& row : file.rows()) {
+        const auto marked = work.marked_by(row.who);
+        const auto points = most.find(row.check);
+        if (!marked || points == most.end() || row.points > points->second) continue;  // complained of by the grading
+        const GivenMark* const mark = now.of(*marked, row.check);
+        if (says(row, mark)) continue;
+        if (row.points && !says(row, before.of(*marked, row.check)))
+            give_mark(course, assignment, {marked->group, "", row.check, row.points, row.reason, marked->version},
+                      CourseClock::now());
+        else
+            filled.push_back(
+                {row.line, row.who, row.check, mark ? mark->points : std::nullopt, mark ? mark->reason : ""});
     }
+    const std::vector<GivenMark> all = marks_ever_given(course, assignment),
+                                 in_force = marks_in_force(course, assignment);
     transaction.commit();
+    for (const MarksFile::Row& row : filled) file.fill(row.who, row.check, row.points, row.reason);
     std::vector<MarksFile::Row> missing;
-    for (const GivenMark& mark : marks_in_force(course, assignment)) {
-        const auto there = [&](const MarksFile::Row& row) {
-            return row.check == mark.item && work.group_of(row.who) == mark.group;
-        };
-        if (mark.student.empty() && std::ranges::none_of(file.rows(), there))
-            missing.push_back({0, work.groups().at(mark.group).name, mark.item, mark.points, mark.reason});
-    }
+    for (const GivenMark& mark : in_force)
+        if (mark.student.empty())
+            for (const std::string& name : work.names_of(mark))
+                missing.push_back({0, name, mark.item, mark.points, mark.reason});
     file.add(missing);
+    joined.note(all.empty() ? 0 : all.back().id);
 }
 
 void record_results(Course& course, const Assignment& assignment, const CourseWork& work, const fs::path& results) {
@@ -194,8 +264,13 @@ GradingOutcome grade_assignment(Course& course, const Assignment& assignment, co
         throw InvalidArgument("nothing was submitted for {} yet: dynlab course submit FILE... --assignment {}",
                               assignment.name, assignment.name);
     work.choose(request.only);
-    join_marks(course, assignment, work, options.out);
     const TriedRules tried(options);
+    std::map<std::string, double> most;  // points by check; with --force any
+    for (const CheckDescription& check : tried.rules.checks())
+        most[check.id] = check.points, most[kWholeItem] += check.points;
+    if (options.above_maximum)
+        for (auto& [check, points] : most) points = std::numeric_limits<double>::infinity();
+    join_marks(course, assignment, work, most, options.out);
     GradingOutcome outcome = grade_class(work.work(), tried, options);
     record_results(course, assignment, work, options.out);
     return outcome;

@@ -180,7 +180,8 @@ CREATE TABLE results (id INTEGER PRIMARY KEY, version INTEGER NOT NULL REFERENCE
 CREATE INDEX results_of_version ON results (version);
 CREATE TABLE marks (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
   group_id INTEGER NOT NULL REFERENCES groups, student TEXT REFERENCES students, item TEXT NOT NULL,
-  points REAL CHECK (points >= 0), reason TEXT NOT NULL, made_at INTEGER NOT NULL);
+  points REAL CHECK (points >= 0), reason TEXT NOT NULL, made_at INTEGER NOT NULL,
+  version INTEGER REFERENCES versions);
 CREATE INDEX marks_of_group ON marks (assignment, group_id);
 CREATE TABLE refusals (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
   group_id INTEGER REFERENCES groups, stage TEXT NOT NULL, name TEXT NOT NULL, hash TEXT REFERENCES files,

@@ -21,7 +21,7 @@ std::string name_of(Course& course, std::int64_t group) {
 
 /// One version of a lab with its newest result.
 struct GradedVersion {
-    std::int64_t group = 0, number = 0, late = 0;
+    std::int64_t id = 0, group = 0, number = 0, late = 0;
     std::optional<std::vector<CheckPoints>> checks;
 };
 
@@ -29,14 +29,15 @@ struct GradedVersion {
 std::vector<GradedVersion> graded_versions(Course& course, const Assignment& assignment) {
     std::vector<GradedVersion> versions;
     for (Rows rows = course.database().query(
-             "SELECT s.group_id, s.number, s.late, (SELECT r.checks FROM results r WHERE r.version = s.id ORDER BY "
+             "SELECT s.id, s.group_id, s.number, s.late, (SELECT r.checks FROM results r WHERE r.version = s.id ORDER "
+             "BY "
              "r.id "
              "DESC LIMIT 1) FROM standing s WHERE s.assignment = ? AND s.stage = 'first' AND s.part IN ('script', "
              "'pack') ORDER BY s.received_at, s.id",
              assignment.id);
          rows.next();) {
-        GradedVersion version{rows.integer(0), rows.integer(1), rows.integer(2), {}};
-        if (!rows.isColumnNull(3)) version.checks = checks_in(rows.text(3));
+        GradedVersion version{rows.integer(0), rows.integer(1), rows.integer(2), rows.integer(3), {}};
+        if (!rows.isColumnNull(4)) version.checks = checks_in(rows.text(4));
         versions.push_back(std::move(version));
     }
     return versions;
@@ -44,18 +45,23 @@ std::vector<GradedVersion> graded_versions(Course& course, const Assignment& ass
 
 using MarksByItem = std::map<std::string, GivenMark>;
 
-/// With what the instructor gave for single checks, and with the penalty.
+LabMark whole_mark(std::int64_t group, std::int64_t number, double possible, const GivenMark& given) {
+    return {group, number, given.points, possible, 0, true, given.reason};
+}
+
+/// With what the instructor gave, and with the penalty.
 LabMark mark_of(const Assignment& assignment, const GradedVersion& version, const MarksByItem& given) {
     LabMark mark{version.group, version.number, {}, 0, 0, false, ""};
-    if (!version.checks) return mark;
     double earned = 0;
-    bool whole = !version.checks->empty();
-    for (const CheckPoints& check : *version.checks) {
+    bool whole = version.checks && !version.checks->empty();
+    for (const CheckPoints& check : version.checks.value_or(std::vector<CheckPoints>())) {
         const auto own = given.find(check.id);
         mark.possible += check.points;
         whole = whole && (check.graded || own != given.end());
         earned += own != given.end() ? *own->second.points : check.graded ? check.earned : 0;
     }
+    if (const auto own = given.find(kWholeItem); own != given.end())
+        return whole_mark(version.group, version.number, mark.possible, own->second);
     mark.penalty = earned * late_percent(assignment.costs, version.late) / 100;
     if (whole) mark.earned = earned - mark.penalty;
     return mark;
@@ -69,35 +75,42 @@ std::vector<CheckPoints> checks_in(const std::string& json) {
 
 std::vector<GivenMark> marks_ever_given(Course& course, const Assignment& assignment) {
     std::vector<GivenMark> marks;
-    for (Rows rows = course.database().query("SELECT group_id, ifnull(student, ''), item, points, reason FROM marks "
-                                             "WHERE assignment = ? ORDER BY id",
+    for (Rows rows = course.database().query("SELECT group_id, ifnull(student, ''), item, points, reason, "
+                                             "ifnull(version, 0), id FROM marks WHERE assignment = ? ORDER BY id",
                                              assignment.id);
          rows.next();)
         marks.push_back({rows.integer(0), rows.text(1), rows.text(2),
-                         rows.isColumnNull(3) ? std::nullopt : std::optional(rows.number(3)), rows.text(4)});
+                         rows.isColumnNull(3) ? std::nullopt : std::optional(rows.number(3)), rows.text(4),
+                         rows.integer(5), rows.integer(6)});
     return marks;
 }
 
-std::vector<GivenMark> marks_in_force(Course& course, const Assignment& assignment) {
-    std::map<std::tuple<std::int64_t, std::string, std::string>, GivenMark> newest;
-    for (const GivenMark& mark : marks_ever_given(course, assignment))
-        newest[{mark.group, mark.student, mark.item}] = mark;
+std::vector<GivenMark> marks_in_force(Course& course, const Assignment& assignment, std::optional<std::int64_t> until) {
+    std::map<std::tuple<std::int64_t, std::string, std::string>, std::map<std::int64_t, GivenMark>> newest;
+    for (const GivenMark& mark : marks_ever_given(course, assignment)) {
+        if (until && mark.id > *until) break;
+        auto& by_version = newest[{mark.group, mark.student, mark.item}];
+        if (mark.version == 0) by_version.clear();
+        by_version[mark.version] = mark;
+    }
     std::vector<GivenMark> marks;
-    for (const auto& [key, mark] : newest)
-        if (mark.points) marks.push_back(mark);
+    for (const auto& [key, by_version] : newest)
+        for (const auto& [version, mark] : by_version)
+            if (mark.points) marks.push_back(mark);
     return marks;
 }
 
 bool give_mark(Course& course, const Assignment& assignment, const GivenMark& mark, Instant now) {
     for (const GivenMark& known : marks_in_force(course, assignment))
         if (known.group == mark.group && known.student == mark.student && known.item == mark.item &&
-            known.points == mark.points && known.reason == mark.reason)
+            known.version == mark.version && known.points == mark.points && known.reason == mark.reason)
             return false;
     std::optional<std::string> student;
     if (!mark.student.empty()) student = mark.student;
     course.database().run(
-        "INSERT INTO marks (assignment, group_id, student, item, points, reason, made_at) VALUES (?, ?, ?, ?, ?, ?, ?)",
-        assignment.id, mark.group, student, mark.item, mark.points, mark.reason, now);
+        "INSERT INTO marks (assignment, group_id, student, item, points, reason, made_at, version) VALUES (?, ?, ?, ?, "
+        "?, ?, ?, nullif(?, 0))",
+        assignment.id, mark.group, student, mark.item, mark.points, mark.reason, now, mark.version);
     const std::string who = mark.student.empty() ? name_of(course, mark.group) : mark.student,
                       what = mark.item == kWholeItem ? "the whole" : mark.item,
                       why = mark.reason.empty() ? "" : "; reason: " + mark.reason;
@@ -128,28 +141,38 @@ std::optional<double> LabMark::percent() const {
 }
 
 std::vector<LabMark> lab_marks(Course& course, const Assignment& assignment, const std::string& student) {
-    std::map<std::int64_t, MarksByItem> given;
-    for (const bool own : {false, true})  // a student's own marks go before those of the group
-        for (const GivenMark& mark : marks_in_force(course, assignment))
-            if (own ? !student.empty() && mark.student == student : mark.student.empty())
-                given[mark.group][mark.item] = mark;
+    // Marks of a version go before those of all, and a student's own before those of the group.
+    std::map<std::int64_t, MarksByItem> of_group, of_version, own;
+    for (const GivenMark& mark : marks_in_force(course, assignment)) {
+        if (!mark.student.empty() && mark.student != student) continue;
+        auto& place = !mark.student.empty() ? own[mark.group]
+                      : mark.version > 0    ? of_version[mark.version]
+                                            : of_group[mark.group];
+        place[mark.item] = mark;
+    }
+    const auto given_to = [&](std::int64_t group, std::int64_t version) {
+        MarksByItem given = own[group];
+        given.insert(of_version[version].begin(), of_version[version].end());
+        given.insert(of_group[group].begin(), of_group[group].end());
+        return given;
+    };
     std::map<std::int64_t, LabMark> marks;
     double possible = 0;
     for (const GradedVersion& version : graded_versions(course, assignment)) {
-        const LabMark mark = mark_of(assignment, version, given[version.group]);
+        const LabMark mark = mark_of(assignment, version, given_to(version.group, version.id));
         possible = std::max(possible, mark.possible);
         const auto [known, fresh] = marks.emplace(version.group, mark);
         const bool better = mark.earned.value_or(-1) >= known->second.earned.value_or(-1);
         if (!fresh && (assignment.keep == "newest" || better)) known->second = mark;
     }
-    for (const auto& [group, items] : given) {
-        const auto whole = items.find(kWholeItem);
-        if (whole == items.end()) continue;
-        LabMark& mark = marks[group];
-        mark.group = group, mark.earned = whole->second.points, mark.penalty = 0;
-        mark.possible = mark.possible > 0 ? mark.possible : possible;
-        mark.by_hand = true, mark.reason = whole->second.reason;
-    }
+    for (const auto* with_marks : {&of_group, &own})
+        for (const auto& [group, items] : *with_marks) {
+            const MarksByItem given = given_to(group, 0);
+            if (const auto whole = given.find(kWholeItem); whole != given.end())
+                marks.try_emplace(group, whole_mark(group, 0, 0, whole->second));
+        }
+    for (auto& [group, mark] : marks)
+        if (mark.by_hand && mark.possible == 0) mark.possible = possible;
     std::vector<LabMark> all;
     for (const auto& [group, mark] : marks) all.push_back(mark);
     return all;

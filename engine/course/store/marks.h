@@ -17,10 +17,14 @@ struct GivenMark {
     std::string item;              ///< a check; * for the whole; of a report or a talk "work", in percent
     std::optional<double> points;  ///< nothing: taken back
     std::string reason;
+    std::int64_t version = 0;  ///< id of the only version that it is of; 0: of all
+    std::int64_t id = 0;       ///< once it is stored; later ones have larger ids
 };
 
-/// The marks of an assignment that are in force: the newest of each owner and item, but for those that were taken back.
-std::vector<GivenMark> marks_in_force(Course& course, const Assignment& assignment);
+/// The marks of an assignment that are in force, or were when the mark with the id `until` was the last one: of each
+/// owner, item and version the newest, where no newer one is of all versions; not those that were taken back.
+std::vector<GivenMark> marks_in_force(Course& course, const Assignment& assignment,
+                                      std::optional<std::int64_t> until = {});
 /// All that were ever given, oldest first.
 std::vector<GivenMark> marks_ever_given(Course& course, const Assignment& assignment);
 
