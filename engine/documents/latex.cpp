@@ -305,13 +305,21 @@ LatexDocument run_latex(const LatexJob& job) {
     }
     const std::set<std::string> scripts = scripts_of(pdflatex, body);
     const std::string directed = with_direction_marks(body);
-    try {
-        result.pdf = LatexRun(composed_job, scripts, directed).pdf();
-    } catch (const MissingLetters& missing) {
-        result.replaced = missing.letters;
-        result.pdf = LatexRun(composed_job, scripts, without_letters(directed, missing.letters)).pdf();
+    constexpr char32_t kUnknown = 0xFFFD;  // in the place of bytes that were no text; LuaTeX stops at it
+    if (const auto letters = letters_beyond(pdflatex, body); letters.contains(kUnknown)) result.replaced = {kUnknown};
+    while (true) {  // a later pass may come to further letters
+        try {
+            result.pdf = LatexRun(composed_job, scripts, without_letters(directed, result.replaced)).pdf();
+            return result;
+        } catch (const MissingLetters& missing) {
+            const std::size_t known = result.replaced.size();
+            result.replaced.insert(missing.letters.begin(), missing.letters.end());
+            if (result.replaced.size() == known)
+                throw LatexRefusal(
+                    Message("no font has the letter {}: take it out of the text", code_of(*missing.letters.begin())), 0,
+                    "");
+        }
     }
-    return result;
 }
 
 void make_lualatex_fonts(const LatexLayout& layout, const std::set<std::string>& scripts, const fs::path& folder) {

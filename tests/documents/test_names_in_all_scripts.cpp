@@ -202,6 +202,15 @@ TEST_F(names_in_all_scripts, only_a_letter_that_no_font_has_is_replaced) {
                           "(U+E000), \uE001 (U+E001). To add fonts: sudo apt install fonts-noto"));
 }
 
+// oracle: a command ends before a letter beyond ASCII; fonts of formulas have Greek letters and no ideographs
+TEST_F(names_in_all_scripts, formulas_and_unknown_letters_are_set_beside_them) {
+    const std::string text = text_of(make("Дмитрий, $\\alpha中 + \\omegaτ$ and \uFFFD.\n", "out.pdf"));
+    EXPECT_THAT(text, HasSubstr("ωτ"));
+    EXPECT_THAT(notes(), HasSubstr("中 (U+4E2D)"));
+    EXPECT_THAT(text, HasSubstr("and ?."));
+    EXPECT_THAT(notes(), HasSubstr("(U+FFFD)"));
+}
+
 TEST_F(names_in_all_scripts, without_lualatex_single_letters_are_replaced_and_the_note_says_what_to_install) {
     for (const char* program : {"pandoc", "pdflatex"})
         std::filesystem::create_symlink(*find_program(program), file(program));

@@ -59,11 +59,8 @@ std::size_t length_of_phrase(std::string_view text) {
     return length;
 }
 
-/// Whether the line around the first byte of `rest` is a row of a table.
-bool is_in_row(std::string_view text, std::string_view rest) {
-    const std::size_t at = text.size() - rest.size(), before = text.rfind('\n', at);
-    const std::size_t begin = before == std::string_view::npos ? 0 : before;
-    return text.substr(begin, text.find('\n', at) - begin).find(" & ") != std::string_view::npos;
+bool is_row(std::string_view line) {
+    return line.find(" & ") != std::string_view::npos;
 }
 
 }  // namespace
@@ -97,9 +94,15 @@ std::set<std::string> scripts_of(const PrintableCharacters& pdflatex, std::strin
 std::string with_direction_marks(std::string_view latex) {
     constexpr std::string_view kLink = "\\href{";
     const std::string mark = utf8_of(kLeftToRightMark);
-    const std::string_view whole = latex;
     std::string result;
+    std::size_t after_line = latex.size() + 1;  // bytes that are left behind the line that `row` is about
+    bool row = false;
     while (!latex.empty()) {
+        if (latex.size() < after_line) {
+            const std::string_view line = latex.substr(0, latex.find('\n'));
+            row = is_row(line);
+            after_line = latex.size() - line.size();
+        }
         if (latex.starts_with(kLink)) {
             const std::size_t end = std::min(latex.find('}'), latex.size());
             result += latex.substr(0, end);
@@ -110,7 +113,7 @@ std::string with_direction_marks(std::string_view latex) {
         if (is_right_to_left(next_character(rest))) {
             const std::size_t length = length_of_phrase(latex);
             const std::string phrase = mark + std::string(latex.substr(0, length)) + mark;
-            result += is_in_row(whole, latex) ? "\\mbox{" + phrase + "}" : phrase;
+            result += row ? "\\mbox{" + phrase + "}" : phrase;
             latex.remove_prefix(length);
         } else {
             result += latex.substr(0, latex.size() - rest.size());
