@@ -164,5 +164,20 @@ TEST_F(course_grading, a_row_above_the_maximum_does_not_reach_the_total) {
     EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), HasSubstr("group-01,q,40,")) << "nothing typed is lost";
 }
 
+// oracle: the group at the time of the submission; the message
+TEST_F(course_grading, a_mark_by_a_student_s_name_goes_to_the_work_that_the_student_submitted) {
+    submit("group-01", kSolution, "2026-02-27 12:00");
+    submit("group-02", kSolution, "2026-02-27 12:00");
+    work().write("roster.csv", "id,group\n221,group-02\n");
+    done({"import", "roster.csv"});
+    done({"mark", "lab4", "Kim Min-jun", "3", "--reason", "shown at the desk"});
+    EXPECT_THAT(done({"marks", "lab4"}), ::testing::ContainsRegex("group-01 +v1 +3 of"));
+    grade();
+    std::string rows = work().read("k/marks/lab4/marks.csv");
+    work().write("k/marks/lab4/marks.csv", rows + ",q,2,for whom\r\n");
+    EXPECT_THAT(grade().error_output, HasSubstr("the row has points and names nobody"));
+    EXPECT_THAT(done({"history"}), Not(HasSubstr("for whom")));
+}
+
 }  // namespace test_course_grading
 }  // namespace dynlab::test

@@ -95,7 +95,7 @@ TEST(course_labs, best_or_newest_version_counts) {
 TEST(course_labs, marks_by_hand_replace_points_and_can_be_taken_back) {
     LabCourse course;
     course.grade(course.submit(1, "2026-02-01 12:00"), 4, 0, false);
-    EXPECT_EQ(course.earned(1), std::nullopt) << "y is to be marked";
+    EXPECT_EQ(course.earned(1), std::nullopt) << "y needs a mark";
     const std::int64_t group = course.group(1);
     EXPECT_TRUE(course.mark({group, "", "y", 5, "good"}));
     EXPECT_FALSE(course.mark({group, "", "y", 5, "good"}));

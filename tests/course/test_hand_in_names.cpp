@@ -257,7 +257,8 @@ TEST(hand_in_names, the_instructors_list_goes_before_names) {
     owners.read_list(bench.path("owners.csv"));
     EXPECT_EQ(owners.find(called("my work")).group, "group-2");
     EXPECT_EQ(owners.find(called("Eve_77_assignsubmission_file_")).group, "group-4");
-    EXPECT_THAT(owners.strays({called("my work"), called("Eve_77_assignsubmission_file_")}), ElementsAre("gone"));
+    EXPECT_THAT(owners.unmatched_names({called("my work"), called("Eve_77_assignsubmission_file_")}),
+                ElementsAre("gone"));
     for (const auto& [table, told] :
          {std::pair("name,group\n", "the columns submission and group"),
           std::pair("submission,group\nx,group-77\n", "line 2: there is no group \"group-77\""),

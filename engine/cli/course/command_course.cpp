@@ -303,7 +303,7 @@ void add_status(CLI::App& course, CourseArguments& where, Action& action) {
         std::string assignment, at;
     };
     auto words = std::make_shared<Arguments>();
-    CLI::App* command = course.add_subcommand("status", "What was handed in, what is late, and what to do about it");
+    CLI::App* command = course.add_subcommand("status", "What was submitted, what is late, and what to do about it");
     command->add_option("ASSIGNMENT", words->assignment, "All unless given");
     command->footer(
         "Examples:\n"

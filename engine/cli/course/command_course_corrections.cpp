@@ -142,8 +142,8 @@ int show_history(const CourseArguments& where) {
 }
 
 void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
-    const auto away = add_correction(course, "withdraw", "A file that was handed in, or a mark of yours, does not hold",
-                                     where, action, withdraw_files);
+    const auto away = add_correction(course, "withdraw", "Withdraw a submitted file or a mark of yours", where, action,
+                                     withdraw_files);
     add_file_options(away);
     away.app->add_option("--mark", away.words->mark,
                          "Your own mark instead of a file: work or reviews, of a lab a check or *");
@@ -156,8 +156,7 @@ void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
         "  dynlab course withdraw crane group-05 --reason \"group-06's file by mistake\"\n"
         "  dynlab course withdraw crane group-05 --stage review --of report-17 --reason \"empty form\"\n"
         "  dynlab course withdraw crane group-05 --mark work --reason \"the paper was found\"");
-    const auto back =
-        add_correction(course, "restore", "A file that was withdrawn holds again", where, action, restore_files);
+    const auto back = add_correction(course, "restore", "Reinstate a withdrawn file", where, action, restore_files);
     add_file_options(back);
     add_reason(back);
     back.app->footer("Example:  dynlab course restore crane group-05 --reason \"it was the right one\"");
@@ -196,7 +195,7 @@ void add_correction_commands(CLI::App& course, CourseArguments& where, Action& a
     kept.app->footer(
         "Example:  dynlab course withhold crane group-05 --stage review --of report-17 --reason \"insulting\"");
 
-    CLI::App* history = course.add_subcommand("history", "All that was done in the course, with the reasons");
+    CLI::App* history = course.add_subcommand("history", "Everything that was done in the course, with the reasons");
     history->footer("Example:  dynlab course history");
     history->callback([&where, &action] { action = [&where] { return show_history(where); }; });
 }

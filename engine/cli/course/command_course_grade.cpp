@@ -95,18 +95,29 @@ void mark_percent(Course& course, const Assignment& a, const GivenMark& mark, co
                                            mark.student.empty() ? group : mark.student, mark.item, *mark.points));
 }
 
+/// The id of the student who is called so; empty for a group's name.
+std::string student_called(Course& course, const std::string& who) {
+    try {
+        return student_named(course, who).id;
+    } catch (const InvalidArgument&) {
+        return "";
+    }
+}
+
+/// Of a student the group that they submitted with, which may not be the one that they are in now.
+std::int64_t group_of_work(Course& course, const Assignment& a, const std::string& student, const std::string& who) {
+    const auto authors = author_groups(course, a);
+    const auto author = authors.find(student);
+    return author != authors.end() ? author->second : group_named(course, who).id;
+}
+
 int set_mark(const CourseArguments& where, const MarkWords& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     GivenMark mark;
-    if (words.alone) {  // with the work of the group that the student submitted with
-        mark.student = student_named(course, words.who).id;
-        const auto authors = author_groups(course, a);
-        const auto author = authors.find(mark.student);
-        mark.group = author != authors.end() ? author->second : group_named(course, mark.student).id;
-    } else {
-        mark.group = group_named(course, words.who).id;
-    }
+    const std::string student = words.alone ? student_named(course, words.who).id : student_called(course, words.who);
+    mark.group = group_of_work(course, a, student, words.who);
+    if (words.alone) mark.student = student;
     mark.item = words.mark.size() > 1 ? words.mark.front() : a.is_lab() ? kWholeItem : "work";
     mark.points = number_in_cell(words.mark.back());
     mark.reason = words.reason;

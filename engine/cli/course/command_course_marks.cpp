@@ -252,7 +252,7 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
 
     const auto given =
         add_one(course, "export", "A row a student as CSV, or the whole store as JSON", where, action, export_course);
-    given.app->add_option("ASSIGNMENT", given.words->assignment, "All of them, and the weighted total, unless given");
+    given.app->add_option("ASSIGNMENT", given.words->assignment, "Default: all of them, and the weighted total");
     add_time_option(*given.app, given.words->at);
     given.app->add_option("-o,--out", given.words->out, "Printed unless given")->type_name("FILE");
     given.app->add_flag("--json", given.words->json, "The whole store, for import");

@@ -76,7 +76,7 @@ void add_test_lesson(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"texts", "checks", "documents"}));
     command
         ->add_option("--skeleton", words->skeleton,
-                     "Test nothing; write tasks.LANG.lua and checks.LANG.po with what is to be translated")
+                     "Test nothing; write tasks.LANG.lua and checks.LANG.po with the texts to translate")
         ->type_name("LANG")
         ->check(CLI::IsMember(languages()));
     add_secret_option(*command, words->secret);

@@ -328,7 +328,7 @@ class Outbox {
         write("canvas-grades.csv", csv_text(table));
     }
 
-    /// Whose feedback was not delivered yet, with the address: for whoever sends by mail.
+    /// Feedback that was not delivered yet, with the addresses, for sending by mail.
     void look_for_news() {
         const Delivered delivered = read_deliveries(folder_ / kDelivered);
         is_new_.resize(students_.size());

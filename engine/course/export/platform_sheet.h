@@ -12,7 +12,7 @@ namespace dynlab::inline course {
 /// comments are filled in; every other byte stays as it was: language and order of the columns, separator, quotes, line
 /// ends, byte order mark.
 ///
-/// Columns are recognised by known words in several languages, and where those fail by what stands in them:
+/// Columns are recognised by known words in several languages, otherwise by their content:
 ///
 /// * Moodle: a column of participants ("Participant 900001"), and the grade in front of the maximum grade.
 /// * Canvas: a second column "ID", and assignments with a number behind their name ("Lab 4 (1234)").

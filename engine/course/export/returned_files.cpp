@@ -49,7 +49,13 @@ class Returner {
   private:
     void settle_numbers() {
         std::map<std::string, std::string> numbers = participants_of(course_, assignment_.id);
-        if (!request_.worksheet.empty()) numbers = numbers_in(PlatformSheet(request_.worksheet, ""));
+        if (!request_.worksheet.empty()) {
+            const PlatformSheet sheet(request_.worksheet, "");
+            if (sheet.platform() != PlatformSheet::Platform::kMoodle)
+                throw InvalidArgument("{} is Canvas's gradebook: the zip for Moodle needs Moodle's grading worksheet",
+                                      request_.worksheet.string());
+            numbers = numbers_in(sheet);
+        }
         for (const auto& [id, number] : numbers)
             if (const Student& student = students_[id]; !student.moodle.empty() && student.moodle != number)
                 ++outcome_.other_numbers;

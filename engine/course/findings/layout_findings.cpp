@@ -80,16 +80,16 @@ struct Strays {
 };
 
 Strays strays_on(const DocumentText& text, const PdfPage& page, int number) {
-    Strays strays;
+    Strays unmatched_names;
     for (const TextLine& line : text.lines) {
         if (line.page != number) continue;
         const bool at_side = line.words.size() >= 3 && (line.left < kSide || line.right > page.width - kSide);
         const bool at_top = line.is_prose() && (line.top < kTopAndBottom || line.bottom > page.height - kTopAndBottom);
-        strays.at_sides += at_side;
-        strays.at_top += at_top;
-        if (!strays.first && (at_side || at_top)) strays.first = &line;
+        unmatched_names.at_sides += at_side;
+        unmatched_names.at_top += at_top;
+        if (!unmatched_names.first && (at_side || at_top)) unmatched_names.first = &line;
     }
-    return strays;
+    return unmatched_names;
 }
 
 void check_margins(const DocumentText& text, const PdfLayout& layout, Findings& findings) {
@@ -97,13 +97,14 @@ void check_margins(const DocumentText& text, const PdfLayout& layout, Findings& 
     Findings overflows;
     for (std::size_t i = 0; i < layout.pages.size(); ++i) {
         const int page = static_cast<int>(i) + 1;
-        const Strays strays = strays_on(text, layout.pages[i], page);
-        if (strays.at_sides >= kManyAtSides || strays.at_top >= kManyAtTop) {
+        const Strays unmatched_names = strays_on(text, layout.pages[i], page);
+        if (unmatched_names.at_sides >= kManyAtSides || unmatched_names.at_top >= kManyAtTop) {
             narrow.push_back(page);
-        } else if (strays.at_sides > 0) {
-            overflows.push_back({"text-overflow", Severity::kHint, page, "",
-                                 Message("A line runs into the margin: \"{}\".", printable(strays.first->text(), 60)),
-                                 Message("Break the formula, the table or the long word in it.")});
+        } else if (unmatched_names.at_sides > 0) {
+            overflows.push_back(
+                {"text-overflow", Severity::kHint, page, "",
+                 Message("A line runs into the margin: \"{}\".", printable(unmatched_names.first->text(), 60)),
+                 Message("Break the formula, the table or the long word in it.")});
         }
     }
     if (!narrow.empty()) {

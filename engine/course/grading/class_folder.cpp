@@ -91,10 +91,10 @@ void ClassFolder::complain_of_unused_rows(const std::vector<Submission>& submiss
     std::vector<std::string> known;
     for (const Student& student : work_.students)
         for (const std::string& name : known_names_of(student)) known.push_back(name);
-    for (const std::string& name : deadlines_.strays(submissions, known))
+    for (const std::string& name : deadlines_.unmatched_names(submissions, known))
         work_.complaints.push_back(Message("the deadline of \"{}\": there is no such submission", name));
     if (!owners_) return;
-    for (const std::string& name : owners_->strays(submissions))
+    for (const std::string& name : owners_->unmatched_names(submissions))
         work_.complaints.push_back(Message("the owner of \"{}\": there is no such submission", name));
 }
 

@@ -143,7 +143,7 @@ bool waits_for_a_hand(const Grade& grade) {
            std::ranges::any_of(grade.checks, [](const CheckGrade& check) { return check.by_hand && !check.graded; });
 }
 
-/// Adds what is to be marked by hand and is not yet to the instructor's file.
+/// Adds rows for missing marks by hand to the instructor's file.
 void ask_for_marks(const ClassResults& results) {
     std::vector<MarksFile::Row> rows;
     std::vector<std::vector<std::string>> more;  // of, about, rubric
@@ -294,7 +294,7 @@ Attention what_needs_attention(const ClassResults& results) {
             ++attention.unreadable;
         } else {
             if (waits_for_a_hand(grade))
-                add(Message("\"{}\" is to be marked by hand: marks.csv", name));
+                add(Message("\"{}\" needs a mark by hand: marks.csv", name));
             else if (!whole(grade) && some_whole)
                 add(Message("\"{}\" is not graded completely", name));
             if (grade.trouble.empty() && grade.silent) add(Message("\"{}\" ran to its end but gave no answer", name));

@@ -38,7 +38,7 @@ std::vector<std::string> counted_instead(const ClassResults& results);
 
 /// Writes gradebook.csv (a row for each student of the roster, or each submission where there is none) and the summary
 /// (report_templates/class_summary.md, set in a box): numbers, histogram, success of each check, what needs
-/// attention. What is to be marked by hand gets rows in marks.csv (manual_marks.h); summary.json has the
+/// attention. Missing marks by hand get rows in marks.csv (manual_marks.h); summary.json has the
 /// numbers for programs (grading/class_statistics.h).
 void write_class_results(const ClassResults& results);
 

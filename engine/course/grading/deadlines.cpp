@@ -178,18 +178,18 @@ Lateness Deadlines::of(const Submission& submission, const std::vector<std::stri
     return lateness;
 }
 
-std::vector<std::string> Deadlines::strays(const std::vector<Submission>& submissions,
-                                           const std::vector<std::string>& known) const {
+std::vector<std::string> Deadlines::unmatched_names(const std::vector<Submission>& submissions,
+                                                    const std::vector<std::string>& known) const {
     std::set<std::string> names;
     for (const std::string& name : known) names.insert(plain_key(name));
     for (const Submission& submission : submissions) names.insert(plain_key(submission.person));
-    std::vector<std::string> strays;
+    std::vector<std::string> unmatched_names;
     for (const auto& [who, rule] : rules_) {
         const bool named = std::ranges::any_of(
             submissions, [&, &name = who](const Submission& s) { return s.name == name || s.lms_id == name; });
-        if (who != kForAll && !named && !names.contains(plain_key(who))) strays.push_back(who);
+        if (who != kForAll && !named && !names.contains(plain_key(who))) unmatched_names.push_back(who);
     }
-    return strays;
+    return unmatched_names;
 }
 
 }  // namespace dynlab::inline course

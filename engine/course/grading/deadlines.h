@@ -39,8 +39,8 @@ class Deadlines {
     /// 1970.
     long received(const Submission& submission, const std::vector<std::string>& also) const;
     /// The names in the table that are none of these, nor those of the submissions.
-    std::vector<std::string> strays(const std::vector<Submission>& submissions,
-                                    const std::vector<std::string>& known) const;
+    std::vector<std::string> unmatched_names(const std::vector<Submission>& submissions,
+                                             const std::vector<std::string>& known) const;
 
     struct Rule : LatePolicy {
         std::optional<long> received;

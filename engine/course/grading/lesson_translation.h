@@ -11,7 +11,7 @@ namespace dynlab::inline course {
 /// judge.
 std::vector<std::string> sentences_of_checks(const std::string& source);
 
-/// Writes what is to be translated, in English, into the lesson's folder: tasks.LANGUAGE.lua with the text cells, where
+/// Writes the texts to translate, in English, into the lesson's folder: tasks.LANGUAGE.lua with the text cells, where
 /// there is none, and the sentences that checks.LANGUAGE.po lacks. Returns the files that it wrote.
 std::vector<std::filesystem::path> write_translation_skeleton(const Lesson& lesson, const std::string& language);
 

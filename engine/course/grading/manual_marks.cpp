@@ -45,6 +45,10 @@ class MarkedItems {
     };
     Found find(const std::string& who) const {
         Found found;
+        if (who.empty()) {
+            found.trouble = Message("the row has points and names nobody; fill in the column who");
+            return found;
+        }
         const auto take = [&](const auto& fits) {
             for (const WorkItem& item : work_.items)
                 if (fits(item)) found.items.push_back(&item);
@@ -93,6 +97,7 @@ MarksFile::MarksFile(const fs::path& results) : file_(results / kMarksFile) {
     read();
     take_in(results / "manual.csv");
     take_in(results / "by_hand.csv");
+    read();  // with the lines that were added
 }
 
 void MarksFile::read() {

@@ -17,7 +17,7 @@ struct Lateness {
     bool typed = false;             ///< the instructor wrote down when it was received
 };
 
-/// A submission that is to be graded, with what a course knows of it.
+/// A submission to grade, with what a course knows of it.
 struct WorkItem {
     Submission submission;              ///< its name, which no other in the class has, and its files
     std::vector<std::size_t> students;  ///< whose it is: places in ClassWork::students

@@ -203,7 +203,7 @@ std::optional<std::size_t> Owners::listed(const Submission& submission) const {
     return {};
 }
 
-std::vector<std::string> Owners::strays(const std::vector<Submission>& submissions) const {
+std::vector<std::string> Owners::unmatched_names(const std::vector<Submission>& submissions) const {
     std::vector<std::string> unused;
     for (const auto& [key, owner] : list_) {
         const bool used = std::any_of(submissions.begin(), submissions.end(), [&, &key = key](const Submission& s) {

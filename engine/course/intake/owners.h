@@ -25,7 +25,7 @@ class Owners {
     /// and line: a column misses, no such group or student, a submission twice.
     void read_list(const std::filesystem::path& file);
     /// The submissions of the list that are none of these.
-    std::vector<std::string> strays(const std::vector<Submission>& submissions) const;
+    std::vector<std::string> unmatched_names(const std::vector<Submission>& submissions) const;
 
     struct Found {
         std::vector<std::size_t> students;  ///< places in `students`: all of the group; may be none of an empty group

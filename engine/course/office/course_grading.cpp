@@ -62,6 +62,7 @@ class CourseWork {
     std::optional<Marked> marked_by(const std::string& who) const {
         for (std::size_t i = 0; i < work_.items.size(); ++i)
             if (work_.items[i].submission.name == who) return Marked{groups_of_items_[i], versions_[i]};
+        if (who.empty()) return {};
         try {
             return Marked{group_named(course_, who).id, 0};
         } catch (const InvalidArgument&) {

@@ -7,7 +7,7 @@
 
 namespace dynlab::inline course {
 
-/// Moodle numbers participants for each assignment: the number stands in the names of submissions and is kept with
+/// Moodle numbers participants for each assignment: the number is in the names of submissions and is kept with
 /// the assignment, beside the one in the roster.
 
 /// Within a transaction: keeps the number in the name that Moodle gave a sender of this group, for the member of that
