@@ -75,10 +75,14 @@ ReportRequest report_of_folder(const fs::path& folder, const fs::path& output) {
     return request;
 }
 
-/// The questions that the lesson's readers check themselves by, where there are some.
-void add_self_check(const Lesson& lesson, ReportRequest& request) {
+/// The questions that the lesson's readers check themselves by, where there are some; without answers on task sheets,
+/// whose own questions they would answer.
+void add_self_check(const Lesson& lesson, ReportRequest& request, bool with_answers) {
     const fs::path file = lesson.self_check(request.script.header.language);
-    if (fs::is_regular_file(file)) request.last_section.append(read_text(file), file, 1);
+    if (!fs::is_regular_file(file)) return;
+    const std::string text = read_text(file);
+    request.last_section.append(
+        with_answers ? text : replaced(text, "::: choice\n", "::: {.choice .unanswered}\n"), file, 1);
 }
 
 /// The report that stands beside a lesson's script, or the lesson itself woven.
@@ -87,7 +91,7 @@ ReportRequest report_of_lesson(const Lesson& lesson, const fs::path& output, con
     if (!language.empty()) script.header.language = language;
     ReportRequest request = report_of_script(script, output.empty() ? fs::path(lesson.slug + ".pdf") : output);
     request.of_lesson = true;
-    add_self_check(lesson, request);
+    add_self_check(lesson, request, true);
     const fs::path report = lesson.report(script.header.language);
     if (fs::is_regular_file(report)) {
         request.template_file = report;
@@ -200,7 +204,7 @@ ReportRequest sheet_of(const std::string& name, const fs::path& output, const st
         without_solutions(master.source, lesson.script(), master.header.language), lesson.script());
     ReportRequest request = report_of_script(tasks, output.empty() ? fs::path(lesson.slug + "_sheet.pdf") : output);
     request.of_lesson = true;
-    add_self_check(lesson, request);
+    add_self_check(lesson, request, false);
     return request;
 }
 

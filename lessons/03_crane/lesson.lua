@@ -75,7 +75,7 @@ end
 local purposes = {
     {"estimation", say("PRBS, ±2 V", "SBPA, ±2 V"), say("structure and parameters", "structure et paramètres")},
     {"validation", say("PRBS, ±2 V, other bits", "SBPA, ±2 V, autres bits"), "validation"},
-    {"steps", say("pushes of ±2 V and ±4 V", "poussées de ±2 V et ±4 V"), say("what friction costs", "ce que coûte le frottement")},
+    {"steps", say("pushes of ±2 V and ±4 V", "impulsions de ±2 V et ±4 V"), say("what friction costs", "ce que coûte le frottement")},
     {"free_swing", say("0 V, load let go by hand", "0 V, charge lâchée à la main"), say("the load alone", "la charge seule")},
     {"limits", say("PRBS, ±12 V by hand, PRBS", "SBPA, ±12 V à la main, SBPA"),
      say("to be discarded in part", "à écarter en partie")}}
@@ -89,13 +89,13 @@ report.table("experiments", experiments)
 
 report.figure("raw", figure{rows = 3, height = 6.4, panels = panels(crane.estimation)},
               say("The estimation record as measured: the position wanders, as the integral of the voltage does; the load answers with swings of its own frequency.",
-                  "L'enregistrement d'estimation tel que mesuré : la position erre comme l'intégrale de la tension ; la charge balance à sa pulsation propre."))
+                  "L'enregistrement d'estimation tel que mesuré : la position dérive comme l'intégrale de la tension ; la charge oscille à sa pulsation propre."))
 -- END SOLUTION
 
 -- %% [markdown]
 -- **Question 2.** Noise, resolution, levels at rest: what do the first second of a record and the differences between its samples tell?
 --
--- **Question 3.** Which section of `limits` belongs to no linear model, and why? Find its first and last instant in the record, and
+-- **Question 3.** Which part of `limits` can no linear model describe, and why? Find its first and last instant in the record, and
 -- compare with what `advice` says of the record and of its field `discard`.
 
 -- %% id=preparation
@@ -149,7 +149,7 @@ report.figure("limits", figure{rows = 3, height = 6.4, panels = limit_panels},
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 4.** What goes from voltage to position that no record of finite length shows completely? Write the equations of the
+-- **Question 4.** What in the path from voltage to position can no finite record fully reveal? Write the equations of the
 -- crane as physics has them, and read off which poles and zeros position and angle have in common.
 --
 -- **Question 5.** Compare structures for each output on estimation and validation record (`srivcstruc`).
@@ -205,8 +205,8 @@ report.value("delay_fit", fit(direct(against, against.theta), delayed), "%.2f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 6.** Estimate the model you decided on. Do the two outputs, estimated each for itself, agree about what they
--- have in common? What do they give together (`CommonDenominator`)? A millimetre and a milliradian cannot be added: by what
+-- **Question 6.** Estimate the model you decided on. Do the two outputs, estimated separately, agree on the dynamics they
+-- share? What do they give together (`CommonDenominator`)? A millimetre and a milliradian cannot be added: by what
 -- should each output's errors be divided (`OutputWeights`)?
 
 -- %% id=estimate
@@ -277,7 +277,7 @@ report.value("passes", position.report.iterations, "%d")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 7.** What was tried besides, and why is it discarded? Compare the simulation of an ARX model, and what becomes of your
+-- **Question 7.** What else did you try, and why did you reject it? Compare the simulation of an ARX model, and what becomes of your
 -- model when it is estimated from `limits`, whole and without the section that you discarded.
 
 -- %% id=discarded
@@ -296,7 +296,7 @@ report.value("arx_fit", fit(theta_val, held, resting), "%.0f")
 report.value("arx_prediction", held.report.prediction_fit_percent, "%.1f")
 report.table("sources", {
     {say("estimated from", "estimé sur"), "position (%)", "angle (%)",
-     say("swing (rad/s)", "balanc. (rad/s)"), "gain (mm/s/V)"},
+     say("swing (rad/s)", "oscill. (rad/s)"), "gain (mm/s/V)"},
     facts("estimation", model), facts(say("limits, both linear parts", "limits, parties linéaires"), kept),
     facts(say("limits, whole", "limits, en entier"), whole)})
 -- END SOLUTION
@@ -347,7 +347,7 @@ end
 local validation_figure, x_error, theta_error = against_model(against, 8.8, true)
 report.figure("validation", validation_figure,
               say("The validation record, which was not used for estimation: measured and simulated from the voltage alone, and the difference. The angle is worst where it swings widest.",
-                  "L'enregistrement de validation, qui n'a pas servi à l'estimation : mesuré, simulé à partir de la seule tension, et l'écart. L'angle est le moins juste là où il est grand."))
+                  "L'enregistrement de validation, qui n'a pas servi à l'estimation : mesuré, simulé à partir de la seule tension, et l'écart. C'est aux grands angles que l'erreur de l'angle est la plus forte."))
 report.value("x_error", 1e3*std(x_error), "%.1f")
 report.value("theta_error", 1e3*std(theta_error), "%.1f")
 report.value("start_error", 1e3*math.abs(mean(x_error:range(rest + 10, rest + 50))), "%.1f")
@@ -381,7 +381,7 @@ local steps = crane.steps
 local steps_figure, steps_x_error, steps_theta_error = against_model(steps, 4.7)
 report.figure("steps", steps_figure,
               say("The record `steps`: after pushes of ±2 V and ±4 V the trolley stands still, held by friction; the simulated one is set in motion by its load.",
-                  "L'enregistrement `steps` : après des poussées de ±2 V et ±4 V, le frottement tient le chariot ; le chariot simulé, lui, est entraîné par sa charge."))
+                  "L'enregistrement `steps` : après des impulsions de ±2 V et ±4 V, le frottement tient le chariot ; le chariot simulé, lui, est entraîné par sa charge."))
 report.value("steps_fit_x", fit(integrated(steps, steps.x), model.x, resting), "%.1f")
 report.value("steps_fit_theta", fit(direct(steps, steps.theta), model.theta, resting), "%.1f")
 report.value("steps_error", 1e3*max(abs(steps_x_error)), "%.0f")
@@ -429,10 +429,10 @@ report.value("free_moved", 1e3*(max(swing.x) - min(swing.x)), "%.1f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 9.** One record is one throw of the dice. The crane of this course can be asked again: `rig("crane", {seed = 2})` repeats all five
+-- **Question 9.** One record is one realization. The simulated crane of this course can be run again: `rig("crane", {seed = 2})` repeats all five
 -- experiments with another order of bits and other noise. Guess first (`guess`, `outcome`): which fit of the angle is typical? Then repeat your whole procedure
--- forty times. How far do fit, parameters and frequency scatter, do the standard errors tell that scatter, and how far is your model from the
--- best that any linear model of this structure could do?
+-- forty times. How far do fit, parameters and frequency scatter, do the standard errors show this scatter, and how far is your model from the
+-- best that any linear model of this structure can do?
 
 -- %% id=repetition_guess
 -- BEGIN SOLUTION
@@ -497,7 +497,7 @@ add(say("position: fitted to the very record (%)", "position : ajusté à l'enre
 add(say("angle: recommended model, fit (%)", "angle : modèle recommandé, adéquation (%)"), study.theta, "%.2f")
 add(say("angle: best single linear model (%)", "angle : meilleur modèle linéaire unique (%)"), study.best_theta, "%.2f")
 add(say("angle: fitted to the very record (%)", "angle : ajusté à l'enregistrement même (%)"), study.own_theta, "%.2f")
-add(say("swing of the model's poles (rad/s)", "balancement, pôles du modèle (rad/s)"), study.swing, "%.3f")
+add(say("swing of the model's poles (rad/s)", "oscillation, pôles du modèle (rad/s)"), study.swing, "%.3f")
 add(say("pendulum of the position's zeros (rad/s)", "pendule, zéros de la position (rad/s)"), study.pendulum, "%.3f")
 report.table("repetition", repeated_rows)
 outcome(say("angle: mean fit", "angle : adéquation moyenne"), mean(vector(study.theta)))
@@ -527,8 +527,8 @@ report.value("pendulum_error", largest_error(study.pendulum, truth.natural_frequ
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 10.** Which nonlinearity is left? Simulate the equations of question 4 with dry friction, with the load's sine instead of its angle
--- (and the drag of the air), and with both; estimate their few parameters as the linear model's, by the smallest simulation error. Which
+-- **Question 10.** Which nonlinearity is left? Simulate the equations of question 4 with dry friction, with $\sin\theta$ in place of $\theta$
+-- (and air drag), and with both; estimate their few parameters as the linear model's, by the smallest simulation error. Which
 -- one explains the position, which one the angle, and what is left in the end?
 
 -- %% id=nonlinear
@@ -743,7 +743,7 @@ report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
     compared(metres, "x", {references = {{y = goal}}}), compared(radians, "theta", {legend = "none"}),
     compared(volts, "u", {legend = "none", xlabel = seconds})}},
     say("The nonlinear crane on its way to 0.3 m: state feedback brings the load to rest with the trolley; under proportional control it goes on swinging.",
-        "La grue non linéaire en route vers 0,3 m : le retour d'état arrête la charge avec le chariot ; sous commande proportionnelle elle balance encore."))
+        "La grue non linéaire en route vers 0,3 m : le retour d'état arrête la charge avec le chariot ; sous commande proportionnelle elle oscille encore."))
 -- END SOLUTION
 
 -- %% [markdown]

@@ -5,8 +5,8 @@
 -- ---
 
 -- %% [markdown]
--- Un chariot roule le long d'un rail, tiré par un moteur ; un pendule y est suspendu. Une seule tension meut les deux, si bien qu'un seul modèle a
--- deux sorties : la position du chariot et le balancement de la charge. Vous recevez cinq enregistrements, dont un où la grue a été
+-- Un chariot roule le long d'un rail, tiré par un moteur ; un pendule y est suspendu. Une seule tension fait bouger les deux, si bien qu'un seul modèle a
+-- deux sorties : la position du chariot et l'oscillation de la charge. Vous recevez cinq enregistrements, dont un où la grue a été
 -- menée là où aucun modèle linéaire ne suit (la @fig:crane montre ce qui est mesuré). La grue est *simulée* : un programme en résout les équations, bruit compris. Trouvez un modèle, dites ce qu'il vaut, et
 -- décrivez-le de sorte que quelqu'un qui n'était pas là puisse tout refaire.
 --
@@ -22,7 +22,7 @@
 -- | enregistrement | ce qui a été fait |
 -- |-----------|-----------------------|
 -- | `estimation`, `validation` | un repos, puis une tension binaire pseudo-aléatoire de ±2 V, dans deux ordres différents |
--- | `steps` | un repos, puis des poussées de ±2 V et ±4 V séparées par des pauses |
+-- | `steps` | un repos, puis des impulsions de ±2 V et ±4 V séparées par des pauses |
 -- | `free_swing` | moteur à 0 V, charge lâchée à la main |
 -- | `limits` | tension pseudo-aléatoire, puis conduite à la main jusqu'aux deux bouts du rail, puis de nouveau pseudo-aléatoire |
 --
@@ -54,13 +54,13 @@
 
 -- %% [markdown]
 -- **Question 8.** Validez : les sorties simulées contre l'enregistrement qui n'a pas servi, puis les résidus. Que vaut le modèle sur les
--- poussées de `steps`, et que dit le balancement libre du pendule ? `motion` montre la grue et le modèle côte à côte, en mouvement (sur la page de
+-- impulsions de `steps`, et que dit l'oscillation libre du pendule ? `motion` montre la grue et le modèle côte à côte, en mouvement (sur la page de
 -- `dynlab preview analysis.lua`, pas dans le rapport).
 
 -- %% [markdown]
--- **Question 9.** Un enregistrement est un seul coup de dés. On peut interroger de nouveau la grue de ce cours : `rig("crane", {seed = 2})` répète les cinq
+-- **Question 9.** Un enregistrement n'est qu'une réalisation. On peut faire tourner de nouveau la grue simulée de ce cours : `rig("crane", {seed = 2})` répète les cinq
 -- expériences avec un autre ordre des bits et un autre bruit. Devinez d'abord (`guess`, `outcome`) : quelle adéquation de l'angle est typique ? Puis répétez toute votre
--- démarche quarante fois. De combien adéquation, paramètres et pulsation se dispersent-ils, les erreurs types annoncent-elles cette dispersion, et à quelle
+-- démarche quarante fois. De combien adéquation, paramètres et pulsation varient-ils d'une répétition à l'autre, les erreurs types annoncent-elles cette dispersion, et à quelle
 -- distance votre modèle est-il du meilleur modèle linéaire de cette structure ?
 
 -- %% [markdown]
@@ -69,7 +69,7 @@
 -- explique la position, laquelle l'angle, et que reste-t-il à la fin ?
 
 -- %% [markdown]
--- **Question 11 (annexe).** Proposez un moyen d'amener vite le chariot à un endroit donné tandis que la charge balance peu : un schéma-bloc,
+-- **Question 11 (annexe).** Proposez un moyen d'amener vite le chariot à un endroit donné tandis que la charge oscille peu : un schéma-bloc,
 -- un régulateur conçu sur votre modèle (`lqr`, `place`), et sa boucle fermée sur la grue non linéaire (`drive_crane`).
 
 -- %% [markdown]
@@ -78,6 +78,6 @@
 -- Le rapport est lu par des gens. Là où le script est noté aussi, il rend avec `answer(nom, valeur)` : `discarded`, premier et dernier instant (s) de la section
 -- de `limits` qui n'appartient à aucun modèle linéaire ; `rest_angle`, ce qu'indique le potentiomètre (rad) quand la charge pend immobile ; vos modèles recommandés,
 -- de la tension à la position, `G_position`, intégrateur compris, et de la tension à l'angle, `G_angle` ; `fits`, l'adéquation (%) avec laquelle ils simulent position et
--- angle de l'enregistrement de validation ; et `free_swing`, la pulsation (rad/s) à laquelle la charge balance quand le moteur est au repos. Le script sera exécuté sur
+-- angle de l'enregistrement de validation ; et `free_swing`, la pulsation (rad/s) à laquelle la charge oscille quand le moteur est au repos. Le script sera exécuté sur
 -- les enregistrements d'une autre grue, et les modèles qu'il y trouve seront comparés à des expériences que personne n'a vues. Les figures que
 -- l'on cherche s'appellent `raw` et `validation`.

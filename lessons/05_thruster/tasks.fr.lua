@@ -62,7 +62,7 @@
 
 -- %% [markdown]
 -- **Question 9.** On peut interroger de nouveau le propulseur de ce cours : `rig("thruster", {seed = 2})` répète tous les enregistrements avec un autre bruit.
--- Répétez votre démarche. L'ordre de vos modèles est-il un hasard ? De combien le retard se disperse-t-il, et ce qui y est faux est-il du bruit ?
+-- Répétez votre démarche. L'ordre de vos modèles est-il un hasard ? De combien le retard varie-t-il d'une répétition à l'autre, et son erreur est-elle due au bruit ?
 
 -- %% [markdown]
 -- **Question 10.** Quel modèle recommandez-vous, pour quoi, et pour quoi non ? Quelle expérience feriez-vous ensuite ?

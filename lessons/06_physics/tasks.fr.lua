@@ -5,29 +5,29 @@
 -- ---
 
 -- %% [markdown]
--- Une boîte noire demande un enregistrement et rien d'autre. À une *boîte grise* on dit les équations, en laissant ouverts quelques nombres : longueurs, frottements, débits. Dans la leçon 3.2 il restait quelque chose
--- qu'aucun modèle linéaire n'explique ; ici la physique trouve ce que c'est. Puis deux réservoirs sont modélisés par un modèle linéaire, par des équations physiques, et par deux méthodes qui
--- *apprennent* un modèle non linéaire des seules données. Tous sont jugés en simulation libre : on donne au modèle l'entrée et le point d'où part l'enregistrement, et plus jamais une sortie mesurée.
+-- Une boîte noire demande des données et rien d'autre. À une *boîte grise* on donne les équations, dont quelques paramètres restent à estimer : longueurs, frottements, débits. Dans la leçon 3.2 le modèle linéaire laissait des erreurs
+-- qu'aucun modèle linéaire n'explique ; ici la physique en trouve la cause. Puis deux réservoirs sont modélisés par un modèle linéaire, par des équations physiques, et par deux méthodes qui
+-- *apprennent* un modèle non linéaire des seules données. Tous les modèles sont comparés en simulation libre : on leur donne l'entrée et l'état de départ, et plus jamais une sortie mesurée.
 --
 -- Grue et réservoirs sont *simulés* : ce que vous trouvez peut être comparé à la vérité. Le travail est prévu pour deux séances de trois heures :
 --
 -- | séance | questions, avec minutes | but |
 -- |--------------|-------------------------|------------------------|
--- | La grue | 1 (20), 2 (50), 3 (40), 4 (30) | écrire la physique, l'estimer, dire ce qu'explique chaque terme |
--- | Deux réservoirs | 5 (25), 6 (35), 7 (40), 8 (30), 9 (30), 10 (20) | savoir ce qu'un enregistrement ne peut dire ; comparer physique et apprentissage |
+-- | La grue | 1 (20), 2 (50), 3 (30), 4 (50) | écrire la physique, l'estimer, dire ce qu'explique chaque terme, et éprouver un terme choisi par commodité |
+-- | Deux réservoirs | 5 (25), 6 (35), 7 (45), 8 (25), 9 (30), 10 (20) | savoir ce qu'un enregistrement ne peut dire ; comparer physique et apprentissage |
 --
--- # La grue : ce que laisse le modèle linéaire
+-- # La grue : les erreurs du modèle linéaire
 --
--- La grue de la leçon 3.2 a un chariot, tiré par un moteur, et une charge qui balance (@fig:crane). `estimation` et `validation` sont deux enregistrements
--- avec une tension binaire de ±2 V ; dans `steps` on la pousse, et elle s'arrête entre les poussées.
+-- La grue de la leçon 3.2 a un chariot, tiré par un moteur, et une charge qui oscille (@fig:crane). `estimation` et `validation` sont deux enregistrements
+-- avec une tension binaire de ±2 V ; dans `steps` le chariot est poussé par impulsions, et s'arrête entre elles.
 --
 -- ::: {.drawing name=crane}
 -- La grue : la tension $u$ du moteur, la position $x$ du chariot et l'angle $\theta$ de la tige {#fig:crane}
 -- :::
 
 -- %% [markdown]
--- **Question 1.** Estimez sur `estimation` le modèle linéaire de l'angle, trois pôles et un zéro, et simulez-le sur `validation`. Combien reste-t-il, et quel est le bruit du capteur
--- au repos ? Devinez d'abord.
+-- **Question 1.** Estimez sur `estimation` le modèle linéaire de l'angle, trois pôles et un zéro, et simulez-le sur `validation`. Quelle est l'erreur de l'angle simulé, et quel est le bruit du capteur
+-- au repos ? Devinez d'abord leur rapport.
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -40,26 +40,33 @@
 -- $$ \dot v + c\,\cos\varphi\;\dot w = g_u u - d\,v - \mu\,\operatorname{sign} v + c\,\sin\varphi\; w^2 , \qquad
 --    \dot w + \frac{\cos\varphi}{l}\,\dot v = -\frac{g}{l}\sin\varphi - (\rho + \kappa\,|w|)\,w . $$ {#eq:crane}
 --
--- Sept nombres sont ouverts : `gain` $g_u$, `viscous` $d$, `dry` $\mu$, `coupling` $c$, `length` $l$, `pivot` $\rho$, `air` $\kappa$. Ce $l$ est plus long que celui de la @fig:crane : si le centre de la charge est à $l_c$ sous le pivot, et si $J$ est l'inertie autour de ce centre,
--- c'est $l_c + J/(m\,l_c)$, la longueur d'un fil au bout duquel un point balancerait de même.
+-- Sept paramètres restent à estimer : `gain` $g_u$, `viscous` $d$, `dry` $\mu$, `coupling` $c$, `length` $l$, `pivot` $\rho$, `air` $\kappa$. Ce $l$ est plus long que celui de la @fig:crane : si le centre de la charge est à $l_c$ sous le pivot, et si $J$ est l'inertie autour de ce centre,
+-- c'est $l_c + J/(m\,l_c)$, la longueur d'un fil au bout duquel une masse ponctuelle oscillerait avec la même période.
 --
 -- `idgrey(f, parameters, options)` fait un modèle d'une fonction `f(t, x, u, p)` qui rend les
--- dérivées des états ; les sorties sont une fonction elles aussi. `f` est appelée une fois, avec des valeurs qui notent ce qu'on fait d'elles, puis tourne sous forme compilée. Elle ne doit donc pas contenir de `if` : `where(c, a, b)` vaut $a$ là où
+-- dérivées des états ; les sorties sont une fonction elles aussi. `f` est appelée une fois, avec des valeurs qui notent les opérations, puis tourne sous forme compilée. Elle ne doit donc pas contenir de `if` : `where(c, a, b)` vaut $a$ là où
 -- $c > 0$, et $b$ ailleurs.
 --
--- **Question 2.** Écrivez l'@eq:crane comme une telle fonction, résolue pour les deux accélérations. `tanh(v/0.005)` suffit pour le signe. Prévoyez une option qui prend l'angle au lieu de son sinus et 1 au lieu de son cosinus, comme le fait un modèle linéaire.
+-- **Question 2.** Écrivez l'@eq:crane comme une telle fonction, résolue pour les deux accélérations. Une recherche demande des équations lisses, et $\operatorname{sign} v$ saute à $v = 0$ : écrivez $\tanh(v/\delta)$ à sa place, avec une petite vitesse $\delta$ comme argument, et commencez par $\delta = 0{,}5$ mm/s. Que fait ce terme
+-- à un chariot au repos ? Prévoyez une option qui prend l'angle au lieu de son sinus et 1 au lieu de son cosinus, comme le fait un modèle linéaire.
 
 -- %% [markdown]
--- **Question 3.** Estimez quatre variantes sur `estimation` par `greyest` : linéaire (`dry` et `air` fixés à 0), avec frottement sec, avec grands balancements et air, avec tout. Aucun des sept
--- ne peut être négatif : donnez à chacun une borne, `{départ, min = 0}`, sinon une recherche partie de loin peut finir à une longueur qu'aucune grue n'a. Comparez les
+-- BEGIN SOLUTION
+-- END SOLUTION
+
+-- %% [markdown]
+-- **Question 3.** Estimez quatre variantes sur `estimation` par `greyest` : linéaire (`dry` et `air` fixés à 0), avec frottement sec, avec grandes oscillations et traînée de l'air, avec tout. Aucun
+-- paramètre ne peut être négatif : donnez à chacun une borne, `{départ, min = 0}`, sinon une recherche partie de loin peut finir à une longueur impossible. Comparez les
 -- adéquations sur `validation` et sur `steps`. Quel terme explique l'angle, et lequel la position ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- END SOLUTION
 --
--- **Question 4.** Que disent les paramètres ? Donnez la longueur et la tension que prend le frottement sec (`dry/gain`) avec leurs erreurs types, et comparez avec ce que dit
--- `rig_truth("crane")` : la pulsation $\sqrt{g/l}$ des petits balancements, et `dry_voltage`. Recommencez avec quelques répétitions, `rig("crane", {seed = 2})` et ainsi de suite, et avec `steps` du premier enregistrement. Les erreurs types disent-elles de combien une estimation se trompe ?
+-- ## Un terme écrit par commodité
+--
+-- **Question 4.** Que disent les paramètres ? Donnez la longueur et la tension que prend le frottement sec (`dry/gain`) avec leurs erreurs types, sur `estimation`, sur trois répétitions (`rig("crane", {seed = 2})` et ainsi de suite) et sur `steps`. Comparez-les à
+-- `rig_truth("crane")` : la pulsation $\sqrt{g/l}$ des petites oscillations, et `dry_voltage`. Éprouvez ensuite le nombre que vous avez inventé. Estimez encore avec $\delta = 5$ mm/s et avec la moitié de votre $\delta$, sur `estimation` et sur `steps`, et simulez chaque modèle sur les deux enregistrements. Quelles conclusions dépendent de $\delta$ ? Les erreurs types vous auraient-elles averti ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -68,20 +75,20 @@
 -- # Deux réservoirs
 --
 -- Une pompe remplit le réservoir supérieur, il se vide dans l'inférieur, et celui-ci dans le bac (@fig:tanks). L'entrée est la tension de la pompe, la sortie la lecture d'un capteur dans le réservoir
--- inférieur, 0,5 V/cm. Les deux ont 20 cm de haut, et ce qui est de trop déborde : une part du débordement du réservoir supérieur tombe dans l'inférieur. Le niveau supérieur n'est pas mesuré. Le procédé ressemble à celui qui
+-- inférieur, 0,5 V/cm. Les deux ont 20 cm de haut, et le trop-plein déborde : une part du débordement du réservoir supérieur tombe dans l'inférieur. Le niveau supérieur n'est pas mesuré. Le procédé ressemble à celui qui
 -- fut publié comme banc d'essai de l'identification non linéaire [@schoukens2017] ; les nombres sont les nôtres.
 --
 -- ::: {.drawing name=two_tanks}
 -- Les réservoirs : la tension $u$ de la pompe, les niveaux $h_1$ et $h_2$, et la lecture $y$ {#fig:tanks}
 -- :::
 --
--- `two_tanks` a deux enregistrements de 1024 échantillons, toutes les 4 s : `t`, `u`, `y` pour l'estimation, `t_val`, `u_val`, `y_val` pour la validation. La tension est la somme de 59 sinus dont les phases furent tirées au sort, coupée à 0 et 5 V.
+-- `two_tanks` a deux enregistrements de 1024 échantillons, toutes les 4 s : `t`, `u`, `y` pour l'estimation, `t_val`, `u_val`, `y_val` pour la validation. La tension est la somme de 59 sinus de phases aléatoires, limitée à 0 et 5 V.
 
 -- %% [markdown]
 -- ![L'enregistrement d'estimation : en haut la lecture, en bas la tension](figure:tanks){#fig:tanks_record}
 --
 -- **Question 5.** Que se passe-t-il aux plus hautes lectures (@fig:tanks_record) ? Estimez des modèles linéaires, d'un à trois pôles (état initial et décalage estimés aussi), et choisissez-en un. Quelle est son erreur en simulation libre sur
--- `validation`, racine de la moyenne des carrés, en volts ?
+-- `validation`, en valeur efficace (V) ? Ne choisissez pas sur `validation` : des données qui choisissent un modèle le flattent. Partagez plutôt `estimation` (`data:split(2/3)`), estimez sur la première partie, choisissez sur le reste, puis réestimez votre choix sur tout `estimation`.
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -101,8 +108,8 @@
 -- BEGIN SOLUTION
 -- END SOLUTION
 --
--- **Question 7.** Maintenant les bords. Ce qui arrive en trop déborde : un débit `spill = 5*max(h1 - 20, 0)` (cm/s) quitte le réservoir supérieur, et la part $q$ en atteint l'inférieur, qui a un tel bord lui aussi. Estimez les six
--- paramètres $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$. Quelle est l'erreur en simulation libre ? Comparez-la au bruit du capteur, et les paramètres à la vérité.
+-- **Question 7.** Maintenant les bords. Un débit $\beta\max(h_1 - 20,\,0)$ (cm/s) quitte le réservoir supérieur par-dessus son bord, et la part $q$ en atteint l'inférieur, qui a un tel bord lui aussi. La raideur $\beta$ est un nombre de commodité, comme l'était $\delta$ : prenez 5 par seconde, puis 50. Estimez les six
+-- paramètres $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$. Quelle est l'erreur en simulation libre ? Comparez-la au bruit du capteur, et les paramètres à la vérité, sur des répétitions (`rig("two_tanks", {seed = 2})` et ainsi de suite) : de combien d'erreurs types s'écartent-ils en moyenne ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -110,21 +117,21 @@
 --
 -- ## Apprendre sans équations
 --
--- **Question 8.** Un modèle NARX polynomial prédit $y_k$ à partir de lectures et tensions passées et de leurs produits [@billings2013] : `narx(data, {na, nb, nk}, {degree =, terms =})` choisit les termes un à un. Essayez retards et degrés. Quelle est son erreur à un
--- échantillon, et en simulation libre ?
+-- **Question 8.** Un modèle NARX polynomial prédit $y_k$ à partir de lectures et tensions passées et de leurs produits [@billings2013] : `narx(data, {na, nb, nk}, {degree =, terms =})` choisit les termes un à un. Essayez nombres de retards et degrés, et choisissez comme à la question 5. Quelle est son erreur à un
+-- pas, et en simulation libre ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- END SOLUTION
 --
 -- **Question 9.** SINDy cherche des équations différentielles [@brunton2016] : il écrit les dérivées des états comme sommes de peu de fonctions d'une bibliothèque que vous donnez. Le niveau supérieur n'est pas mesuré ; prenez pour états la lecture et sa dérivée
--- (la pente d'une droite par quelques échantillons de part et d'autre). Essayez une bibliothèque de polynômes et une qui contient les racines de la loi de Torricelli.
+-- (la pente d'une droite par quelques échantillons de part et d'autre). Essayez une bibliothèque de polynômes et une qui contient les racines de la loi de Torricelli. Quels coefficients l'@eq:tanks prédit-elle pour la seconde ? Linéarisez en la pente.
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- END SOLUTION
 --
--- **Question 10.** Quel modèle recommandez-vous, et pour quoi ? Un enregistrement est un seul coup de dés : que tous les modèles simulent dix autres enregistrements de validation, `rig("two_tanks", {seed = 2})` et ainsi de suite, sans rien réestimer.
+-- **Question 10.** Quel modèle recommandez-vous, et pour quoi ? Un enregistrement n'est qu'une réalisation : simulez avec tous les modèles dix autres enregistrements de validation, `rig("two_tanks", {seed = 2})` et ainsi de suite, sans rien réestimer.
 
 -- %% [markdown]
 -- BEGIN SOLUTION

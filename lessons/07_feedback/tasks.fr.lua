@@ -5,7 +5,7 @@
 -- ---
 
 -- %% [markdown]
--- La plupart des procédés ne peuvent être sortis de leur boucle pour un essai : le produit serait perdu, ou le procédé s'emballerait. L'enregistrement se fait donc pendant qu'un régulateur travaille,
+-- Beaucoup de procédés ne peuvent être sortis de leur boucle pour un essai : le produit serait perdu, ou le procédé s'emballerait. L'enregistrement se fait donc pendant qu'un régulateur travaille,
 -- et l'entrée n'est plus ce que quelqu'un a choisi. Et la plupart des procédés ne sont plus les mêmes un mois après. Cette leçon a un enregistrement pour chaque cas : un entraînement
 -- réglé en vitesse (@fig:drive), et un chauffe-eau qui s'entartre (@fig:heater). Les deux sont *simulés*, de sorte que ce que vous trouvez peut être comparé à la vérité.
 --
@@ -37,7 +37,7 @@
 -- $$ G(p) = \frac{b_0}{p^2 + a_1 p + a_2} . $$ {#eq:plant}
 
 -- %% [markdown]
--- **Question 1.** Montrez consigne, tension et vitesse de `tracking` à côté de ceux de `regulation`. Dans `regulation` personne n'excite rien : qu'est-ce qui meut la tension ?
+-- **Question 1.** Montrez consigne, tension et vitesse de `tracking` à côté de ceux de `regulation`. Dans `regulation` personne n'excite rien : qu'est-ce qui fait varier la tension ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
@@ -55,13 +55,13 @@
 -- END SOLUTION
 --
 -- **Question 3.** D'où cela vient-il ? Prenez le vrai $G$ et calculez ce qu'il laisse dans `tracking` et dans `open_loop`, $v = y - G u$. Corrélez $v$ avec les tensions antérieures et
--- ultérieures. Sur un seul enregistrement la corrélation se disperse : prenez la moyenne de vingt répétitions, `rig("drive", {seed = k})`, et tracez à quel point elle est sûre. Où n'est-elle pas nulle, pourquoi des deux côtés, et à quoi ressemblerait-elle sans boucle ?
+-- ultérieures. La corrélation varie d'un enregistrement à l'autre : prenez la moyenne de vingt répétitions, `rig("drive", {seed = k})`, et tracez son intervalle de confiance. Où n'est-elle pas nulle, pourquoi des deux côtés, et à quoi ressemblerait-elle sans boucle ?
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- END SOLUTION
 --
--- **Question 4.** Que trouve la voie directe dans `regulation`, où seule la perturbation meut la boucle ? Estimez la réponse fréquentielle (`etfe` avec lissage, ou `spa`) de $u$ à $y$ et comparez-la à
+-- **Question 4.** Que trouve la voie directe dans `regulation`, où seule la perturbation fait varier la boucle ? Estimez la réponse fréquentielle (`etfe` avec lissage, ou `spa`) de $u$ à $y$ et comparez-la à
 -- $G$ et à ce qui reste de l'équation de la boucle quand $r = 0$.
 
 -- %% [markdown]
@@ -70,7 +70,7 @@
 --
 -- ## Premier remède : des instruments faits de la consigne
 --
--- La consigne est ce que quelqu'un a choisi. Elle meut la tension et la vitesse, et elle est indépendante de la perturbation : c'est tout ce qu'on demande à un instrument.
+-- La consigne est ce que quelqu'un a choisi. Elle fait varier la tension et la vitesse, et elle est indépendante de la perturbation : c'est tout ce qu'on demande à un instrument.
 --
 -- **Question 5.** Écrivez la régression de la leçon 4, $Z^T Y = Z^T \Phi\,\theta$, avec les colonnes $p^2 r_f$, $p\,r_f$, $r_f$ de la consigne filtrée comme instruments (`svf`, `solve` ; $\lambda = 10$ rad/s). Prenez
 -- un filtre d'ordre quatre, `svf(r, 4, lambda, ...)`, et ses trois dernières colonnes. Un filtre d'ordre deux les a aussi, mais son $p^2 r_f$ saute avec la consigne, ce que ne fait aucun régresseur ; la question 8 dit ce que cela coûte. Essayez ensuite `clivsvf`.
@@ -90,7 +90,7 @@
 --
 -- ## Troisième remède : deux étapes
 --
--- **Question 7.** On n'a rien à savoir du régulateur : estimez d'abord comment la consigne meut la tension, $\hat u = S r$ (un problème en boucle ouverte : quels ordres lui faut-il ?), puis le procédé de
+-- **Question 7.** On n'a rien à savoir du régulateur : estimez d'abord comment la consigne fait varier la tension, $\hat u = S r$ (un problème en boucle ouverte : quels ordres lui faut-il ?), puis le procédé de
 -- $\hat u$ à $y$ par une méthode ordinaire. Pourquoi celle-ci est-elle juste maintenant ? Comparez avec `clsrivc` et sa `route = "two-stage"`.
 
 -- %% [markdown]
@@ -103,8 +103,8 @@
 -- Ici commence la seconde séance : *certitude et temps*.
 -- :::
 --
--- **Question 8.** Un enregistrement est un seul coup de dés. `rig("drive", {seed = 2})` répète les essais avec un autre ordre de bits et une autre charge. Répétez toutes les voies quarante
--- fois, et deux de plus : la voie directe avec un modèle du bruit, `rivc(data, {1, 2, 2, 2, 0})`, et `route = "indirect"` de CLSRIVC, qui ajuste toute la boucle de $r$ à $y$. Lesquelles sont biaisées, et de combien d'erreurs types de leur moyenne ? Laquelle se disperse le moins, et pourquoi ? Laquelle
+-- **Question 8.** Un enregistrement n'est qu'une réalisation. `rig("drive", {seed = 2})` répète les essais avec un autre ordre de bits et une autre charge. Répétez toutes les voies quarante
+-- fois, et deux de plus : la voie directe avec un modèle du bruit, `rivc(data, {1, 2, 2, 2, 0})`, et `route = "indirect"` de CLSRIVC, qui ajuste toute la boucle de $r$ à $y$. Lesquelles sont biaisées, et de combien d'erreurs types de leur moyenne ? Laquelle a la plus faible dispersion, et pourquoi ? Laquelle
 -- recommandez-vous ?
 
 -- %% [markdown]
@@ -152,7 +152,7 @@
 -- BEGIN SOLUTION
 -- END SOLUTION
 --
--- **Question 11.** Quel facteur d'oubli est le meilleur ? Essayez $f =$ 0,98, 0,99, 0,995, 0,998, 0,999 et 1. Prenez ensuite `rlssvf`, `rivsvf` et `rsrivc` de la bibliothèque [@young2011] : elles gardent toute l'histoire dans `G.history`, avec des écarts types. Au bout de combien de temps
+-- **Question 11.** Quel facteur d'oubli est le meilleur ? Essayez $f =$ 0,98, 0,99, 0,995, 0,998, 0,999 et 1. Prenez ensuite `rlssvf`, `rivsvf` et `rsrivc` de la bibliothèque [@young2011] : elles gardent toute l'histoire dans `G.history`, avec des erreurs types. Au bout de combien de temps
 -- chacune a-t-elle oublié le tartre qu'on a ôté ? Dites quand, après le détartrage, son gain est pour la première fois à moins de 5 % de la vérité, et quand il en est éloigné de plus pour la dernière fois.
 
 -- %% [markdown]

@@ -604,7 +604,8 @@ local function measures(division)
   return blocks
 end
 
--- Questions to check oneself by, numbered through the document, and what is to stand at its end.
+-- Questions to check oneself by, numbered through the document, and the answers for its end. A division of the classes
+-- choice and unanswered, as on task sheets, is printed without its answer.
 local choices, answers = 0, pandoc.List {}
 local function asked_choice(division)
   local read, complaint = choice.read(division)
@@ -615,6 +616,7 @@ local function asked_choice(division)
   choices = choices + 1
   local shown = not slots.chunks and choices or nil
   local blocks = pandoc.List { pandoc.Div(choice.asked(read, shown), { class = "kept" }) }
+  if division.classes[2] == "unanswered" then return blocks end
   local answer = choice.answered(read, shown, layout.words)
   if slots.format == "html" then
     blocks:insert(pandoc.Div(answer, { class = "answer" }))
@@ -634,7 +636,9 @@ end
 
 local function expand(element)
   if element.classes[1] == "screen" and #element.classes == 1 then return on_screens(element) end
-  if element.classes[1] == "choice" and #element.classes == 1 then return asked_choice(element) end
+  if element.classes[1] == "choice" and (#element.classes == 1 or element.classes[2] == "unanswered") then
+    return asked_choice(element)
+  end
   if element.classes[1] == "measures" and #element.classes == 1 then return measures(element) end
   if element.classes[1] == "text" and #element.classes == 1 then return text_slot(element) end
 end

@@ -19,7 +19,7 @@ end
 local languages = set [[lua matlab octave bash sh json c cpp python toml text]]
 local block_classes = set [[lua cell output error]]
 local division_classes =
-  set [[table text note warning exercise pagebreak columns column references measures block-diagram drawing choice question answer kept screen]]
+  set [[table text note warning exercise pagebreak columns column references measures block-diagram drawing choice unanswered question answer kept screen]]
 
 function safety.unknown_code_class(classes, is_block)
   for _, class in ipairs(classes) do
