@@ -1,5 +1,7 @@
 #include "documents/solutions.h"
 
+#include <re2/re2.h>
+
 #include <optional>
 
 #include "base/languages.h"
@@ -35,6 +37,15 @@ std::string starter_text(std::string_view line, bool in_text) {
     std::string text(line.substr(line.find(kStarterSign) + kStarterSign.size()));
     if (text.starts_with(' ')) text.erase(0, 1);
     return std::string(indentation_of(line)) + (in_text ? "-- " : "") + text;
+}
+
+/// A copy is in one language: of say("time", "temps") it keeps one text, and the function itself is not the student's.
+std::string in_one_language(std::string source, std::string_view language) {
+    static const RE2 function(R"((?m)^local function say\(english, french\)\r?\n.*\r?\nend\r?\n)");
+    static const RE2 call(R"re(\bsay\(("[^"\\\n]*"),\s*("[^"\\\n]*")\))re");
+    if (!RE2::Replace(&source, function, "")) return source;
+    RE2::GlobalReplace(&source, call, language == "fr" ? R"(\2)" : R"(\1)");
+    return source;
 }
 
 }  // namespace
@@ -103,7 +114,7 @@ std::string without_solutions(const std::string& source, const std::filesystem::
         }
     }
     if (begun) fail(begun, Message("this solution is not closed with \"-- END SOLUTION\" in its cell"));
-    return result;
+    return in_one_language(std::move(result), language);
 }
 
 }  // namespace dynlab::inline documents

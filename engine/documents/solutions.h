@@ -27,7 +27,9 @@ struct AnswerMarks {
 };
 AnswerMarks answer_marks(std::string_view language);
 
-/// The script without its solutions, everything else byte for byte; in a code cell with echo=false nothing takes the
+/// The script without its solutions, everything else byte for byte, but for texts in two languages: where the script
+/// begins with `local function say(english, french)`, a call of it with two texts becomes the one in the copy's
+/// language, and the function is left out. In a code cell with echo=false nothing takes the
 /// place of a solution, since such cells hold only what the report needs, and solutions of code with nothing between
 /// them are asked for once. Throws DocumentError with file and line for
 /// markers that do not pair up within one cell, or a STARTER line outside a solution.

@@ -44,31 +44,12 @@ print(data)
 report.figure("exchanger_record", idplot(data), "The heat exchanger's record")
 
 -- %% id=exchanger_paper echo=false
--- one curve of parallel lines, with gaps between them
-local function ruled(from, to, step, low, high, upright)
-    local along, across = {}, {}
-    for at = from, to + step/2, step do
-        for _, place in ipairs{low, high, 0/0} do
-            table.insert(along, at)
-            table.insert(across, place)
-        end
-    end
-    if upright then return vector(along), vector(across) end
-    return vector(across), vector(along)
-end
-
 local low, high = math.floor(min(exchanger.y)), math.ceil(max(exchanger.y))
 local paper = plot(exchanger.t, exchanger.y,
                    {style = "points", marker = 0, colour = 2, line_width = 0.7, height = 13,
                     x_range = {0, 600}, y_range = {low, high},
                     xlabel = "time (s)", ylabel = "outlet temperature (°C)"})
-for step, width in pairs{[1] = 0.15, [5] = 0.45} do
-    local x, y = ruled(0, 600, 10*step, low, high, true)
-    paper:add(x, y, {colour = "grey", dash = 0, line_width = width})
-    x, y = ruled(low, high, 0.2*step, 0, 600, false)
-    paper:add(x, y, {colour = "grey", dash = 0, line_width = width})
-end
-report.figure("exchanger_paper", paper, "The response on graph paper")
+report.figure("exchanger_paper", paper:rule(10, 0.2), "The response on graph paper")
 
 -- %% [markdown]
 -- ![The record of the heat exchanger: outlet temperature (above) and opening of the valve (below). Neither begins at zero.](figure:exchanger_record){#fig:exchanger_record}
@@ -111,7 +92,7 @@ report.figure("exchanger_construction", drawn, "Reading K and T_r off the respon
 
 -- %% id=exchanger_reading_report echo=false
 -- BEGIN SOLUTION
--- STARTER: -- This cell runs, but its code is not printed (echo=false). Hand over here what your text shows; in a text cell
+-- STARTER: -- This cell runs, but its code is not printed (echo=false). Pass the values, figures and tables of your text to the report here; in a text cell
 -- STARTER: --   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
 -- STARTER: --   report.figure("name", fig, "caption")    by  ![caption](figure:name){#fig:name}  on a line of its own, and @fig:name refers to it
 -- STARTER: --   report.table("name", {{"head"}, {"cell"}})  by  ::: {.table name=name #tbl:name}  then a line with the caption, then  :::
@@ -267,13 +248,7 @@ local paper2 = plot(data2.t, data2.y,
                     {style = "points", marker = 0, colour = 2, line_width = 0.7, height = 13,
                      x_range = {0, 1.6}, y_range = {0, top},
                      xlabel = "time (s)", ylabel = "position (mm)"})
-for step, width in pairs{[1] = 0.15, [5] = 0.45} do
-    local x, y = ruled(0, 1.6, 0.02*step, 0, top, true)
-    paper2:add(x, y, {colour = "grey", dash = 0, line_width = width})
-    x, y = ruled(0, top, 0.2*step, 0, 1.6, false)
-    paper2:add(x, y, {colour = "grey", dash = 0, line_width = width})
-end
-report.figure("suspension_paper", paper2, "The suspension on graph paper")
+report.figure("suspension_paper", paper2:rule(0.02, 0.2), "The suspension on graph paper")
 
 -- any second-order system with a damping ratio of 0.2, in units of its own
 local wave = range(0, 0.05, 20)
@@ -648,7 +623,7 @@ end
 -- ![The suspension (dots) and a second-order model (line) with the $K$, $z$ and $\omega_0$ of the cell above: the final level moves with $K$, the first peak with $z$ (up and down) and $\omega_0$ (sideways).](figure:second_by_hand){#fig:second_by_hand}
 
 -- %% [markdown]
--- # What was learnt
+-- # What you have learnt
 --
 -- BEGIN SOLUTION
 -- * The shape decides the structure: steepest at once and no overshoot, first order; horizontal start and overshoot, second order with complex poles; nothing at first, a dead time.
@@ -659,7 +634,7 @@ end
 -- * Trust a model only after comparing its simulated output with the measured one. How far a number can be trusted is shown by repeating the experiment.
 -- END SOLUTION
 --
--- # What you hand in
+-- # What you submit
 --
 -- ::: {.note}
 -- Where this lesson is graded, `answer(name, value)` hands your results in; `dynlab check` tells what is missing. What you read off the figures may

@@ -100,7 +100,7 @@ local theta_scaled = vector{scaled.theta[1]/spread, scaled.theta[2]}
 
 -- %% id=three_roads_report echo=false
 -- BEGIN SOLUTION
--- STARTER: -- This cell runs, but its code is not printed (echo=false). Hand over here what your text shows; in a text cell
+-- STARTER: -- This cell runs, but its code is not printed (echo=false). Pass the values, figures and tables of your text to the report here; in a text cell
 -- STARTER: --   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
 -- STARTER: --   report.figure("name", fig, "caption")    by  ![caption](figure:name){#fig:name}  on a line of its own, and @fig:name refers to it
 -- STARTER: --   report.table("name", {{"head"}, {"cell"}})  by  ::: {.table name=name #tbl:name}  then a line with the caption, then  :::
@@ -507,7 +507,7 @@ end
 -- output more alike.
 
 -- %% [markdown]
--- # What was learnt
+-- # What you have learnt
 --
 -- BEGIN SOLUTION
 -- * A model that is linear in its parameters is fitted by solving one linear system; the normal equations, QR and gradient descent
@@ -519,7 +519,7 @@ end
 --   instrumental variables and output-error methods, the subject of lesson 4, do. Whether a miss is bias or luck, repetitions tell.
 -- END SOLUTION
 --
--- # What you hand in
+-- # What you submit
 --
 -- ::: {.note}
 -- Where this lesson is graded, hand in with `answer(name, value)`: `line`, the slope and the time at the mean year; `rmse` of its residuals; `paris`,

@@ -25,7 +25,7 @@
 -- :::
 --
 -- Work in this script, cell by cell; your text goes to `report.md`, which has the sections that a report must have and notes on what
--- belongs into each. What you hand in is the report: at most six pages, seven with the appendix.
+-- belongs into each. You submit the report: at most six pages, seven with the appendix.
 --
 -- # The records
 --
@@ -747,7 +747,7 @@ report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
 -- END SOLUTION
 
 -- %% [markdown]
--- # What you hand in besides the report
+-- # What you submit besides the report
 --
 -- The report is read by people. Where the script is graded too, it hands in with `answer(name, value)`: `discarded`, first and last instant (s) of the section
 -- of `limits` that belongs to no linear model; `rest_angle`, what the potentiometer reads (rad) while the load hangs still; your recommended models from

@@ -107,7 +107,7 @@ report.figure("linear_delay", delay_figure:set{height = 5.5}, "Error by delay")
 
 -- %% id=linear_look_report echo=false
 -- BEGIN SOLUTION
--- STARTER: -- This cell runs, but its code is not printed (echo=false). Hand over here what your text shows; in a text cell
+-- STARTER: -- This cell runs, but its code is not printed (echo=false). Pass the values, figures and tables of your text to the report here; in a text cell
 -- STARTER: --   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
 -- STARTER: --   report.figure("name", fig, "caption")    by  ![caption](figure:name){#fig:name}  on a line of its own, and @fig:name refers to it
 -- STARTER: --   report.table("name", {{"head"}, {"cell"}})  by  ::: {.table name=name #tbl:name}  then a line with the caption, then  :::
@@ -983,7 +983,7 @@ report.value("dryer_robust", max(H2.robust_std/H2.std), "%.1f")
 -- END SOLUTION
 
 -- %% [markdown]
--- # What was learnt
+-- # What you have learnt
 --
 -- BEGIN SOLUTION
 -- * Look before you estimate: levels, drift, dead time, and anything unexpected. The plot and the formula for the heat of a resistor, not a search over orders, explained
@@ -997,7 +997,7 @@ report.value("dryer_robust", max(H2.robust_std/H2.std), "%.1f")
 -- * The end is a recommendation with its limits, not the largest number in a table.
 -- END SOLUTION
 --
--- # What you hand in
+-- # What you submit
 --
 -- ::: {.note}
 -- Where this lesson is graded, a model and what it is worth are handed in for each round of the loop, with `answer(name, value)`: `linear_orders`, the numbers

@@ -64,7 +64,7 @@ print("time constants (s):", time_constant)
 
 -- %% id=system_report echo=false
 -- BEGIN SOLUTION
--- STARTER: -- This cell runs, but its code is not printed (echo=false). Hand over here what your text shows; in a text cell
+-- STARTER: -- This cell runs, but its code is not printed (echo=false). Pass the values, figures and tables of your text to the report here; in a text cell
 -- STARTER: --   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
 -- STARTER: --   report.figure("name", fig, "caption")    by  ![caption](figure:name){#fig:name}  on a line of its own, and @fig:name refers to it
 -- STARTER: --   report.table("name", {{"head"}, {"cell"}})  by  ::: {.table name=name #tbl:name}  then a line with the caption, then  :::
@@ -835,7 +835,7 @@ end
 -- ![A study of the known system in the workbench: controls, the cloud of estimates with the ellipse, and the script](workbench.png){#fig:workbench}
 
 -- %% [markdown]
--- # What was learnt
+-- # What you have learnt
 --
 -- BEGIN SOLUTION
 -- * State-variable filters make a linear regression of a differential equation without differentiating anything. LSSVF is that
@@ -850,7 +850,7 @@ end
 --   takes to spoil it. An output-error model, in discrete or continuous time, does not have this problem, and in continuous time fast sampling only helps.
 -- END SOLUTION
 --
--- # What you hand in
+-- # What you submit
 --
 -- ::: {.note}
 -- Where this lesson is graded, `answer(name, value)` hands your results in, and `dynlab check` tells what is missing: `own_without_noise` and

@@ -572,7 +572,7 @@ report.table("verdict", verdict)
 -- %% [markdown]
 -- **Question 10.** Which model do you recommend, for what, and for what not? What experiment would you make next?
 --
--- # What you hand in besides the slides
+-- # What you submit besides the slides
 --
 -- Where the script is graded too, it hands in with `answer(name, value)`: `ring_frequency` (Hz) of question 3; `dead_band`, its forward and its
 -- reverse end (µs from neutral, the second one negative); `delay` (s) of the thruster; `thrust_300`, the steady thrust (N) at +300 µs and at −300 µs; your

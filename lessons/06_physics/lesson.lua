@@ -81,7 +81,7 @@ report.figure("left", subplot(2, 1, {swing, rest_of_it}):set{height = 6},
 
 -- %% id=linear_report echo=false
 -- BEGIN SOLUTION
--- STARTER: -- This cell runs, but its code is not printed (echo=false). Hand over here what your text shows; in a text cell
+-- STARTER: -- This cell runs, but its code is not printed (echo=false). Pass the values, figures and tables of your text to the report here; in a text cell
 -- STARTER: --   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
 -- STARTER: --   report.figure("name", fig, "caption")    by  ![caption](figure:name){#fig:name}  on a line of its own, and @fig:name refers to it
 -- STARTER: --   report.table("name", {{"head"}, {"cell"}})  by  ::: {.table name=name #tbl:name}  then a line with the caption, then  :::
@@ -632,7 +632,7 @@ report.value("kept_others", mean(vector(kept)), "%.3f")
 -- The linear model minimizes the error of the free run, NARX the error one step ahead, SINDy the error of slopes. That NARX and SINDy are nonlinear does not make up for this here. Try them where nobody has the equations, next to a linear model, and compare all models in free run.
 -- END SOLUTION
 --
--- # What was learnt
+-- # What you have learnt
 --
 -- BEGIN SOLUTION
 -- * The errors of a linear model have causes. A grey box tests them one by one: each is a term that can be switched on and off, estimated, and compared on other data.
@@ -642,7 +642,7 @@ report.value("kept_others", mean(vector(kept)), "%.3f")
 -- * Methods that learn need no equations, but a good choice of functions, and a nonlinear model need not be better than a linear model fitted by its free run.
 -- END SOLUTION
 --
--- # What you hand in
+-- # What you submit
 --
 -- ::: {.note}
 -- If this lesson is graded, submit results with `answer(name, value)`; `dynlab check` lists what is missing: `crane`, the length (m) and the voltage (V) that dry friction takes; `crane_fit`, the fit (%) of the angle of

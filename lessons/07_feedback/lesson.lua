@@ -16,17 +16,17 @@
 -- ---
 
 -- %% [markdown]
--- Most processes cannot be taken out of their control loop for an experiment: the product would be spoilt, or the process would run away. So the record is made while
--- a controller works, and the input is no longer what somebody chose. And most processes are not the same next month. This lesson has a record for each:
--- a drive under speed control (@fig:drive), and a water heater that furs up (@fig:heater). Both are *simulated*, so that what you find can be held against the truth.
+-- Many processes cannot be taken out of their control loop for an experiment: the product would be lost, or the process would run away. So the data are recorded while
+-- a controller works, and nobody chooses the input freely. And many processes change from month to month. This lesson has data for both cases:
+-- a drive under speed control (@fig:drive), and a water heater that furs up (@fig:heater). Both are *simulated*, so you can compare what you find with the truth.
 --
 -- ::: {.drawing name=drive}
 -- The drive: the computer compares the reference $r$ with the speed $y$ that the tachometer reads and sets the motor's voltage $u$; a torque of the load disturbs {#fig:drive}
 -- :::
 --
--- The work is planned for two sittings of three hours:
+-- The work is planned for two sessions of three hours:
 --
--- | sitting | questions, with minutes | aim |
+-- | session | questions, with minutes | aim |
 -- |--------------|-------------------------|------------------------|
 -- | In the loop | 1 (15), 2 (25), 3 (25), 4 (15), 5 (40), 6 (20), 7 (30) | see the bias of the direct route, say where it comes from, cure it three times |
 -- | How sure, and over time | 8 (40), 9 (25), 10 (60), 11 (45) | compare the routes over many records; follow a process that drifts |
@@ -43,7 +43,7 @@
 --
 -- $$ u_k = 0.12\,e_{k-1} + 0.6\,T_s \sum_{i<k} e_i , \qquad e = r - y . $$ {#eq:controller}
 --
--- It computes for one sample, hence $e_{k-1}$ and not $e_k$. From voltage to speed physics expects two poles, of the current and of the speed, and no zero,
+-- It needs one sample to compute, hence $e_{k-1}$ and not $e_k$. From voltage to speed physics expects two poles, of the current and of the speed, and no zero,
 --
 -- $$ G(p) = \frac{b_0}{p^2 + a_1 p + a_2} . $$ {#eq:plant}
 
@@ -60,7 +60,7 @@ end
 print(pair(track))
 
 -- %% [markdown]
--- **Question 1.** Show reference, voltage and speed of `tracking` beside the voltage and the speed of `regulation`. In `regulation` nobody excites anything: what moves the voltage?
+-- **Question 1.** Show reference, voltage and speed of `tracking` beside the voltage and the speed of `regulation`. In `regulation` nobody excites the loop: what moves the voltage?
 
 -- %% id=signals
 -- BEGIN SOLUTION
@@ -86,7 +86,7 @@ report.figure("signals", figure{rows = 3, columns = 2, height = 8, panels = pane
 
 -- %% id=signals_report echo=false
 -- BEGIN SOLUTION
--- STARTER: -- This cell runs, but its code is not printed (echo=false). Hand over here what your text shows; in a text cell
+-- STARTER: -- This cell runs, but its code is not printed (echo=false). Pass the values, figures and tables of your text to the report here; in a text cell
 -- STARTER: --   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
 -- STARTER: --   report.figure("name", fig, "caption")    by  ![caption](figure:name){#fig:name}  on a line of its own, and @fig:name refers to it
 -- STARTER: --   report.table("name", {{"head"}, {"cell"}})  by  ::: {.table name=name #tbl:name}  then a line with the caption, then  :::
@@ -166,7 +166,7 @@ report.value("true_fit", fit(pair(drive.validation), truth.G), "%.1f")
 -- END SOLUTION
 --
 -- **Question 3.** Where does this come from? Take the true $G$ and compute what it leaves over in `tracking` and in `open_loop`, $v = y - G u$. Correlate $v$ with earlier and
--- with later voltages. On one record the correlation scatters, so take the mean of twenty repetitions, `rig("drive", {seed = k})`, and draw how sure the mean is. Where is it not zero, why on both sides, and what would it look like without feedback?
+-- with later voltages. One record shows mostly chance, so take the mean of twenty repetitions, `rig("drive", {seed = k})`, and plot the confidence interval of the mean. Where is it not zero, why on both sides, and what would it look like without feedback?
 
 -- %% id=correlation
 -- BEGIN SOLUTION
@@ -254,7 +254,7 @@ report.value("open_mean", max(abs(curves.open.mean)), "%.2f")
 -- `loop_same`{.value} with the voltage of the same instant, `loop_after`{.value} with that of a quarter of a second later, and `loop_before`{.value} with that of a quarter of a second before. That the later voltage depends on $v$ is the feedback: the
 -- disturbance pushes the speed, and the controller pushes back. The earlier voltage cannot depend on a later $v$; but $v$ lasts, for it is a torque that lasts, smoothed by the drive. It resembles its own past, which the earlier voltage had answered.
 --
--- The lower panel parts the two. From $v$ everything is taken that its own past tells (an autoregression of `past`{.value} values); what remains is new at its instant. With earlier voltages and that of the same instant it is correlated next to nothing (`news_before`{.value} a quarter of a second before), with later
+-- The lower panel separates the two. From $v$ everything is subtracted that its own past predicts (an autoregression of `past`{.value} values); what remains is new at its instant. With earlier voltages and that of the same instant it is correlated next to nothing (`news_before`{.value} a quarter of a second before), with later
 -- ones it is (`news_after`{.value} a quarter of a second after). With $u$ on the right-hand side of the regression the error $v$ is no longer independent of the regressors,
 -- whether they hold the measured or the simulated output: both are made of $u$.
 -- With a right model of the noise, as `rivc` has one, the direct route is consistent, for then the error is only what is new; with a wrong one it is not [@ljung1999, chapter 13].
@@ -300,7 +300,7 @@ report.value("true_b0", true_p[3], "%.0f")
 -- ![From voltage to speed: estimated from `regulation`, the truth $G$, and the controller's inverse with its sign turned, $-1/C$](figure:regulation){#fig:regulation}
 --
 -- With $r = 0$ the record obeys two equations, $y = G u + v$ and $u = -C y$. The second one has no error, so it is the one that is found: $y/u = -1/C$ (@fig:regulation), the
--- inverse of the controller with its sign turned, in magnitude and in phase. A method that models no noise can find nothing else here, nor can one that takes its instruments from a reference which rests. What is left in principle is a parametric model of plant and noise together: since the
+-- negative inverse of the controller, in magnitude and in phase. (Below 0.5 rad/s the estimated phase is off by up to `slow_phase_off`{.value}°: `etfe` smooths over neighboring frequencies, and there the response turns quickly from one to the next.) A method that models no noise can find nothing else here, nor can one that takes its instruments from a reference which rests. What is left in principle is a parametric model of plant and noise together: since the
 -- controller answers a sample late, $-1/C$ would have to know the next voltage and is no process, and with the right structure and very many samples $G$ would come out [@ljung1999, chapter 13]. Not from this record: `rivc` with a model of the noise finds
 -- $b_0 =$ `resting_b0`{.value} ± `resting_b0_error`{.value}, the truth is `true_b0`{.value}. A record of ordinary operation is not a free experiment: somebody must move the reference.
 -- END SOLUTION
@@ -339,8 +339,8 @@ present(Giv)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The own program finds a gain of `own_gain`{.value}, CLIVSVF of `iv_gain`{.value}; the truth is `true_gain`{.value}, and the direct route found `direct_gain`{.value}. CLIVSVF projects the voltage on the reference and its past and lets
--- a first model answer that: such instruments resemble the noise-free regressors more than filtered references do. Neither program knows the controller. All cures are above the truth in this record: it is one throw of the dice (@sec:which).
+-- The own program finds a gain of `own_gain`{.value}, CLIVSVF of `iv_gain`{.value}; the truth is `true_gain`{.value}, and the direct route found `direct_gain`{.value}. CLIVSVF projects the voltage on the reference and its past and simulates
+-- a first model with the projection: such instruments resemble the noise-free regressors more than filtered references do. Neither program knows the controller. All cures are above the truth on this record, which is one realization (@sec:which).
 -- END SOLUTION
 --
 -- ## Second cure: the loop as auxiliary model
@@ -412,11 +412,11 @@ for name, G in pairs{iv = Giv, cl = Gcl, library = Glib} do report.value(name ..
 -- ## Which cure? {#sec:which}
 --
 -- ::: note
--- Here the second sitting begins: *how sure, and over time*.
+-- Here the second session begins: *how sure, and over time*.
 -- :::
 --
--- **Question 8.** One record is one throw of the dice. `rig("drive", {seed = 2})` repeats the experiments with another order of bits and another load. Repeat all routes forty
--- times, and two more: the direct route with a model of the noise, `rivc(data, {1, 2, 2, 2, 0})`, and CLSRIVC's `route = "indirect"`, which fits the whole loop from $r$ to $y$. Which are biased, by how many standard errors of their means? Which scatters least, and why? Which
+-- **Question 8.** One record is one realization. `rig("drive", {seed = 2})` repeats the experiments with another order of bits and another load. Repeat all routes forty
+-- times, and two more: the direct route with a model of the noise, `rivc(data, {1, 2, 2, 2, 0})`, and CLSRIVC's `route = "indirect"`, which fits the whole loop from $r$ to $y$. Which are biased, and by how many standard errors of their means? Which has the smallest scatter, and why? Which
 -- one do you recommend?
 
 -- %% id=repetition
@@ -514,7 +514,7 @@ report.value("poor_rivc_a2_t", math.abs(select(3, summary(4, 2))), "%.0f")
 -- *Scatter.* CLSRIVC knows most and has the best instruments, and yet it scatters by `clsrivc_scatter`{.value} in $a_1$, CLIVSVF by `clivsvf_scatter`{.value}, by `clivsvf_fast_scatter`{.value} with $\lambda = 20$ rad/s. The filter makes the difference, not the instrument (CLIVSVF with the controller given has instruments from the simulated loop, too, and scatters as without): $1/F$, with its poles at `slow_pole`{.value} and `fast_pole`{.value} rad/s, is the best filter for white noise on the output. But this load is slow,
 -- its noise lies at the low frequencies, and a filter that lets more of the higher ones pass does better. With white noise on the output of the same loop the order is the other way round, and CLSRIVC scatters least. Own instruments of a filter of second order resemble the regressors too little and scatter by `own_second_scatter`{.value}.
 --
--- *Choice.* If the structure of the noise is known, or found by tests of the residuals, RIVC. Otherwise CLIVSVF: right on the average for any noise, no controller needed, less scatter than CLSRIVC here, and standard errors that hold.
+-- *Choice.* If the structure of the noise is known, or found by tests of the residuals, RIVC. Otherwise CLIVSVF: right on the average for any noise, no controller needed, less scatter than CLSRIVC here, and reliable standard errors.
 -- END SOLUTION
 --
 -- # A process that drifts
@@ -532,7 +532,9 @@ report.value("poor_rivc_a2_t", math.abs(select(3, summary(4, 2))), "%.0f")
 
 -- %% id=heater
 local heater = load("drifting_process")
-local slow = iddata(heater.y, heater.u, 1, {InputUnit = "%", OutputUnit = "K"})
+local names = {InputName = say("power", "puissance"), InputUnit = "%",
+               OutputName = say("temperature rise", "échauffement"), OutputUnit = "K"}
+local slow = iddata(heater.y, heater.u, 1, names)
 report.figure("heater", idplot(slow),
               say("The record of the heater", "L'enregistrement du chauffe-eau"))
 
@@ -771,10 +773,10 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- that the gain is inside after `own1000_first`{.value} s is because the truth comes down to meet the average. RLSSVF passes through the band after `rls_first`{.value} s and is last outside after `rls_last`{.value} s.
 --
 -- A random walk of the parameters (`drift`, here $10^{-6}$ for the variance of a step of each) says how far they may move from one sample to the next. RIVSVF with it is inside after `walk_first`{.value} s, and outside again and again up to the end of the record, `end_of_record`{.value} s after the cleaning: what it pays is scatter, `walk_K`{.value} in the gain before the cleaning against `riv_K`{.value} with $f = 0.99$. RSRIVC lets its filter and its instruments follow the
--- estimate. With $f = 0.99$ its time constant is as good as that of the others (its gain is last outside after `rsriv990_last`{.value} s); a longer memory does not help it: with 0.995 and 0.998 its time constant is `rsriv995_late`{.value} and `rsriv998_late`{.value} s too small from ten minutes after the cleaning on. All this is one record; on another one neighbours may change places.
+-- estimate. With $f = 0.99$ its time constant is as good as that of the others (its gain is last outside after `rsriv990_last`{.value} s); with 0.995 and 0.998 its time constant is `rsriv995_late`{.value} and `rsriv998_late`{.value} s too small from ten minutes after the cleaning on. RSRIV_WHY All this is one record; on another one neighbors can change places.
 -- END SOLUTION
 --
--- # What was learnt
+-- # What you have learnt
 --
 -- BEGIN SOLUTION
 -- * In the loop the input contains the disturbance. Methods that are right in the open loop are biased there, and neither their standard errors nor a validation record of the same loop tells.
@@ -783,12 +785,12 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- * Recursive estimates follow what changes. Their memory is a compromise between scatter and delay that no data decide for the user. What lies in the memory from before a jump disturbs: least squares takes it for dynamics of the process, instruments do so less.
 -- END SOLUTION
 --
--- # What you hand in
+-- # What you submit
 --
 -- ::: {.note}
--- Where this lesson is graded, `answer(name, value)` hands your results in, and `dynlab check` tells what is missing: `G_direct`, the biased model that SRIVC finds in `tracking` as if there were no loop; `own_instruments`, what your own instruments find
+-- If this lesson is graded, submit results with `answer(name, value)`; `dynlab check` lists what is missing: `G_direct`, the biased model that SRIVC finds in `tracking` as if there were no loop; `own_instruments`, what your own instruments find
 -- there ($a_1$, $a_2$, $b_0$; $\lambda = 10$ rad/s, the reference through a filter of fourth order); `G_two_stage`, the model of the third cure; `G_final`, the model of the drive that you would recommend; `before_cleaning` and `after_cleaning`, gain (K/%) and time constant (s) of the heater at
--- 2600 s and at 4500 s. Your script will be run on the records of another drive and of another heater. The figures that are looked for are `correlation` and `tracking`.
+-- 2600 s and at 4500 s. Your script will be run on the records of another drive and of another heater. The checks look for the figures `correlation` and `tracking`.
 -- :::
 
 -- %% id=hand_in

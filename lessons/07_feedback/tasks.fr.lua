@@ -179,7 +179,7 @@
 -- :::
 
 -- %% id=comments
--- This cell runs, but its code is not printed (echo=false). Hand over here what your text shows; in a text cell
+-- This cell runs, but its code is not printed (echo=false). Pass the values, figures and tables of your text to the report here; in a text cell
 -- Cette cellule est exécutée, mais son code n'est pas imprimé (echo=false). Donnez ici ce que montre votre texte ; dans une cellule de texte
 --   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
 --   report.value("gain", K, "%.2f")          est montré par  `gain`{.value}

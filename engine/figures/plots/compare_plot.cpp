@@ -21,13 +21,21 @@ void check_model_output(const ModelOutput& model, const Matrix& measured) {
 
 constexpr double kMeasuredWidth = 2.4;  ///< points: seen on both sides of a model's line that lies upon it
 
-Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int index) {
+Message model_label(const ModelOutput& model, Index output, const std::string& unit) {
+    const auto place = static_cast<std::size_t>(output);
+    const Number fit = decimals(model.fit_percent[output], 1);
+    if (place >= model.offsets.size() || !model.offsets[place]) return Message("{}: {} %", model.name, fit);
+    const Number offset = significant(*model.offsets[place], 3);
+    return unit.empty() ? Message("{}: {} %, offset {}", model.name, fit, offset)
+                        : Message("{}: {} %, offset {} {}", model.name, fit, offset, unit);
+}
+
+Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int index, const std::string& unit) {
     static constexpr int kColours[] = {0, 6, 3, 4, 1, 7, 5};  // apart from the grey of the data
     Curve curve;
     curve.x = t;
     curve.y = model.y.col(output);
-    curve.label = curve.y.allFinite() ? Message("{}: {} %", model.name, decimals(model.fit_percent[output], 1))
-                                      : Message("{}: lost", model.name);
+    curve.label = curve.y.allFinite() ? model_label(model, output, unit) : Message("{}: lost", model.name);
     curve.colour = kColours[index % 7];
     curve.dash = index % 8;
     return curve;
@@ -59,10 +67,11 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
     for (Index output = 0; output < measured.cols(); ++output) {
         Panel panel;
         const auto index = static_cast<std::size_t>(output);
+        const std::string unit = index < data.output_units.size() ? data.output_units[index] : "";
         panel.y_label =
             axis_label(Message::verbatim(index < data.output_names.size() ? data.output_names[index]
                                                                           : fmt::format("y_{{{}}}", output + 1)),
-                       index < data.output_units.size() ? data.output_units[index] : "");
+                       unit);
         Curve curve;
         curve.x = t;
         curve.y = measured.col(output);
@@ -72,7 +81,7 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
         curve.line_width = kMeasuredWidth;
         panel.curves.push_back(std::move(curve));
         int number = 0;
-        for (const ModelOutput& model : models) panel.curves.push_back(model_curve(model, output, t, number++));
+        for (const ModelOutput& model : models) panel.curves.push_back(model_curve(model, output, t, number++, unit));
         keep_to_the_others(panel);
         figure.panels.push_back(std::move(panel));
     }

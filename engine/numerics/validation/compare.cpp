@@ -329,6 +329,17 @@ CompareResult compare(const IdData& data, const TransferFunction& G, const Compa
     return compare_all(data, {G}, options).results.front().front();
 }
 
+Vector fits_without_offsets(const IdData& data, const Comparison& comparison) {
+    Vector squares = Vector::Zero(data.output_count());
+    for (std::size_t k = 0; k < data.experiments.size(); ++k)
+        for (Index i = 0; i < squares.size(); ++i) {
+            const CompareResult& result = comparison.results[k][static_cast<std::size_t>(i)];
+            const double offset = result.start.offset ? result.offset : 0;
+            squares[i] += (data.experiments[k].y.col(i).array() - result.output.array() + offset).square().sum();
+        }
+    return squares.binaryExpr(output_variations(data), &fit_percent_of_sums);
+}
+
 LevelledOutputs levelled_outputs(const IdData& data, const Comparison& comparison) {
     LevelledOutputs all{Vector(data.sample_count()), Vector(data.sample_count()), Vector(data.sample_count())};
     Index first = 0;

@@ -48,6 +48,9 @@ Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& 
 /// -infinity, its output is NaN from there on, and the message tells when. Throws InvalidArgument as its free_run().
 Comparison compare_all(const IdData& data, const FreeRunModel& model);
 
+/// The fits (per output, over all experiments) of the same simulations without the offsets that were estimated.
+Vector fits_without_offsets(const IdData& data, const Comparison& comparison);
+
 /// The first output of all experiments one after the other, N values, each counted from the mean of its experiment's
 /// measured output; `swing`: simulated, counted from its own mean, as measures count that are blind to constant errors.
 struct LevelledOutputs {

@@ -1,5 +1,7 @@
 #include "numerics/validation/model_verdict.h"
 
+#include <fmt/format.h>
+
 #include "numerics/fit/diagnosis.h"
 
 namespace dynlab::inline numerics {
@@ -22,7 +24,24 @@ Message missing_part(const ModelStanding& model) {
         "nonlinearity or a drift.");
 }
 
+/// Whether a parameter belongs to the output of this number alone: b0_y2 and b0_y2u1 to 2. One without an output's
+/// number belongs to all.
+bool belongs_to(const std::string& parameter, std::size_t number) {
+    const std::size_t at = parameter.rfind("_y");
+    if (at == std::string::npos) return true;
+    const std::string own = fmt::format("_y{}", number), rest = parameter.substr(at);
+    return rest == own || rest.starts_with(own + "u");
+}
+
 }  // namespace
+
+ModelDoubts ModelDoubts::about(std::size_t i, const std::string& name) const {
+    ModelDoubts own;
+    for (const std::string& parameter : undetermined)
+        if (belongs_to(parameter, i + 1)) own.undetermined.push_back(parameter);
+    if (output.empty() || output == name) own.remedy = remedy;
+    return own;
+}
 
 Message model_verdict(const ModelStanding& model) {
     const Number fit = significant(model.fit_percent, 3);

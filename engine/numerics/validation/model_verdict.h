@@ -10,6 +10,11 @@ namespace dynlab::inline numerics {
 struct ModelDoubts {
     std::vector<std::string> undetermined = {};  ///< parameters whose standard errors are larger than they
     Message remedy = {};                         ///< a sentence: what the estimation missed (fit/missed_structure.h)
+    std::string output = {};                     ///< name of the output of the remedy; empty for the only one
+
+    /// Those about output i (0-based) of this name: its parameters are those that all outputs share, and its own
+    /// (b0_y2).
+    ModelDoubts about(std::size_t i, const std::string& name) const;
 };
 
 /// What is known of the model of one output: stability, fit, the tests of its errors, the estimation's own doubts.

@@ -325,7 +325,7 @@ ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunct
     conclude(tests, [&](std::size_t i) {
         const OutputResiduals& output = tests.outputs[i];
         ModelStanding model = standing_of(output, ErrorKind::kOutput);
-        model.doubts = doubts;
+        model.doubts = doubts.about(i, data.output_names[i]);
         for (std::size_t j = 0; j < output.inputs.size(); ++j) {
             const TransferFunction& G = channels[i * output.inputs.size() + j];
             model.unstable = model.unstable || has_unstable_pole(G);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "figures/style.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
@@ -161,6 +162,44 @@ int add_reference(Call& call) {
     return give_self(call);
 }
 
+/// Lines at all steps between the ends, as one curve with gaps; `upright`: at places on the x axis.
+Curve ruled_lines(std::pair<double, double> along, double step, std::pair<double, double> across, bool upright) {
+    const auto lines = static_cast<Index>(std::floor((along.second - along.first) / step + 0.5)) + 1;
+    Vector places(3 * lines), ends(3 * lines);
+    for (Index i = 0; i < lines; ++i) {
+        places.segment(3 * i, 3).setConstant(along.first + static_cast<double>(i) * step);
+        ends.segment(3 * i, 3) << across.first, across.second, std::nan("");
+    }
+    Curve curve;
+    curve.x = upright ? places : ends;
+    curve.y = upright ? ends : places;
+    curve.colour = style::kGreyColour;
+    curve.dash = 0;
+    return curve;
+}
+
+/// fig:rule(dx, dy, panel): graph paper, every fifth line of which is heavier
+int rule_paper(Call& call) {
+    call.at_most(4);
+    constexpr double kMostLines = 2000;
+    const double steps[] = {call.number(2, "dx"), call.number(3, "dy")};
+    Panel& panel = panel_argument(call, 4);
+    if (!panel.x_range || !panel.y_range)
+        throw InvalidArgument("fig:rule needs the ranges of its panel: set x_range and y_range first");
+    const std::pair<double, double> ranges[] = {*panel.x_range, *panel.y_range};
+    for (const int axis : {0, 1})
+        if (const double size = ranges[axis].second - ranges[axis].first;
+            !(steps[axis] > 0) || size / steps[axis] > kMostLines)
+            throw InvalidArgument("fig:rule: {} must be a positive number and give at most {} lines, but {} was given",
+                                  axis == 0 ? "dx" : "dy", kMostLines, steps[axis]);
+    for (const auto& [times, width] : {std::pair(1., 0.15), std::pair(5., 0.45)})
+        for (const int axis : {0, 1}) {
+            panel.curves.push_back(ruled_lines(ranges[axis], times * steps[axis], ranges[1 - axis], axis == 0));
+            panel.curves.back().line_width = width;
+        }
+    return give_self(call);
+}
+
 /// fig:arrow(x0, y0, x1, y1, text, panel)
 int add_arrow(Call& call) {
     call.at_most(7);
@@ -220,6 +259,7 @@ constexpr std::array kFigureTypeMethods = {Member{"add", guarded<add_curve>},
                                            Member{"hline", guarded<add_reference<true>>},
                                            Member{"vline", guarded<add_reference<false>>},
                                            Member{"arrow", guarded<add_arrow>},
+                                           Member{"rule", guarded<rule_paper>},
                                            Member{"set", guarded<set_options>}};
 constexpr std::array kFigureTypeOperators = {Member{"__tostring", guarded<figure_to_text>}};
 

@@ -80,7 +80,7 @@ ModelDoubts doubts_of(const Call& call, int index) {
     const Estimate& estimate = *model->estimate;
     const std::optional<MissedStructure> missed = estimate.diagnostics.missed();
     return {undetermined_parameters(estimate.names, estimate.theta, estimate.std()),
-            missed ? sentence_of(*missed) : Message()};
+            missed ? sentence_of(*missed) : Message(), missed ? missed->output : ""};
 }
 
 /// Of the model at argument 2.

@@ -1,6 +1,10 @@
+#include <fmt/format.h>
+
 #include <cmath>
+#include <optional>
 
 #include "figures/plots/compare_plot.h"
+#include "numerics/fit/fit.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/fit_measures.h"
 #include "scripting/arguments/simulation_options.h"
@@ -36,7 +40,8 @@ Message model_name(const Call& call, int index, const std::vector<std::string>& 
 struct ModelOutputs {
     Message name;
     std::vector<Matrix> y;
-    std::vector<Vector> fit_percent;  // per output
+    std::vector<Vector> fit_percent;                          // per output
+    std::vector<std::vector<std::optional<double>>> offsets;  // per output; none of predictions
 };
 
 template <class Result>
@@ -48,12 +53,73 @@ Vector fits_of(const std::vector<Result>& outputs) {
 
 template <class Results>
 ModelOutputs model_outputs(Message name, const Results& all) {
-    ModelOutputs outputs{std::move(name), {}, {}};
+    ModelOutputs outputs{std::move(name), {}, {}, {}};
     for (std::size_t k = 0; k < all.results.size(); ++k) {
         outputs.y.push_back(all.outputs(k));
         outputs.fit_percent.push_back(fits_of(all.results[k]));
+        outputs.offsets.emplace_back();
     }
     return outputs;
+}
+
+bool holds_offset(const CompareResult& result) {
+    return result.offset != 0;
+}
+
+ModelOutputs simulated_model_outputs(Message name, const Comparison& all) {
+    ModelOutputs outputs = model_outputs(std::move(name), all);
+    for (std::size_t k = 0; k < all.results.size(); ++k)
+        for (const CompareResult& result : all.results[k])
+            outputs.offsets[k].push_back(holds_offset(result) ? std::optional(result.offset) : std::nullopt);
+    return outputs;
+}
+
+/// Whether nothing was noted of this line of the script yet, which may be called again and again.
+bool is_first_of_line(lua_State* L) {
+    static const char noted = 0;
+    const ScriptPlace place = script_place(L);
+    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &noted) == LUA_TNIL) {
+        lua_pop(L, 1);
+        lua_newtable(L);
+        lua_pushvalue(L, -1);
+        lua_rawsetp(L, LUA_REGISTRYINDEX, &noted);
+    }
+    const std::string key = fmt::format("{}:{}", place.file, place.line);
+    const bool first = lua_getfield(L, -1, key.c_str()) == LUA_TNIL;
+    lua_pop(L, 1);
+    lua_pushboolean(L, 1);
+    lua_setfield(L, -2, key.c_str());
+    lua_pop(L, 1);
+    return first;
+}
+
+Message level_text(double level, const std::string& unit) {
+    return unit.empty() ? Message("{}", significant(level, 3)) : Message("{} {}", significant(level, 3), unit);
+}
+
+/// An offset that nobody asked for, and that changes the fit in the digit which is printed: it says so, once a line.
+void note_offsets(const Call& call, const IdData& data, const Comparison& comparison) {
+    constexpr double kPrinted = 0.05;  // of a fit in per cent
+    const Vector without = fits_without_offsets(data, comparison);
+    MessageList lines{{}, Join::kLines};
+    for (Index i = 0; i < without.size(); ++i) {
+        if (!(comparison.fit_percent[i] - without[i] >= kPrinted)) continue;
+        const auto output = static_cast<std::size_t>(i);
+        MessageList offsets;
+        for (const auto& results : comparison.results)
+            offsets.items.push_back(level_text(results[output].offset, data.output_units[output]));
+        lines.items.push_back(
+            without.size() == 1
+                ? Message(
+                      "fit: an estimated offset of {} was removed; without it the fit is {} %. To choose, set {} to "
+                      "\"estimate\" or \"none\".",
+                      offsets, significant(without[i], 4), OptionName{"offset"})
+                : Message("fit: an estimated offset of {} was removed from {}; without it the fit is {} %. To choose, "
+                          "set {} to \"estimate\" or \"none\".",
+                          offsets, data.output_names[output], significant(without[i], 4), OptionName{"offset"}));
+    }
+    if (lines.items.empty() || !is_first_of_line(call.state())) return;
+    call.print(localized(call, Message("{}", lines)) + "\n");
 }
 
 /// The figures of all experiments under each other.
@@ -62,7 +128,8 @@ Figure comparison_figure(const IdData& data, const std::vector<ModelOutputs>& mo
     all.rows = 0;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         std::vector<ModelOutput> outputs;
-        for (const ModelOutputs& model : models) outputs.push_back({model.name, model.y[k], model.fit_percent[k]});
+        for (const ModelOutputs& model : models)
+            outputs.push_back({model.name, model.y[k], model.fit_percent[k], model.offsets[k]});
         Figure one = compare_plot(data, outputs, k);
         if (data.experiments.size() > 1) one.panels.front().title = Message("experiment {}", k + 1);
         all.rows += one.rows;
@@ -81,7 +148,7 @@ int draw_comparison(Call& call, const IdData& data, int first, int options_index
         const Message name = with_steps(model_name(call, i, labels, models.size()), steps);
         models.push_back(
             steps ? model_outputs(name, prediction_argument(call, i, data, {steps, compare_options(options)}))
-                  : model_outputs(name, comparison_argument(call, i, data, options)));
+                  : simulated_model_outputs(name, comparison_argument(call, i, data, options)));
     }
     if (models.empty()) wrong_argument(call.state(), first, "G", with_article("model"));
     return give_figure(call, comparison_figure(data, models));
@@ -108,8 +175,13 @@ int fit(Call& call) {
     read_steps_as_option(call, 3);
     const Options options(call, 3, kFitTables);
     const auto steps = steps_option(options, std::nullopt);
-    const Vector percents = steps ? prediction_argument(call, 2, data, {steps, compare_options(options)}).fit_percent
-                                  : comparison_argument(call, 2, data, options).fit_percent;
+    const auto simulated = [&] {
+        const Comparison comparison = comparison_argument(call, 2, data, options);
+        if (!options.has("Offset")) note_offsets(call, data, comparison);
+        return comparison.fit_percent;
+    };
+    const Vector percents =
+        steps ? prediction_argument(call, 2, data, {steps, compare_options(options)}).fit_percent : simulated();
     for (const double percent : percents) lua_pushnumber(call.state(), percent);
     return static_cast<int>(percents.size());
 }

@@ -81,8 +81,26 @@ ReportFields basic_fields(const Fit& fit) {
             {{"fits", fit.fit_percent}}};
 }
 
+/// From which state the fit was simulated, and the offset of each output (experiment by experiment) in it.
+Message simulation_of(const Fit& fit) {
+    constexpr Index kMostShown = 6;
+    if (!fit.removed.empty() || fit.start.offset) {
+        MessageList offsets;
+        for (const double offset : fit.offsets.transpose().reshaped())
+            offsets.items.push_back(Message("{}", significant(offset, 4)));
+        const bool few = fit.offsets.size() <= kMostShown;
+        if (!fit.removed.empty())
+            return few ? Message("The operating point was removed: {} of the output.", offsets)
+                       : Message("The operating point was removed.");
+        if (few) return Message("The fit is simulated {} ({}).", description(fit.start), offsets);
+    }
+    return fit.start.offset ? Message("The fit is simulated {}.", description(fit.start))
+                            : Message("The fit is simulated {}, without an offset.", description(fit.start));
+}
+
 ReportFields report_fields(const Fit& fit) {
     ReportFields fields = basic_fields(fit);
+    fields.simulated = simulation_of(fit);
     fields.vectors.clear();  // those of each kind of fit
     fields.numbers.insert(fields.numbers.end(), {{"noise_variance", fit.noise_variance[0]},
                                                  {"iterations", static_cast<double>(fit.trace.size())}});

@@ -26,6 +26,7 @@ struct ReportFields {
     std::vector<std::pair<std::string, double>> numbers = {};   ///< fit_percent, noise_variance, iterations, ...
     std::vector<std::pair<std::string, Vector>> vectors = {};   ///< output, delay_grid, delay_loss, ...
     std::vector<std::pair<std::string, Matrix>> matrices = {};  ///< path (parameters after each iteration)
+    Message simulated = {};  ///< a sentence: from which state, and with which offsets, fit_percent was simulated
 
     std::optional<double> number(std::string_view name) const;
     std::size_t values() const;  ///< numbers in vectors and matrices

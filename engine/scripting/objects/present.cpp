@@ -180,6 +180,7 @@ std::string Presentation::estimate_lines(const Estimate& estimate) const {
     else
         lines = text(Message("Estimated by {}.", estimate.method));
     lines += "\n";
+    if (fit && !estimate.report().simulated.empty()) lines += text(estimate.report().simulated) + "\n";
     if (const Message message = estimate.full_message(); !message.empty()) lines += text(message) + "\n";
     if (const auto coloured = estimate.colour()) lines += text(coloured->verdict) + "\n";
     return lines;
