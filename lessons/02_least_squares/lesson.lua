@@ -19,17 +19,19 @@
 -- %% [markdown]
 -- Least squares is the workhorse of this course: the estimators of the later lessons either minimise a sum of squares or start from the
 -- least-squares solution and correct it. This lesson uses it twice. First on a *static* model, a straight line through the men's 100 m winning
--- times of the Olympic Games, where we also ask how far such a line may be trusted. Then on a *dynamic* model, the step
+-- times of the Olympic Games, where we also ask how far such a line can be trusted. Then on a *dynamic* model, the step
 -- response of a first-order system known at four instants only, where we meet the reason why the rest of the course exists:
 -- noise in the regressors makes plain least squares systematically wrong. The winning times are real; the step response is simulated,
 -- so that its true parameters are known.
+--
+-- To review the normal equations and gradient descent, see Guillaume Saint-Cirgue's [page on simple linear regression](https://machinelearnia.com/regression-lineaire-simple/) (in French, with a video of ten minutes).
 --
 -- # The winning times of the men's 100 m
 --
 -- ## The data
 --
--- The record holds the year of the Games, the winner's official time in seconds, and how it was taken: by hand until 1964, by
--- the automatic system since. The Games of 1916, 1940 and 1944 were not held because of the two world wars. The first two
+-- The record holds the year of the Games, the winner's official time in seconds, and how it was measured: by hand until 1964,
+-- electronically since. The Games of 1916, 1940 and 1944 were not held because of the two world wars. The first two
 -- steps are to load the data and to look at them before anything is computed.
 
 -- %% id=times
@@ -190,7 +192,7 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 --
 -- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution, `tinv(0.975, N - 2)`. Compare it with what happened.
 --
--- Guess first: how far from the forecast are the ends of that interval? `outcome` prints the guess beside what you find.
+-- Guess first: how far from the forecast are the ends of that interval? `outcome` prints your guess next to the result.
 
 -- %% id=forecast_guess
 -- BEGIN SOLUTION
@@ -522,7 +524,7 @@ end
 -- # What you submit
 --
 -- ::: {.note}
--- Where this lesson is graded, hand in with `answer(name, value)`: `line`, the slope and the time at the mean year; `rmse` of its residuals; `paris`,
+-- If this lesson is graded, submit results with `answer(name, value)`: `line`, the slope and the time at the mean year; `rmse` of its residuals; `paris`,
 -- the forecast for 2024 and the lower and upper end of its 95 % prediction interval; `ct` ($a$, $b$) and `dt` ($a_1$, $b_1$) from the exact samples,
 -- `ct_noisy` and `dt_noisy` from the noisy ones; `monte_carlo`, mean and standard deviation of your thousand estimates of $a_1$. Your script will
 -- be run on four samples of another system, too. The figures that are looked for are `residuals`, `forecast` and `monte_carlo`.

@@ -747,14 +747,27 @@ report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
 -- END SOLUTION
 
 -- %% [markdown]
+-- # Peer review
+--
+-- After the deadline of the first version you receive the report of another group, without its names, and write a review of one to two pages; your own names appear on neither. `dynlab new review my-review` makes the form. It asks five questions:
+--
+-- 1. Are data and data collection described clearly enough for somebody else to repeat the experiments?
+-- 2. Is the solution of every step of the workflow described?
+-- 3. Do the conclusions follow from data, experiments and results? Do you agree with them, and what do you propose to change?
+-- 4. What is the greatest strength of the content?
+-- 5. How can clarity, readability and technical accuracy be improved?
+--
+-- Answer in the form of a discussion: give reasons, and propose other methods. Criticize constructively, keep a friendly tone, say exactly what to improve, and avoid what could hurt. Vague or harsh comments are ignored. There are three deadlines, set by your instructor: the first version of the report, the review, and
+-- the final version, which takes the reviews into account.
+--
 -- # What you submit besides the report
 --
--- The report is read by people. Where the script is graded too, it hands in with `answer(name, value)`: `discarded`, first and last instant (s) of the section
+-- The report is read by people. If the script is graded too, submit results with `answer(name, value)`: `discarded`, first and last instant (s) of the section
 -- of `limits` that belongs to no linear model; `rest_angle`, what the potentiometer reads (rad) while the load hangs still; your recommended models from
 -- voltage to position, `G_position`, integrator included, and from voltage to angle, `G_angle`; `fits`, how well (%) they simulate position and angle of the
 -- validation record; and `free_swing`, the frequency (rad/s) with which the load swings while the motor rests. It will be run on the records
--- of another crane, and the models that it finds there are held against experiments that nobody has seen. The figures that are
--- looked for are `raw` and `validation`.
+-- of another crane, and the models that it finds there are held against experiments that nobody has seen. The checks look for
+-- the figures `raw` and `validation`.
 
 -- %% id=hand_in
 -- BEGIN SOLUTION

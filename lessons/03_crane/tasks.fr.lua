@@ -73,6 +73,19 @@
 -- un régulateur conçu sur votre modèle (`lqr`, `place`), et sa boucle fermée sur la grue non linéaire (`drive_crane`).
 
 -- %% [markdown]
+-- # Relecture par les pairs
+--
+-- Après la date limite de la première version, vous recevez le rapport d'un autre groupe, sans ses noms, et en écrivez une relecture d'une à deux pages ; vos noms n'apparaissent sur aucun des deux. `dynlab new review ma-relecture --lang fr` crée le formulaire. Il pose cinq questions :
+--
+-- 1. Les données et leur collecte sont-elles décrites assez clairement pour que quelqu'un d'autre refasse les expériences ?
+-- 2. La solution de chaque étape de la démarche est-elle décrite ?
+-- 3. Les conclusions découlent-elles des données, des expériences et des résultats ? Les partagez-vous, et que proposez-vous d'y changer ?
+-- 4. Quel est le plus grand mérite du contenu ?
+-- 5. Comment améliorer la clarté, la lisibilité et l'exactitude technique ?
+--
+-- Répondez sous forme de discussion : donnez des raisons, proposez d'autres méthodes. Critiquez de façon constructive, gardez un ton bienveillant, dites précisément ce qui peut être amélioré, évitez ce qui pourrait blesser. Des remarques vagues ou dures sont ignorées. Votre enseignant fixe trois dates limites : la première version du rapport, la relecture, et
+-- la version finale, qui tient compte des relectures.
+--
 -- # Ce que vous rendez en plus du rapport
 --
 -- Le rapport est lu par des gens. Là où le script est noté aussi, il rend avec `answer(nom, valeur)` : `discarded`, premier et dernier instant (s) de la section

@@ -20,13 +20,13 @@
 -- experiment, which part of the record, which structure – and above all the question whether the result may be believed. When it
 -- may not, one goes back and changes something, and that is not a failure of the work but the work itself [@ljung1999, chapter 17].
 --
--- This lesson goes round the loop of @fig:workflow three times (@tbl:workflow tells what each step asks): with a simulated linear system; with a simulated heat-transfer rig, on which the obvious
--- model fails twice; and with the record of a real hair dryer. The truth of the two simulated processes can be looked up at the end; that of the dryer
--- is known to nobody.
+-- This lesson goes round the loop of @fig:workflow three times (@tbl:workflow lists the question that each step answers): with a simulated linear system; with a simulated heat-transfer rig, on which the obvious
+-- model fails twice; and with the record of a real hair dryer. The truth of the two simulated processes can be looked up at the end; nobody knows the dryer's.
+-- Watch Brian Douglas's video [*Linear System Identification, Part 2*](https://www.youtube.com/watch?v=qC_C04SEV1E) (18 minutes) first: it goes round the same loop, with a simulated linear system and with a heat exchanger.
 --
--- The work is planned for two sittings of three hours:
+-- The work is planned for two sessions of three hours:
 --
--- | sitting | questions, with minutes | aim |
+-- | session | questions, with minutes | aim |
 -- |--------------|-------------------------|------------------------|
 -- | A structure that can be believed | 1 (15), 2 (30), 3 (20), 4 (20), 5 (30), 6 (20), 7 (15), 8 (15), 9 (15) | choose an order, validate, and let a failed validation say what to change |
 -- | What the model leaves | 10 (20), 11 (30), 12 (30), 13 (15), 14 (25), 15 (20), 16 (40) | find and remove a drift, judge parameters, and reach a verdict where no truth is known |
@@ -829,6 +829,11 @@ report.value("dryer_two_td", row_of(X, 2, 0).delay, "%.2f")
 report.value("dryer_three_td", row_of(X, 3, 0).delay, "%.3f")
 report.value("dryer_bic_31", row_of(X, 3, 1).bic, "%.3f")
 report.value("dryer_bic_20", row_of(X, 2, 0).bic, "%.3f")
+local H31 = tfsrivc(first, 3, 1, {TdMax = 0.5, InitialState = "none", Offset = "none"})
+local drift_pole = -max(pole(H31).re)
+report.value("dryer_drift_pole", drift_pole, "%.3f")
+report.value("dryer_drift_zero", -zero(H31).re[1], "%.3f")
+report.value("dryer_drift_time", 1/drift_pole, "%.0f")
 report.value("dryer_val_31", row_of(X, 3, 1).validation_fit, "%.2f")
 report.value("dryer_val_20", row_of(X, 2, 0).validation_fit, "%.2f")
 report.value("dryer_poles", X.best.poles, "%d")
@@ -859,8 +864,8 @@ report.value("dryer_gain", dcgain(H2), "%.3f")
 --
 -- With one pole the delay comes out at `dryer_one_td`{.value} s: a lag that the model lacks is made up for by a longer delay. YIC alone would choose that
 -- model; the second half speaks against it. With `dryer_poles`{.value} poles the delay is `dryer_two_td`{.value} s, two samples, and can be fixed
--- there, which saves a parameter. With two poles a zero gains nothing. BIC would prefer three poles and a zero (`dryer_bic_31`{.value} against `dryer_bic_20`{.value}); but that search did not converge, and on the second half
--- its fit is lower, `dryer_val_31`{.value} against `dryer_val_20`{.value} %. The model
+-- there, which saves a parameter. With two poles a zero gains nothing. BIC would prefer three poles and a zero (`dryer_bic_31`{.value} against `dryer_bic_20`{.value}). But one of these poles lies at `dryer_drift_pole`{.value} rad/s, with the zero next to it at `dryer_drift_zero`{.value} rad/s: a time constant of `dryer_drift_time`{.value} s describes the slow drift
+-- of this record and not the dryer, and on the second half the fit is lower, `dryer_val_31`{.value} against `dryer_val_20`{.value} %. The model
 --
 -- $$ G(s) = \frac{b_0}{s^2 + a_1 s + a_2}\,e^{-2T_s s} $$ {#eq:solution-dryer}
 --

@@ -24,9 +24,9 @@
 --
 -- `dynlab demo` shows the methods in short guided tours; take one before you start or when you want to see more.
 --
--- The work is planned for two sittings of three hours:
+-- The work is planned for two sessions of three hours:
 --
--- | sitting | questions, with minutes | aim |
+-- | session | questions, with minutes | aim |
 -- |--------------|-------------------------|------------------------|
 -- | Regressions and their bias | 1 (5), 2 (15), 3 (20), 4 (35), 5 (20), 6 (15), 7 (25), 8 (25), 9 (20) | write an estimator, see its bias, remove it by instruments, and know what the filter does |
 -- | Which method, and how sure | 10 (25), 11 (35), 12 (25), 13 (20), 14 (25), 15 (30), 16 (20) | compare methods over many records with the best that is possible, and with discrete time |
@@ -410,17 +410,19 @@ report.figure("colour", weights, "How the filter colours the equation error")
 -- with the new model until nothing changes. There is no $\lambda$ to choose.
 --
 -- ::: note
--- Here the second sitting begins: *which method, and how sure*. Run what you have (`dynlab run -i analysis.lua`); the models of the first sitting are compared with the
+-- Here the second session begins: *which method, and how sure*. Run what you have (`dynlab run -i analysis.lua`); the models of the first session are compared with the
 -- new one.
 -- :::
 --
 -- **Question 10.** Estimate the model by `tfsrivc(data, np, nz, {TdMax = 0})`, where `np` and `nz` count poles and zeros and the largest
--- delay is zero, so that none is looked for. Compare all methods with the truth.
+-- delay is zero, so that none is looked for. `present` shows the parameters with their standard errors: put `present(Gtf)` next to
+-- `present(Go)`. Compare all methods with the truth.
 
 -- %% id=tfsrivc
 -- BEGIN SOLUTION
 local Gtf = tfsrivc(data, 2, 0, {TdMax = 0})
 present(Gtf)
+present(Go)  -- the truth in the same form, without errors
 
 local function miss(G) return lsim(G, u, Ts) - x end
 local misses = plot(data.t, miss(Glssvf), "LSSVF", data.t, miss(Givsvf), "IVSVF",
@@ -527,7 +529,7 @@ report.value("iv_more_error", 100*math.sqrt((1 - math.min(correlation, 1)^2)/(lo
 --
 -- **Question 12.** Double the noise to $\sigma = 0.4$. What happens to the three methods?
 --
--- Guess first: by what factor does the bias of LSSVF grow? `outcome` prints the guess beside what you find.
+-- Guess first: by what factor does the bias of LSSVF grow? `outcome` prints your guess next to the result.
 
 -- %% id=noise_guess
 -- BEGIN SOLUTION
@@ -566,6 +568,7 @@ local function offset(study)
 end
 report.value("ls_low", 100*offset(low)/truth[1], "%.0f")
 report.value("ls_high", 100*offset(high)/truth[1], "%.0f")
+report.value("ls_growth", offset(high)/offset(low), "%.1f")
 report.value("tf_growth", high.TFSRIVC.std[1]/low.TFSRIVC.std[1], "%.2f")
 report.value("tf_failures", high.TFSRIVC.failed + high.TFSRIVC.not_converged, "%d")
 -- END SOLUTION
@@ -578,7 +581,9 @@ report.value("tf_failures", high.TFSRIVC.failed + high.TFSRIVC.not_converged, "%
 --
 -- ![$\hat b_0$ over $\hat a_1$ from 200 records with $\sigma = 0.4$, one panel for each method; marked: the true value; the ellipse would hold 95 % of the estimates of the best unbiased method. The cloud of LSSVF misses it.](figure:scatter){#fig:scatter}
 --
--- The bias of LSSVF grows from `ls_low`{.value} % of $a_1$ to `ls_high`{.value} % (@tbl:high). IVSVF and TFSRIVC stay near the truth;
+-- The bias of LSSVF grows from `ls_low`{.value} % of $a_1$ to `ls_high`{.value} % (@tbl:high), by a factor of `ls_growth`{.value}. A factor of four is the natural guess, since the bias comes from the variance
+-- of the noise. But the noise is also in the denominator: in the long run least squares gives $(R + \sigma^2 E)^{-1} R\,\theta$ instead of $\theta$, where $R$ and $E$ are the covariances of the noise-free regressors and of their noise for $\sigma = 1$ (lesson 2). The
+-- bias is proportional to $\sigma^2$ only while $\sigma^2 E$ is small against $R$; then it saturates, and it never exceeds 100 %. IVSVF and TFSRIVC stay near the truth;
 -- their scatter grows with the noise, for TFSRIVC by a factor of `tf_growth`{.value}, and the number of records on which its iterations
 -- did not converge is `tf_failures`{.value}. @fig:scatter also shows that the errors of $\hat a_1$ and $\hat b_0$ are correlated. A model that is too fast gets too large a $b_0$, so that the gain
 -- $b_0/a_2$, which the record determines well, comes out right.
@@ -853,7 +858,7 @@ end
 -- # What you submit
 --
 -- ::: {.note}
--- Where this lesson is graded, `answer(name, value)` hands your results in, and `dynlab check` tells what is missing: `own_without_noise` and
+-- If this lesson is graded, submit results with `answer(name, value)`; `dynlab check` lists what is missing: `own_without_noise` and
 -- `own`, what your own LSSVF finds in the record without and with noise, $a_1$, $a_2$, $b_0$ each; `record`, the data with noise; `G_lssvf` and
 -- `G_ivsvf`, the library's models of it for $\lambda = 3$; `G_final`, the model you would recommend; and `scatter`, the standard deviations of
 -- $a_1$, $a_2$ and $b_0$ that your Monte Carlo study found for the recommended method.

@@ -24,8 +24,11 @@
 -- The thruster hangs in the water on a beam that turns about a pivot and presses on a load cell: the input is the width $p$ of the pulses, the output its reading $F$ {#fig:thruster}
 -- :::
 --
--- Work in this script, cell by cell; your text goes to `report.md`, which becomes slides: at most twelve, for ten minutes. It has the eight
--- points that a presentation must have, and notes on what belongs to each.
+-- Work in this script, cell by cell; your text goes to `report.md`, which becomes slides: at most twelve, for a talk of ten minutes and five minutes of questions. It has the eight
+-- points that a presentation must have, and notes on what belongs to each. Submit the slides as a PDF together with this script: `dynlab pack` puts both into one file.
+--
+-- The exercise follows one with a real T200 thruster: MathWorks Student Competitions Team, *MATLAB and Simulink Robotics Arena: From Data to Model*, MATLAB Central File Exchange 65919,
+-- with a [video](https://www.youtube.com/watch?v=RU_LOtrEOBo) that shows one of the tests from 17:25 on.
 --
 -- # The records
 --
@@ -185,7 +188,7 @@ report.figure("switching", figure{width = 14.4, height = 4.6, columns = 2, panel
 
 -- %% [markdown]
 -- **Question 5.** Thrust over pulse width: filter both signals alike, take the slow part of the sine chirps, and average in bins. Where does the dead
--- band end? How do forward and reverse differ? Draw the root of the thrust as well: what is its curve like beyond the dead band, and why does physics want it so?
+-- band end? How do forward and reverse differ? Draw the root of the thrust as well: what shape does it have beyond the dead band, and why does physics predict it?
 
 -- %% id=curve
 -- BEGIN SOLUTION
@@ -444,7 +447,7 @@ for _, shape in ipairs(shapes) do
     for _, kind in ipairs(order_list) do
         local G = fitted[kind][shape].model
         report.value("delay_" .. kind .. "_" .. shape, 1e3*G.IODelay, "%.1f")
-        report.value("lag_" .. kind .. "_" .. shape, 1e3/G.den[2], "%.0f")
+        report.value("lag_" .. kind .. "_" .. shape, 1e3/G.den[2], "%.1f")
     end
 end
 report.value("true_delay", 1e3*truth.delay, "%.0f")
@@ -459,7 +462,10 @@ local function off_by(kind, size)
     return 100*max(abs(static_curve(kind, "sine", u)/interp1(truth.pwm - truth.neutral, truth.thrust, u) - 1))
 end
 for _, kind in ipairs{"hammerstein", "root"} do
-    for _, size in ipairs(amplitudes) do report.value("curve_off_" .. kind .. "_" .. size, off_by(kind, size), "%.0f") end
+    for _, size in ipairs(amplitudes) do
+        local off = off_by(kind, size)
+        report.value("curve_off_" .. kind .. "_" .. size, off, off < 9.5 and "%.1f" or "%.0f")
+    end
 end
 -- END SOLUTION
 
@@ -547,6 +553,7 @@ report.value("delay_change", delay_change, "%.1f")
 -- BEGIN SOLUTION
 local verdict = {{say("model", "modèle"), say("direction", "sens"), "100 µs", "200 µs", "300 µs",
                   say("all (%)", "tous (%)"), say("unfiltered (%)", "sans filtre (%)"), say("repeat 1 (%)", "répété 1 (%)"), say("repeat 2 (%)", "répété 2 (%)")}}
+local each = {}
 for _, kind in ipairs(order_list) do
     for _, shape in ipairs(shapes) do
         local simulate = fitted[kind][shape].simulate
@@ -558,6 +565,7 @@ for _, kind in ipairs(order_list) do
         end
         local all = agreement(thruster, other[shape], amplitudes, simulate)
         local unfiltered = agreement(thruster, other[shape], amplitudes, simulate, true)
+        each[kind .. "_" .. shape] = row
         table.insert(row, string.format("%.1f", all))
         table.insert(row, string.format("%.1f", unfiltered))
         for _, again in ipairs(study[kind .. "_" .. shape].fit) do table.insert(row, string.format("%.1f", again)) end
@@ -567,6 +575,11 @@ for _, kind in ipairs(order_list) do
     end
 end
 report.table("verdict", verdict)
+-- Hammerstein over linear, in points, as the table shows them: at one amplitude, and unfiltered.
+local function gain_in_column(shape, column)
+    return tonumber(each["hammerstein_" .. shape][column]) - tonumber(each["linear_" .. shape][column])
+end
+report.value("gain_200_sine", math.abs(gain_in_column("sine", 4)), "%.1f")
 -- END SOLUTION
 
 -- %% [markdown]
@@ -574,12 +587,12 @@ report.table("verdict", verdict)
 --
 -- # What you submit besides the slides
 --
--- Where the script is graded too, it hands in with `answer(name, value)`: `ring_frequency` (Hz) of question 3; `dead_band`, its forward and its
+-- If the script is graded too, submit results with `answer(name, value)`: `ring_frequency` (Hz) of question 3; `dead_band`, its forward and its
 -- reverse end (µs from neutral, the second one negative); `delay` (s) of the thruster; `thrust_300`, the steady thrust (N) at +300 µs and at −300 µs; your
 -- recommended `model`, estimated from the sine chirps; and `fit` (%), how well it simulates the thrust of all square chirps together, both
 -- signals below 8 Hz. The model is a table of four: vectors `width` (µs from neutral, rising) and `level` for the static curve, straight between its points, the
 -- dynamics `G` behind it, and `root`, true if what comes out is the root of the thrust, to be squared with its sign. Your script will be run
--- on the records of another thruster, whose square chirps nobody has seen. The figures that are looked for are `curve` and `validation`.
+-- on the records of another thruster, whose square chirps nobody has seen. The checks look for the figures `curve` and `validation`.
 
 -- %% id=hand_in
 -- BEGIN SOLUTION

@@ -15,8 +15,11 @@
 -- Le propulseur est suspendu dans l'eau à une poutre qui pivote et appuie sur un capteur de force : l'entrée est la largeur $p$ des impulsions, la sortie l'indication $F$ {#fig:thruster}
 -- :::
 --
--- Travaillez dans ce script, cellule par cellule ; votre texte va dans `report.md`, qui devient des diapositives : douze au plus, pour dix
--- minutes. Ce fichier contient les huit points d'une présentation et des notes sur ce qui appartient à chacun.
+-- Travaillez dans ce script, cellule par cellule ; votre texte va dans `report.md`, qui devient des diapositives : douze au plus, pour un exposé de dix
+-- minutes suivi de cinq minutes de questions. Ce fichier contient les huit points d'une présentation et des notes sur ce qui appartient à chacun. Rendez les diapositives en PDF avec ce script : `dynlab pack` met les deux dans un seul fichier.
+--
+-- L'exercice suit celui d'un vrai propulseur T200 : MathWorks Student Competitions Team, *MATLAB and Simulink Robotics Arena: From Data to Model*, MATLAB Central File Exchange 65919,
+-- avec une [vidéo](https://www.youtube.com/watch?v=RU_LOtrEOBo) qui montre un des essais à partir de 17:25.
 --
 -- # Les enregistrements
 --

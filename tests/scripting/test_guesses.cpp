@@ -16,6 +16,11 @@ TEST(guesses, stand_beside_what_was_found) {
     EXPECT_EQ(printed("guess('x', 1.097)\noutcome('x', 1)"), "x: guessed 1.097, found 1 (off by 10 %)\n");
     EXPECT_EQ(printed("guess('x', 1.0000001)\noutcome('x', 1)"), "x: guessed 1, found 1 (off by less than 0.01 %)\n");
     EXPECT_EQ(printed("guess('poles', 3)\noutcome('poles', 3)"), "poles: guessed 3, found 3 (off by 0 %)\n");
+    EXPECT_EQ(printed("guess('gain', -10, '%')\noutcome('gain', -13.87)"),
+              "gain: guessed -10 %, found -13.87 % (off by 3.9 percentage points)\n")
+        << "28 % would read as points";
+    EXPECT_EQ(printed("guess('gain', 4, '%')\noutcome('gain', 0)"),
+              "gain: guessed 4 %, found 0 % (off by 4 percentage points)\n");
     EXPECT_EQ(printed("guess('mean', 1)\noutcome('mean', 0)"), "mean: guessed 1, found 0\n");
 }
 

@@ -214,9 +214,12 @@ Message with_unit(double value, const std::string& unit) {
     return unit.empty() ? Message("{}", number) : Message("{} {}", number, unit);
 }
 
-/// How far a guess lies from what was found, in its percents; empty where that has no meaning.
-Message distance(double guessed, double found) {
-    if (found == 0 || !std::isfinite(found) || !std::isfinite(guessed)) return {};
+/// How far a guess is from the result, in per cent of the result; of a quantity in per cent, in percentage points.
+/// Empty where that has no meaning.
+Message distance(double guessed, double found, const std::string& unit) {
+    if (!std::isfinite(found) || !std::isfinite(guessed)) return {};
+    if (unit == "%") return Message("off by {} percentage points", significant(std::abs(guessed - found), 2));
+    if (found == 0) return {};
     const double percent = 100 * std::abs(guessed / found - 1);
     if (percent >= 9.5) return Message("off by {} %", decimals(percent, 0));
     if (percent >= 0.01 || percent == 0) return Message("off by {} %", significant(percent, 1));
@@ -261,7 +264,7 @@ int outcome(Call& call) {
         return 0;
     }
     const double guessed = lua_tonumber(L, -1);
-    const Message off = distance(guessed, found), own = with_unit(guessed, unit);
+    const Message off = distance(guessed, found, unit), own = with_unit(guessed, unit);
     call.print(localized(call, off.empty() ? Message("{}: guessed {}, found {}", name, own, shown)
                                            : Message("{}: guessed {}, found {} ({})", name, own, shown, off)) +
                "\n");
