@@ -63,6 +63,17 @@ std::string literal_of_figure(const std::string& text) {
     return markdown;
 }
 
+/// Of histograms: the horizontal axes are what is counted, the vertical ones name the rows.
+Message histograms_of(const MessageList& counted, const MessageList& rows) {
+    return rows.items.empty() ? Message("Histograms of {}", counted) : Message("Histograms of {}: {}", counted, rows);
+}
+
+bool shows_histograms(const Figure& figure) {
+    return !figure.panels.empty() && std::ranges::all_of(figure.panels, [](const Panel& panel) {
+        return !panel.curves.empty() && panel.curves.front().style == CurveStyle::kBars;
+    });
+}
+
 /// "y (m), u (V) over time (s)": time is a sentence of its own, as other languages have an article there.
 Message over_axis(const MessageList& drawn, const std::string& over, const Reader& reader) {
     if (over.empty()) return Message("{}", drawn);
@@ -167,13 +178,19 @@ std::string words_of_axes(const Figure& figure, const Reader& reader) {
         own.x_label = panel.x_label;
         own.y_label = panel.y_label;
     }
-    std::vector<std::string> drawn;
+    std::vector<std::string> drawn, counted;
     std::string over;
+    const auto add = [](std::vector<std::string>& labels, const std::string& label) {
+        if (!label.empty() && std::ranges::find(labels, label) == labels.end()) labels.push_back(label);
+    };
     for (const Panel& panel : readable(axes, reader).panels) {
-        const std::string label = literal_of_figure(message_text(panel.y_label));
-        if (!label.empty() && std::find(drawn.begin(), drawn.end(), label) == drawn.end()) drawn.push_back(label);
-        if (!panel.x_label.empty()) over = literal_of_figure(message_text(panel.x_label));
+        add(drawn, literal_of_figure(message_text(panel.y_label)));
+        if (panel.x_label.empty()) continue;
+        over = literal_of_figure(message_text(panel.x_label));
+        add(counted, over);
     }
+    if (shows_histograms(figure) && !counted.empty())
+        return message_text(histograms_of(listed(counted), listed(drawn)), reader);
     if (drawn.empty()) return {};
     const std::string words = message_text(over_axis(listed(drawn), over, reader), reader);
     const std::size_t second = static_cast<unsigned char>(words[0]) < 0x80 ? 1 : 2;  // bytes of a letter of French

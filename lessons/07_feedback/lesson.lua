@@ -289,6 +289,18 @@ report.figure("regulation", figure{rows = 2, height = 9, panels = {
     bode_panel(function(F) return decibels(F.magnitude) end, {ylabel = say("magnitude (dB)", "module (dB)"), y_range = {-20, 25}, legend = "above"}),
     bode_panel(function(F) return F.phase end, {ylabel = "phase (degrees)", y_range = {-180, 0}, legend = "none", xlabel = say("frequency (rad/s)", "pulsation (rad/s)")})}},
     "Frequency responses from voltage to speed")
+-- How far the estimated phase is from that of -1/C where the figure begins, degrees.
+local slow_phase_off = 0
+for k = 1, #measured.w do
+    if measured.w[k] > 0.3 and measured.w[k] < 0.5 then
+        local c = freqresp(truth.controller, {measured.w[k]})
+        local exact = 180/math.pi*math.atan(c.im[1], -c.re[1])
+        local off = math.abs(measured.phase[k] - exact) % 360
+        slow_phase_off = math.max(slow_phase_off, math.min(off, 360 - off))
+    end
+end
+report.value("slow_phase_off", slow_phase_off, "%.0f")
+report.value("smooth_band", 20*(measured.w[2] - measured.w[1]), "%.1f")
 local with_noise_model = rivc(pair(drive.regulation), {1, 2, 2, 2, 0}, from_rest)
 report.value("resting_b0", with_noise_model.param[3], "%.0f")
 report.value("resting_b0_error", with_noise_model.std[3], "%.0f")
@@ -300,7 +312,7 @@ report.value("true_b0", true_p[3], "%.0f")
 -- ![From voltage to speed: estimated from `regulation`, the truth $G$, and the controller's inverse with its sign turned, $-1/C$](figure:regulation){#fig:regulation}
 --
 -- With $r = 0$ the record obeys two equations, $y = G u + v$ and $u = -C y$. The second one has no error, so it is the one that is found: $y/u = -1/C$ (@fig:regulation), the
--- negative inverse of the controller, in magnitude and in phase. (Below 0.5 rad/s the estimated phase is off by up to `slow_phase_off`{.value}°: `etfe` smooths over neighboring frequencies, and there the response turns quickly from one to the next.) A method that models no noise can find nothing else here, nor can one that takes its instruments from a reference which rests. What is left in principle is a parametric model of plant and noise together: since the
+-- negative inverse of the controller, in magnitude and in phase. (Below 0.5 rad/s the estimated phase is off by up to `slow_phase_off`{.value}°: `etfe` averages over twenty frequencies to either side, `smooth_band`{.value} rad/s, and within this band $-1/C$ turns.) A method that models no noise can find nothing else here, nor can one that takes its instruments from a reference which rests. What is left in principle is a parametric model of plant and noise together: since the
 -- controller answers a sample late, $-1/C$ would have to know the next voltage and is no process, and with the right structure and very many samples $G$ would come out [@ljung1999, chapter 13]. Not from this record: `rivc` with a model of the noise finds
 -- $b_0 =$ `resting_b0`{.value} ± `resting_b0_error`{.value}, the truth is `true_b0`{.value}. A record of ordinary operation is not a free experiment: somebody must move the reference.
 -- END SOLUTION

@@ -717,6 +717,7 @@ function Pandoc(document)
   if chunk then tell_count("chunk-end", chunk) end
   if failed and not slots.chunks then os.exit(64) end
   set_literature(document)
+  document.blocks = layout:keep_formulas_with_their_text(document.blocks)
   document.blocks = layout:mark_slides_with_code(document.blocks)
   return document
 end

@@ -176,6 +176,18 @@ function layout:heading_line(paragraph)
     pandoc.RawBlock("latex", "\\csname @afterheading\\endcsname") }
 end
 
+-- A formula in a paragraph of its own goes on with the sentence before it: no page ends between them.
+function layout:keep_formulas_with_their_text(blocks)
+  if self.format ~= "latex" or self.slides then return blocks end
+  for i = 2, #blocks do
+    local first = blocks[i].t == "Para" and blocks[i].content[1]
+    if first and first.t == "Math" and first.mathtype == "DisplayMath" and blocks[i - 1].t == "Para" then
+      blocks[i - 1].content:insert(raw("latex", "\\nopagebreak"))
+    end
+  end
+  return blocks
+end
+
 function layout:need_for_lines(text) return self:need(math.min(line_count(text), least_lines)) end
 
 function layout:code_block(block)

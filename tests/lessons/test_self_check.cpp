@@ -39,19 +39,52 @@ TEST(self_check, has_five_questions_a_lesson_each_with_one_right_answer_and_a_re
     }
 }
 
-TEST(self_check, is_the_end_of_the_sheet_and_no_part_of_the_copy) {
+/// The reasons of a self-check: the indented paragraphs below its options.
+std::vector<std::string> reasons_in(const std::string& questions) {
+    std::vector<std::string> reasons;
+    const std::regex reason("\n\n  ([^\n]+)\n");
+    for (std::sregex_iterator it(questions.begin(), questions.end(), reason), end; it != end; ++it)
+        reasons.push_back((*it)[1]);
+    return reasons;
+}
+
+TEST(self_check, of_task_sheets_has_questions_without_answers) {
     const Workbench bench(Workbench::Memory::kShared);
     const std::string text = bench.shell("pdftotext -layout '" + shared_sheet("05_thruster") + "' -").output;
-    const std::size_t last_task = text.find("Question 10."), asked = text.find("Five questions to check yourself"),
-                      answered = text.find("Answers to the questions");
-    EXPECT_LT(last_task, asked);
-    EXPECT_LT(asked, answered);
-    EXPECT_NE(answered, std::string::npos);
-    EXPECT_LT(answered, text.find("Luck would change"));
-    EXPECT_THAT(text, Not(HasSubstr("[x]")));
-    const ChildResult page = bench.dynlab({"sheet", "05", "-o", "sheet.html"});
-    ASSERT_EQ(page.exit_code, 0) << page.error_output;
-    EXPECT_EQ(count(bench.read("sheet.html"), "<details"), 5u);
+    EXPECT_LT(text.find("Question 10."), text.find("Five questions to check yourself"));
+    EXPECT_THAT(text, AllOf(HasSubstr("Bad luck."), HasSubstr("An error of the structure.")));
+    EXPECT_THAT(text, AllOf(Not(HasSubstr("Answers to the questions")), Not(HasSubstr("Luck would change")),
+                            Not(HasSubstr("[x]"))));
+    std::size_t sheets = 0;
+    for (const Lesson& lesson : lessons())
+        for (const std::string language : {"en", "fr"}) {
+            if (language == "fr" && !std::filesystem::exists(lesson.tasks(language))) continue;
+            SCOPED_TRACE(lesson.slug + " " + language);
+            std::vector<std::string> command{"sheet", lesson.slug, "-o", "sheet.html"};
+            if (language == "fr") command.insert(command.end(), {"--lang", language});
+            const ChildResult made = bench.dynlab(command);
+            ASSERT_EQ(made.exit_code, 0) << made.error_output;
+            const std::string page = bench.read("sheet.html");
+            const std::string questions = read_text(lesson.self_check(language));
+            EXPECT_EQ(count(page, "<details"), 0u);
+            const std::vector<std::string> reasons = reasons_in(questions);
+            EXPECT_EQ(reasons.size(), 15u);
+            for (const std::string& reason : reasons) EXPECT_THAT(page, Not(HasSubstr(reason.substr(0, 30)))) << reason;
+            ++sheets;
+        }
+    EXPECT_EQ(sheets, 11u);
+}
+
+TEST(self_check, of_reports_with_solutions_has_the_answers) {
+    const Workbench bench(Workbench::Memory::kShared);
+    const std::string text =
+        bench
+            .shell("pdftotext -layout '" + shared_document({"report", "02_least_squares"}, "02_least_squares.en.pdf") +
+                   "' -")
+            .output;
+    EXPECT_LT(text.find("Five questions to check yourself"), text.find("Answers to the questions"));
+    EXPECT_LT(text.find("Answers to the questions"), text.find("All three minimise the same sum."));
+    EXPECT_NE(text.find("All three minimise the same sum."), std::string::npos);
     ASSERT_EQ(bench.dynlab({"new", "05", "mine"}).exit_code, 0);
     EXPECT_THAT(bench.read("mine/analysis.lua"), Not(HasSubstr("choice")));
 }
@@ -61,8 +94,7 @@ TEST(self_check, and_tasks_are_french_where_french_is_asked_for) {
     for (const Lesson& lesson : {find_lesson("03_crane"), find_lesson("05"), find_lesson("06"), find_lesson("07")}) {
         SCOPED_TRACE(lesson.slug);
         const std::string text = bench.shell("pdftotext -layout '" + shared_sheet(lesson.slug, "fr") + "' -").output;
-        EXPECT_THAT(text,
-                    AllOf(HasSubstr("Cinq questions"), HasSubstr("Réponses aux questions"), HasSubstr("Question 10.")));
+        EXPECT_THAT(text, AllOf(HasSubstr("Cinq questions"), HasSubstr("Question 10.")));
         for (const char* word : {" is ", " are ", " your ", " what ", " with ", " which "})
             EXPECT_THAT(text, Not(HasSubstr(word)));
         // The same answers are right, option by option.

@@ -116,7 +116,9 @@ FigureFindings figure_findings(const DocumentText& text, Severity not_mentioned)
         result.findings.push_back(
             {"figure-not-mentioned", not_mentioned, page, "",
              Message("Figure {} is never mentioned in the text.", number),
-             Message("Say in the text what it shows (@fig:name writes its number), or take it out.")});
+             Message(
+                 "Name it with report.figure(\"name\", fig, \"caption\") and say in the text what @fig:name shows, or "
+                 "remove it.")});
     }
     for (const auto& [number, page] : mentions) {
         if (captions.empty() || captions.contains(number)) continue;

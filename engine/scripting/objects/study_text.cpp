@@ -29,7 +29,8 @@ class StudyText {
     std::string block_of(const MonteCarloResult& result, int who_width) const;
     std::string bias_of(const MonteCarloResult& result) const;
     std::string troubles_of(const MonteCarloResult& result, int runs) const;
-    std::string candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays) const;
+    std::string candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays,
+                              std::size_t note) const;
 
     Reader reader_;
 };
@@ -94,7 +95,9 @@ Message notes_on(const OrderCandidate& candidate) {
     return notes.items.empty() ? Message() : Message("{}", notes);
 }
 
-std::string StudyText::candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays) const {
+/// `note`: the number of the line below the table that says more, 0 for none. Behind the row it would wrap on paper.
+std::string StudyText::candidate_row(const OrderCandidate& candidate, bool chosen, bool validated, bool delays,
+                                     std::size_t note) const {
     std::string row = fmt::format("{} {:>5} {:>5}", chosen ? '*' : ' ', candidate.poles, candidate.zeros);
     if (delays) row += fmt::format(" {:>9}", text(candidate.delay, 4));
     if (!candidate.failure.empty()) return row + "  " + text(Message("not estimated: {}", candidate.failure)) + "\n";
@@ -103,8 +106,7 @@ std::string StudyText::candidate_row(const OrderCandidate& candidate, bool chose
                     fixed(candidate.yic, 3), fixed(candidate.aic, 4), fixed(candidate.bic, 4), text(candidate.fpe, 4),
                     fixed(candidate.log_condition, 2), candidate.iterations, fixed(candidate.fit_percent, 2));
     if (validated) row += fmt::format(" {:>8}", fixed(*candidate.validation_fit, 2));
-    const Message notes = notes_on(candidate);
-    return row + (notes.empty() ? "" : "  " + text(notes)) + "\n";
+    return row + (note == 0 ? "" : fmt::format(" ({})", note)) + "\n";
 }
 
 std::string StudyText::of(const MonteCarlo& study) const {
@@ -138,8 +140,16 @@ std::string StudyText::of(const OrderSelection& selection, const OrderChoice& ch
                          "log cond", "iter", text(Message("fit (%)")));
     if (selection.validated) lines += fmt::format(" {:>8}", text(Message("val. (%)")));
     lines += "\n";
-    for (std::size_t i = 0; i < selection.candidates.size(); ++i)
-        lines += candidate_row(selection.candidates[i], i == choice.place, selection.validated, delays);
+    std::vector<std::string> notes;
+    for (std::size_t i = 0; i < selection.candidates.size(); ++i) {
+        const OrderCandidate& candidate = selection.candidates[i];
+        const std::string note = candidate.failure.empty() ? text(notes_on(candidate)) : "";
+        const auto known = std::ranges::find(notes, note);
+        const std::size_t number = note.empty() ? 0 : static_cast<std::size_t>(known - notes.begin()) + 1;
+        if (number > notes.size()) notes.push_back(note);
+        lines += candidate_row(candidate, i == choice.place, selection.validated, delays, number);
+    }
+    for (std::size_t i = 0; i < notes.size(); ++i) lines += fmt::format("({}) {}\n", i + 1, notes[i]);
     return lines + text(choice.explanation) + "\n";
 }
 
