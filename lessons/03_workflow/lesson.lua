@@ -829,7 +829,7 @@ report.value("dryer_two_td", row_of(X, 2, 0).delay, "%.2f")
 report.value("dryer_three_td", row_of(X, 3, 0).delay, "%.3f")
 report.value("dryer_bic_31", row_of(X, 3, 1).bic, "%.3f")
 report.value("dryer_bic_20", row_of(X, 2, 0).bic, "%.3f")
-local H31 = tfsrivc(first, 3, 1, {TdMax = 0.5, InitialState = "none", Offset = "none"})
+local H31 = row_of(X, 3, 1).model
 local drift_pole = -max(pole(H31).re)
 report.value("dryer_drift_pole", drift_pole, "%.3f")
 report.value("dryer_drift_zero", -zero(H31).re[1], "%.3f")

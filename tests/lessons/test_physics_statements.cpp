@@ -7,6 +7,7 @@
 
 #include "lesson_record.h"
 #include "numerics/rigs/crane.h"
+#include "numerics/rigs/crane_experiments.h"
 #include "numerics/rigs/two_tanks.h"
 
 namespace dynlab::test {
@@ -28,30 +29,117 @@ double cell_error(const nlohmann::json& record, const char* table, int row, int 
     return std::stod(text.substr(text.find("±") + std::string("±").size()));
 }
 
-TEST(lesson_06_physics, finds_what_the_linear_models_leave) {
+/// The crane's equation (1), written here once more, with the sign of the speed as tanh(v/delta). p: gain, viscous,
+/// dry, coupling, length, pivot, air.
+Eigen::Vector4d crane_rates(const Vector& p, const Eigen::Vector4d& s, double u, double delta) {
+    const double sine = std::sin(s[2]), cosine = std::cos(s[2]), w = s[3];
+    const double torque = -9.81 / p[4] * sine - (p[5] + p[6] * std::abs(w)) * w;
+    const double force = p[0] * u - p[1] * s[1] - p[2] * std::tanh(s[1] / delta) + p[3] * sine * w * w;
+    const double a = (force - p[3] * cosine * torque) / (1 - p[3] * cosine * cosine / p[4]);
+    return {s[1], a, w, torque - cosine * a / p[4]};
+}
+
+/// Position and angle (N x 2) by Runge-Kutta steps of 20 ms/substeps.
+Matrix crane_run(const Vector& p, const Vector& u, double delta) {
+    const int substeps = std::max(8, static_cast<int>(std::ceil(0.02 * p[2] / delta)));
+    const double h = 0.02 / substeps;
+    Matrix out(u.size(), 2);
+    Eigen::Vector4d s = Eigen::Vector4d::Zero();
+    for (Index k = 0; k < u.size(); ++k) {
+        out.row(k) << s[0], s[2];
+        for (int j = 0; j < substeps; ++j) {
+            const Eigen::Vector4d a = crane_rates(p, s, u[k], delta), b = crane_rates(p, s + h / 2 * a, u[k], delta);
+            const Eigen::Vector4d c = crane_rates(p, s + h / 2 * b, u[k], delta),
+                                  d = crane_rates(p, s + h * c, u[k], delta);
+            s += h / 6 * (a + 2 * b + 2 * c + d);
+        }
+    }
+    return out;
+}
+
+Matrix measured_run(const CraneRecord& record) {
+    Matrix y(record.u.size(), 2);
+    y.col(0) = record.x.array() - record.x.head(50).mean();
+    y.col(1) = record.theta.array() - record.theta.head(50).mean();
+    return y;
+}
+
+double deviation(const VectorView& e) {
+    return std::sqrt((e.array() - e.mean()).square().mean());
+}
+
+/// mrad
+double angle_error(const Vector& p, const CraneRecord& record, double delta) {
+    return 1e3 * deviation((measured_run(record) - crane_run(p, record.u, delta)).col(1));
+}
+
+/// The seven parameters with the smallest simulation error, each output's weighted by its standard deviation:
+/// Gauss-Newton with differences, from the values that the rig's own parameters give.
+Vector fitted_crane(const CraneRecord& record, double delta) {
+    Vector p{{1.0, 14.5, 0.24, 0.0334, 0.3722, 0.1, 0.024}};
+    const Matrix y = measured_run(record);
+    for (int pass = 0; pass < 12; ++pass) {
+        const Matrix errors = y - crane_run(p, record.u, delta);
+        const double weights[] = {1 / deviation(errors.col(0)), 1 / deviation(errors.col(1))};
+        const auto stacked = [&](const Matrix& e) {
+            return (Vector(2 * e.rows()) << weights[0] * e.col(0), weights[1] * e.col(1)).finished();
+        };
+        Matrix J(2 * y.rows(), p.size());
+        for (Index i = 0; i < p.size(); ++i) {
+            Vector moved = p;
+            const double step = 1e-4 * std::abs(p[i]) + 1e-6;
+            moved[i] += step;
+            J.col(i) = stacked(errors - (y - crane_run(moved, record.u, delta))) / step;
+        }
+        p += J.colPivHouseholderQr().solve(stacked(errors));
+        p.tail(2) = p.tail(2).cwiseMax(0);
+    }
+    return p;
+}
+
+// Own equations, own integration and own search, on the records as the simulator makes them.
+TEST(lesson_06_physics, the_width_of_a_smooth_sign_is_a_part_of_the_model) {
+    const nlohmann::json record = record_of_lesson("06_physics");
+    const auto crane = simulate_crane({}, {}, 1);
+    const CraneRecord &estimation = crane[0], &validation = crane[1], &steps = crane[2];
+    const int wide = 7, narrow = 0, half = 5;  // rows from `estimation`; the next one is from `steps`, but of narrow
+    struct Case {
+        double delta;
+        int row, row_of_steps;
+    };
+    for (const auto& [delta, row, row_of_steps] :
+         {Case{5e-3, wide, wide + 1}, {5e-4, narrow, 4}, {2.5e-4, half, half + 1}}) {
+        SCOPED_TRACE(delta);
+        EXPECT_NEAR(cell(record, "meaning", row, 0), 1e3 * delta, 1e-9);
+        for (const bool pushed : {false, true}) {
+            SCOPED_TRACE(pushed);
+            const int own = pushed ? row_of_steps : row;
+            const Vector p = fitted_crane(pushed ? steps : estimation, delta);
+            EXPECT_NEAR(cell(record, "meaning", own, 2), 1e3 * p[4], 0.1) << "mm";
+            EXPECT_NEAR(cell(record, "meaning", own, 3), p[2] / p[0], 1e-3) << "V";
+            EXPECT_NEAR(cell(record, "meaning", own, 4), angle_error(p, validation, delta), 0.15) << "mrad";
+            EXPECT_NEAR(cell(record, "meaning", own, 5), angle_error(p, steps, delta), 0.15) << "mrad";
+        }
+    }
+}
+
+TEST(lesson_06_physics, finds_the_errors_of_the_linear_models) {
     const nlohmann::json record = record_of_lesson("06_physics");
     const CraneTruth crane = crane_truth({});
     const double length = 9.81 / std::pow(crane.natural_frequency, 2);
 
-    EXPECT_NEAR(cell(record, "meaning", 5, 1), 1e3 * length, 0.006);
-    // four repetitions scatter by far more than their standard errors tell, and the first is right by luck
+    EXPECT_NEAR(cell(record, "meaning", 9, 2), 1e3 * length, 0.006);
     Vector voltages(4), errors(4);
-    for (int k = 0; k < 5; ++k) EXPECT_NEAR(cell(record, "meaning", k, 1), 1e3 * length, 0.5) << "mm";
+    for (int k = 0; k < 9; ++k) EXPECT_NEAR(cell(record, "meaning", k, 2), 1e3 * length, 0.5) << "mm";
     for (int k = 0; k < 4; ++k) {
-        voltages[k] = cell(record, "meaning", k, 2);
-        errors[k] = cell_error(record, "meaning", k, 2);
+        voltages[k] = cell(record, "meaning", k, 3);
+        errors[k] = cell_error(record, "meaning", k, 3);
     }
     const double scatter = std::sqrt((voltages.array() - voltages.mean()).square().sum() / 3);
-    EXPECT_NEAR(number(record, "dry_scatter"), scatter, 2e-4);
-    EXPECT_NEAR(number(record, "dry_mean"), voltages.mean(), 2e-4);
-    EXPECT_NEAR(number(record, "dry_error"), errors.mean(), 2e-4);
-    EXPECT_GT(scatter, 5 * errors.mean());
-    EXPECT_NEAR(voltages[0], crane.dry_voltage, 2 * errors[0]) << "almost exact";
-    EXPECT_LT(voltages.tail(3).maxCoeff(), crane.dry_voltage - 0.01);
-    EXPECT_NEAR(number(record, "steps_dry"), crane.dry_voltage, 0.01) << "much nearer";
-    EXPECT_GT(number(record, "steps_off"), 5) << "but not by its standard error";
-    EXPECT_GT(number(record, "length_off"), 5);
-    EXPECT_GT(number(record, "left_crossed"), 2 * number(record, "left_pushed"));
+    EXPECT_NEAR(number(record, "dry_scatter"), scatter, 1e-4);
+    EXPECT_NEAR(number(record, "dry_mean"), voltages.mean(), 1e-4);
+    EXPECT_NEAR(number(record, "dry_error"), errors.mean(), 1e-4);
+    const double potentiometer = 1e3 * std::hypot(2e-3, 1.5e-3 / std::sqrt(12.));
     EXPECT_LT(number(record, "linear_fit"), 97);
     EXPECT_GE(number(record, "crane_fit_4"), 98);
     EXPECT_LT(number(record, "crane_fit_2"), number(record, "crane_fit_3") - 1) << "friction explains no angle there";
@@ -61,9 +149,21 @@ TEST(lesson_06_physics, finds_what_the_linear_models_leave) {
     EXPECT_GT(number(record, "steps_fit_4"), number(record, "steps_fit_3") + 5);
     const auto left = [&record](int variant) { return 100 - cell(record, "variants", variant, 5); };
     EXPECT_LT(left(1), left(0) / 2) << "most of the position on steps";
-    EXPECT_GT(number(record, "left_on_steps"), 3 * number(record, "noise"));
-    const double potentiometer = 1e3 * std::hypot(2e-3, 1.5e-3 / std::sqrt(12.));
-    EXPECT_NEAR(number(record, "left_physics"), potentiometer, 0.2);
+    EXPECT_NEAR(number(record, "left_physics"), potentiometer, 0.2) << "nothing is left";
+    EXPECT_LT(number(record, "left_on_steps"), 1.4 * potentiometer) << "and little on steps";
+    // With a wide step the first data set seems as well described, and the two seem to disagree.
+    EXPECT_NEAR(cell(record, "meaning", 7, 4), potentiometer, 0.2);
+    EXPECT_NEAR(number(record, "wide_dry"), crane.dry_voltage, 0.005) << "close to the truth, by chance";
+    EXPECT_GT(number(record, "wide_left_steps"), 3 * potentiometer);
+    EXPECT_GT(number(record, "wide_left_crossed"), 2.5 * potentiometer);
+    EXPECT_LT(cell(record, "meaning", 0, 5), 1.4 * potentiometer);
+    EXPECT_LT(cell(record, "meaning", 4, 4), 1.4 * potentiometer);
+    EXPECT_NEAR(cell(record, "meaning", 5, 3), cell(record, "meaning", 0, 3), 0.002) << "half the width";
+    EXPECT_NEAR(cell(record, "meaning", 5, 5), cell(record, "meaning", 0, 5), 0.4);
+    EXPECT_NEAR(cell(record, "meaning", 6, 4), cell(record, "meaning", 4, 4), 0.4);
+    EXPECT_LT(number(record, "steps_dry"), crane.dry_voltage);
+    EXPECT_GT(number(record, "steps_off"), 3) << "stiction, belt and inductance";
+    EXPECT_GT(number(record, "length_off"), 3);
 
     const TwoTanksParameters tanks;
     const double truths[] = {tanks.k1, tanks.k2, tanks.k3, tanks.k4, tanks.overflow_part, tanks.sensor_offset};

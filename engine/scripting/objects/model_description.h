@@ -14,8 +14,9 @@ DYNLAB_DESCRIBE(ParameterHistory, t, theta, std)
 
 template <Is<ReportFields> T, class V>
 void describe(T& object, V& member) {
-    auto& [numbers, vectors, matrices] = object;
+    auto& [numbers, vectors, matrices, simulated] = object;
     member("numbers", numbers), member.kept("vectors", vectors), member.kept("matrices", matrices);
+    member.kept("simulated", simulated);
 }
 
 template <Is<Estimate> T, class V>
