@@ -313,8 +313,8 @@ local function study(sigma, estimators)
                       runs = 200, estimators = estimators}
 end
 local filters = study(sigma, {{"ivsvf", {2, 1, 0}, 30, label = "λ = 30"},
-                              {"ivsvf", {2, 1, 0}, 0.3, label = "λ = 0.3"},
-                              {"ivsvf", {2, 1, 0}, 3, label = "λ = 3"}})
+                              {"ivsvf", {2, 1, 0}, 3, label = "λ = 3"},
+                              {"ivsvf", {2, 1, 0}, 0.3, label = "λ = 0.3"}})
 -- the same picture twice: all estimates, and the middle enlarged
 local function within(x, y, legend)
     local picture = filters:scatter("a1", "a2")
