@@ -38,7 +38,9 @@ struct FittedRecord {
     double deviation() const;  ///< standard deviation of y
     /// The model explains half of the output, or of what is left of it without slow movement.
     bool trusted() const { return simulation.fit_percent > 50 || movement_error < 0.5; }
-    void take_off(const VectorView& part);  ///< of y, and simulates anew
+    /// It does not, and is unstable, or its simulation leaves the range of the output by far: no measure of anything.
+    bool runs_away() const;
+    void take_off(const VectorView& part);  ///< of y, and simulates again
 };
 
 /// A model with one to three poles and a free delay. Its structure is looked for (search_delay) with a free start and a
@@ -52,11 +54,10 @@ struct FittedRecord {
 /// than -50 %. Nothing when nothing can be fitted, or when cancelled.
 std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel);
 
-/// How far a signal wanders: the variance of its means over 20 parts of the record against what its correlation inside
-/// the parts lets expect (Bartlett's window of a quarter of a part). For noise that forgets within a part this is F
-/// with 19 and many degrees of freedom: 3.6 is exceeded with probability 1e-6. 0 for fewer than 200 samples.
-double wandering(const VectorView& x);
-inline constexpr double kWanders = 5;  ///< leaves room for noise of long memory
+/// Whether a signal wanders, as a random walk or a straight line does: n (1 - r) < 16 for the correlation r of
+/// neighbors among its means over n = 60 parts (Sargan and Bhargava 1983, of a random walk in 97 %). Noise that forgets
+/// within a thirtieth of the record, such as AR(0.9) in 300 samples, lies above. False for fewer than 240 samples.
+bool wanders(const VectorView& x);
 
 /// A finding about the output.
 RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value);
