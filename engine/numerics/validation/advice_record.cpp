@@ -239,8 +239,8 @@ Message FittedRecord::with_unit(double value, int digits) const {
 }
 
 bool FittedRecord::runs_away() const {
-    constexpr double kFar = 3;  // times the range of the output
-    if (trusted()) return false;
+    constexpr double kFar = 3, kHalf = 50;  // times the range of the output; per cent of fit
+    if (simulation.fit_percent > kHalf) return false;
     const auto range = [](const auto& x) { return x.maxCoeff() - x.minCoeff(); };
     return !model().stable() || !(range(simulation.output) < kFar * range(y()));
 }

@@ -90,7 +90,9 @@ bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
     constexpr Index kShift = 3;            // samples
     constexpr double kEvidence = 30, kNoWorse = 10;  // of N log of losses
     constexpr double kLeastLead = 0.5;     // samples
-    if (!fit.trusted() || fit.window.step > 1 || !follows_later_inputs(fit, 0)) return false;
+    const Fit& found = fit.search.candidate.estimate;
+    const bool at_zero = !found.at_bound.empty() && found.at_bound[static_cast<std::size_t>(found.theta.size() - 1)];
+    if (!fit.trusted() || fit.window.step > 1 || !(at_zero || follows_later_inputs(fit, 0))) return false;
     const auto N = static_cast<double>(fit.window.data.sample_count());
     const int poles = fit.search.candidate.poles, zeros = fit.search.candidate.zeros;
     const std::optional<Fit> earlier = fit_to_earlier_input(fit, kShift, std::min(zeros, poles - 1));
@@ -112,7 +114,7 @@ bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
 bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, RecordFindings& findings) {
     const bool disturbed = wanders(fit.error);
     const double forward = std::max(fit.simulation.fit_percent, disturbed ? 100 * (1 - fit.movement_error) : 0.0);
-    if (forward > kExplainsMost || !follows_later_inputs(fit)) return false;
+    if (forward > kExplainsMost || !fit.model().stable() || !follows_later_inputs(fit)) return false;
     const IdData turned = exchanged(fit.data);
     if (!may_be_exchanged(exchanged(fit.window.data), forward)) return false;
     const std::optional<FittedRecord> backward = fitted_record(turned, cancel);

@@ -224,12 +224,31 @@ double found_elsewhere(const Vector& motion, const FittedRecord& fit) {
 
 }  // namespace
 
+namespace {
+
+/// Whether the free motion explains more than errors that follow each other imitate: the gain in N log of the sum of
+/// squares over the best start from rest, with as many samples as white errors of the same power at low frequencies.
+bool start_is_evident(const FittedRecord& fit) {
+    constexpr double kEvident = 30;
+    double rest = kInfinity;
+    for (const InitialState state : {InitialState::kZero, InitialState::kSteady}) {
+        const CompareResult other = compare(fit.data, fit.model(), {state, Offset::kEstimate});
+        rest = std::min(rest, (fit.y() - other.output).squaredNorm());
+    }
+    const Index N = fit.error.size();
+    const double squares = fit.error.squaredNorm();
+    const double r = std::clamp(fit.error.head(N - 1).dot(fit.error.tail(N - 1)) / squares, 0.0, 0.999);
+    return static_cast<double>(N) * (1 - r) / (1 + r) * std::log(rest / squares) > kEvident;
+}
+
+}  // namespace
+
 void find_running_start(const FittedRecord& fit, RecordFindings& findings) {
     const Vector motion = free_motion(fit);
     const double largest = motion.size() > 0 ? motion.cwiseAbs().maxCoeff() : 0, error = standard_deviation(fit.error);
     const bool moves =
         largest > std::max({kVisibleStart * fit.deviation(), kAboveError * error, 3 * fit.disturbance}) &&
-        kOverOthers * found_elsewhere(motion, fit) < 1;
+        kOverOthers * found_elsewhere(motion, fit) < 1 && start_is_evident(fit);
     if (!moves && !has_strange_beginning(fit)) return;
     const OptionName option{"initial_state"};
     const Message message =
@@ -326,16 +345,15 @@ std::optional<LoadedIntegrator> loaded_integrator(const IdData& data) {
 }  // namespace
 
 bool find_load(const FittedRecord& fit, RecordFindings& findings) {
-    constexpr double kExplains = 0.3, kBetter = 0.8, kVisible = 0.3;
+    constexpr double kExplains = 0.3, kAsWell = 1.15, kVisible = 0.3;
     const IdData& window = fit.window.data;
     const bool doubtful = slowest_pole(fit) || fit.runs_away() || wanders(fit.error) ||
                           fit.simulation.start.state == InitialState::kEstimate;
     if (!doubtful) return false;
     const std::optional<LoadedIntegrator> found = loaded_integrator(window);
     if (!found || !(found->part > kVisible) || !(found->error < kExplains)) return false;
-    if (!(found->error < kBetter * std::max(fit.error.norm(), 1e-12) /
-                             (fit.deviation() * std::sqrt(static_cast<double>(fit.error.size())))))
-        return false;
+    const double own = fit.search.loss() / std::pow(fit.deviation(), 2);
+    if (!fit.runs_away() && !(found->error < kAsWell * std::sqrt(own))) return false;
     const Message load = with_unit(rounded(found->load, 2), fit.data.input_units.front());
     const Message balance = with_unit(rounded(-found->load, 2), fit.data.input_units.front());
     findings.push_back(

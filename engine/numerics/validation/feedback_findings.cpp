@@ -128,7 +128,7 @@ void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
     const Index first = fit.window.first, count = std::min<Index>(fit.error.size() - first, kMostFeedbackSamples);
     if (count < 20 * kInputMemory) return;
     const Vector u = fit.u().segment(first, count);
-    const bool predicts = fit.runs_away();
+    const bool predicts = !fit.model().stable() || fit.runs_away();
     const Vector e = standardised(
         predicts ? prediction_errors(fit.y().segment(first, count), u) : white_errors(fit.error.segment(first, count)),
         kCutError);

@@ -35,7 +35,7 @@ void find_sampling_rate(const FittedRecord& fit, RecordFindings& findings);
 /// simulated movement.
 void find_integrator(const FittedRecord& fit, RecordFindings& findings);
 /// "load": an integrator on which a constant acts beside the input, so that its output ramps, and which explains the
-/// record better than the model. True when there is one: the model has another cause for the ramp.
+/// record as well as the model or better. True when there is one: the model has another cause for the ramp.
 bool find_load(const FittedRecord& fit, RecordFindings& findings);
 /// "nonlinear" with sections (of 24, but for the first) whose rms error is more than four times the median of all and
 /// 5 % of the output's standard deviation. True when there are any: no other test of the error means much then.
@@ -47,6 +47,8 @@ bool has_strange_beginning(const FittedRecord& fit);
 /// curve at the input or at the output (broken lines), backlash there (play operators), or a gain that changes with
 /// time explains of the error what no lagged input and output does, at least 2 % of the output's standard deviation.
 void find_nonlinearity(const FittedRecord& fit, RecordFindings& findings);
+/// A gain that changes with time makes up 60 % of the error, which then is no disturbance.
+bool gain_explains_error(const FittedRecord& fit);
 
 /// "feedback": the input follows what the input did not cause. Cross-correlation of the whitened error with the
 /// whitened input of the same and later samples (Haugh 1976; Pierce and Haugh 1977), chi-squared at level 1e-5. Of a

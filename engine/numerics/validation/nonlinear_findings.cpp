@@ -184,7 +184,7 @@ Verdict best_family(const NonlinearRegression& regression) {
         const double left = with.left_of_last();
         if (degrees == 0 || !(left > 0)) continue;
         const double freedom = static_cast<double>(white.rows() - regression.linear - degrees);
-        const double statistic = freedom * (before - left) / left;
+        const double statistic = freedom * (before - left) / before;  // the score test: safe with few samples
         if (chi_squared_upper_tail(statistic, static_cast<double>(degrees)) > kNonlinearLevel / 5) continue;
         if (statistic - static_cast<double>(degrees) < best.statistic) continue;
         best = {&family, statistic - static_cast<double>(degrees), 1 - left / before};
@@ -287,6 +287,17 @@ RecordFinding nonlinear_finding(const FittedRecord& fit, Curve kind, double effe
 }
 
 }  // namespace
+
+bool gain_explains_error(const FittedRecord& fit) {
+    constexpr double kMostOfIt = 0.6;
+    const Vector& x = fit.simulation.output;
+    const Vector t = Vector::LinSpaced(x.size(), -1, 1);
+    Matrix columns(x.size(), 5);
+    columns << Vector::Ones(x.size()), t, x, x.cwiseProduct(t), x.cwiseProduct(t.cwiseAbs2());
+    if (!columns.allFinite()) return false;
+    const double line = solve_least_squares(columns.leftCols(3), fit.error).residuals.squaredNorm();
+    return solve_least_squares(columns, fit.error).residuals.squaredNorm() < (1 - kMostOfIt) * line;
+}
 
 void find_nonlinearity(const FittedRecord& fit, RecordFindings& findings) {
     const NonlinearRegression regression = nonlinear_regression(fit);
