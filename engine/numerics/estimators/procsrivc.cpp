@@ -57,11 +57,18 @@ void check_process_data(const IdData& data) {
     check_signals("procsrivc", data);
 }
 
+bool input_changes(const IdData& data) {
+    return std::ranges::any_of(data.experiments, [](const Experiment& e) { return (e.u.array() != e.u(0, 0)).any(); });
+}
+
 /// What the options and the inputs allow. The free motion of an integrator is a constant itself, and it has no rest but
 /// that at zero input.
 std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStructure& structure,
                                            const FitOptions& options) {
     std::vector<StartCondition> conditions = start_conditions(data, options.initial_state, options.offset);
+    // Behind a constant input a free motion and an offset fit alike with other gains: chance would choose.
+    if (options.initial_state == InitialState::kAuto && options.offset == Offset::kAuto && !input_changes(data))
+        std::erase_if(conditions, [](const StartCondition& one) { return one.state != InitialState::kZero; });
     if (!structure.integrator) return conditions;
     const bool rests =
         std::ranges::all_of(data.experiments, [](const Experiment& experiment) { return experiment.u(0, 0) == 0; });
@@ -162,10 +169,6 @@ Vector likely_delays(const IdData& data, const ProcessProblem& problem) {
     for (std::size_t i = 0; i < scan.starts.size(); ++i)
         delays[static_cast<Index>(i)] = transfer.delay(scan.starts[i], 0, 0);
     return delays;
-}
-
-bool input_changes(const IdData& data) {
-    return std::ranges::any_of(data.experiments, [](const Experiment& e) { return (e.u.array() != e.u(0, 0)).any(); });
 }
 
 /// A long record: every start condition on its beginning, then those worth it on the whole, from where these ended.
@@ -274,6 +277,24 @@ void set_process(Fit& fit, const ProcessStructure& structure) {
     fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
 }
 
+/// Of what has no standard errors.
+void warn_of_undetermined(Fit& fit, const IdData& data, const FitOptions& options) {
+    if (fit.process->structure.delay && has_ambiguous_delay(fit.models.front(), data)) {
+        withdraw_errors(fit, {"Tz", "Td"});
+        fit.warnings.push_back(
+            Message("Tz and Td cannot be told apart within one sampling time, whatever the input, and have no standard "
+                    "errors: it is held, and the model has as many zeros as poles. Take a type without D or Z."));
+    } else
+        warn_of_doubtful_parameters(fit);
+    withdraw_errors_at_bounds(fit, options);
+    if (input_changes(data) || !fit.start.offset) return;
+    withdraw_errors(fit, {"Kp", "Td"});
+    fit.warnings.push_back(Message(
+        "The input never changes: the gain and the delay rest on the assumption that it was zero until the first "
+        "sample, and have no standard errors. If it came from another value, count {} from there.",
+        data.input_names.front()));
+}
+
 /// The simulated output of all experiments, its operating points included.
 Vector simulated(const Fit& fit, const ProcessProblem& problem, const CentredData& record) {
     const TransferOutput model = problem.output(record.data, fit.start);
@@ -302,7 +323,7 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     fit.output = simulated(fit, problem, record);
     add_operating_points(fit, record.removed);
     warn_of_search(fit, options);
-    warn_of_doubtful_parameters(fit);
+    warn_of_undetermined(fit, data, options);
     double longest = 0;
     for (std::size_t e = 0; e < data.experiments.size(); ++e) longest = std::max(longest, data.duration(e));
     warn_of_times(fit, data.mean_step(), longest);

@@ -19,7 +19,7 @@ double smallest_step(double step, double period) {
 
 bool is_wrapped(const VectorView& x, double period) {
     constexpr double kRounding = 0.01, kFilled = 0.9, kNearEnd = 0.3, kMostJumps = 0.9;  // of the period
-    constexpr double kUsual = 3;                                        // times the largest other step
+    constexpr double kUsual = 3;                                                         // times the largest other step
     const double low = x.minCoeff(), high = x.maxCoeff(), slack = kRounding * period;
     const bool centered = low >= -period / 2 - slack && high <= period / 2 + slack;
     const bool positive = low >= -slack && high <= period + slack;
@@ -34,10 +34,12 @@ bool is_wrapped(const VectorView& x, double period) {
         }
         ++jumps;
         across = std::max(across, std::abs(smallest_step(step, period)));
-        from_ends += std::min(x[k], x[k - 1]) < low + kNearEnd * period && std::max(x[k], x[k - 1]) > high - kNearEnd * period;
+        from_ends +=
+            std::min(x[k], x[k - 1]) < low + kNearEnd * period && std::max(x[k], x[k - 1]) > high - kNearEnd * period;
     }
     // A signal that jumps anyway, as a square wave does, has no steps that unwrapping could make usual.
-    return jumps > 0 && static_cast<double>(from_ends) >= kMostJumps * static_cast<double>(jumps) && usual > 0 && across < kUsual * usual;
+    return jumps > 0 && static_cast<double>(from_ends) >= kMostJumps * static_cast<double>(jumps) && usual > 0 &&
+           across < kUsual * usual;
 }
 
 }  // namespace

@@ -19,7 +19,6 @@ constexpr double kStraight = 1e-3;         // of the input's standard deviation,
 constexpr double kSearchTolerance = 1e-4;  // relative, of parameters
 constexpr double kSlowCycles = 20;         // over the window, below which a movement counts as slow
 constexpr double kHardlyWorse = 1.05;
-constexpr Index kParts = 60;  // of a record, whose means are compared
 
 /// Where to begin: the first stretch with half of the usual movement.
 Index lively_start(const VectorView& u, Index length) {
@@ -223,16 +222,6 @@ SearchWindow search_window(const IdData& data) {
 }
 
 }  // namespace
-
-bool wanders(const VectorView& x) {
-    constexpr double kPersistence = 16;
-    const Index length = x.size() / kParts;
-    if (length < 4 || !x.allFinite()) return false;
-    Vector means = x.head(kParts * length).reshaped(length, kParts).colwise().mean().transpose();
-    means.array() -= means.mean();
-    const double squares = means.squaredNorm(), neighbours = means.head(kParts - 1).dot(means.tail(kParts - 1));
-    return kParts * (squares - neighbours) < kPersistence * squares;
-}
 
 Message FittedRecord::with_unit(double value, int digits) const {
     return numerics::with_unit(rounded(value, digits), data.output_units.front());

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/message.h"
+#include "numerics/fit/wandering.h"
 #include "numerics/validation/advice.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/delay_search.h"
@@ -38,7 +39,8 @@ struct FittedRecord {
     double deviation() const;  ///< standard deviation of y
     /// The model explains half of the output, or of what is left of it without slow movement.
     bool trusted() const { return simulation.fit_percent > 50 || (movement_error < 0.5 && !runs_away()); }
-    /// It explains less than half, and is unstable, or its simulation leaves the range of the output by far: no measure of anything.
+    /// It explains less than half, and is unstable, or its simulation leaves the range of the output by far: no measure
+    /// of anything.
     bool runs_away() const;
     void take_off(const VectorView& part);  ///< of y, and simulates again
 };
@@ -53,11 +55,6 @@ struct FittedRecord {
 /// (a free motion of it, though, is what a drift looks like); nor is a model taken that explains the whole record worse
 /// than -50 %. Nothing when nothing can be fitted, or when cancelled.
 std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel);
-
-/// Whether a signal wanders, as a random walk or a straight line does: n (1 - r) < 16 for the correlation r of
-/// neighbors among its means over n = 60 parts (Sargan and Bhargava 1983, of a random walk in 97 %). Noise that forgets
-/// within a thirtieth of the record, such as AR(0.9) in 300 samples, lies above. False for fewer than 240 samples.
-bool wanders(const VectorView& x);
 
 /// A finding about the output.
 RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value);

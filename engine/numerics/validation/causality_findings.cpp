@@ -87,9 +87,9 @@ std::optional<Fit> fit_to_earlier_input(const FittedRecord& fit, Index samples, 
 }  // namespace
 
 bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
-    constexpr Index kShift = 3;            // samples
+    constexpr Index kShift = 3;                      // samples
     constexpr double kEvidence = 30, kNoWorse = 10;  // of N log of losses
-    constexpr double kLeastLead = 0.5;     // samples
+    constexpr double kLeastLead = 0.5;               // samples
     const Fit& found = fit.search.candidate.estimate;
     const bool at_zero = !found.at_bound.empty() && found.at_bound[static_cast<std::size_t>(found.theta.size() - 1)];
     if (!fit.trusted() || fit.window.step > 1 || !(at_zero || follows_later_inputs(fit, 0))) return false;

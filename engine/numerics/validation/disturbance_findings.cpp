@@ -10,8 +10,8 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kSlowParts = 20;       // of a record, over which a slow disturbance is averaged
-constexpr double kWorthAWord = 0.08;   // of the output's standard deviation
+constexpr Index kSlowParts = 20;      // of a record, over which a slow disturbance is averaged
+constexpr double kWorthAWord = 0.08;  // of the output's standard deviation
 constexpr double kWalkWorthAWord = 0.12;
 constexpr double kStraightLine = 0.7;  // of the slow part's variance, for it to be called a drift
 constexpr Index kSections = 24;

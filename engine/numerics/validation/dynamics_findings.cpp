@@ -92,9 +92,9 @@ bool may_be_a_lag(const FittedRecord& fit) {
     FitOptions options = FitOptions().started(found.start);
     options.tolerance = 1e-3;
     try {
-        const Fit lag = srivc(fit.window.data,
-                              TransferStructure::single(fit.search.candidate.poles + 1, fit.search.candidate.zeros),
-                              options);
+        const Fit lag =
+            srivc(fit.window.data,
+                  TransferStructure::single(fit.search.candidate.poles + 1, fit.search.candidate.zeros), options);
         return static_cast<double>(fit.window.data.sample_count()) * std::log(lag.loss / found.loss) < kNearly;
     } catch (const InvalidArgument&) {
         return false;
@@ -147,17 +147,17 @@ void find_noise(const FittedRecord& fit, RecordFindings& findings) {
 void find_dead_time(const FittedRecord& fit, RecordFindings& findings) {
     const double delay = fit.search.delay, Ts = fit.data.Ts;
     if (!(delay > Ts) || !(delay > 4 * fit.search.std)) return;
-    const Message seen = Message("{} answers about {} ({} samples) after {}.", fit.output(),
-                                 with_unit(significant(delay, 3), fit.data.time_unit), significant(delay / Ts, 3),
-                                 fit.input());
+    const Message seen =
+        Message("{} answers about {} ({} samples) after {}.", fit.output(),
+                with_unit(significant(delay, 3), fit.data.time_unit), significant(delay / Ts, 3), fit.input());
     const Message remedy =
         may_be_a_lag(fit)
-            ? Message("A delay or another pole: compare both (tfsrivc with {} poles and a delay, and with {} poles and "
-                      "{} = 0).",
-                      fit.search.candidate.poles, fit.search.candidate.poles + 1, OptionName{"largest_delay"})
+            ? Message(
+                  "A delay or another pole: compare both (tfsrivc with {} poles and a delay, and with {} poles and "
+                  "{} = 0).",
+                  fit.search.candidate.poles, fit.search.candidate.poles + 1, OptionName{"largest_delay"})
             : Message("Give the model a dead time ({} of tfsrivc, the D of procsrivc).", OptionName{"largest_delay"});
-    findings.push_back(about(fit, "dead_time", Weight::kNote,
-                             sentences({seen, remedy}), delay));
+    findings.push_back(about(fit, "dead_time", Weight::kNote, sentences({seen, remedy}), delay));
 }
 
 void find_offset(const FittedRecord& fit, RecordFindings& findings) {
@@ -178,13 +178,12 @@ void find_offset(const FittedRecord& fit, RecordFindings& findings) {
     const Message level =
         with_unit(rounded_to(offset, deviation / (extrapolated ? 5 : 50)), fit.data.output_units.front());
     const Message seen =
-        extrapolated
-            ? Message(
-                  "A straight line through these data would put {} at about {} when {} is zero; that is an "
-                  "extrapolation, for {} stays between {} and {}.",
-                  fit.output(), level, fit.input(), fit.input(), rounded(fit.u().minCoeff(), 3),
-                  rounded(fit.u().maxCoeff(), 3))
-            : Message("{} stands at about {} when {} is zero.", fit.output(), level, fit.input());
+        extrapolated ? Message(
+                           "A straight line through these data would put {} at about {} when {} is zero; that is an "
+                           "extrapolation, for {} stays between {} and {}.",
+                           fit.output(), level, fit.input(), fit.input(), rounded(fit.u().minCoeff(), 3),
+                           rounded(fit.u().maxCoeff(), 3))
+                     : Message("{} stands at about {} when {} is zero.", fit.output(), level, fit.input());
     const Message remedy = Message(
         "A linear model goes through the origin: take the offset off with data:remove_mean() or "
         "data:detrend(\"start\"), or use {} = \"estimate\".",
@@ -320,8 +319,7 @@ std::optional<LoadedIntegrator> loaded_integrator(const IdData& data) {
     options.offset = Offset::kEstimate;
     options.tolerance = 1e-4;
     std::optional<Fit> best;
-    for (const int poles : {1, 2})
-        try {
+    for (const int poles : {1, 2}) try {
             Fit fit = srivc(bent, TransferStructure::single(poles, 0), options);
             if (fit.models.front().stable() && (!best || fit.loss < best->loss)) best = std::move(fit);
         } catch (const InvalidArgument&) {
@@ -356,12 +354,12 @@ bool find_load(const FittedRecord& fit, RecordFindings& findings) {
     if (!fit.runs_away() && !(found->error < kAsWell * std::sqrt(own))) return false;
     const Message load = with_unit(rounded(found->load, 2), fit.data.input_units.front());
     const Message balance = with_unit(rounded(-found->load, 2), fit.data.input_units.front());
-    findings.push_back(
-        about(fit, "load", Weight::kWarning,
-              Message("{} integrates {} and a constant load of about {}: it stands still when {} is {}, not zero. Count "
-                      "{} from there, and build the pole at zero into the model with {}.",
-                      fit.output(), fit.input(), load, fit.input(), balance, fit.input(), OptionName{"integration"}),
-              found->load));
+    findings.push_back(about(
+        fit, "load", Weight::kWarning,
+        Message("{} integrates {} and a constant load of about {}: it stands still when {} is {}, not zero. Count "
+                "{} from there, and build the pole at zero into the model with {}.",
+                fit.output(), fit.input(), load, fit.input(), balance, fit.input(), OptionName{"integration"}),
+        found->load));
     return true;
 }
 

@@ -230,12 +230,12 @@ bool find_wrap(const Channel& channel, std::vector<RecordFinding>& findings) {
     if (!unit.empty() && !radians && !degrees) return false;
     const std::optional<double> period = wrapped_period(channel.x, periods);
     if (!period) return false;
-    findings.push_back(about(channel, "wrapped", Weight::kWarning,
-                             Message("{} is an angle that jumps by a whole turn ({}) where it leaves its range, which "
-                                     "no linear model can follow: take the jumps out with {}.",
-                                     subject(channel), value_of(channel, *period),
-                                     *period == kTurn ? "unwrap(x, 360)" : "unwrap(x)"),
-                             *period));
+    findings.push_back(
+        about(channel, "wrapped", Weight::kWarning,
+              Message("{} is an angle that jumps by a whole turn ({}) where it leaves its range, which "
+                      "no linear model can follow: take the jumps out with {}.",
+                      subject(channel), value_of(channel, *period), *period == kTurn ? "unwrap(x, 360)" : "unwrap(x)"),
+              *period));
     return true;
 }
 

@@ -57,6 +57,7 @@ std::string Presentation::to_the_error(double value, double error, int error_dig
 /// "  ± 0.0312"; an error of exactly zero beside others belongs to a parameter that the search left at its bound.
 std::string Presentation::error_of(const Vector& std, Index index) const {
     if (std[index] == 0 && (std.array() > 0).any()) return "  " + text(Message("(at its bound)"));
+    if (std::isinf(std[index])) return "  " + text(Message("(not determined by the data)"));
     return "  ± " + text(std[index], 3);
 }
 
@@ -70,7 +71,7 @@ std::string Presentation::parameter_lines(const Model& model) const {
         lines += fmt::format("  {:<5} {:>12}", parameters.names[i],
                              to_the_error(parameters.values[index], has_error ? parameters.std[index] : 0, 3, 6));
         if (has_error) lines += error_of(parameters.std, index);
-        if (coloured && coloured->std[index] > 0)
+        if (coloured && coloured->std[index] > 0 && std::isfinite(coloured->std[index]))
             lines += "  " + text(Message("(robust ± {})", significant(coloured->std[index], 3)));
         lines += '\n';
     }
