@@ -57,17 +57,13 @@ void check_process_data(const IdData& data) {
     check_signals("procsrivc", data);
 }
 
-bool input_changes(const IdData& data) {
-    return std::ranges::any_of(data.experiments, [](const Experiment& e) { return (e.u.array() != e.u(0, 0)).any(); });
-}
-
 /// What the options and the inputs allow. The free motion of an integrator is a constant itself, and it has no rest but
 /// that at zero input.
 std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStructure& structure,
                                            const FitOptions& options) {
     std::vector<StartCondition> conditions = start_conditions(data, options.initial_state, options.offset);
     // Behind a constant input a free motion and an offset fit alike with other gains: chance would choose.
-    if (options.initial_state == InitialState::kAuto && options.offset == Offset::kAuto && !input_changes(data))
+    if (options.initial_state == InitialState::kAuto && options.offset == Offset::kAuto && !inputs_change(data))
         std::erase_if(conditions, [](const StartCondition& one) { return one.state != InitialState::kZero; });
     if (!structure.integrator) return conditions;
     const bool rests =
@@ -178,7 +174,7 @@ Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vect
     if (!problem.options.largest_delay)
         trial.range.largest =
             std::max(problem.range.least, std::min(problem.range.largest, shortest_record(beginning) / 4));
-    if (data.sample_count() < 2 * beginning.sample_count() || !input_changes(beginning) ||
+    if (data.sample_count() < 2 * beginning.sample_count() || !inputs_change(beginning) ||
         shortest_record(beginning) <= trial.range.largest) {
         problem.likely_delays = likely_delays(data, problem);
         return problem.best_fit(data, conditions);
@@ -284,15 +280,9 @@ void warn_of_undetermined(Fit& fit, const IdData& data, const FitOptions& option
         fit.warnings.push_back(
             Message("Tz and Td cannot be told apart within one sampling time, whatever the input, and have no standard "
                     "errors: it is held, and the model has as many zeros as poles. Take a type without D or Z."));
-    } else
+    } else if (!withdraw_errors_of_gain(fit, data))
         warn_of_doubtful_parameters(fit);
     withdraw_errors_at_bounds(fit, options);
-    if (input_changes(data) || !fit.start.offset) return;
-    withdraw_errors(fit, {"Kp", "Td"});
-    fit.warnings.push_back(Message(
-        "The input never changes: the gain and the delay rest on the assumption that it was zero until the first "
-        "sample, and have no standard errors. If it came from another value, count {} from there.",
-        data.input_names.front()));
 }
 
 /// The simulated output of all experiments, its operating points included.

@@ -188,6 +188,31 @@ void warn_of_instability(Fit& fit, UnstableAdvice advice) {
     }
 }
 
+Message ambiguity(SimplerModel simpler, Number condition) {
+    switch (simpler) {
+        case SimplerModel::kFewerBins:
+            return Message(
+                "The data do not determine all parameters separately (badly conditioned: {}): fewer bins or a richer "
+                "input is wanted.",
+                condition);
+        case SimplerModel::kFewerTerms:
+            return Message(
+                "The data do not determine all parameters separately (badly conditioned: {}): fewer terms or a richer "
+                "input is wanted.",
+                condition);
+        case SimplerModel::kFewerFreeParameters:
+            return Message(
+                "The data do not determine all parameters separately (badly conditioned: {}): fewer free parameters or "
+                "a richer input is wanted.",
+                condition);
+        default:
+            return Message(
+                "The data do not determine all parameters separately (badly conditioned: {}): a simpler structure or a "
+                "richer input is wanted.",
+                condition);
+    }
+}
+
 /// Of b_0 ... b_n the gain tells the last.
 std::vector<std::string> ambiguous_names(const Fit& fit, std::size_t channel) {
     const Index inputs = fit.structure.inputs, place = static_cast<Index>(channel);
@@ -206,6 +231,7 @@ void warn_of_ambiguous_delays(Fit& fit, const IdData& data) {
         const auto channel = channel_place(fit.structure, i);
         const std::vector<std::string> names = ambiguous_names(fit, i);
         withdraw_errors(fit, names);
+        std::erase(fit.warnings, ambiguity(SimplerModel::kStructure, significant(fit.condition_number, 2)));
         fit.warnings.push_back(
             channel
                 ? Message("The delay from input {} to output {} is only known to within one sampling time, so that {} "
@@ -228,6 +254,23 @@ bool has_ambiguous_delay(const TransferFunction& G, const IdData& data) {
 void withdraw_errors(Fit& fit, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < fit.names.size(); ++i)
         if (std::ranges::find(names, fit.names[i]) != names.end()) fit.std[static_cast<Index>(i)] = kInfinity;
+}
+
+bool inputs_change(const IdData& data) {
+    return !in_all_experiments(data, [](const Experiment& e) { return (e.u.rowwise() - e.u.row(0)).isZero(0); });
+}
+
+bool withdraw_errors_of_gain(Fit& fit, const IdData& data) {
+    if (inputs_change(data) || !fit.start.offset) return false;
+    std::vector<std::string> names;
+    for (const std::string& name : fit.names)
+        if (name == "Kp" || name.front() == 'b' || name.starts_with("Td")) names.push_back(name);
+    withdraw_errors(fit, names);
+    fit.warnings.push_back(Message(
+        "The input never changes: the gain and the delay rest on the assumption that it was zero until the first "
+        "sample, and have no standard errors. If it came from another value, count {} from there.",
+        listed(data.input_names)));
+    return true;
 }
 
 void withdraw_errors_at_bounds(Fit& fit, const FitOptions& options) {
@@ -263,31 +306,6 @@ std::vector<std::string> undetermined_parameters(const std::vector<std::string>&
 }
 
 namespace {
-
-Message ambiguity(SimplerModel simpler, Number condition) {
-    switch (simpler) {
-        case SimplerModel::kFewerBins:
-            return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): fewer bins or a richer "
-                "input is wanted.",
-                condition);
-        case SimplerModel::kFewerTerms:
-            return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): fewer terms or a richer "
-                "input is wanted.",
-                condition);
-        case SimplerModel::kFewerFreeParameters:
-            return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): fewer free parameters or "
-                "a richer input is wanted.",
-                condition);
-        default:
-            return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): a simpler structure or a "
-                "richer input is wanted.",
-                condition);
-    }
-}
 
 /// At an edge of the range.
 Message delay_at(const OptionName& edge, double value, bool largest, const std::optional<ChannelPlace>& channel) {
@@ -369,6 +387,7 @@ void describe_search(Fit& fit, const IdData& data, const FitOptions& options, co
         warn_of_delay(fit, fit.models[i].delay(), range, channel_place(fit.structure, i));
     warn_of_ambiguous_delays(fit, data);
     withdraw_errors_at_bounds(fit, options);
+    withdraw_errors_of_gain(fit, data);
 }
 
 bool has_settled(const Fit& fit) {

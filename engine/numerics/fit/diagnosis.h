@@ -74,6 +74,11 @@ void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::o
 void withdraw_errors(Fit& fit, const std::vector<std::string>& names);
 /// Parameters other than delays that a search left at a bound which is not asked for: their errors are withdrawn.
 void withdraw_errors_at_bounds(Fit& fit, const FitOptions& options);
+/// Whether an input changes.
+bool inputs_change(const IdData& data);
+/// Of gain and delays where no input changes and the output stands on an offset: they rest on the assumption that the
+/// inputs were zero before, and a warning says so. Whether it is so.
+bool withdraw_errors_of_gain(Fit& fit, const IdData& data);
 /// Whether the delay of the channel is known only to within one sampling time: a step of a held input reaches the
 /// output through the direct term at the next sampling instant, wherever between two instants it arrives, and n + 1
 /// weights of the sampled response cannot tell n + 1 coefficients and a delay.

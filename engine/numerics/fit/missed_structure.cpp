@@ -235,8 +235,14 @@ std::vector<Candidate> candidates(const IdData& data, const Question& asked) {
     return all;
 }
 
-/// Of the first experiment.
-bool errors_wander(const Question& asked) {
+/// Whether a straight line may be missed: the errors wander (those of the first experiment), or a slow or unstable pole
+/// has taken it over.
+bool may_miss_line(const Question& asked) {
+    const double duration = shortest_record(asked.record);
+    constexpr double kSlowTurns = 3;
+    for (const TransferFunction& G : asked.given.models)
+        for (const Complex& pole : G.poles())
+            if (has_unstable_pole(G) || std::abs(pole) * duration < kSlowTurns) return true;
     const TransferOutput model(asked.given.structure, asked.given.start, asked.record, 0,
                                shortest_record(asked.record));
     const Vector errors = model.target() - model.output_at(search_point(asked.given, model, model.seconds()));
@@ -245,7 +251,7 @@ bool errors_wander(const Question& asked) {
 
 /// Whether the same structure does better without the straight lines of input and output.
 std::optional<MissedStructure> missed_line(const Question& asked, const Explanation& present) {
-    if (!errors_wander(asked)) return std::nullopt;
+    if (!may_miss_line(asked)) return std::nullopt;
     const IdData level = detrend(asked.record, TrendKind::kLinear);
     const Question other{level, asked.given, asked.options};
     const std::optional<Fit> fit = other.fit_of(asked.given.structure);

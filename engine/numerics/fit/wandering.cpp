@@ -4,7 +4,7 @@ namespace dynlab::inline numerics {
 
 bool wanders(const VectorView& x) {
     constexpr Index kParts = 60;
-    constexpr double kPersistence = 16;
+    constexpr double kPersistence = 14;
     const Index length = x.size() / kParts;
     if (length < 4 || !x.allFinite()) return false;
     Vector means = x.head(kParts * length).reshaped(length, kParts).colwise().mean().transpose();

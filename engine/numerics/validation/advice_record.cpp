@@ -229,9 +229,10 @@ Message FittedRecord::with_unit(double value, int digits) const {
 
 bool FittedRecord::runs_away() const {
     constexpr double kFar = 3, kHalf = 50;  // times the range of the output; per cent of fit
+    if (!model().stable()) return !explains_from_rest(*this, kHalf);
     if (simulation.fit_percent > kHalf) return false;
     const auto range = [](const auto& x) { return x.maxCoeff() - x.minCoeff(); };
-    return !model().stable() || !(range(simulation.output) < kFar * range(y()));
+    return !(range(simulation.output) < kFar * range(y()));
 }
 
 double FittedRecord::deviation() const {

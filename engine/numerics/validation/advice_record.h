@@ -39,8 +39,8 @@ struct FittedRecord {
     double deviation() const;  ///< standard deviation of y
     /// The model explains half of the output, or of what is left of it without slow movement.
     bool trusted() const { return simulation.fit_percent > 50 || (movement_error < 0.5 && !runs_away()); }
-    /// It explains less than half, and is unstable, or its simulation leaves the range of the output by far: no measure
-    /// of anything.
+    /// It is unstable and explains less than half from rest, or its simulation leaves the range of the output by far:
+    /// no measure of anything.
     bool runs_away() const;
     void take_off(const VectorView& part);  ///< of y, and simulates again
 };

@@ -66,6 +66,14 @@ bool follows_later_inputs(const FittedRecord& fit, Index first = 1) {
     return chi_squared_upper_tail(std::max(0.0, statistic), static_cast<double>(kLaterInputs)) < kCausalLevel;
 }
 
+/// As many white errors of the same power at low frequencies as the model leaves.
+double independent_errors(const IdData& data, const TransferFunction& G) {
+    const Vector e = data.experiments.front().y.col(0) - compare(data, G).output;
+    const Index N = e.size();
+    const double r = std::clamp(e.head(N - 1).dot(e.tail(N - 1)) / e.squaredNorm(), 0.0, 0.999);
+    return static_cast<double>(N) * (1 - r) / (1 + r);
+}
+
 /// The model of the window's structure to its input so many samples earlier.
 std::optional<Fit> fit_to_earlier_input(const FittedRecord& fit, Index samples, int zeros) {
     const TransferStructure& found = fit.search.candidate.estimate.structure;
@@ -93,10 +101,11 @@ bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
     const Fit& found = fit.search.candidate.estimate;
     const bool at_zero = !found.at_bound.empty() && found.at_bound[static_cast<std::size_t>(found.theta.size() - 1)];
     if (!fit.trusted() || fit.window.step > 1 || !(at_zero || follows_later_inputs(fit, 0))) return false;
-    const auto N = static_cast<double>(fit.window.data.sample_count());
     const int poles = fit.search.candidate.poles, zeros = fit.search.candidate.zeros;
     const std::optional<Fit> earlier = fit_to_earlier_input(fit, kShift, std::min(zeros, poles - 1));
-    if (!earlier || !(N * std::log(fit.search.loss() / earlier->loss) > kEvidence)) return false;
+    if (!earlier) return false;
+    const double N = independent_errors(fit.window.data.shifted(-kShift), earlier->models.front());
+    if (!(N * std::log(fit.search.loss() / earlier->loss) > kEvidence)) return false;
     const double lead = static_cast<double>(kShift) - earlier->models.front().delay() / fit.data.Ts;
     if (lead < kLeastLead) return false;
     const std::optional<Fit> direct = fit_to_earlier_input(fit, 0, poles);

@@ -109,6 +109,18 @@ double input_frequency(const FittedRecord& fit) {
     return step / (standard_deviation(u) * fit.data.Ts);
 }
 
+/// Correlation of neighbors, between 0 and 1.
+double memory_of(const Vector& x) {
+    const Index N = x.size();
+    return std::clamp(x.head(N - 1).dot(x.tail(N - 1)) / x.squaredNorm(), 0.0, 0.999);
+}
+
+/// Standard error of the mean of errors that follow each other.
+double error_of_mean(const Vector& error) {
+    const double r = memory_of(error);
+    return standard_deviation(error) * std::sqrt((1 + r) / (1 - r) / static_cast<double>(error.size()));
+}
+
 bool excludes_zero(const VectorView& u) {
     const double low = u.minCoeff(), high = u.maxCoeff(), margin = 0.05 * (high - low);
     return low > margin || high < -margin;
@@ -162,7 +174,7 @@ void find_dead_time(const FittedRecord& fit, RecordFindings& findings) {
 
 void find_offset(const FittedRecord& fit, RecordFindings& findings) {
     const double deviation = fit.deviation(), offset = fit.simulation.offset;
-    const double least = std::max(kOffset * deviation, 3 * fit.disturbance);
+    const double least = std::max({kOffset * deviation, 3 * fit.disturbance, 4 * error_of_mean(fit.error)});
     if (!fit.simulation.start.offset || std::abs(offset) < least) {
         const std::optional<double> level = level_at_rest(fit);
         if (level && std::abs(*level) >= std::max(kOffsetAtRest * deviation, 3 * fit.disturbance))
@@ -235,8 +247,7 @@ bool start_is_evident(const FittedRecord& fit) {
         rest = std::min(rest, (fit.y() - other.output).squaredNorm());
     }
     const Index N = fit.error.size();
-    const double squares = fit.error.squaredNorm();
-    const double r = std::clamp(fit.error.head(N - 1).dot(fit.error.tail(N - 1)) / squares, 0.0, 0.999);
+    const double squares = fit.error.squaredNorm(), r = memory_of(fit.error);
     return static_cast<double>(N) * (1 - r) / (1 + r) * std::log(rest / squares) > kEvident;
 }
 

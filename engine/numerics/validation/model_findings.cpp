@@ -54,7 +54,7 @@ ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel
     }
     if (find_late_input(*fit, findings)) return advice;
     const bool strange = fit->trusted() && find_strange_sections(*fit, findings);
-    if (fit->trusted() && !strange && !gain_explains_error(*fit)) find_disturbance(*fit, findings);
+    if (!strange && !gain_explains_error(*fit)) find_disturbance(*fit, findings);
     if (fit->simulation.fit_percent > kSomething && !strange) find_nonlinearity(*fit, findings);
     if (!has_nonlinearity(findings)) find_feedback(*fit, findings);
     find_noise(*fit, findings);

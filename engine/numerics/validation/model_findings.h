@@ -47,7 +47,7 @@ bool has_strange_beginning(const FittedRecord& fit);
 /// curve at the input or at the output (broken lines), backlash there (play operators), or a gain that changes with
 /// time explains of the error what no lagged input and output does, at least 2 % of the output's standard deviation.
 void find_nonlinearity(const FittedRecord& fit, RecordFindings& findings);
-/// A gain that changes with time makes up 60 % of the error, which then is no disturbance.
+/// A gain that changes with time makes up 70 % of the error, which then is no disturbance.
 bool gain_explains_error(const FittedRecord& fit);
 
 /// "feedback": the input follows what the input did not cause. Cross-correlation of the whitened error with the

@@ -156,15 +156,18 @@ struct Verdict {
     double share = 0;      // of the error left by linear terms
 };
 
-/// The error after all columns, from which its memory is learnt.
+/// The error after all columns, from which its memory is learnt. With few samples, so many columns would explain part
+/// of that memory, and after the linear ones alone it is safe.
 Vector unexplained(const NonlinearRegression& regression) {
-    const Index d = regression.columns.cols() - 1;
+    constexpr Index kRowsPerColumn = 20;
+    const Index all = regression.columns.cols() - 1;
+    const Index d = regression.columns.rows() < kRowsPerColumn * all ? regression.linear : all;
     Matrix basis = regression.columns.leftCols(d);
     const Vector scale = basis.colwise().norm().transpose().cwiseMax(1e-300);
     basis *= scale.cwiseInverse().asDiagonal();
     Matrix gram = basis.transpose() * basis;
     gram.diagonal().array() += 1e-9;
-    const Vector e = regression.columns.col(d);
+    const Vector e = regression.columns.col(all);
     return e - basis * solve_semidefinite(gram, basis.transpose() * e);
 }
 
@@ -289,7 +292,7 @@ RecordFinding nonlinear_finding(const FittedRecord& fit, Curve kind, double effe
 }  // namespace
 
 bool gain_explains_error(const FittedRecord& fit) {
-    constexpr double kMostOfIt = 0.6;
+    constexpr double kMostOfIt = 0.7;
     const Vector& x = fit.simulation.output;
     const Vector t = Vector::LinSpaced(x.size(), -1, 1);
     Matrix columns(x.size(), 5);

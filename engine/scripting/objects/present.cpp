@@ -78,6 +78,15 @@ std::string Presentation::parameter_lines(const Model& model) const {
     return lines;
 }
 
+/// Whether the data do not determine the steady-state gain: Kp, or the last coefficient of B.
+bool gain_is_open(const Estimate& estimate) {
+    bool open = false;
+    for (std::size_t i = 0; i < estimate.names.size(); ++i)
+        if (estimate.names[i] == "Kp" || estimate.names[i].front() == 'b')
+            open = std::isinf(estimate.std()[static_cast<Index>(i)]);
+    return open;
+}
+
 /// "1.25 ± 0.031", or the value alone when its error is not known, or is none, as the damping of a real pole.
 std::string Presentation::with_error(double value, double error, int digits) const {
     const std::string number = to_the_error(value, error, 2, digits);
@@ -203,6 +212,7 @@ std::string Presentation::of(const Model& model) const {
     if (!model.G.continuous()) lines += text(Message("Sampling time: {} s", model.G.Ts())) + "\n";
     std::optional<ModelUncertainty> uncertainty;
     if (const auto uncertain = uncertain_model(model)) uncertainty = describe_uncertainty(*uncertain);
+    if (uncertainty && gain_is_open(*model.estimate)) uncertainty->gain_std = std::nan("");
     const std::vector<TransferFunction> each = channels_of(model);
     for (std::size_t i = 0; i < each.size(); ++i) {
         if (each.size() > 1) lines += text(channel_name(model, i)) + " ";
