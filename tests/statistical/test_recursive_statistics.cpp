@@ -44,7 +44,10 @@ void expect_consistent(const EstimatorStudy& study) {
 }
 
 TEST(recursive_statistics, instrumental_variables_are_not) {
-    expect_consistent(study_with(rivsvf));
+    const EstimatorStudy study = study_with(rivsvf);
+    expect_consistent(study);
+    EXPECT_GT(study.reported.minCoeff(), 0.85) << study.reported.transpose();
+    EXPECT_LT(study.reported.maxCoeff(), 1.15) << study.reported.transpose();
 }
 
 TEST(recursive_statistics, refined_ones_are_not_either) {

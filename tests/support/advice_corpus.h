@@ -348,6 +348,47 @@ inline IdData changing_gain_record(std::uint32_t seed) {
     });
 }
 
+/// Noise that forgets within 20 samples.
+inline IdData slow_noise_record(std::uint32_t seed) {
+    RandomExperiment chance = random_experiment(seed);
+    const Vector u = chance.coin() ? prbs_input(chance) : staircase_input(chance);
+    const Vector x = lsim(chance.G, u, chance.Ts);
+    Vector e = noise_of(chance, x) * std::sqrt(1 - 0.81);
+    for (Index k = 1; k < e.size(); ++k) e[k] += 0.9 * e[k - 1];
+    return IdData(Matrix(x + e), Matrix(u), chance.Ts);
+}
+
+/// An angle within one turn, in degrees or radians.
+inline IdData wrapped_record(std::uint32_t seed) {
+    return spoilt_record(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
+        const double turn = chance.coin() ? 360 : 2 * std::numbers::pi, low = chance.coin() ? 0 : -turn / 2;
+        x *= chance.between(0.6, 1.2) * turn / x.cwiseAbs().maxCoeff();
+        for (double& v : x) v -= turn * std::floor((v - low) / turn);
+    });
+}
+
+/// The input is logged one sample late.
+inline IdData late_input_record(std::uint32_t seed) {
+    RandomExperiment chance = random_experiment(seed);
+    chance.G = chance.G.with_delay(0);
+    chance.noise = 0.02;
+    const Vector u = chance.coin() ? prbs_input(chance) : staircase_input(chance);
+    const Vector x = lsim(chance.G, u, chance.Ts);
+    const Index N = u.size() - 1;
+    return record_of(chance, u.head(N), x.tail(N));
+}
+
+inline IdData loaded_integrator_record(std::uint32_t seed) {
+    RandomExperiment chance = random_experiment(seed);
+    Vector u = chance.coin() ? multisine_input(chance) : prbs_input(chance);
+    u.array() -= u.mean();
+    const TransferFunction G(Vector{{1.0}}, Vector{{chance.between(0.2, 1), 1.0, 0.0}});
+    const Vector x = lsim(G, u, chance.Ts);
+    const double load = chance.sign() * chance.between(0.3, 1) * deviation(u);
+    const Vector ramp = lsim(G, Vector::Constant(u.size(), load), chance.Ts);
+    return IdData(Matrix(x + ramp + noise_of(chance, x)), Matrix(u), chance.Ts);
+}
+
 struct CorpusKind {
     std::string name;
     std::function<IdData(std::uint32_t seed)> record;
@@ -359,7 +400,8 @@ inline std::vector<CorpusKind> clean_kinds() {
     return {{"prbs", with(prbs_input), {}},           {"multisine", with(multisine_input), {}},
             {"steps", with(steps_input), {}},         {"stairs", with(stairs_input), {}},
             {"staircase", with(staircase_input), {}}, {"quantised sine", with(quantised_sine_input), {}},
-            {"jittered clock", jittered_record, {}},  {"long", long_record, {}}};
+            {"jittered clock", jittered_record, {}},  {"long", long_record, {}},
+            {"slow noise", slow_noise_record, {}}};
 }
 
 inline std::vector<CorpusKind> faulty_kinds() {
@@ -377,7 +419,10 @@ inline std::vector<CorpusKind> faulty_kinds() {
             {"running start", running_start_record, {"running_start"}},
             {"outliers", outlier_record, {"outliers"}},
             {"exchanged", exchanged_record, {"causality"}},
-            {"changing gain", changing_gain_record, {"changing_gain"}}};
+            {"changing gain", changing_gain_record, {"changing_gain"}},
+            {"wrapped", wrapped_record, {"wrapped"}},
+            {"late input", late_input_record, {"late_input"}},
+            {"loaded integrator", loaded_integrator_record, {"load"}}};
 }
 
 }  // namespace dynlab::test

@@ -62,6 +62,9 @@ void check_process_data(const IdData& data) {
 std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStructure& structure,
                                            const FitOptions& options) {
     std::vector<StartCondition> conditions = start_conditions(data, options.initial_state, options.offset);
+    // Behind a constant input a free motion and an offset fit alike with other gains: chance would choose.
+    if (options.initial_state == InitialState::kAuto && options.offset == Offset::kAuto && !inputs_change(data))
+        std::erase_if(conditions, [](const StartCondition& one) { return one.state != InitialState::kZero; });
     if (!structure.integrator) return conditions;
     const bool rests =
         std::ranges::all_of(data.experiments, [](const Experiment& experiment) { return experiment.u(0, 0) == 0; });
@@ -164,10 +167,6 @@ Vector likely_delays(const IdData& data, const ProcessProblem& problem) {
     return delays;
 }
 
-bool input_changes(const IdData& data) {
-    return std::ranges::any_of(data.experiments, [](const Experiment& e) { return (e.u.array() != e.u(0, 0)).any(); });
-}
-
 /// A long record: every start condition on its beginning, then those worth it on the whole, from where these ended.
 Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vector<StartCondition>& conditions) {
     const IdData beginning = beginning_of(data, kProcessTrialSamples);
@@ -175,7 +174,7 @@ Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vect
     if (!problem.options.largest_delay)
         trial.range.largest =
             std::max(problem.range.least, std::min(problem.range.largest, shortest_record(beginning) / 4));
-    if (data.sample_count() < 2 * beginning.sample_count() || !input_changes(beginning) ||
+    if (data.sample_count() < 2 * beginning.sample_count() || !inputs_change(beginning) ||
         shortest_record(beginning) <= trial.range.largest) {
         problem.likely_delays = likely_delays(data, problem);
         return problem.best_fit(data, conditions);
@@ -274,6 +273,18 @@ void set_process(Fit& fit, const ProcessStructure& structure) {
     fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();
 }
 
+/// Of what has no standard errors.
+void warn_of_undetermined(Fit& fit, const IdData& data, const FitOptions& options) {
+    if (fit.process->structure.delay && has_ambiguous_delay(fit.models.front(), data)) {
+        withdraw_errors(fit, {"Tz", "Td"});
+        fit.warnings.push_back(
+            Message("Tz and Td cannot be told apart within one sampling time, whatever the input, and have no standard "
+                    "errors: it is held, and the model has as many zeros as poles. Take a type without D or Z."));
+    } else if (!withdraw_errors_of_gain(fit, data))
+        warn_of_doubtful_parameters(fit);
+    withdraw_errors_at_bounds(fit, options);
+}
+
 /// The simulated output of all experiments, its operating points included.
 Vector simulated(const Fit& fit, const ProcessProblem& problem, const CentredData& record) {
     const TransferOutput model = problem.output(record.data, fit.start);
@@ -302,7 +313,7 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     fit.output = simulated(fit, problem, record);
     add_operating_points(fit, record.removed);
     warn_of_search(fit, options);
-    warn_of_doubtful_parameters(fit);
+    warn_of_undetermined(fit, data, options);
     double longest = 0;
     for (std::size_t e = 0; e < data.experiments.size(); ++e) longest = std::max(longest, data.duration(e));
     warn_of_times(fit, data.mean_step(), longest);

@@ -299,14 +299,18 @@ Assessment assess_prediction(const IdData& data, const Fit& fit, const ResidualO
 
 Assessment assess(const IdData& data, const Fit& fit, const ResidualOptions& options) {
     const IdData counted = counted_data(data, fit);
-    if (fit.polynomial) return assess_prediction(counted, fit, options);
-    return fit.process ? assess_process(counted, fit, options) : assess_transfer(counted, fit, options);
+    Assessment assessment = fit.polynomial ? assess_prediction(counted, fit, options)
+                            : fit.process  ? assess_process(counted, fit, options)
+                                           : assess_transfer(counted, fit, options);
+    for (Index i = 0; i < std::min(fit.std.size(), assessment.std.size()); ++i)
+        if (std::isinf(fit.std[i])) assessment.std[i] = kInfinity;  // what the data do not determine
+    return assessment;
 }
 
 std::optional<Assessment> assess_if_affordable(const IdData& data, const Fit& fit) {
     if (fit.termination == Termination::kCancelled || fit.covariance.rows() != fit.theta.size()) return std::nullopt;
     if (!fit.process && data.sample_count() > kMostAssessed) return std::nullopt;
-    if (fit.polynomial && !fit.std.allFinite()) return std::nullopt;
+    if (fit.polynomial && !fit.covariance.allFinite()) return std::nullopt;
     try {
         return assess(data, fit);
     } catch (const InvalidArgument&) {

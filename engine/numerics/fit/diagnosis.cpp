@@ -70,18 +70,20 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
             if (channel.delay >= data.duration(e))
                 throw InvalidArgument("{}: the delay of {} s is not shorter than the record of {} s", method,
                                       channel.delay, data.duration(e));
-    for (Index input = 0; input < data.input_count(); ++input)
-        if (in_all_experiments(data, [&](const Experiment& e) {
-                return is_constant(e.u.col(input)) && !starts_from_rest(e.y.col(0)) && offset == Offset::kNone;
-            }))
-            throw InvalidArgument(
-                data.input_count() == 1
-                    ? Message("{}: the input never changes and the output does not start from rest, so there is no "
-                              "excitation: let the input vary, for instance as a prbs",
-                              method)
-                    : Message("{}: input {} never changes and the output does not start from rest, so there is no "
-                              "excitation: let the input vary, for instance as a prbs",
-                              method, input + 1));
+    for (Index input = 0; input < data.input_count(); ++input) {
+        const bool alone = data.input_count() == 1;
+        const bool rests = in_all_experiments(
+            data, [&](const Experiment& e) { return is_constant(e.u.col(input)) && !starts_from_rest(e.y.col(0)); });
+        if (!rests || (alone && offset != Offset::kNone)) continue;
+        throw InvalidArgument(
+            alone
+                ? Message("{}: the input never changes and the output does not start from rest, so there is no "
+                          "excitation: let the input vary, for instance as a prbs",
+                          method)
+                : Message("{}: the input {} never changes and the output does not start from rest, so that its effect "
+                          "cannot be told from an offset: leave it out with data:select, or let it move",
+                          method, data.input_names[static_cast<std::size_t>(input)]));
+    }
     check_outputs(method, data);
 }
 
@@ -186,49 +188,6 @@ void warn_of_instability(Fit& fit, UnstableAdvice advice) {
     }
 }
 
-/// A step of a held input reaches the output through the direct term at the next sampling instant, wherever between
-/// two instants it arrives, and n + 1 weights of the sampled response cannot tell n + 1 coefficients and a delay.
-void warn_of_ambiguous_delays(Fit& fit, const IdData& data) {
-    if (!fit.structure.free_delays || data.hold != Hold::kZoh || !data.regular()) return;
-    for (std::size_t i = 0; i < fit.models.size(); ++i) {
-        if (fit.models[i].zero_count() != fit.models[i].pole_count() || !(fit.models[i].delay() > 0)) continue;
-        const auto channel = channel_place(fit.structure, i);
-        fit.warnings.push_back(
-            channel
-                ? Message("The delay from input {} to output {} is only known to within one sampling time, and its "
-                          "standard error means nothing: the input is held and the model has as many zeros as poles. "
-                          "Fix the delay with {}, or take one zero fewer.",
-                          channel->input, channel->output, OptionName{"delay"})
-                : Message("The delay is only known to within one sampling time, and its standard error means nothing: "
-                          "the input is held and the model has as many zeros as poles. Fix the delay with {}, or take "
-                          "one zero fewer.",
-                          OptionName{"delay"}));
-    }
-}
-
-}  // namespace
-
-void warn_of_search(Fit& fit, const FitOptions& options) {
-    if (fit.termination == Termination::kIterationLimit)
-        fit.warnings.push_back(
-            Message("The search had not settled after {} = {} iterations; the best point so far is given.",
-                    OptionName{"max_iterations"}, options.max_iterations));
-    if (fit.termination == Termination::kCancelled)
-        fit.warnings.push_back(Message("The search was stopped before its end; the best point so far is given."));
-}
-
-std::vector<std::string> undetermined_parameters(const std::vector<std::string>& names, const VectorView& theta,
-                                                 const VectorView& std) {
-    std::vector<std::string> undetermined;
-    for (Index i = 0; i < std::min(theta.size(), std.size()); ++i) {
-        const std::string& name = names[static_cast<std::size_t>(i)];
-        if (!(std[i] <= std::abs(theta[i])) && !name.starts_with("Td")) undetermined.push_back(name);
-    }
-    return undetermined;
-}
-
-namespace {
-
 Message ambiguity(SimplerModel simpler, Number condition) {
     switch (simpler) {
         case SimplerModel::kFewerBins:
@@ -254,6 +213,100 @@ Message ambiguity(SimplerModel simpler, Number condition) {
     }
 }
 
+/// Of b_0 ... b_n the gain tells the last.
+std::vector<std::string> ambiguous_names(const Fit& fit, std::size_t channel) {
+    const Index inputs = fit.structure.inputs, place = static_cast<Index>(channel);
+    const Index output = place / inputs, input = place % inputs;
+    const Index first = fit.structure.numerator_start(output, input), count = fit.models[channel].pole_count();
+    std::vector<std::string> names;
+    for (Index i = first; i < first + count; ++i) names.push_back(fit.names[static_cast<std::size_t>(i)]);
+    names.push_back(fit.names[static_cast<std::size_t>(fit.structure.delay_index(output, input))]);
+    return names;
+}
+
+void warn_of_ambiguous_delays(Fit& fit, const IdData& data) {
+    if (!fit.structure.free_delays) return;
+    for (std::size_t i = 0; i < fit.models.size(); ++i) {
+        if (!has_ambiguous_delay(fit.models[i], data)) continue;
+        const auto channel = channel_place(fit.structure, i);
+        const std::vector<std::string> names = ambiguous_names(fit, i);
+        withdraw_errors(fit, names);
+        std::erase(fit.warnings, ambiguity(SimplerModel::kStructure, significant(fit.condition_number, 2)));
+        fit.warnings.push_back(
+            channel
+                ? Message("The delay from input {} to output {} is only known to within one sampling time, so that {} "
+                          "have no standard errors: the input is held and the model has as many zeros as poles. "
+                          "Fix the delay with {}, or take one zero fewer.",
+                          channel->input, channel->output, listed(names), OptionName{"delay"})
+                : Message("The delay is only known to within one sampling time, so that {} have no standard errors: "
+                          "the input is held and the model has as many zeros as poles. Fix the delay with {}, or take "
+                          "one zero fewer.",
+                          listed(names), OptionName{"delay"}));
+    }
+}
+
+}  // namespace
+
+bool has_ambiguous_delay(const TransferFunction& G, const IdData& data) {
+    return data.hold == Hold::kZoh && data.regular() && G.zero_count() == G.pole_count() && G.delay() > 0;
+}
+
+void withdraw_errors(Fit& fit, const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < fit.names.size(); ++i)
+        if (std::ranges::find(names, fit.names[i]) != names.end()) fit.std[static_cast<Index>(i)] = kInfinity;
+}
+
+bool inputs_change(const IdData& data) {
+    return !in_all_experiments(data, [](const Experiment& e) { return (e.u.rowwise() - e.u.row(0)).isZero(0); });
+}
+
+bool withdraw_errors_of_gain(Fit& fit, const IdData& data) {
+    if (inputs_change(data) || !fit.start.offset) return false;
+    std::vector<std::string> names;
+    for (const std::string& name : fit.names)
+        if (name == "Kp" || name.front() == 'b' || name.starts_with("Td")) names.push_back(name);
+    withdraw_errors(fit, names);
+    fit.warnings.push_back(Message(
+        "The input never changes: the gain and the delay rest on the assumption that it was zero until the first "
+        "sample, and have no standard errors. If it came from another value, count {} from there.",
+        listed(data.input_names)));
+    return true;
+}
+
+void withdraw_errors_at_bounds(Fit& fit, const FitOptions& options) {
+    std::vector<std::string> held;
+    for (std::size_t i = 0; i < std::min(fit.names.size(), fit.at_bound.size()); ++i)
+        if (fit.at_bound[i] && !fit.names[i].starts_with("Td") && !options.fixed.contains(fit.names[i]))
+            held.push_back(fit.names[i]);
+    if (held.empty()) return;
+    withdraw_errors(fit, held);
+    fit.warnings.push_back(Message(
+        "The search ended at a bound of {}, which the data do not determine: a drift, an offset, or a structure "
+        "that does not suit may be the cause.",
+        listed(held)));
+}
+
+void warn_of_search(Fit& fit, const FitOptions& options) {
+    if (fit.termination == Termination::kIterationLimit)
+        fit.warnings.push_back(
+            Message("The search had not settled after {} = {} iterations; the best point so far is given.",
+                    OptionName{"max_iterations"}, options.max_iterations));
+    if (fit.termination == Termination::kCancelled)
+        fit.warnings.push_back(Message("The search was stopped before its end; the best point so far is given."));
+}
+
+std::vector<std::string> undetermined_parameters(const std::vector<std::string>& names, const VectorView& theta,
+                                                 const VectorView& std) {
+    std::vector<std::string> undetermined;
+    for (Index i = 0; i < std::min(theta.size(), std.size()); ++i) {
+        const std::string& name = names[static_cast<std::size_t>(i)];
+        if (!(std[i] <= std::abs(theta[i])) && !name.starts_with("Td")) undetermined.push_back(name);
+    }
+    return undetermined;
+}
+
+namespace {
+
 /// At an edge of the range.
 Message delay_at(const OptionName& edge, double value, bool largest, const std::optional<ChannelPlace>& channel) {
     if (channel && largest)
@@ -276,7 +329,11 @@ void warn_of_doubtful_parameters(Fit& fit, SimplerModel simpler) {
         fit.warnings.push_back(ambiguity(simpler, significant(fit.condition_number, 2)));
         return;
     }
-    const std::vector<std::string> names = undetermined_parameters(fit.names, fit.theta, fit.std);
+    std::vector<std::string> names = undetermined_parameters(fit.names, fit.theta, fit.std);
+    std::erase_if(names, [&](const std::string& name) {  // told with the reason
+        return std::isinf(fit.std[std::ranges::find(fit.names, name) - fit.names.begin()]) &&
+               !fit.covariance.hasNaN() && fit.covariance.allFinite();
+    });
     if (!names.empty())
         fit.warnings.push_back(
             Message("The data hardly determine {}: the standard error is larger than the value.", listed(names)));
@@ -329,6 +386,8 @@ void describe_search(Fit& fit, const IdData& data, const FitOptions& options, co
     for (std::size_t i = 0; i < fit.models.size() && fit.structure.free_delays && range.largest > range.least; ++i)
         warn_of_delay(fit, fit.models[i].delay(), range, channel_place(fit.structure, i));
     warn_of_ambiguous_delays(fit, data);
+    withdraw_errors_at_bounds(fit, options);
+    withdraw_errors_of_gain(fit, data);
 }
 
 bool has_settled(const Fit& fit) {

@@ -70,6 +70,20 @@ std::optional<ChannelPlace> channel_place(const TransferStructure& structure, st
 /// than a little.
 void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::optional<ChannelPlace>& channel = {});
 
+/// Takes away (makes infinite) the standard errors of the parameters of these names, which the data do not determine.
+void withdraw_errors(Fit& fit, const std::vector<std::string>& names);
+/// Parameters other than delays that a search left at a bound which is not asked for: their errors are withdrawn.
+void withdraw_errors_at_bounds(Fit& fit, const FitOptions& options);
+/// Whether an input changes.
+bool inputs_change(const IdData& data);
+/// Of gain and delays where no input changes and the output stands on an offset: they rest on the assumption that the
+/// inputs were zero before, and a warning says so. Whether it is so.
+bool withdraw_errors_of_gain(Fit& fit, const IdData& data);
+/// Whether the delay of the channel is known only to within one sampling time: a step of a held input reaches the
+/// output through the direct term at the next sampling instant, wherever between two instants it arrives, and n + 1
+/// weights of the sampled response cannot tell n + 1 coefficients and a delay.
+bool has_ambiguous_delay(const TransferFunction& G, const IdData& data);
+
 /// What a warning of an unstable model advises: nothing; the option `stable`; srivc with that option; a look at the
 /// controller, the orders and the cut-off frequency.
 enum class UnstableAdvice { kNone, kStableOption, kStableSrivc, kController };

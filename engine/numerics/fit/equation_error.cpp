@@ -1,6 +1,8 @@
 #include "numerics/fit/equation_error.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "numerics/error.h"
 #include "numerics/linalg/least_squares.h"
@@ -42,6 +44,33 @@ Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const Fi
     return sums;
 }
 
+/// The level at which the output stands at zero inputs, where a constant in the equations explains clearly more: looked
+/// for where the simulation is much worse than the prediction.
+std::optional<double> missed_level(const IdData& data, const Fit& estimate) {
+    constexpr double kWorse = 5, kClearly = 20;  // per cent of fit, N log of losses
+    if (!(estimate.fit_percent[0] < estimate.prediction_fit_percent - kWorse) || data.input_count() == 0)
+        return std::nullopt;
+    IdData with_constant = data;
+    for (Experiment& experiment : with_constant.experiments) {
+        experiment.u.conservativeResize(Eigen::NoChange, experiment.u.cols() + 1);
+        experiment.u.rightCols(1).setOnes();
+    }
+    PolynomialOrders orders = *estimate.orders;
+    orders.nb.push_back(1);
+    orders.nf.push_back(0);
+    orders.nk.push_back(0);
+    const ArxEquations equations(with_constant, orders);
+    const Index count = equations.count();
+    if (count <= 2 * orders.parameter_count()) return std::nullopt;
+    const Vector theta = solve_arx(equations).theta;
+    double squares = 0;
+    for (const Vector& errors : equations.errors(theta)) squares += errors.squaredNorm();
+    const double N = static_cast<double>(count);
+    if (!(N * std::log(estimate.loss * N / squares) > kClearly)) return std::nullopt;
+    const double level = theta[theta.size() - 1] / (1 + theta.head(orders.na).sum());
+    return std::isfinite(level) ? std::optional<double>(level) : std::nullopt;
+}
+
 }  // namespace
 
 void check_equation_error(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
@@ -76,6 +105,11 @@ void report_equation_error(Fit& estimate, const IdData& data) {
     estimate.prediction_fit_percent = fit_percent_of_sums(sums.prediction_error, sums.variation);
     estimate.start = {InitialState::kEstimate, false};
     estimate.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), 1);
+    if (const std::optional<double> level = missed_level(data, estimate))
+        estimate.warnings.push_back(Message(
+            "{} stands at about {} when {} is zero, and a difference equation goes through the origin: take the "
+            "means off (data:remove_mean()).",
+            data.output_names.front(), significant(*level, 3), listed(data.input_names)));
 }
 
 void describe_equation_error(Fit& estimate) {

@@ -12,7 +12,9 @@
 #include "numerics/fit/simulation_error.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/fit/transfer_search.h"
+#include "numerics/fit/wandering.h"
 #include "numerics/linalg/decompositions.h"
+#include "numerics/signals/preprocess.h"
 
 namespace dynlab::inline numerics {
 
@@ -233,6 +235,37 @@ std::vector<Candidate> candidates(const IdData& data, const Question& asked) {
     return all;
 }
 
+/// Whether a straight line may be missed: the errors wander (those of the first experiment), or a slow or unstable pole
+/// has taken it over.
+bool may_miss_line(const Question& asked) {
+    const double duration = shortest_record(asked.record);
+    constexpr double kSlowTurns = 3;
+    for (const TransferFunction& G : asked.given.models)
+        for (const Complex& pole : G.poles())
+            if (has_unstable_pole(G) || std::abs(pole) * duration < kSlowTurns) return true;
+    const TransferOutput model(asked.given.structure, asked.given.start, asked.record, 0,
+                               shortest_record(asked.record));
+    const Vector errors = model.target() - model.output_at(search_point(asked.given, model, model.seconds()));
+    return !errors.allFinite() || wanders(errors.head(model.rows(0)));
+}
+
+/// Whether the same structure does better without the straight lines of input and output.
+std::optional<MissedStructure> missed_line(const Question& asked, const Explanation& present) {
+    if (!may_miss_line(asked)) return std::nullopt;
+    const IdData level = detrend(asked.record, TrendKind::kLinear);
+    const Question other{level, asked.given, asked.options};
+    const std::optional<Fit> fit = other.fit_of(asked.given.structure);
+    if (!fit) return std::nullopt;
+    Explanation found = other.explanation(*fit);
+    found.variation = present.variation;
+    found.values += 2 * static_cast<Index>(asked.record.experiments.size());
+    if (!gains(present, found)) return std::nullopt;
+    return MissedStructure{.code = MissedCode::kLine,
+                           .option = "detrend",
+                           .fit_percent = present.fit(),
+                           .better_fit_percent = found.fit()};
+}
+
 double value_of(MissedCode code, const Fit& fit) {
     if (code == MissedCode::kDelay) return fit.models.front().delay();
     return code == MissedCode::kPole ? fit.structure.poles.front() : fit.structure.channels.front().zeros;
@@ -249,7 +282,11 @@ std::optional<MissedStructure> missed_by_output(const IdData& data, const Fit& g
     const IdData& record = shorter ? beginning : data;
     const Question asked{record, given, options};
     const Explanation present = asked.explanation(given);
-    std::optional<MissedStructure> best;
+    std::optional<MissedStructure> best = missed_line(asked, present);
+    if (best) {
+        best->samples = shorter ? record.sample_count() : 0;
+        return best;
+    }
     double most = 0;
     for (const auto& [code, structure] : candidates(data, asked)) {
         const std::optional<Fit> fit = asked.fit_of(structure);
@@ -286,6 +323,8 @@ Message option_text(const MissedStructure& missed) {
             return Message("a delay of {} s", significant(missed.value, 3));
         case MissedCode::kPole:
             return Message("one more pole");
+        case MissedCode::kLine:
+            return Message("the straight lines taken off (data:detrend(\"linear\"))");
         default:
             return Message("as many zeros as poles");
     }
@@ -297,6 +336,8 @@ Message reason_text(const MissedStructure& missed) {
             return Message("the output follows the input later than the model does");
         case MissedCode::kPole:
             return Message("the errors still follow the input");
+        case MissedCode::kLine:
+            return Message("the output drifts, or a constant load acts on an integrator");
         default:
             return Message("the output follows the input at once (a direct feedthrough)");
     }

@@ -11,12 +11,13 @@ enum class MissedCode {
     kDelay,        ///< a delay, where the structure fixes it
     kPole,         ///< one more pole
     kFeedthrough,  ///< a direct term: as many zeros as poles
+    kLine,         ///< none of these: a straight line lies in the output, a drift or the ramp of a loaded integrator
 };
 
 /// A better structure, and the fit that it leads to.
 struct MissedStructure {
     MissedCode code = MissedCode::kPole;
-    std::string option;       ///< of the structure: "delay" (s), "poles" or "zeros"
+    std::string option;       ///< of the structure: "delay" (s), "poles" or "zeros"; "detrend" for a line
     double value = 0;         ///< to ask for
     std::string output = {};  ///< name of the output whose fit rises, where there are several
     Index samples = 0;        ///< of a long record: of its beginning, which both fits are of; 0 for all
@@ -27,14 +28,15 @@ struct MissedStructure {
 /// The structure that an output-error fit in continuous time misses, or nothing: a direct feedthrough where it has
 /// fewer zeros than poles; with one input, one more pole, or a delay where the fit has a fixed one.
 ///
-/// A feedthrough is fitted where a LOOK AHEAD on the first 3000 samples at most promises it: J'J and J'e of the
-/// sensitivities at the fit, extended by the further coefficients of B, tell what one Gauss-Newton step gains. A pole
-/// and a delay are fitted where the errors follow the input. Each is fitted by the options of the fit, which choose
-/// its start again where they leave it open (of records above 100,000 samples, to their beginning). A gain counts when
-/// it lowers BIC by more than 10, very strong evidence (Kass and Raftery 1995), with as many samples as white errors of
-/// the same power at low frequencies would have: N (1 - r)/(1 + r), r the errors' correlation from one sample to the
-/// next; and when it is half a point of fit, or a fifth of what the fit lacks. A feedthrough must gain over n - 1
-/// zeros, and one more pole must not do as well.
+/// Where the errors wander (fit/wandering.h), a straight line comes first: the structure is fitted to the data without
+/// their lines, and nothing else is looked for where that gains. A feedthrough is fitted where a LOOK AHEAD on the
+/// first 3000 samples at most promises it: J'J and J'e of the sensitivities at the fit, extended by the further
+/// coefficients of B, tell what one Gauss-Newton step gains. A pole and a delay are fitted where the errors follow the
+/// input. Each is fitted by the options of the fit, which choose its start again where they leave it open (of records
+/// above 100,000 samples, to their beginning). A gain counts when it lowers BIC by more than 10, very strong evidence
+/// (Kass and Raftery 1995), with as many samples as white errors of the same power at low frequencies would have: N (1
+/// - r)/(1 + r), r the errors' correlation from one sample to the next; and when it is half a point of fit, or a fifth
+/// of what the fit lacks. A feedthrough must gain over n - 1 zeros, and one more pole must not do as well.
 ///
 /// `data` and `options`: as the search was given them, with integrated inputs where it had an integrator
 /// (options.integration; no feedthrough is looked for then). Nothing for cancelled fits, those with an operating point

@@ -12,7 +12,8 @@ bool spoils_a_stretch(const RecordFinding& finding) {
 }
 
 bool forbids_a_model(const RecordFinding& finding) {
-    return finding.code == "constant" || finding.code == "time_column" || finding.code == "same_column";
+    return finding.code == "constant" || finding.code == "time_column" || finding.code == "same_column" ||
+           finding.code == "wrapped";
 }
 
 double rms_within(const Vector& x, const std::vector<Segment>& sections) {

@@ -7,7 +7,6 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
-#include "numerics/signals/correlation.h"
 #include "numerics/signals/robust_statistics.h"
 
 namespace dynlab::inline numerics {
@@ -20,7 +19,6 @@ constexpr double kStraight = 1e-3;         // of the input's standard deviation,
 constexpr double kSearchTolerance = 1e-4;  // relative, of parameters
 constexpr double kSlowCycles = 20;         // over the window, below which a movement counts as slow
 constexpr double kHardlyWorse = 1.05;
-constexpr Index kParts = 20;  // of a record, whose means are compared
 
 /// Where to begin: the first stretch with half of the usual movement.
 Index lively_start(const VectorView& u, Index length) {
@@ -198,15 +196,7 @@ SearchWindow longer_window(const IdData& data, const SearchWindow& window) {
 bool is_doubtful(const FittedRecord& fit) {
     constexpr double kSlowPole = 3;
     return fit.simulation.fit_percent < 50 || fit.simulation.start.state == InitialState::kEstimate ||
-           has_slow_pole(fit, kSlowPole) || !fit.model().stable() || wandering(fit.error) > kWanders;
-}
-
-/// Of a long signal the means over blocks, of which there are 4000 to 8000.
-Vector block_means(const VectorView& x) {
-    constexpr Index kEnough = 4000;
-    const Index block = std::max<Index>(1, x.size() / kEnough), count = x.size() / block;
-    if (block == 1) return x;
-    return x.head(count * block).reshaped(block, count).colwise().mean().transpose();
+           has_slow_pole(fit, kSlowPole) || !fit.model().stable() || wanders(fit.error);
 }
 
 /// A regular record with one input and one output: the whole of it up to 5000 samples, of a longer one the first
@@ -233,27 +223,16 @@ SearchWindow search_window(const IdData& data) {
 
 }  // namespace
 
-double wandering(const VectorView& signal) {
-    const Vector x = block_means(signal);
-    const Index length = x.size() / kParts, lags = length / 4;
-    if (length < 10) return 0;
-    Vector means(kParts), products = Vector::Zero(lags + 1);
-    for (Index i = 0; i < kParts; ++i) {
-        const auto part = x.segment(i * length, length);
-        means[i] = part.mean();
-        const Vector about_mean = part.array() - means[i];
-        products += lagged_products(about_mean, about_mean, lags).tail(lags + 1);
-    }
-    double expected = products[0];
-    for (Index lag = 1; lag <= lags; ++lag)
-        expected += 2 * (1 - static_cast<double>(lag) / static_cast<double>(lags + 1)) * products[lag];
-    expected = std::max(expected, 0.1 * products[0]) / static_cast<double>(kParts * length);
-    const double found = (means.array() - means.mean()).square().sum() * static_cast<double>(length) / (kParts - 1);
-    return expected > 0 ? found / expected : 0;
-}
-
 Message FittedRecord::with_unit(double value, int digits) const {
     return numerics::with_unit(rounded(value, digits), data.output_units.front());
+}
+
+bool FittedRecord::runs_away() const {
+    constexpr double kFar = 3, kHalf = 50;  // times the range of the output; per cent of fit
+    if (!model().stable()) return !explains_from_rest(*this, kHalf);
+    if (simulation.fit_percent > kHalf) return false;
+    const auto range = [](const auto& x) { return x.maxCoeff() - x.minCoeff(); };
+    return !(range(simulation.output) < kFar * range(y()));
 }
 
 double FittedRecord::deviation() const {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/message.h"
+#include "numerics/fit/wandering.h"
 #include "numerics/validation/advice.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/delay_search.h"
@@ -37,8 +38,11 @@ struct FittedRecord {
     Message with_unit(double value, int digits) const;
     double deviation() const;  ///< standard deviation of y
     /// The model explains half of the output, or of what is left of it without slow movement.
-    bool trusted() const { return simulation.fit_percent > 50 || movement_error < 0.5; }
-    void take_off(const VectorView& part);  ///< of y, and simulates anew
+    bool trusted() const { return simulation.fit_percent > 50 || (movement_error < 0.5 && !runs_away()); }
+    /// It is unstable and explains less than half from rest, or its simulation leaves the range of the output by far:
+    /// no measure of anything.
+    bool runs_away() const;
+    void take_off(const VectorView& part);  ///< of y, and simulates again
 };
 
 /// A model with one to three poles and a free delay. Its structure is looked for (search_delay) with a free start and a
@@ -51,12 +55,6 @@ struct FittedRecord {
 /// (a free motion of it, though, is what a drift looks like); nor is a model taken that explains the whole record worse
 /// than -50 %. Nothing when nothing can be fitted, or when cancelled.
 std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel);
-
-/// How far a signal wanders: the variance of its means over 20 parts of the record against what its correlation inside
-/// the parts lets expect (Bartlett's window of a quarter of a part). For noise that forgets within a part this is F
-/// with 19 and many degrees of freedom: 3.6 is exceeded with probability 1e-6. 0 for fewer than 200 samples.
-double wandering(const VectorView& x);
-inline constexpr double kWanders = 5;  ///< leaves room for noise of long memory
 
 /// A finding about the output.
 RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value);

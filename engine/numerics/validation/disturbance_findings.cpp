@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "numerics/signals/repair.h"
 #include "numerics/signals/robust_statistics.h"
@@ -9,8 +10,9 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kSlowParts = 20;       // of a record, over which a slow disturbance is averaged
-constexpr double kWorthAWord = 0.08;   // of the output's standard deviation
+constexpr Index kSlowParts = 20;      // of a record, over which a slow disturbance is averaged
+constexpr double kWorthAWord = 0.08;  // of the output's standard deviation
+constexpr double kWalkWorthAWord = 0.12;
 constexpr double kStraightLine = 0.7;  // of the slow part's variance, for it to be called a drift
 constexpr Index kSections = 24;
 constexpr double kLeastError = 0.05;  // of the output's standard deviation, for an error to be worth a word
@@ -67,42 +69,66 @@ void keep_isolated(RepairedSignal& repaired, const Vector& x) {
     std::erase_if(repaired.stretches, is_none);
 }
 
+/// Of an error of y; nothing where they are too many or too small to matter.
+std::optional<RepairedSignal> isolated_outliers(const Vector& error, double deviation) {
+    constexpr double kMostShare = 0.05;  // of the samples
+    if (!error.allFinite()) return std::nullopt;
+    RepairedSignal repaired = replace_outliers(error);
+    keep_isolated(repaired, error);
+    const auto count = static_cast<double>(repaired.replaced.size());
+    if (count == 0 || count > kMostShare * static_cast<double>(error.size())) return std::nullopt;
+    if (!((error - repaired.signal).cwiseAbs().maxCoeff() > kLeastError * deviation)) return std::nullopt;
+    return repaired;
+}
+
+/// Outliers may hide the response that they lie on: then a model is fitted to the record without them.
+std::optional<RepairedSignal> outliers_of(FittedRecord& fit, const std::function<bool()>& cancel) {
+    constexpr double kMuch = 0.3;  // of the error's power
+    const double deviation = fit.deviation();
+    std::optional<RepairedSignal> found = isolated_outliers(fit.error, deviation);
+    if (!found || (fit.error - found->signal).squaredNorm() < kMuch * fit.error.squaredNorm())
+        return fit.trusted() ? found : std::nullopt;
+    IdData cleaned = fit.data;
+    cleaned.experiments.front().y.col(0) -= fit.error - found->signal;
+    std::optional<FittedRecord> again = fitted_record(cleaned, cancel);
+    if (!again || !again->trusted()) return fit.trusted() ? found : std::nullopt;
+    const Vector y = fit.y();
+    fit = std::move(*again);
+    fit.take_off(fit.y() - y);  // the outliers are in the record again
+    return isolated_outliers(fit.error, deviation);
+}
+
 }  // namespace
 
-void find_error_outliers(FittedRecord& fit, RecordFindings& findings) {
-    const Index N = fit.error.size();
-    RepairedSignal repaired = replace_outliers(fit.error);
-    keep_isolated(repaired, fit.error);
-    const auto count = static_cast<Index>(repaired.replaced.size());
-    if (count == 0 || static_cast<double>(count) > 0.02 * static_cast<double>(N)) return;
-    const double least = kLeastError * fit.deviation();
-    double largest = 0;
-    for (const Index place : repaired.replaced)
-        largest = std::max(largest, std::abs(fit.error[place - 1] - repaired.signal[place - 1]));
-    if (!(largest > least)) return;
-    fit.take_off(fit.error - repaired.signal);
+void find_error_outliers(FittedRecord& fit, const std::function<bool()>& cancel, RecordFindings& findings) {
+    const std::optional<RepairedSignal> repaired = outliers_of(fit, cancel);
+    if (!repaired) return;
+    const auto count = static_cast<Index>(repaired->replaced.size());
+    const Vector outliers = fit.error - repaired->signal;
+    fit.take_off(outliers);
     RecordFinding finding = about(
         fit, "outliers", Weight::kWarning,
         Message("The output {} has {} far out from the neighbours ({}), up to {} from what the input lets expect. Look "
                 "whether they can be true; if not, filloutliers puts straight lines there.",
                 fit.output(), plural(count, "{} sample that stands", "{} samples that stand"),
-                listed_places(repaired.stretches), fit.with_unit(largest, 2)),
+                listed_places(repaired->stretches), fit.with_unit(outliers.cwiseAbs().maxCoeff(), 2)),
         static_cast<double>(count));
-    finding.sections = repaired.stretches;
+    finding.sections = repaired->stretches;
     findings.push_back(std::move(finding));
 }
 
 void find_disturbance(FittedRecord& fit, RecordFindings& findings) {
-    if (fit.error.size() < 10 * kSlowParts || wandering(fit.error) < kWanders) return;
+    if (!wanders(fit.error)) return;
     Vector slow = slow_part(error_without_free_motion(fit));
     slow.array() -= slow.mean();
     const double size = std::sqrt(slow.squaredNorm() / static_cast<double>(slow.size()));
-    if (!(size > kWorthAWord * fit.deviation())) return;
+    const StraightLine line = straight_line(slow);
+    const bool straight = line.share > kStraightLine;
+    if (!(size > (straight ? kWorthAWord : kWalkWorthAWord) * fit.deviation())) return;
     fit.disturbance = size;
     fit.taken_off = slow;
     fit.take_off(slow);
-    const StraightLine line = straight_line(slow);
-    if (line.share > kStraightLine)
+    if (straight)
         findings.push_back(about(fit, "drift", Weight::kWarning,
                                  Message("{} drifts by about {} from the beginning to the end, which {} does not "
                                          "explain. A model would take it for slow dynamics: take the straight line off "

@@ -3,6 +3,11 @@
 #include <limits>
 #include <numbers>
 
+#include "numerics/error.h"
+#include "numerics/estimators/srivc.h"
+#include "numerics/fit/integrated_input.h"
+#include "numerics/linalg/least_squares.h"
+#include "numerics/signals/preprocess.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/frequency_response.h"
 #include "numerics/simulation/lsim.h"
@@ -14,6 +19,7 @@ namespace {
 
 constexpr double kNoisy = 10;             // dB below which noise is a concern
 constexpr double kSlow = 6, kFast = 400;  // sampling frequency over bandwidth
+constexpr double kBeyond = 1.5;           // times the input's frequency, from where on a bandwidth is a guess
 constexpr double kBandPass = 0.1;         // steady gain over peak
 constexpr double kOffset = 0.1;           // of the output's standard deviation
 constexpr double kOffsetAtRest = 0.02;    // of the output's standard deviation
@@ -79,6 +85,42 @@ std::optional<double> level_at_rest(const FittedRecord& fit) {
     return level;
 }
 
+/// Whether one more pole in the place of the delay does nearly as well.
+bool may_be_a_lag(const FittedRecord& fit) {
+    constexpr double kNearly = 10;  // of N log of losses
+    const Fit& found = fit.search.candidate.estimate;
+    FitOptions options = FitOptions().started(found.start);
+    options.tolerance = 1e-3;
+    try {
+        const Fit lag =
+            srivc(fit.window.data,
+                  TransferStructure::single(fit.search.candidate.poles + 1, fit.search.candidate.zeros), options);
+        return static_cast<double>(fit.window.data.sample_count()) * std::log(lag.loss / found.loss) < kNearly;
+    } catch (const InvalidArgument&) {
+        return false;
+    }
+}
+
+/// rad/s, root mean square: a chirp or a slow multisine does not show what the plant does far beyond.
+double input_frequency(const FittedRecord& fit) {
+    const VectorView u = fit.u();
+    const Index steps = u.size() - 1;
+    const double step = std::sqrt((u.tail(steps) - u.head(steps)).squaredNorm() / static_cast<double>(steps));
+    return step / (standard_deviation(u) * fit.data.Ts);
+}
+
+/// Correlation of neighbors, between 0 and 1.
+double memory_of(const Vector& x) {
+    const Index N = x.size();
+    return std::clamp(x.head(N - 1).dot(x.tail(N - 1)) / x.squaredNorm(), 0.0, 0.999);
+}
+
+/// Standard error of the mean of errors that follow each other.
+double error_of_mean(const Vector& error) {
+    const double r = memory_of(error);
+    return standard_deviation(error) * std::sqrt((1 + r) / (1 - r) / static_cast<double>(error.size()));
+}
+
 bool excludes_zero(const VectorView& u) {
     const double low = u.minCoeff(), high = u.maxCoeff(), margin = 0.05 * (high - low);
     return low > margin || high < -margin;
@@ -117,37 +159,43 @@ void find_noise(const FittedRecord& fit, RecordFindings& findings) {
 void find_dead_time(const FittedRecord& fit, RecordFindings& findings) {
     const double delay = fit.search.delay, Ts = fit.data.Ts;
     if (!(delay > Ts) || !(delay > 4 * fit.search.std)) return;
-    findings.push_back(about(fit, "dead_time", Weight::kNote,
-                             Message("{} answers about {} ({} samples) after {}: give the model a dead time ({} of "
-                                     "tfsrivc, the D of procsrivc).",
-                                     fit.output(), with_unit(significant(delay, 3), fit.data.time_unit),
-                                     significant(delay / Ts, 3), fit.input(), OptionName{"largest_delay"}),
-                             delay));
+    const Message seen =
+        Message("{} answers about {} ({} samples) after {}.", fit.output(),
+                with_unit(significant(delay, 3), fit.data.time_unit), significant(delay / Ts, 3), fit.input());
+    const Message remedy =
+        may_be_a_lag(fit)
+            ? Message(
+                  "A delay or another pole: compare both (tfsrivc with {} poles and a delay, and with {} poles and "
+                  "{} = 0).",
+                  fit.search.candidate.poles, fit.search.candidate.poles + 1, OptionName{"largest_delay"})
+            : Message("Give the model a dead time ({} of tfsrivc, the D of procsrivc).", OptionName{"largest_delay"});
+    findings.push_back(about(fit, "dead_time", Weight::kNote, sentences({seen, remedy}), delay));
 }
 
 void find_offset(const FittedRecord& fit, RecordFindings& findings) {
     const double deviation = fit.deviation(), offset = fit.simulation.offset;
-    const double least = std::max(kOffset * deviation, 3 * fit.disturbance);
+    const double least = std::max({kOffset * deviation, 3 * fit.disturbance, 4 * error_of_mean(fit.error)});
     if (!fit.simulation.start.offset || std::abs(offset) < least) {
         const std::optional<double> level = level_at_rest(fit);
         if (level && std::abs(*level) >= std::max(kOffsetAtRest * deviation, 3 * fit.disturbance))
             findings.push_back(about(fit, "offset", Weight::kNote,
                                      Message("{} stands at about {} during the first {} samples, while {} is zero: "
                                              "data:detrend(\"start\") or {} = \"estimate\" takes this offset off.",
-                                             fit.output(), fit.with_unit(*level, 2), samples_at_rest(fit.u()),
+                                             fit.output(), fit.with_unit(*level, 3), samples_at_rest(fit.u()),
                                              fit.input(), OptionName{"offset"}),
                                      *level));
         return;
     }
-    const Message level = with_unit(rounded_to(offset, deviation / 5), fit.data.output_units.front());
+    const bool extrapolated = excludes_zero(fit.u());
+    const Message level =
+        with_unit(rounded_to(offset, deviation / (extrapolated ? 5 : 50)), fit.data.output_units.front());
     const Message seen =
-        excludes_zero(fit.u())
-            ? Message(
-                  "A straight line through these data would put {} at about {} when {} is zero; that is an "
-                  "extrapolation, for {} stays between {} and {}.",
-                  fit.output(), level, fit.input(), fit.input(), rounded(fit.u().minCoeff(), 3),
-                  rounded(fit.u().maxCoeff(), 3))
-            : Message("{} stands at about {} when {} is zero.", fit.output(), level, fit.input());
+        extrapolated ? Message(
+                           "A straight line through these data would put {} at about {} when {} is zero; that is an "
+                           "extrapolation, for {} stays between {} and {}.",
+                           fit.output(), level, fit.input(), fit.input(), rounded(fit.u().minCoeff(), 3),
+                           rounded(fit.u().maxCoeff(), 3))
+                     : Message("{} stands at about {} when {} is zero.", fit.output(), level, fit.input());
     const Message remedy = Message(
         "A linear model goes through the origin: take the offset off with data:remove_mean() or "
         "data:detrend(\"start\"), or use {} = \"estimate\".",
@@ -187,12 +235,30 @@ double found_elsewhere(const Vector& motion, const FittedRecord& fit) {
 
 }  // namespace
 
+namespace {
+
+/// Whether the free motion explains more than errors that follow each other imitate: the gain in N log of the sum of
+/// squares over the best start from rest, with as many samples as white errors of the same power at low frequencies.
+bool start_is_evident(const FittedRecord& fit) {
+    constexpr double kEvident = 30;
+    double rest = kInfinity;
+    for (const InitialState state : {InitialState::kZero, InitialState::kSteady}) {
+        const CompareResult other = compare(fit.data, fit.model(), {state, Offset::kEstimate});
+        rest = std::min(rest, (fit.y() - other.output).squaredNorm());
+    }
+    const Index N = fit.error.size();
+    const double squares = fit.error.squaredNorm(), r = memory_of(fit.error);
+    return static_cast<double>(N) * (1 - r) / (1 + r) * std::log(rest / squares) > kEvident;
+}
+
+}  // namespace
+
 void find_running_start(const FittedRecord& fit, RecordFindings& findings) {
     const Vector motion = free_motion(fit);
     const double largest = motion.size() > 0 ? motion.cwiseAbs().maxCoeff() : 0, error = standard_deviation(fit.error);
     const bool moves =
         largest > std::max({kVisibleStart * fit.deviation(), kAboveError * error, 3 * fit.disturbance}) &&
-        kOverOthers * found_elsewhere(motion, fit) < 1;
+        kOverOthers * found_elsewhere(motion, fit) < 1 && start_is_evident(fit);
     if (!moves && !has_strange_beginning(fit)) return;
     const OptionName option{"initial_state"};
     const Message message =
@@ -213,7 +279,7 @@ void find_sampling_rate(const FittedRecord& fit, RecordFindings& findings) {
     const double ratio = 2 * std::numbers::pi / (fit.data.Ts * band);
     const Number times = rounded(ratio, 2);
     const Message bandwidth = with_unit(rounded(band, 2), "rad/" + fit.data.time_unit);
-    if (ratio < kSlow)
+    if (ratio < kSlow && band < kBeyond * input_frequency(fit))
         findings.push_back(about(fit, "slow_sampling", Weight::kWarning,
                                  Message("The sampling frequency is {} times the bandwidth of about {}; 10 to 30 times "
                                          "is usual. What happens between the samples is lost: sample faster, and do "
@@ -244,6 +310,68 @@ void find_integrator(const FittedRecord& fit, RecordFindings& findings) {
                                      fit.output(), fit.input(), with_unit(rounded(duration, 2), fit.data.time_unit),
                                      OptionName{"integration"}, fit.input()),
                              *pole));
+}
+
+namespace {
+
+/// How an integrator with a lag, and a constant beside the input, explain a record.
+struct LoadedIntegrator {
+    double load = 0;   ///< in units of the input
+    double part = 0;   ///< of its ramp, in standard deviations of the output
+    double error = 1;  ///< rms, in standard deviations of the output
+};
+
+/// y = G(s) v + c + m t with v the integral of u, G stable: m = G(0) load. Straight lines are taken off y and v for G.
+std::optional<LoadedIntegrator> loaded_integrator(const IdData& data) {
+    const IdData integrated = integrated_inputs(data);
+    const IdData bent = detrend(integrated, TrendKind::kLinear);
+    FitOptions options;
+    options.initial_state = InitialState::kEstimate;
+    options.offset = Offset::kEstimate;
+    options.tolerance = 1e-4;
+    std::optional<Fit> best;
+    for (const int poles : {1, 2}) try {
+            Fit fit = srivc(bent, TransferStructure::single(poles, 0), options);
+            if (fit.models.front().stable() && (!best || fit.loss < best->loss)) best = std::move(fit);
+        } catch (const InvalidArgument&) {
+            continue;
+        }
+    if (!best) return std::nullopt;
+    const TransferFunction& G = best->models.front();
+    const Experiment& record = integrated.experiments.front();
+    const Vector y = record.y.col(0);
+    const Vector rest = y - lsim(G, record.u.col(0), data.Ts, integrated.hold);
+    Matrix line(y.size(), 2);
+    line.col(0).setOnes();
+    line.col(1) = Vector::LinSpaced(y.size(), 0, 1);
+    const LeastSquares fit = solve_least_squares(line, rest);
+    const double deviation = standard_deviation(y), rise = fit.solution[1];
+    const double duration = static_cast<double>(y.size() - 1) * data.Ts;
+    return LoadedIntegrator{rise / (duration * G.dc_gain()), std::abs(rise) / deviation,
+                            std::sqrt(fit.residuals.squaredNorm() / static_cast<double>(y.size())) / deviation};
+}
+
+}  // namespace
+
+bool find_load(const FittedRecord& fit, RecordFindings& findings) {
+    constexpr double kExplains = 0.3, kAsWell = 1.15, kVisible = 0.3;
+    const IdData& window = fit.window.data;
+    const bool doubtful = slowest_pole(fit) || fit.runs_away() || wanders(fit.error) ||
+                          fit.simulation.start.state == InitialState::kEstimate;
+    if (!doubtful) return false;
+    const std::optional<LoadedIntegrator> found = loaded_integrator(window);
+    if (!found || !(found->part > kVisible) || !(found->error < kExplains)) return false;
+    const double own = fit.search.loss() / std::pow(fit.deviation(), 2);
+    if (!fit.runs_away() && !(found->error < kAsWell * std::sqrt(own))) return false;
+    const Message load = with_unit(rounded(found->load, 2), fit.data.input_units.front());
+    const Message balance = with_unit(rounded(-found->load, 2), fit.data.input_units.front());
+    findings.push_back(about(
+        fit, "load", Weight::kWarning,
+        Message("{} integrates {} and a constant load of about {}: it stands still when {} is {}, not zero. Count "
+                "{} from there, and build the pole at zero into the model with {}.",
+                fit.output(), fit.input(), load, fit.input(), balance, fit.input(), OptionName{"integration"}),
+        found->load));
+    return true;
 }
 
 }  // namespace dynlab::inline numerics

@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numerics/error.h"
-#include "numerics/estimators/srivc.h"
 #include "numerics/linalg/decompositions.h"
+#include "numerics/linalg/least_squares.h"
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/statistics/autoregression.h"
@@ -20,24 +19,6 @@ constexpr double kCutError = 6, kCutInput = 2.5;
 constexpr Index kMostFeedbackSamples = 4000;
 constexpr double kFeedbackLevel = 1e-5;
 constexpr double kOneSided = 3;  // times more correlation with later inputs than with earlier ones
-constexpr double kExplainsHalf = 50, kExplainsMost = 85;  // per cent of fit
-constexpr double kPromises = 30, kQuickMisses = 10;       // per cent of fit
-constexpr double kQuickTolerance = 1e-3;                  // relative, of parameters
-constexpr double kMuchBetter = 2.0 / 3;                   // of the error
-
-/// Whether a quick model of two poles from the output to the input comes near the fit of the one the other way round.
-bool may_be_exchanged(const IdData& turned, double forward) {
-    FitOptions options;
-    options.initial_state = InitialState::kEstimate;
-    options.offset = Offset::kEstimate;
-    options.tolerance = kQuickTolerance;
-    try {
-        return srivc(turned, TransferStructure::single(2, 1), options).fit_percent[0] >
-               std::max(kPromises, forward - kQuickMisses);
-    } catch (const InvalidArgument&) {
-        return false;
-    }
-}
 
 /// x with mean zero and mean square one, cut off at so many robust standard deviations.
 Vector standardised(Vector x, double cut) {
@@ -48,6 +29,33 @@ Vector standardised(Vector x, double cut) {
     const double size = std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
     if (!(size > 0)) return Vector::Zero(x.size());
     return x / size;
+}
+
+Vector white_errors(const VectorView& error) {
+    const Vector centred = error.array() - error.mean();
+    const Autoregression memory =
+        fit_autoregression(centred, {centred.size()}, kInputMemory, AutoregressiveOrder::kBic);
+    return filtered_past(memory, centred);
+}
+
+/// What the past of both signals does not tell of y(k): a prediction needs no stable model.
+Vector prediction_errors(const VectorView& y, const VectorView& u) {
+    const Index rows = y.size() - kInputMemory;
+    Matrix columns(rows, 2 * kInputMemory + 1);
+    columns.col(0).setOnes();
+    for (Index i = 1; i <= kInputMemory; ++i) {
+        columns.col(i) = y.segment(kInputMemory - i, rows);
+        columns.col(kInputMemory + i) = u.segment(kInputMemory - i, rows);
+    }
+    return solve_least_squares(columns, y.tail(rows)).residuals;
+}
+
+/// x one sample late.
+Vector delayed(const VectorView& x) {
+    Vector late(x.size());
+    late[0] = x[0];
+    late.tail(x.size() - 1) = x.head(x.size() - 1);
+    return late;
 }
 
 /// Columns of the regression of u(k) on 1, u(k - 1), ... and x(k), x(k - 1), ..., and u(k) itself as the last.
@@ -82,12 +90,6 @@ Vector input_innovations(const VectorView& u, const VectorView& x) {
         weights = (1 - (w / scale).array().square()).cwiseMax(0).square();
     }
     return w;
-}
-
-IdData exchanged(const IdData& data) {
-    IdData turned = data;
-    for (Experiment& experiment : turned.experiments) std::swap(experiment.u, experiment.y);
-    return turned;
 }
 
 /// Correlations r with a signal that is not quite white, of which `R` are the correlations: N r' P^-1 r, P_ij =
@@ -125,12 +127,13 @@ Message remedy_for_feedback(const Experiment& experiment) {
 void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
     const Index first = fit.window.first, count = std::min<Index>(fit.error.size() - first, kMostFeedbackSamples);
     if (count < 20 * kInputMemory) return;
-    const auto error = fit.error.segment(first, count);
-    const Vector centred = error.array() - error.mean();
-    const Autoregression memory = fit_autoregression(centred, {count}, kInputMemory, AutoregressiveOrder::kBic);
-    const Vector e = standardised(filtered_past(memory, centred), kCutError);
     const Vector u = fit.u().segment(first, count);
-    const Vector w = standardised(input_innovations(u, fit.simulation.output.segment(first, count)), kCutInput);
+    const bool predicts = !fit.model().stable() || fit.runs_away();
+    const Vector e = standardised(
+        predicts ? prediction_errors(fit.y().segment(first, count), u) : white_errors(fit.error.segment(first, count)),
+        kCutError);
+    const Vector x = predicts ? delayed(fit.y().segment(first, count)) : fit.simulation.output.segment(first, count);
+    const Vector w = standardised(input_innovations(u, x), kCutInput);
     const Index common = std::min(e.size(), w.size());
     if (w.isZero()) return;
     const auto samples = static_cast<double>(common);
@@ -151,22 +154,15 @@ void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
                              sentences({seen, remedy_for_feedback(fit.data.experiments.front())}), largest));
 }
 
-bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, RecordFindings& findings) {
-    const bool disturbed = wandering(fit.error) > kWanders;
-    const double forward = std::max(fit.simulation.fit_percent, disturbed ? 100 * (1 - fit.movement_error) : 0.0);
-    if (forward > kExplainsMost) return false;
-    const IdData turned = exchanged(fit.data);
-    if (!may_be_exchanged(exchanged(fit.window.data), forward)) return false;
-    const std::optional<FittedRecord> backward = fitted_record(turned, cancel);
-    if (!backward || !(backward->simulation.fit_percent > kExplainsHalf)) return false;
-    if (!(100 - backward->simulation.fit_percent < kMuchBetter * (100 - forward))) return false;
-    findings.push_back(about(fit, "causality", Weight::kWarning,
-                             Message("A model from {} to {} explains {} %, one from {} to {} only {} %: {} seems to "
-                                     "answer {}. The two columns are probably exchanged (iddata takes the output "
-                                     "first), or a controller was running.",
-                                     fit.output(), fit.input(), rounded(backward->simulation.fit_percent, 2),
-                                     fit.input(), fit.output(), rounded(forward, 2), fit.input(), fit.output()),
-                             forward));
+bool find_runaway(const FittedRecord& fit, RecordFindings& findings) {
+    if (!fit.runs_away()) return false;
+    findings.push_back(about(
+        fit, "unstable", Weight::kWarning,
+        Message("The linear model from {} to {} that suits best is unstable, and its simulation runs away from the "
+                "record: nothing can be measured against it. If the plant is unstable, a controller was running: give "
+                "iddata the reference and use clsrivc, or predict (armax, pe) instead of simulating.",
+                fit.input(), fit.output()),
+        fit.simulation.fit_percent));
     return true;
 }
 

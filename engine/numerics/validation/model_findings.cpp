@@ -44,10 +44,17 @@ ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel
     first.experiments.resize(1);
     std::optional<FittedRecord> fit = fitted_record(first, cancel);
     if (!fit || find_exchange(*fit, cancel, findings)) return advice;
-    advice.judges_outliers = fit->trusted() && fit->error.size() <= kMostSamplesToJudge;
-    if (advice.judges_outliers) find_error_outliers(*fit, findings);
+    const bool judged_one_by_one = fit->error.size() <= kMostSamplesToJudge;
+    if (judged_one_by_one) find_error_outliers(*fit, cancel, findings);
+    advice.judges_outliers = fit->trusted() && judged_one_by_one;
+    if (find_load(*fit, findings)) return advice;
+    if (find_runaway(*fit, findings)) {
+        find_feedback(*fit, findings);
+        return advice;
+    }
+    if (find_late_input(*fit, findings)) return advice;
     const bool strange = fit->trusted() && find_strange_sections(*fit, findings);
-    if (fit->trusted() && !strange) find_disturbance(*fit, findings);
+    if (!strange && !gain_explains_error(*fit)) find_disturbance(*fit, findings);
     if (fit->simulation.fit_percent > kSomething && !strange) find_nonlinearity(*fit, findings);
     if (!has_nonlinearity(findings)) find_feedback(*fit, findings);
     find_noise(*fit, findings);

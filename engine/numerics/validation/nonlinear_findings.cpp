@@ -156,15 +156,18 @@ struct Verdict {
     double share = 0;      // of the error left by linear terms
 };
 
-/// The error after all columns, from which its memory is learnt.
+/// The error after all columns, from which its memory is learnt. With few samples, so many columns would explain part
+/// of that memory, and after the linear ones alone it is safe.
 Vector unexplained(const NonlinearRegression& regression) {
-    const Index d = regression.columns.cols() - 1;
+    constexpr Index kRowsPerColumn = 20;
+    const Index all = regression.columns.cols() - 1;
+    const Index d = regression.columns.rows() < kRowsPerColumn * all ? regression.linear : all;
     Matrix basis = regression.columns.leftCols(d);
     const Vector scale = basis.colwise().norm().transpose().cwiseMax(1e-300);
     basis *= scale.cwiseInverse().asDiagonal();
     Matrix gram = basis.transpose() * basis;
     gram.diagonal().array() += 1e-9;
-    const Vector e = regression.columns.col(d);
+    const Vector e = regression.columns.col(all);
     return e - basis * solve_semidefinite(gram, basis.transpose() * e);
 }
 
@@ -184,7 +187,7 @@ Verdict best_family(const NonlinearRegression& regression) {
         const double left = with.left_of_last();
         if (degrees == 0 || !(left > 0)) continue;
         const double freedom = static_cast<double>(white.rows() - regression.linear - degrees);
-        const double statistic = freedom * (before - left) / left;
+        const double statistic = freedom * (before - left) / before;  // the score test: safe with few samples
         if (chi_squared_upper_tail(statistic, static_cast<double>(degrees)) > kNonlinearLevel / 5) continue;
         if (statistic - static_cast<double>(degrees) < best.statistic) continue;
         best = {&family, statistic - static_cast<double>(degrees), 1 - left / before};
@@ -287,6 +290,17 @@ RecordFinding nonlinear_finding(const FittedRecord& fit, Curve kind, double effe
 }
 
 }  // namespace
+
+bool gain_explains_error(const FittedRecord& fit) {
+    constexpr double kMostOfIt = 0.7;
+    const Vector& x = fit.simulation.output;
+    const Vector t = Vector::LinSpaced(x.size(), -1, 1);
+    Matrix columns(x.size(), 5);
+    columns << Vector::Ones(x.size()), t, x, x.cwiseProduct(t), x.cwiseProduct(t.cwiseAbs2());
+    if (!columns.allFinite()) return false;
+    const double line = solve_least_squares(columns.leftCols(3), fit.error).residuals.squaredNorm();
+    return solve_least_squares(columns, fit.error).residuals.squaredNorm() < (1 - kMostOfIt) * line;
+}
 
 void find_nonlinearity(const FittedRecord& fit, RecordFindings& findings) {
     const NonlinearRegression regression = nonlinear_regression(fit);

@@ -7,6 +7,7 @@
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/quantisation.h"
 #include "numerics/signals/repair.h"
+#include "numerics/signals/unwrap.h"
 #include "numerics/validation/advice_record.h"
 #include "numerics/validation/sampling_findings.h"
 
@@ -57,6 +58,11 @@ RecordFinding about(const Channel& channel, const char* code, Weight weight, con
     return {code, weight, channel.name, message, value, channel.experiment, {}};
 }
 
+std::string small_letters(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
 double range_of(const Vector& x) {
     return x.maxCoeff() - x.minCoeff();
 }
@@ -78,6 +84,15 @@ void find_constant(const Channel& channel, std::vector<RecordFinding>& findings)
                       "time, its sensor or wire is dead, or a wrong column was read.",
                       subject(channel), value_of(channel, channel.x[0])),
               channel.x[0]));
+}
+
+/// One of several inputs: nothing tells what it does.
+void find_resting_input(const Channel& channel, std::vector<RecordFinding>& findings) {
+    findings.push_back(about(channel, "constant", Weight::kWarning,
+                             Message("{} stays at {} throughout, so that its effect cannot be told from an offset. "
+                                     "Leave it out with data:select, or let it move.",
+                                     subject(channel), value_of(channel, channel.x[0])),
+                             channel.x[0]));
 }
 
 void find_time_column(const Channel& channel, std::vector<RecordFinding>& findings) {
@@ -206,9 +221,26 @@ void find_outliers(const Channel& channel, const Quantisation& grid, std::vector
     findings.push_back(std::move(finding));
 }
 
+/// An angle that jumps by a turn. Without a unit it may be either.
+bool find_wrap(const Channel& channel, std::vector<RecordFinding>& findings) {
+    constexpr double kTurn = 360, kRadians = 2 * std::numbers::pi;
+    const std::string unit = small_letters(channel.unit);
+    const bool radians = unit.starts_with("rad"), degrees = unit.starts_with("deg") || unit == "°";
+    const Vector periods = radians ? Vector{{kRadians}} : degrees ? Vector{{kTurn}} : Vector{{kTurn, kRadians}};
+    if (!unit.empty() && !radians && !degrees) return false;
+    const std::optional<double> period = wrapped_period(channel.x, periods);
+    if (!period) return false;
+    findings.push_back(
+        about(channel, "wrapped", Weight::kWarning,
+              Message("{} is an angle that jumps by a whole turn ({}) where it leaves its range, which "
+                      "no linear model can follow: take the jumps out with {}.",
+                      subject(channel), value_of(channel, *period), *period == kTurn ? "unwrap(x, 360)" : "unwrap(x)"),
+              *period));
+    return true;
+}
+
 void find_degrees(const Channel& channel, std::vector<RecordFinding>& findings) {
-    std::string unit = channel.unit;
-    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string unit = small_letters(channel.unit);
     const double swing = range_of(channel.x) / 2;
     if ((unit != "rad" && unit != "radian" && unit != "radians") || swing <= std::numbers::pi) return;
     findings.push_back(
@@ -325,11 +357,16 @@ std::vector<RecordFinding> signal_advice(const IdData& data) {
     find_twins(channels, findings);
     for (const Channel& channel : channels) {
         if (range_of(channel.x) == 0) {
-            !channel.output&& channel.x[0] != 0 ? find_step_at_the_start(channel, findings)
-                                                : find_constant(channel, findings);
+            if (channel.output)
+                find_constant(channel, findings);
+            else if (data.input_count() > 1)
+                find_resting_input(channel, findings);
+            else
+                channel.x[0] != 0 ? find_step_at_the_start(channel, findings) : find_constant(channel, findings);
             continue;
         }
         const Quantisation grid = quantisation_of(channel.x);
+        if (!has_few_levels(grid) && find_wrap(channel, findings)) continue;
         find_time_column(channel, findings);
         find_saturation(channel, grid, findings);
         find_quantisation(channel, grid, findings);

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "numerics/linalg/polynomial.h"
 #include "numerics/signals/interpolation.h"
+#include "numerics/signals/unwrap.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric.h"
@@ -44,6 +46,9 @@ constexpr std::array kRangeArguments = {
     ArgumentEntry{"step", ValueKind::kNumber, about("step between values, by default 1; negative to count down")}};
 constexpr std::array kOneVectorArguments = {
     ArgumentEntry{"v", ValueKind::kVector, about("vector, or a table of numbers such as {1, 2, 3}")}};
+constexpr std::array kUnwrapArguments = {
+    ArgumentEntry{"x", ValueKind::kVector, about("vector, an angle that jumps where it leaves its range")},
+    ArgumentEntry{"period", ValueKind::kNumber, about("a whole turn: 360 for degrees, by default 2*pi")}};
 constexpr std::array kDotArguments = {
     ArgumentEntry{"a", ValueKind::kVector, about("vector, or a table of numbers")},
     ArgumentEntry{"b", ValueKind::kVector, about("vector of the same size, or a table of numbers")}};
@@ -152,6 +157,12 @@ int difference(Call& call) {
     return call.give_vector(v.tail(v.size() - 1) - v.head(v.size() - 1));
 }
 
+int unwrap_angle(Call& call) {
+    call.at_most(2);
+    const VectorMap x = not_empty(call, 1, "x");
+    return call.give_vector(unwrap(x, call.given(2) ? call.number(2, "period") : 2 * std::numbers::pi));
+}
+
 int sort(Call& call) {
     call.at_most(1);
     const VectorMap v = call.vector(1, "v");
@@ -206,6 +217,8 @@ constexpr FunctionEntry kVectorsFunctions[] = {
     {"cumsum", "vectors", "cumsum(v) -> w", "running sum", guarded<cumulative_sum>, kNoOptions, kOneVectorArguments},
     {"diff", "vectors", "diff(v) -> w", "differences of neighbours, one element fewer", guarded<difference>, kNoOptions,
      kOneVectorArguments},
+    {"unwrap", "vectors", "unwrap(x, period) -> y", "an angle without its jumps by whole turns", guarded<unwrap_angle>,
+     kNoOptions, kUnwrapArguments},
     {"dot", "vectors", "dot(a, b) -> x", "scalar product", guarded<dot>, kNoOptions, kDotArguments},
     {"norm", "vectors", "norm(v) -> x", "Euclidean length", guarded<norm>, kNoOptions, kOneVectorArguments},
     {"sort", "vectors", "sort(v) -> sorted, places", "ascending order, and where each element stood", guarded<sort>,

@@ -57,6 +57,7 @@ std::string Presentation::to_the_error(double value, double error, int error_dig
 /// "  ± 0.0312"; an error of exactly zero beside others belongs to a parameter that the search left at its bound.
 std::string Presentation::error_of(const Vector& std, Index index) const {
     if (std[index] == 0 && (std.array() > 0).any()) return "  " + text(Message("(at its bound)"));
+    if (std::isinf(std[index])) return "  " + text(Message("(not determined by the data)"));
     return "  ± " + text(std[index], 3);
 }
 
@@ -70,11 +71,20 @@ std::string Presentation::parameter_lines(const Model& model) const {
         lines += fmt::format("  {:<5} {:>12}", parameters.names[i],
                              to_the_error(parameters.values[index], has_error ? parameters.std[index] : 0, 3, 6));
         if (has_error) lines += error_of(parameters.std, index);
-        if (coloured && coloured->std[index] > 0)
+        if (coloured && coloured->std[index] > 0 && std::isfinite(coloured->std[index]))
             lines += "  " + text(Message("(robust ± {})", significant(coloured->std[index], 3)));
         lines += '\n';
     }
     return lines;
+}
+
+/// Whether the data do not determine the steady-state gain: Kp, or the last coefficient of B.
+bool gain_is_open(const Estimate& estimate) {
+    bool open = false;
+    for (std::size_t i = 0; i < estimate.names.size(); ++i)
+        if (estimate.names[i] == "Kp" || estimate.names[i].front() == 'b')
+            open = std::isinf(estimate.std()[static_cast<Index>(i)]);
+    return open;
 }
 
 /// "1.25 ± 0.031", or the value alone when its error is not known, or is none, as the damping of a real pole.
@@ -203,6 +213,7 @@ std::string Presentation::of(const Model& model) const {
     if (!model.G.continuous()) lines += text(Message("Sampling time: {} s", model.G.Ts())) + "\n";
     std::optional<ModelUncertainty> uncertainty;
     if (const auto uncertain = uncertain_model(model)) uncertainty = describe_uncertainty(*uncertain);
+    if (uncertainty && gain_is_open(*model.estimate)) uncertainty->gain_std = std::nan("");
     const std::vector<TransferFunction> each = channels_of(model);
     for (std::size_t i = 0; i < each.size(); ++i) {
         if (each.size() > 1) lines += text(channel_name(model, i)) + " ";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scripting/conversions/localized.h"
 #include "scripting/conversions/table_fields.h"
 #include "scripting/objects/fit_model.h"
 #include "scripting/objects/grey_object.h"
@@ -22,6 +23,15 @@ std::string equations_text(const SimulatedModel& model) {
     return fmt::format("{}", fmt::join(model.equations, "\n"));
 }
 
+/// With what speaks against them: equations look like a law.
+int text_of_simulated(Call& call) {
+    const SimulatedModel& model = simulated_self(call);
+    std::string text = equations_text(model);
+    for (const Message& warning : model.estimate->all_warnings()) text += "\n" + localized(call, warning);
+    lua_pushlstring(call.state(), text.data(), text.size());
+    return 1;
+}
+
 constexpr std::array kSimulatedFields = {
     Member{"param", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->theta; }>},
     Member{"std", field<SimulatedModel, [](const SimulatedModel& model) { return model.estimate->std(); }>},
@@ -31,7 +41,7 @@ constexpr std::array kSimulatedFields = {
     Member{"equations", field<SimulatedModel, &SimulatedModel::equations>},
     Member{"report", guarded<report_of_simulated>},
 };
-constexpr std::array kSimulatedOperators = {Member{"__tostring", field<SimulatedModel, equations_text>}};
+constexpr std::array kSimulatedOperators = {Member{"__tostring", guarded<text_of_simulated>}};
 
 constexpr std::array kSimulatedTypes = {
     TypeEntry{&Boxed<SimulatedModel>::type, kSimulatedFields, {}, kSimulatedOperators}};

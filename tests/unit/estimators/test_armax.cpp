@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "base/reader.h"
 #include "numerics/estimators/armax.h"
 #include "numerics/estimators/arx.h"
@@ -151,6 +153,17 @@ TEST(armax, long_records_end_where_the_search_from_the_truth_ends) {
         const Fit best = minimise_output_error(model, model.target(), kTheta, FitOptions{}.limited(200, 1e-10));
         EXPECT_LT((found.theta - best.theta).cwiseAbs().maxCoeff(), 1e-7);
         EXPECT_LT((found.theta - kTheta).cwiseQuotient(found.std).cwiseAbs().maxCoeff(), 4.5);
+    }
+}
+
+TEST(armax, zeros_of_the_noise_near_the_unit_circle_have_no_standard_error) {  // oracle: the zeros put in
+    for (const double zero : {0.98, 0.5}) {
+        PolynomialOrders orders = orders_of(1, {1}, 1, {1});
+        const Vector u = random_levels(610, 2, 7), e = 0.3 * RandomStream(9).normal(610);
+        const Vector y = model_output(PolynomialModel(orders, Vector{{-0.8, 1.0, -zero}}, 1), u, e);
+        const Fit found = armax(IdData(Matrix(y.tail(510)), Matrix(u.tail(510)), 1), orders, {});
+        EXPECT_EQ(std::isinf(found.std[2]), zero > 0.9) << found.std.transpose();
+        EXPECT_TRUE(std::isfinite(found.std[0]) && std::isfinite(found.std[1])) << found.std.transpose();
     }
 }
 

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <Eigen/Dense>
 
 #include "base/reader.h"
@@ -171,6 +173,22 @@ TEST(arx, refuses_other_data_and_orders) {
     EXPECT_THAT(refusal(rich.range(1, 7), kSecond), HasSubstr("more equations than its 4 parameters"));
     EXPECT_EQ(refusal(rich, kSecond), "");
     EXPECT_THAT(refusal(data, PolynomialOrders::output_error({1}, {1}, {1})), HasSubstr("nf must be zero"));
+}
+
+TEST(arx, an_operating_point_is_named) {  // oracle: a heater of gain 0.6 from 23 degrees, and without
+    const Vector u = 50 + 10 * random_levels(600, 20, 3).array(), noise = 0.1 * RandomStream(5).normal(600);
+    const double a = std::exp(-1.0 / 30);
+    for (const double level : {23.0, 0.0}) {
+        Vector y(600);
+        double x = 0.6 * 50;
+        for (Index k = 0; k < 600; ++k) {
+            y[k] = level + x + noise[k];
+            x = a * x + (1 - a) * 0.6 * u[k];
+        }
+        const std::string message =
+            message_text(arx(IdData(Matrix(y), Matrix(u), 1), PolynomialOrders::arx(2, {2}, {1})).full_message());
+        EXPECT_EQ(message.find("take the means off") != std::string::npos, level > 0) << message;
+    }
 }
 
 }  // namespace test_arx

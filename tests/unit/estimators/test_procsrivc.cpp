@@ -493,4 +493,27 @@ TEST(procsrivc, a_beginning_that_tells_nothing_is_no_start) {  // oracle: the si
     }
 }
 
+TEST(procsrivc, zero_and_delay_of_p1dz_have_no_standard_errors) {  // oracle: n + 1 weights for n + 2 values; the truth
+    const Vector u = rough_input(2000, 12);
+    const Vector x = lsim(model_of("P1DZ", values({1.7, 2, -0.9, 0.43})), u, 0.05);
+    const Fit found = fit(siso(x + 0.08 * RandomStream(8).normal(2000), u, 0.05), "P1DZ");
+    const std::string message = message_text(found.full_message());
+    EXPECT_THAT(message, HasSubstr("Tz and Td cannot be told apart"));
+    EXPECT_EQ(message.find("badly conditioned"), std::string::npos) << message;
+    EXPECT_TRUE(std::isinf(found.std[2]) && std::isinf(found.std[3])) << found.std.transpose();
+    EXPECT_LT(std::abs(found.theta[0] - 1.7), 4 * found.std[0]);
+    EXPECT_LT(std::abs(found.theta[1] - 2), 4 * found.std[1]);
+}
+
+TEST(procsrivc, a_step_before_the_record_tells_its_time_constant_alone) {  // oracle: 25 s; the gain is anybody's guess
+    const Vector t = Vector::LinSpaced(300, 0, 149.5);
+    for (const std::uint32_t seed : {1u, 2u, 3u}) {
+        const Vector y = 49.2 - 12 * (-t.array() / 25).exp() + 0.05 * RandomStream(seed).normal(300).array();
+        const Fit found = fit(siso(y, Vector::Constant(300, 55), 0.5), "P1D");
+        EXPECT_NEAR(found.theta[1], 25, 0.5) << seed;
+        EXPECT_TRUE(std::isinf(found.std[0]) && std::isinf(found.std[2])) << found.std.transpose();
+        EXPECT_THAT(message_text(found.full_message()), HasSubstr("rest on the assumption that it was zero"));
+    }
+}
+
 }  // namespace test_procsrivc

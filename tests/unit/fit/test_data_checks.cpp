@@ -35,6 +35,12 @@ TEST(data_checks, of_transfer_functions) {  // oracle: the promises of the heade
     const Matrix running = y.array() + 5;
     EXPECT_THAT(refusal(with_signals(data, running, Matrix::Ones(u.rows(), 1)), kSecond), HasSubstr("no excitation"));
     EXPECT_EQ(refusal(with_signals(data, y, Matrix::Ones(u.rows(), 1)), kSecond), "") << "a step at the first sample";
+    two.col(1).setConstant(20);
+    const TransferStructure both = TransferStructure::grid(1, 2, Denominators::kPerOutput, {2}, {0}, {0});
+    IdData resting(running, two, data.Ts);
+    resting.input_names = {"Q1", "Q2"};
+    EXPECT_THAT(thrown_message([&] { check_transfer_data("method", resting, both, Offset::kEstimate); }),
+                HasSubstr("the input Q2 never changes"));
 }
 
 TEST(data_checks, of_numbers_of_samples) {  // oracle: the definition

@@ -184,4 +184,18 @@ TEST(missed_structure, of_a_long_record_its_beginning) {
                 HasSubstr("With as many zeros as poles the fit of the first 100000 samples is"));
 }
 
+TEST(missed_structure, a_drift_is_named_before_a_feedthrough) {  // oracle: the line put in, and the fit without it
+    const Vector u = prbs(8, 6).head(1500), x = lsim(TransferFunction(values({2}), values({1, 1.4, 2})), u, 0.1);
+    const IdData data(Matrix(x + Vector::LinSpaced(1500, 0, 3) + 0.1 * RandomStream(2).normal(1500)), Matrix(u), 0.1);
+    FitOptions stable;
+    stable.stable = true;
+    for (const FitOptions& options : {FitOptions{}, stable}) {
+        const Fit fit = coe(data, TransferStructure::single(2, 0), options);
+        const auto missed = missed_structure(data, fit, options);
+        ASSERT_TRUE(missed) << message_text(fit.full_message());
+        EXPECT_EQ(missed->code, MissedCode::kLine) << message_text(sentence_of(*missed));
+        EXPECT_THAT(message_text(sentence_of(*missed)), HasSubstr("detrend"));
+    }
+}
+
 }  // namespace test_missed_structure

@@ -489,4 +489,114 @@ TEST(advice, a_record_that_begins_slowly_is_fitted_whole_and_sample_by_sample) {
     EXPECT_TRUE(advice.clean()) << codes(advice);
 }
 
+/// sin(2e-5 k^2) through 1/(s + 0.5), sampled at 0.2 s, with noise 10 dB below.
+IdData noisy_chirp(std::uint32_t seed) {
+    Vector u(1200);
+    for (Index k = 0; k < u.size(); ++k) u[k] = std::sin(2e-5 * static_cast<double>((k + 1) * (k + 1)));
+    const Vector x = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 0.5}}), u, 0.2);
+    const double size = std::sqrt((x.array() - x.mean()).square().mean());
+    return IdData(Matrix(x + std::pow(10, -0.5) * size * RandomStream(seed).normal(u.size())), Matrix(u), 0.2);
+}
+
+TEST(advice,
+     smooth_inputs_are_not_called_exchanged) {  // oracle: columns in order, no loop, sampling far above the band
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+        const Advice advice = advise(noisy_chirp(seed));
+        EXPECT_FALSE(advice.has("causality") || advice.has("slow_sampling")) << seed << codes(advice);
+    }
+}
+
+TEST(advice, outliers_of_any_height_are_found) {  // oracle: the places, every 97th sample
+    const Vector u = random_levels(3000, 8, 3);
+    const Vector x = lsim(TransferFunction(Vector{{-1.0, 2.0}}, Vector{{1.0, 3.0, 2.0}}), u, kTs);
+    const double size = std::sqrt((x.array() - x.mean()).square().mean());
+    for (const double height : {3.0, 6.0, 12.0}) {
+        Vector y = x + 0.1 * size * RandomStream(4).normal(3000);
+        for (Index k = 36; k < 3000; k += 97) y[k] += height * size;
+        const Advice advice = advise(IdData(Matrix(y), Matrix(u), kTs));
+        EXPECT_THAT(said(advice, "outliers"), HasSubstr("31 samples that stand far out")) << height;
+        EXPECT_FALSE(advice.has("low_snr")) << height << codes(advice);
+    }
+}
+
+TEST(advice, noise_that_forgets_is_no_random_walk) {  // oracle: AR(0.9) noise, which settles within 20 samples
+    int walks = 0;
+    for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+        Record r = record(seed, 0);
+        Vector e = RandomStream(seed + 500).normal(1000);
+        for (Index k = 1; k < e.size(); ++k) e[k] += 0.9 * e[k - 1];
+        r.y = r.x + 0.03 * e;
+        const Advice advice = advise(r.data());
+        walks += advice.has("random_walk") || advice.has("drift") || advice.has("running_start");
+    }
+    EXPECT_LE(walks, 1);
+}
+
+TEST(advice, an_unstable_plant_in_a_loop_is_named) {  // oracle: 1.5/(s - 0.8) behind a proportional controller
+    const Index N = 1500;
+    const double Ts = 0.05, f = std::exp(0.8 * Ts), g = 1.5 / 0.8 * (f - 1);
+    const Vector reference = random_heights(N, 40, 11), noise = 0.03 * RandomStream(12).normal(N);
+    Vector u(N), y(N);
+    double x = 0;
+    for (Index k = 0; k < N; ++k) {
+        y[k] = x + noise[k];
+        u[k] = 1.5 * (reference[k] - y[k]);
+        x = f * x + g * u[k];
+    }
+    const Advice advice = advise(IdData(Matrix(y), Matrix(u), Ts));
+    EXPECT_THAT(said(advice, "feedback"), HasSubstr("a controller was running"));
+    for (const char* wrong : {"random_walk", "drift", "nonlinear", "noise", "causality"})
+        EXPECT_FALSE(advice.has(wrong)) << said(advice, wrong);
+}
+
+TEST(advice, an_input_logged_late_is_named) {  // oracle: the column shifted by us
+    const Vector u = random_levels(1001, 8, 15);
+    const Vector x = lsim(TransferFunction(Vector{{30.0}}, Vector{{1.0, 6.0, 30.0}}), u, 0.02);
+    const Vector y = x + 0.01 * RandomStream(16).normal(1001);
+    EXPECT_THAT(said(advise(IdData(Matrix(y.tail(1000)), Matrix(u.head(1000)), 0.02)), "late_input"),
+                HasSubstr("data:shift(-1)"));
+    EXPECT_FALSE(advise(IdData(Matrix(y), Matrix(u), 0.02)).has("late_input"));
+}
+
+TEST(advice, an_angle_that_jumps_by_a_turn_is_named) {  // oracle: wrapped by us
+    Record r = record(19, 0.01);
+    r.y *= 250 / r.x.cwiseAbs().maxCoeff();
+    EXPECT_FALSE(advise(r.data()).has("wrapped"));
+    r.y = r.y.unaryExpr([](double v) { return v - 360 * std::floor((v + 180) / 360); });
+    const Advice advice = advise(r.data());
+    EXPECT_THAT(said(advice, "wrapped"), HasSubstr("unwrap(x, 360)"));
+    EXPECT_FALSE(advice.has("nonlinear") || advice.has("saturation")) << codes(advice);
+}
+
+TEST(advice, a_load_on_an_integrator_is_named_with_its_size) {  // oracle: the load put in
+    const Vector u = random_levels(1000, 8, 41);
+    const Vector x = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 2.0, 0.0}}), Vector(u.array() - 0.4), kTs);
+    const Advice advice = advise(IdData(Matrix(x + 0.02 * RandomStream(42).normal(1000)), Matrix(u), kTs));
+    ASSERT_TRUE(advice.has("load")) << codes(advice);
+    EXPECT_NEAR(advice.find("load")->value, -0.4, 0.04);
+    EXPECT_FALSE(advice.has("drift") || advice.has("random_walk")) << codes(advice);
+}
+
+TEST(advice, one_of_several_inputs_that_rests_is_named) {  // oracle: the input held by us
+    const Record r = record(20);
+    Matrix u(1000, 2);
+    u << r.u, Vector::Constant(1000, 20);
+    IdData data(Matrix(r.y), u, kTs);
+    data.input_names = {"Q1", "Q2"};
+    EXPECT_THAT(said(advise(data), "constant"), AllOf(HasSubstr("The input Q2 stays at 20"), HasSubstr("offset")));
+}
+
+TEST(advice, a_lag_is_not_called_a_dead_time) {  // oracle: four poles, no delay; and a delay of ten samples
+    Record r = record(22);
+    r.x = lsim(TransferFunction(Vector{{4.0}}, Vector{{1.0, 1.0, 4.0}}) *
+                   TransferFunction(Vector{{16.0}}, Vector{{1.0, 8.0, 16.0}}),
+               r.u, kTs);
+    r.y = r.x + 0.03 * RandomStream(23).normal(1000);
+    const Advice advice = advise(r.data());
+    if (advice.has("dead_time")) {
+        EXPECT_THAT(said(advice, "dead_time"), HasSubstr("another pole: compare both"));
+    }
+    EXPECT_THAT(said(advise(record(2, 0.03, 1.0).data()), "dead_time"), HasSubstr("Give the model a dead time"));
+}
+
 }  // namespace test_advice

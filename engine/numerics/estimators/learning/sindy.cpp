@@ -110,6 +110,16 @@ void judge(SindyFit& found, const IdData& data) {
         errors += (data.experiments[k].y - run.output).colwise().squaredNorm().transpose();
     }
     fit.fit_percent = errors.binaryExpr(output_variations(data), &fit_percent_of_sums);
+    constexpr double kReproduces = 80;  // per cent of fit
+    for (Index i = 0; i < fit.fit_percent.size(); ++i)
+        if (fit.fit_percent[i] < kReproduces) {
+            fit.warnings.push_back(Message(
+                "These equations do not reproduce the record: the fit of {} in free run is only {} %. Offer other "
+                "functions, such as {} = 3.",
+                data.output_names[static_cast<std::size_t>(i)], significant(fit.fit_percent[i], 3),
+                OptionName{"degree"}));
+            break;
+        }
 }
 
 void check(const IdData& data, const FunctionLibrary& library, const SindyOptions& options) {

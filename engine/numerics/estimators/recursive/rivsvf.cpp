@@ -1,10 +1,18 @@
 #include "numerics/estimators/recursive/rivsvf.h"
 
+#include "numerics/estimators/ivsvf.h"
+
 namespace dynlab::inline numerics {
 
 Fit rivsvf(const IdData& data, const TransferStructure& structure, const RecursiveOptions& options) {
-    return recursive_pass({"rivsvf", Message("Instrumental variables on filtered signals")},
-                          RecursiveMethod::kInstruments, data, structure, options);
+    Fit fit = recursive_pass({"rivsvf", Message("Instrumental variables on filtered signals")},
+                             RecursiveMethod::kInstruments, data, structure, options);
+    // Without forgetting the end is a batch estimate: all errors tell their color, of which the pass learns from
+    // blocks.
+    if (options.forgetting == 1 && options.drift.size() == 0 && data.sample_count() <= kMostColoured &&
+        fit.termination != Termination::kCancelled)
+        colour_covariance(fit, data, {options.lambda, options.hold_y, {}}, true);
+    return fit;
 }
 
 }  // namespace dynlab::inline numerics

@@ -1,7 +1,9 @@
 #include "numerics/fit/discrete/prediction_fit.h"
 
 #include "numerics/error.h"
+#include "numerics/fit/diagnosis.h"
 #include "numerics/fit/output_error.h"
+#include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {
 
@@ -74,6 +76,27 @@ ArmaNoise start_noise(const std::vector<Vector>& errors, int nc, int nd, double 
     return estimate_arma(beginnings, nc, nd, 1e-3);
 }
 
+namespace {
+
+/// Estimates of a root that lies within a few of 1/N of the unit circle pile up on it: their scatter is no normal one.
+void warn_of_noise_roots(Fit& fit, Index samples) {
+    constexpr double kFew = 20;
+    for (const auto& [letter, p] : {std::pair{"C", fit.polynomial->C}, std::pair{"D", fit.polynomial->D}}) {
+        const double largest = p.tail(p.size() - 1).any() ? roots(p).cwiseAbs().maxCoeff() : 0;
+        if (!((1 - largest) * static_cast<double>(samples) < kFew)) continue;
+        std::vector<std::string> names;
+        for (const std::string& name : fit.names)
+            if (name.front() == (letter[0] == 'C' ? 'c' : 'd')) names.push_back(name);
+        withdraw_errors(fit, names);
+        fit.warnings.push_back(Message(
+            "A root of {} lies so near the unit circle ({}) that {} samples do not determine how near: {} have no "
+            "standard errors.",
+            letter, significant(largest, 4), samples, listed(names)));
+    }
+}
+
+}  // namespace
+
 Fit fit_prediction(const std::string& method, const PredictionModel& model, const StartCondition& start, double Ts,
                    const std::vector<Vector>& starts, const FitOptions& options) {
     const Vector y = model.target();
@@ -97,6 +120,7 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
     for (std::size_t e = 0; e < lengths.size() && start.offset; ++e)
         fit.offsets(static_cast<Index>(e), 0) = theta[model.offset_index(e)];
     warn_of_search(fit, options);
+    warn_of_noise_roots(fit, y.size());
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);
     const Number predicting = significant(fit.prediction_fit_percent, 4),

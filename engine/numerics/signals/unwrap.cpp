@@ -1,0 +1,64 @@
+#include "numerics/signals/unwrap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "numerics/error.h"
+#include "numerics/signals/checks.h"
+#include "numerics/signals/robust_statistics.h"
+
+namespace dynlab::inline numerics {
+
+namespace {
+
+/// A step without the periods in it: between minus and plus half of one.
+double smallest_step(double step, double period) {
+    return step - period * std::round(step / period);
+}
+
+bool is_wrapped(const VectorView& x, double period) {
+    constexpr double kRounding = 0.01, kFilled = 0.9, kNearEnd = 0.3, kMostJumps = 0.9;  // of the period
+    constexpr double kUsual = 3;                                                         // times the largest other step
+    const double low = x.minCoeff(), high = x.maxCoeff(), slack = kRounding * period;
+    const bool centered = low >= -period / 2 - slack && high <= period / 2 + slack;
+    const bool positive = low >= -slack && high <= period + slack;
+    if (!(centered || positive) || high - low < kFilled * period) return false;
+    double usual = 0, across = 0;  // steps
+    Index jumps = 0, from_ends = 0;
+    for (Index k = 1; k < x.size(); ++k) {
+        const double step = x[k] - x[k - 1];
+        if (std::abs(step) <= period / 2) {
+            usual = std::max(usual, std::abs(step));
+            continue;
+        }
+        ++jumps;
+        across = std::max(across, std::abs(smallest_step(step, period)));
+        from_ends +=
+            std::min(x[k], x[k - 1]) < low + kNearEnd * period && std::max(x[k], x[k - 1]) > high - kNearEnd * period;
+    }
+    // A signal that jumps anyway, as a square wave does, has no steps that unwrapping could make usual.
+    return jumps > 0 && static_cast<double>(from_ends) >= kMostJumps * static_cast<double>(jumps) && usual > 0 &&
+           across < kUsual * usual;
+}
+
+}  // namespace
+
+Vector unwrap(const VectorView& x, double period) {
+    check_samples("unwrap", SignalName::kSignal, x);
+    if (!(period > 0) || !std::isfinite(period))
+        throw InvalidArgument("unwrap: the period must be a positive number (2*pi for rad, 360 for degrees), but is {}",
+                              period);
+    Vector y = x;
+    for (Index k = 1; k < x.size(); ++k) y[k] = y[k - 1] + smallest_step(x[k] - x[k - 1], period);
+    return y;
+}
+
+std::optional<double> wrapped_period(const VectorView& x, const Vector& periods) {
+    if (x.size() < 10) return std::nullopt;
+    for (const double period : periods)
+        if (is_wrapped(x, period)) return period;
+    return std::nullopt;
+}
+
+}  // namespace dynlab::inline numerics
