@@ -20,7 +20,8 @@ class Complaints {
 };
 
 /// The origin of the `occurrence`-th line (1-based) of `markdown` that contains `text`, the last such line when
-/// there are fewer; `fallback` without line when there is none.
+/// there are fewer; `fallback` without line when there is none. Comments, code, and longer names that begin with `text`
+/// count only where it stands nowhere else.
 Place find_in(const MarkdownText& markdown, const std::string& text, const std::filesystem::path& fallback,
               int occurrence = 1);
 

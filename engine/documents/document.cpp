@@ -236,6 +236,19 @@ class DocumentBuilder {
         options_.notes->push_back(place.line > 0 ? placed(place, sentence) : sentence);
     }
 
+    /// "Д (U+0414, line 3)", in the order of the lines.
+    MessageList with_lines(const std::set<char32_t>& letters) const {
+        std::vector<std::pair<int, char32_t>> placed;
+        for (const char32_t letter : letters)
+            placed.emplace_back(find_in(text_.markdown, utf8_of(letter), source_.template_file).line, letter);
+        std::ranges::sort(placed);
+        MessageList list{{}, Join::kComma};
+        for (const auto& [line, letter] : placed)
+            list.items.push_back(line > 0 ? Message("{} ({}, line {})", shown(letter), code_of(letter), line)
+                                          : Message::verbatim(shown(letter) + " (" + code_of(letter) + ")"));
+        return list;
+    }
+
     void add_notes(const LatexDocument& document) const {
         if (!document.first_beyond) return;
         const char32_t first = *document.first_beyond;
@@ -243,17 +256,14 @@ class DocumentBuilder {
                  document.by_lualatex
                      ? Message("LuaLaTeX makes this PDF, which takes longer, because pdflatex cannot print \"{}\" ({})",
                                shown(first), code_of(first))
-                     : Message("pdflatex cannot print \"{}\" ({}), and LuaLaTeX is not installed: letters of this kind "
-                               "are printed as \"?\". To print them: sudo apt install {}",
-                               shown(first), code_of(first), kLualatexPackages));
+                     : Message("pdflatex cannot print these letters, and LuaLaTeX is not installed, so that they are "
+                               "printed as \"?\": {}. To print them: sudo apt install {}",
+                               with_lines(document.replaced), kLualatexPackages));
         if (!document.by_lualatex || document.replaced.empty()) return;
-        std::vector<Message> letters;
-        for (const char32_t letter : document.replaced)
-            letters.push_back(Message::verbatim(shown(letter) + " (" + code_of(letter) + ")"));
         add_note(*document.replaced.begin(),
                  Message("no installed font has these letters, which are printed as \"?\": {}. To add fonts: sudo apt "
                          "install {}",
-                         MessageList{letters, Join::kComma}, "fonts-noto-core fonts-noto-cjk"));
+                         with_lines(document.replaced), "fonts-noto-core fonts-noto-cjk"));
     }
 
     const DocumentSource& source_;

@@ -100,11 +100,17 @@ class Sentences {
             return Message("the label \"{}\" must start with \"{}\" here, as in {#{}:name}", first, second + ":",
                            second);
         if (code == "reference-kind")
-            return Message("the cross reference @{} must start with @fig:, @tbl:, @eq: or @sec:", first);
+            return Message(
+                "the cross reference @{} must start with @fig:, @tbl:, @eq: or @sec:; a key of literature with a colon "
+                "must be in the bibliography that the header names",
+                first);
         if (code == "no-bibliography")
             return Message(
-                "@{} cites literature, but there is no \"bibliography: references.bib\" in the header; name one, or "
-                "write \\@{} for the text itself",
+                "@{} cites literature, but the header declares no bibliography. Put a BibTeX file, such as "
+                "references.bib, beside this file and write \"bibliography: references.bib\" in the header (in a "
+                "script: "
+                "\"-- bibliography: references.bib\" between two lines \"-- ---\" at its beginning). For the text "
+                "itself, write \\@{}",
                 first, first);
         if (code == "bibliography") return Message("the bibliography cannot be read: {}", first);
         if (code == "unknown-citation") {
@@ -112,6 +118,25 @@ class Sentences {
             return near ? Message("the bibliography has no entry \"{}\"; did you mean \"{}\"?", first, *near)
                         : Message("the bibliography has no entry \"{}\"", first);
         }
+        if (code == "slot-in-formula")
+            return Message(
+                "the formula holds `{}`, which would be printed with its quotation marks; a value in a formula is "
+                "written `{}`{.value}, without a space between",
+                first, first);
+        if (code == "slot-form")
+            return Message("\"{}\" is not a value slot; write `name`{.value}, with backticks and without a space",
+                           first);
+        if (code == "slot-in-address")
+            return Message(
+                "the address \"{}\" holds a value slot, and addresses are not filled in; write the address itself, or "
+                "make this paragraph in the script with report.text",
+                first);
+        if (code == "pasted-picture")
+            return Message(
+                "the picture \"{}\" was pasted into the notebook, where a report cannot read it; save it as a file "
+                "beside "
+                "the notebook and name that file in the text",
+                first);
         if (code == "mathematics") return refused_in_formula(first, second, third);
         if (code == "latex")
             return Message(

@@ -13,6 +13,7 @@
 #include "documents/text_lines.h"
 #include "documents/words/scripts.h"
 #include "documents/work_file.h"
+#include "platform/box.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
 #include "platform/program_identity.h"
@@ -158,11 +159,16 @@ class LatexRun {
         write_document("", job.body);
     }
 
-    /// By LuaLaTeX, which cannot store a preamble with its fonts: it reads the preamble in each run.
-    LatexRun(const LatexJob& job, const std::set<std::string>& scripts, const std::string& body)
+    /// By LuaLaTeX, which cannot store a preamble with its fonts: it reads the preamble in each run. `letters`: those
+    /// of the body beyond ASCII.
+    LatexRun(const LatexJob& job, const std::set<std::string>& scripts, const std::set<char32_t>& letters,
+             const std::string& body)
         : job_(job), engine_(kLualatex), fonts_(job.lualatex_fonts) {
         if (fonts_.empty() && job.use_cache) fonts_ = kept_fonts();
-        write_document(fmt::format("\\def\\dynlabscripts{{{}}}", fmt::join(scripts, ",")), body);
+        std::string codes;
+        for (const char32_t letter : letters) codes += fmt::format("{{{:X}}}", static_cast<std::uint32_t>(letter));
+        write_document(
+            fmt::format("\\def\\dynlabscripts{{{}}}\\def\\dynlabletters{{{}}}", fmt::join(scripts, ","), codes), body);
     }
 
     fs::path pdf() {
@@ -244,9 +250,28 @@ class LatexRun {
         return child;
     }
 
+    /// LuaTeX's own language reaches files and programs. What formulas may hold does not reach that language; the box
+    /// is the second wall. A document that is made inside of a box cannot have another.
+    bool is_boxed() const { return engine_.program == kLualatex.program && strongest_isolation() == Isolation::kFull; }
+
+    ChildResult run_in_box(const ChildOptions& wanted) const {
+        Box box(Isolation::kFull);
+        box.add_document_programs();
+        const fs::path shared = fs::absolute(job_.layout.shared_templates);
+        box.add(shared, shared.string());
+        for (const fs::path& folder : {fs::absolute(job_.work_folder), fonts_})
+            if (!folder.empty()) box.add_writable(folder, folder.string());
+        for (const auto& [name, value] : wanted.environment) box.set_environment(name, value);
+        Box::Limits limits;
+        limits.time = {*wanted.processor_time, static_cast<int>(*wanted.timeout / *wanted.processor_time)};
+        limits.file_bytes = wanted.file_bytes;
+        limits.memory_bytes = wanted.memory_bytes;
+        return box.run(wanted.command, fs::absolute(job_.work_folder), "", limits);
+    }
+
     void run_pass(int pass, bool draft) const {
         const auto start = std::chrono::steady_clock::now();
-        const ChildResult run = run_child(command(draft), engine_.package);
+        const ChildResult run = is_boxed() ? run_in_box(command(draft)) : run_child(command(draft), engine_.package);
         note("latex pass " + std::to_string(pass), start);
         if (run.timed_out) throw LatexRefusal(Message("{} did not finish within two minutes", engine_.program), 0, "");
         if (run.exit_code == 128 + SIGXFSZ)
@@ -290,8 +315,10 @@ LatexDocument run_latex(const LatexJob& job) {
     composed_job.body = composed(job.body);
     const std::string& body = composed_job.body;
     LatexDocument result;
-    result.first_beyond = first_beyond(pdflatex, body);
+    const std::string seen = without_directions(body);
+    result.first_beyond = first_beyond(pdflatex, seen);
     if (!result.first_beyond) {
+        composed_job.body = seen;
         result.pdf = LatexRun(composed_job).pdf();
         return result;
     }
@@ -306,10 +333,11 @@ LatexDocument run_latex(const LatexJob& job) {
     const std::set<std::string> scripts = scripts_of(pdflatex, body);
     const std::string directed = with_direction_marks(body);
     constexpr char32_t kUnknown = 0xFFFD;  // in the place of bytes that were no text; LuaTeX stops at it
-    if (const auto letters = letters_beyond(pdflatex, body); letters.contains(kUnknown)) result.replaced = {kUnknown};
+    const std::set<char32_t> letters = characters_beyond_ascii(body);
+    if (letters.contains(kUnknown)) result.replaced = {kUnknown};
     while (true) {  // a later pass may come to further letters
         try {
-            result.pdf = LatexRun(composed_job, scripts, without_letters(directed, result.replaced)).pdf();
+            result.pdf = LatexRun(composed_job, scripts, letters, without_letters(directed, result.replaced)).pdf();
             return result;
         } catch (const MissingLetters& missing) {
             const std::size_t known = result.replaced.size();
@@ -327,7 +355,7 @@ void make_lualatex_fonts(const LatexLayout& layout, const std::set<std::string>&
     const TemporaryFolder work;
     LatexJob job{kFontSample, layout, work.path(), "", false};
     job.lualatex_fonts = folder;
-    LatexRun(job, scripts, job.body).read_all();
+    LatexRun(job, scripts, {}, job.body).read_all();
 }
 
 }  // namespace dynlab::inline documents

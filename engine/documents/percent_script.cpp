@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "documents/error.h"
 #include "documents/script_header.h"
@@ -80,9 +81,10 @@ class CellReader {
         if (!marked && start == end) return;
         cell.first_line = static_cast<int>(start < end ? start : after_marker) + 1;
         for (std::size_t i = start; i < end; ++i) cell.content += content_line(cell, i) + "\n";
-        if (cell.id.empty()) cell.id = "cell-" + std::to_string(cells_.size() + 1);
-        if (!ids_.insert(cell.id).second)
-            fail(start == 0 ? 0 : start - 1, Message("another cell has the id \"{}\" already", cell.id));
+        if (ids_.contains(cell.id)) cell.repeats = std::exchange(cell.id, {});  // copied, marker and all
+        for (std::size_t number = cells_.size() + 1; cell.id.empty() || ids_.contains(cell.id); ++number)
+            cell.id = "cell-" + std::to_string(number);
+        ids_.insert(cell.id);
         cells_.push_back(std::move(cell));
     }
 

@@ -30,6 +30,7 @@ struct Cell {
     enum class Kind { kText, kCode };
     Kind kind = Kind::kCode;
     std::string id;                              ///< from `-- %% id=q2`, else "cell-N"
+    std::string repeats;                         ///< the id of its marker, where an earlier cell has it
     std::map<std::string, std::string> options;  ///< further key=value pairs; echo=false, output=false are known
     int first_line = 1;                          ///< 1-based line of the cell's first content line in the script
     std::string content;                         ///< text cells: Markdown with the comment signs taken off
@@ -50,7 +51,7 @@ struct PercentScript {
 };
 
 /// Throws DocumentError with file and line: unknown or malformed header key (suggesting the nearest), header
-/// not closed, unknown cell option, a text cell line that is not a comment, duplicate cell id, solution
+/// not closed, unknown cell option, a text cell line that is not a comment, solution
 /// markers that do not pair up.
 PercentScript read_percent_script(const std::filesystem::path& file);
 /// The file that the header names, beside the script; empty where it names none.

@@ -12,19 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Pandoc writes spaces and the like in a picture's path as %20.
-std::string without_percent_signs(const std::string& path) {
-    std::string result;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        const bool encoded = path[i] == '%' && i + 2 < path.size() &&
-                             std::isxdigit(static_cast<unsigned char>(path[i + 1])) &&
-                             std::isxdigit(static_cast<unsigned char>(path[i + 2]));
-        result += encoded ? static_cast<char>(std::stoi(path.substr(i + 1, 2), nullptr, 16)) : path[i];
-        if (encoded) i += 2;
-    }
-    return result;
-}
-
 bool is_web_picture(const std::string& extension) {
     return !media_type(extension).empty();
 }
@@ -35,7 +22,31 @@ bool format_holds(DocumentFormat format, const std::string& extension) {
     return extension == ".pdf" || (is_web_picture(extension) && extension != ".svg");
 }
 
+/// Where the text shows it: as Pandoc writes the name, as it is, or with backslashes before its signs.
+Place place_of_picture(const std::string& name, const MarkdownText& markdown, const fs::path& template_file) {
+    std::string escaped;
+    for (const char c : path_of_picture(name).string()) {
+        if (c == ' ' || c == '_' || c == '*') escaped += '\\';
+        escaped += c;
+    }
+    for (const std::string& form : {name, path_of_picture(name).string(), escaped})
+        if (const Place found = find_in(markdown, form, template_file); found.line > 0) return found;
+    return {template_file, 0};
+}
+
 }  // namespace
+
+fs::path path_of_picture(const std::string& name) {
+    std::string result;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const bool encoded = name[i] == '%' && i + 2 < name.size() &&
+                             std::isxdigit(static_cast<unsigned char>(name[i + 1])) &&
+                             std::isxdigit(static_cast<unsigned char>(name[i + 2]));
+        result += encoded ? static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16)) : name[i];
+        if (encoded) i += 2;
+    }
+    return result;
+}
 
 std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pictures, const MarkdownText& markdown,
                                               const fs::path& template_file, DocumentFormat format,
@@ -43,9 +54,8 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
     std::vector<PlacedPicture> found;
     for (const UsedPicture& picture : pictures) {
         if (picture.is_figure) continue;
-        const fs::path path = without_percent_signs(picture.name);
-        Place where = find_in(markdown, picture.name, template_file);
-        if (where.line == 0) where = find_in(markdown, path.string(), template_file);
+        const fs::path path = path_of_picture(picture.name);
+        const Place where = place_of_picture(picture.name, markdown, template_file);
         const fs::path folder = folder_around(where.file), file = folder / path;
         const std::string shown = path.string();
         if (picture.name.find("://") != std::string::npos || picture.name.starts_with("data:"))
@@ -55,8 +65,9 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
                 where,
                 Message("the picture \"{}\" lies outside the folder of this file; copy it into the folder", shown));
         else if (!fs::is_regular_file(file))
-            complaints.add(where, Message("the picture \"{}\" does not exist in {}", shown,
-                                          fs::absolute(folder).lexically_normal().string()));
+            complaints.add(where, Message("the picture \"{}\" is not in the folder of this file; put it there, or "
+                                          "correct the name in the text",
+                                          shown));
         else if (!format_holds(format, ending_of(path)))
             complaints.add(
                 where, Message("the picture \"{}\" is of a kind this output cannot hold; use {}, .png or .jpg", shown,

@@ -16,6 +16,9 @@ struct PlacedPicture {
     std::string plot;          ///< of a figure of the run (RecordedFigure)
 };
 
+/// The path of a picture: Pandoc writes spaces and letters beyond ASCII in it as %20.
+std::filesystem::path path_of_picture(const std::string& name);
+
 /// Finds the picture files (not figures) of a document. They must be files inside the folder of the template or
 /// script that shows them, of a kind the format can hold; everything else is a complaint.
 std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pictures, const MarkdownText& markdown,

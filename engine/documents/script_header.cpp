@@ -26,10 +26,12 @@ class HeaderReader {
         if (is_blank(line)) return;
         const std::size_t colon = line.find(':');
         if (colon == std::string::npos) fail(Message("\"{}\" is not of the form \"key: value\"", trimmed(line)));
-        const std::string key = trimmed(line.substr(0, colon)), value = unquoted(trimmed(line.substr(colon + 1)));
+        const std::string written = trimmed(line.substr(0, colon));
+        const std::string key = written == "lang" ? "language" : written;  // as report.md has it
+        const std::string value = unquoted(trimmed(line.substr(colon + 1)));
         const bool nested = line[0] == ' ' || line[0] == '\t';
         if (nested)
-            read_answer(key, value);
+            read_answer(written, value);
         else
             read_key(key, value);
     }
@@ -157,14 +159,16 @@ std::size_t read_script_header(const std::vector<std::string>& lines, const std:
 }
 
 std::string language_of_script(std::string_view source) {
-    constexpr std::string_view kKey = "language:";
+    constexpr std::string_view kKeys[] = {"language:", "lang:"};
     for (const std::string_view line : lines_with_ends(source)) {
         if (line.starts_with("#!")) continue;
         if (!line.starts_with("--")) break;
         const std::string entry = trimmed(line.substr(2));
-        if (!entry.starts_with(kKey)) continue;
-        const std::string language = trimmed(std::string_view(entry).substr(kKey.size()));
-        return is_language(language) ? language : "";
+        for (const std::string_view key : kKeys) {
+            if (!entry.starts_with(key)) continue;
+            const std::string language = trimmed(std::string_view(entry).substr(key.size()));
+            return is_language(language) ? language : "";
+        }
     }
     return "en";
 }

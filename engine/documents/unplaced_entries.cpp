@@ -83,6 +83,22 @@ Message UnplacedEntries::message() const {
                : Message("the figures {} are reported, but have no place in the text; write {}", all, slot());
 }
 
+std::string with_texts_of_script(const RunRecord& record, const std::string& markdown) {
+    const auto shows = [&](const std::string& name) { return markdown.find(name) != std::string::npos; };
+    std::string text = markdown;
+    for (const auto& [name, shown] : record.texts)
+        if (shows(name)) text += shown.markdown + "\n";
+    for (const auto& [name, figure] : record.figures)
+        if (shows(name)) text += figure.caption + "\n";
+    for (const auto& [name, table] : record.tables) {
+        if (!shows(name)) continue;
+        for (const std::string& title : table.header) text += title + "\n";
+        for (const auto& row : table.rows)
+            for (const std::string& cell : row) text += cell + "\n";
+    }
+    return text;
+}
+
 std::vector<UnplacedEntries> unplaced_entries(const RunRecord& record, const std::string& markdown) {
     using Kind = UnplacedEntries::Kind;
     std::vector<UnplacedEntries> found;
@@ -92,11 +108,12 @@ std::vector<UnplacedEntries> unplaced_entries(const RunRecord& record, const std
     add(Kind::kFigure, names_not_shown(record.figures, [&](const std::string& name) {
             return is_captured(record, name) || holds_word(markdown, "(figure:" + name);
         }));
+    const std::string text = with_texts_of_script(record, markdown);
     const auto has_block = [&](const std::string& name) { return is_named_block(markdown, name); };
     add(Kind::kTable, names_not_shown(record.tables, has_block));
     add(Kind::kText, names_not_shown(record.texts, has_block));
     add(Kind::kValue, names_not_shown(record.values, [&](const std::string& name) {
-            return markdown.find("`" + name + "`{.value") != std::string::npos;
+            return text.find("`" + name + "`{.value") != std::string::npos;
         }));
     return found;
 }

@@ -21,4 +21,7 @@ struct UnplacedEntries {
 /// `markdown`: all text of the document, template and text cells.
 std::vector<UnplacedEntries> unplaced_entries(const RunRecord& record, const std::string& markdown);
 
+/// A document's text with the captions, texts and cells of the script that it shows: they may hold slots themselves.
+std::string with_texts_of_script(const RunRecord& record, const std::string& markdown);
+
 }  // namespace dynlab::inline documents

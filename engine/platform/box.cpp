@@ -110,6 +110,7 @@ ChildResult Box::run(const Words& command, const fs::path& folder, const std::st
     child.processor_time = limits.time.processor;
     child.output_bytes = limits.output_bytes;
     child.file_bytes = limits.file_bytes;
+    child.memory_bytes = limits.memory_bytes;
     auto environment = environment_;
     const auto set = [&environment](const char* name, const std::string& value) {
         const bool given = std::ranges::any_of(environment, [name](const auto& entry) { return entry.first == name; });

@@ -49,6 +49,7 @@ class Box {
         std::uint64_t output_bytes = 32ull << 20;    ///< of standard output and error
         std::uint64_t scratch_bytes = 128ull << 20;  ///< of /tmp at level kFull
         std::optional<std::uint64_t> file_bytes;     ///< of the largest file written; SIGXFSZ ends who writes more
+        std::optional<std::uint64_t> memory_bytes;   ///< address space of each process
     };
     /// `command` names this program (its place comes from add_program) or one in /usr/bin. `folder` is a place in the
     /// box.

@@ -15,6 +15,7 @@ local drawing = dofile(folder .. "/drawing.lua")
 local choice = dofile(folder .. "/choice.lua")
 local lists = dofile(folder .. "/lists.lua")
 local citations = dofile(folder .. "/citations.lua")
+local values = dofile(folder .. "/values.lua")
 
 local failed = false
 local function clean(text) return (tostring(text):gsub("[%c]", " ")) end
@@ -51,6 +52,13 @@ local function entry(kind, name, needle)
     end
   end
   report_gap("no-entry", needle, kind, name)
+end
+
+-- The text of a value; where it is not there, nothing, and what stands in its place in a formula.
+local function value_text(name)
+  local found = entry("value", name, "`" .. name .. "`")
+  if found then return found end
+  return nil, slots.stopped and "\\text{[" .. name .. "]}" or shows_gaps and "\\mathbf{??}" or ""
 end
 
 -- What stands in the place of an entry that is not there, once that was told or the script stopped before it.
@@ -139,7 +147,11 @@ local function checked_width(image)
 end
 
 local function picture(image)
-  local name = image.src:match("^figure:(.+)$")
+  local name, pasted = image.src:match("^figure:(.+)$"), image.src:match("^attachment:(.+)$")
+  if pasted then
+    report_gap("pasted-picture", image.src, pasted)
+    return nil, nil, pasted
+  end
   if not name then return picture_file("image", image.src), image.caption end
   local found = entry("figure", name, image.src)
   if not found then return nil, nil, name end
@@ -155,7 +167,7 @@ local function figure(image)
   local file, caption, name = picture(image)
   local label = label_of(image.identifier, "fig")
   if not file then return missing_block(name) end
-  local alternative = pandoc.utils.stringify(caption)
+  local alternative = values.plain_text(caption)
   if alternative == "" then alternative = name or image.src end
   if is_numbered(caption, label) and not image.classes:includes("unnumbered") then
     local shown = number("fig", label)
@@ -169,7 +181,11 @@ local function inline_image(image)
     report("figure-not-alone", image.src, image.src)
     return {}
   end
-  local alternative = pandoc.utils.stringify(image.caption)
+  if image.src:find("^attachment:") then
+    report_gap("pasted-picture", image.src, image.src:match(":(.*)$"))
+    return shows_gaps and layout:gap() or {}
+  end
+  local alternative = values.plain_text(image.caption)
   return layout:inline_image(picture_file("image", image.src), alternative, checked_width(image))
 end
 
@@ -186,6 +202,11 @@ local function table_slot(division)
   local found = entry("table", name, "name=" .. name)
   if not found then return missing_block(name) end
   if is_numbered(caption, label) then caption = layout:numbered_caption("tbl", number("tbl", label), caption) end
+  local function filled(row)
+    for c, cell in ipairs(row) do row[c] = values.in_cell(cell, layout, value_text, "??") end
+  end
+  filled(found.header)
+  for _, row in ipairs(found.rows) do filled(row) end
   local element, size, lines = tables:recorded(found, caption)
   if not element then
     report("table-width", "name=" .. name, name, #found.header)
@@ -255,7 +276,7 @@ local function header(element)
   if bad then report("attribute", bad, bad, "heading") end
   local title = slots.section_titles[pandoc.utils.stringify(element.content)]
   if title then element.content = pandoc.List { pandoc.Str(title) } end
-  local shown = "“" .. pandoc.utils.stringify(element.content) .. "”"
+  local shown = "“" .. values.plain_text(element.content) .. "”"
   if slots.numbersections and not element.classes:includes("unnumbered") then
     section_numbers[element.level] = section_numbers[element.level] + 1
     for level = element.level + 1, 6 do section_numbers[level] = 0 end
@@ -274,10 +295,14 @@ local function header(element)
 end
 
 local function check_mathematics(element)
+  element.text = values.in_formula(element.text, layout, value_text, function(code, name, class)
+    report(code, "`" .. name .. "`", code == "code-class" and class:sub(2) or name, name)
+  end)
   for _, refused in ipairs(mathematics.refused_in(element.text)) do
     local kind, written, needle = table.unpack(refused)
     report("mathematics", needle, kind, written, kind == "command" and mathematics.known() or "")
   end
+  return element
 end
 
 local division_attributes =
@@ -386,31 +411,17 @@ local function division(element)
   return layout:box(element, class)
 end
 
-local function check_code(element)
+-- Code in a line, and values: filled where they are checked, so that captions, headings and cells of tables have them.
+local function code(element)
   local attribute = safety.unknown_attribute(element.attributes, {})
   if attribute then report("attribute", attribute, attribute, "code") end
-  if element.classes:includes("value") then return nil end
-  local bad = safety.unknown_code_class(element.classes, false)
-  if bad then report("code-class", "." .. bad, bad, element.text) end
-end
-
---- A value as print sets it: numbers with a true minus sign and with powers of ten, anything else as it is.
-local function printed_value(text)
-  local mantissa, exponent = text:match("^(%-?%d+%.?%d*)[eE]([%+%-]?%d+)$")
-  if mantissa then
-    return pandoc.Math("InlineMath", ("%s \\cdot 10^{%d}"):format(layout:mathematical_number(mantissa),
-                                                                  math.tointeger(tonumber(exponent))))
-  end
-  if text:match("^%-%d+%.?%d*$") then return pandoc.Math("InlineMath", layout:mathematical_number(text)) end
-  return pandoc.Str(layout:number(text))
-end
-
-local function code(element)
   if element.classes:includes("value") then
     local found = entry("value", element.text, "`" .. element.text .. "`")
-    return found and printed_value(found) or slots.stopped and layout:missing_word(element.text) or
+    return found and values.printed(found, layout) or slots.stopped and layout:missing_word(element.text) or
       shows_gaps and layout:gap() or {}
   end
+  local bad = safety.unknown_code_class(element.classes, false)
+  if bad then report("code-class", "." .. bad, bad, element.text) end
   return layout:inline_code(element)
 end
 
@@ -422,6 +433,14 @@ local function check_code_block(element)
 end
 
 local function code_block(element) return layout:code_block(element) end
+
+-- A slot in the path of a picture or in the address of a link.
+local function check_address(target)
+  local written = target:gsub("%%(%x%x)", function(code) return string.char(tonumber(code, 16)) end)
+  local holds_slot = written:find("{.value", 1, true) ~= nil
+  if holds_slot then report("slot-in-address", written, written) end
+  return holds_slot
+end
 
 local function raw(element)
   if element.format ~= "html" or not safety.is_comment(element.text) then
@@ -438,6 +457,7 @@ local function span(element)
 end
 
 local function link(element)
+  check_address(element.target)
   if not safety.link_allowed(element.target) then report("link", element.target, element.target) end
   local bad = safety.unknown_attribute(element.attributes, {})
   if bad then report("attribute", bad, bad, "link") end
@@ -464,16 +484,31 @@ local function string(element)
   if element.text:match("^{=%w+}") then report("raw-attribute", element.text, element.text) end
 end
 
+-- What was meant as a slot: without backticks, or with a space before its class.
+local function slots_of_other_forms(inlines)
+  for i, element in ipairs(inlines) do
+    if element.t == "Str" and element.text:find("{.value}", 1, true) then
+      local before, space = inlines[i - 1], ""
+      if before and before.t == "Space" then before, space = inlines[i - 2], " " end
+      local written = element.text
+      if before and before.t == "Code" then written = "`" .. before.text .. "`" .. space .. written end
+      if before and before.t == "Quoted" then written = (before.quotetype == "SingleQuote" and "'" or '"') .. written end
+      report("slot-form", written, written)
+    end
+  end
+end
+
 -- First what the author wrote is checked, then slots are filled in document order, so that numbers are given as the
 -- elements come and nothing the filter itself writes is checked again.
 local check = {
   RawBlock = raw, RawInline = raw, Span = span, Link = link, Str = string, Math = check_mathematics,
-  Code = check_code, CodeBlock = check_code_block,
+  Code = code, CodeBlock = check_code_block, Image = function(image) if check_address(image.src) then return {} end end,
+  Inlines = slots_of_other_forms,
 }
 local fill = {
   traverse = "topdown",
   Para = paragraph, Table = written_table, Div = division, Header = header, CodeBlock = code_block,
-  Inlines = equations, Code = code, Image = inline_image,
+  Inlines = equations, Image = inline_image,
 }
 
 local function checked(markdown) return pandoc.Pandoc(read_blocks(markdown)):walk(check) end
@@ -481,6 +516,10 @@ local function checked(markdown) return pandoc.Pandoc(read_blocks(markdown)):wal
 function checked_inlines(markdown) return pandoc.utils.blocks_to_inlines(checked(markdown).blocks) end
 
 -- References -----------------------------------------------------------------------------------------------------
+
+local known_keys = {}  -- of the bibliography; they may hold a colon, as labels do
+
+local function is_literature(id) return known_keys[id] or not id:find(":", 1, true) end
 
 local function reference(citation)
   local id = citation.id
@@ -501,7 +540,7 @@ local unknown_citations = {}
 
 -- Literature is left to Pandoc's citeproc, which runs next.
 local function references(cite)
-  if not cite.citations[1].id:find(":", 1, true) then
+  if is_literature(cite.citations[1].id) then
     for _, citation in ipairs(cite.citations) do
       if shows_gaps and unknown_citations[citation.id] then return layout:gap() end
     end
@@ -524,8 +563,7 @@ end
 
 local cites_literature = false
 
--- The keys of the bibliography.
-local function known_keys()
+local function keys_of_bibliography()
   local keys = {}
   if slots.bibliography == "" then return keys end
   local everything = pandoc.Cite({ pandoc.Str("@*") }, { pandoc.Citation("*", pandoc.NormalCitation) })
@@ -541,13 +579,14 @@ local function known_keys()
 end
 
 local function check_citations(document)
-  local keys = known_keys()
+  local keys = keys_of_bibliography()
   if not keys then return end
+  known_keys = keys
   local names = {}
   for key in pairs(keys) do names[#names + 1] = key end
   document:walk {
     Cite = function(cite)
-      if cite.citations[1].id:find(":", 1, true) then return end
+      if not is_literature(cite.citations[1].id) then return end
       for _, citation in ipairs(cite.citations) do
         local id = citation.id
         unknown_citations[id] = not keys[id]
@@ -699,21 +738,21 @@ function Pandoc(document)
   document.blocks = citations.read(document.blocks, slots.escaped)
   check_citations(document)
   check_no_latex(document)
-  for key, markdown in pairs(slots.metadata) do
-    document.meta[key] = pandoc.MetaBlocks(finished(pandoc.Pandoc(read_blocks(markdown))).blocks)
-  end
+  local metadata = {}
+  for key, markdown in pairs(slots.metadata) do metadata[key] = finished(pandoc.Pandoc(read_blocks(markdown))).blocks end
   document = document:walk { Div = expand }
   if #answers > 0 then
     document.blocks:insert(pandoc.Header(1, { pandoc.Str(layout.words.answers) }, { class = "unnumbered" }))
     document.blocks:extend(answers)
   end
   document = finished(document)
+  for key, blocks in pairs(metadata) do document.meta[key] = pandoc.MetaBlocks(blocks) end
   for _, key in ipairs { "title", "subtitle", "date", "header" } do
     local value = document.meta[key]
     if value then document.meta[key] = pandoc.MetaInlines(pandoc.utils.blocks_to_inlines(value)) end
   end
   for key, text in pairs(slots.variables) do document.meta[key] = text end
-  if document.meta.title then document.meta.pagetitle = pandoc.utils.stringify(document.meta.title) end
+  if document.meta.title then document.meta.pagetitle = values.plain_text(document.meta.title) end
   if chunk then tell_count("chunk-end", chunk) end
   if failed and not slots.chunks then os.exit(64) end
   set_literature(document)

@@ -40,6 +40,7 @@ end
 -- French writes decimals behind a comma: in texts that are numbers, with or without an error, a unit or a percent sign.
 function layout:number(text)
   if self.words ~= words.fr or not text:find("^[%s±−+%-(]*%d[%d.eE+%-±−%s%%()]*%a*/?%a*$") then return text end
+  if text:find("%d%.%d+%.%d") then return text end  -- a version or a date
   return (text:gsub("(%d)%.(%d)", "%1,%2"))
 end
 

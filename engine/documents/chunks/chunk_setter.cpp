@@ -11,7 +11,9 @@
 #include "documents/pandoc.h"
 #include "documents/pictures.h"
 #include "documents/text_lines.h"
+#include "documents/unplaced_entries.h"
 #include "documents/words/characters.h"
+#include "platform/files/inside_folder.h"
 #include "platform/hash.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
@@ -19,11 +21,13 @@
 namespace dynlab::inline documents {
 namespace {
 
+namespace fs = std::filesystem;
+
 const std::string kPicturePrefix = "dynlab-picture-";
 const std::string kChunkBegins = "<div id=\"chunk-";
 using Labels = std::map<std::string, std::string>;
 
-/// What of the record a chunk shows: the entries whose names occur in it.
+/// What of the record a text shows: the entries whose names occur in it.
 void add_entries(const RunRecord& record, const std::string& markdown, DigestStream& digest) {
     const auto shows = [&](const std::string& name) { return markdown.find(name) != std::string::npos; };
     for (const auto& [name, value] : record.values)
@@ -126,8 +130,9 @@ class ChunkJob {
         for (Chunk& chunk : chunks_of(text_.markdown)) {
             DigestStream digest;
             digest.add_part(chunk.markdown);
-            add_entries(record_, chunk.markdown, digest);
-            if (lacks_entry(record_, chunk.markdown)) digest.add_part(unfinished ? "not yet" : "missing");
+            const std::string shown = with_texts_of_script(record_, chunk.markdown);
+            add_entries(record_, shown, digest);
+            if (lacks_entry(record_, shown)) digest.add_part(unfinished ? "not yet" : "missing");
             set_.push_back({digest.digest().hex(), {}, {}, {}, {}, {}, has_notes(chunk.markdown)});
             chunks_.push_back(std::move(chunk));
         }
@@ -298,6 +303,8 @@ class ChunkJob {
             SetPicture picture{chunk.html.substr(at, chunk.html.find('"', at) - at), used.is_figure, used.name, {}};
             for (const PlacedPicture& placed : files)
                 if (placed.written_name == picture.written_name) picture.file = placed.file;
+            const fs::path folder = folder_around(chunks_[i].origin.file), sought = folder / path_of_picture(used.name);
+            if (!used.is_figure && picture.file.empty() && is_inside(sought, folder)) picture.file = sought;
             chunk.pictures.push_back(std::move(picture));
         }
         const int number = static_cast<int>(i);

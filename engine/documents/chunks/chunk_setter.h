@@ -14,7 +14,7 @@ struct SetPicture {
     std::string written_name;
     bool is_figure = false;
     std::string name;            ///< of the figure
-    std::filesystem::path file;  ///< of any other picture
+    std::filesystem::path file;  ///< of any other picture; it may not be there yet
 };
 
 /// What one chunk looks like on a page.

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kShortestGreekWord = 4;  // letters; shorter ones are symbols: Δω
 constexpr char32_t kLeftToRightMark = 0x200E;
+const std::set<std::string> kOfSigns = {"Symbols=zyyy", "Symbols2=zyyy"};  // arrows, pictures, dingbats
 
 bool is_greek(char32_t c) {
     return c > 0x7F && script_of(c).code == "Grek";
@@ -84,11 +85,31 @@ std::set<std::string> scripts_of(const PrintableCharacters& pdflatex, std::strin
         const char32_t c = next_character(text);
         if (c <= 0x7F) continue;
         Script script = script_of(c);
+        if (script.name.empty() && !pdflatex.can_print(c)) scripts.insert(kOfSigns.begin(), kOfSigns.end());
         if (script.name.empty() || script.name == "Latin" || (script.name == "Greek" && !greek)) continue;
         script.code[0] = static_cast<char>(script.code[0] - 'A' + 'a');
         scripts.insert(script.name + "=" + script.code);
     }
     return scripts;
+}
+
+std::string without_directions(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const std::string_view before = text;
+        const char32_t c = next_character(text);
+        const bool directs =
+            (c >= 0x200C && c <= 0x200F) || (c >= 0x202A && c <= 0x202E) || (c >= 0x2060 && c <= 0x2069) || c == 0xFEFF;
+        if (!directs) result += before.substr(0, before.size() - text.size());
+    }
+    return result;
+}
+
+std::set<char32_t> characters_beyond_ascii(std::string_view text) {
+    std::set<char32_t> characters;
+    while (!text.empty())
+        if (const char32_t c = next_character(text); c > 0x7F) characters.insert(c);
+    return characters;
 }
 
 std::string with_direction_marks(std::string_view latex) {

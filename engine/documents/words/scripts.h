@@ -18,6 +18,12 @@ std::optional<char32_t> first_beyond(const PrintableCharacters& pdflatex, std::s
 /// is not named, and Greek only where the text has words of it.
 std::set<std::string> scripts_of(const PrintableCharacters& pdflatex, std::string_view text);
 
+/// The text without the signs that only direct it, which have a meaning beside right-to-left letters alone.
+std::string without_directions(std::string_view text);
+
+/// The characters of `text` beyond ASCII: those that mathematics does not know are set as text in formulas.
+std::set<char32_t> characters_beyond_ascii(std::string_view text);
+
 /// LaTeX text with U+200E around each right-to-left phrase, so that the numbers and signs beside a name keep their
 /// places, and in a box in rows of tables, so that the cell keeps its alignment. Targets of links stay as they are.
 std::string with_direction_marks(std::string_view latex);
