@@ -1,7 +1,10 @@
 #include "numerics/estimators/bj.h"
 
+#include <algorithm>
+
 #include "numerics/error.h"
 #include "numerics/fit/discrete/discrete_fit.h"
+#include "numerics/fit/discrete/long_regression.h"
 #include "numerics/fit/discrete/prediction_fit.h"
 #include "numerics/fit/finished_fit.h"
 #include "numerics/fit/operating_points.h"
@@ -60,15 +63,48 @@ OutputErrorStart output_error_start(const IdData& data, const std::vector<Sample
     return {fit, output_errors(fit, experiments)};
 }
 
+/// The search from the system of `first`, fitted to these outputs or to filtered ones, with the noise that it leaves.
+Fit search_from(const Fit& first, const std::vector<Vector>& errors, const PredictionModel& model, const IdData& data,
+                const FitOptions& options) {
+    const PolynomialOrders& orders = model.orders();
+    const ArmaNoise noise = start_noise(errors, orders.nc, orders.nd, output_power(data));
+    Vector start(orders.parameter_count());
+    start << first.theta, noise.C.tail(orders.nc), noise.D.tail(orders.nd);
+    return fit_prediction("bj", model, first.start, data.Ts, {start}, options);
+}
+
+/// The fit, or a better one where a long regression predicts better than it does: from systems of filtered data, whose
+/// output error a drift does not dominate.
+Fit or_from_filtered_data(Fit best, const IdData& data, const PredictionModel& model, const FitOptions& options) {
+    const PolynomialOrders& orders = model.orders();
+    const StartCondition condition = best.start;
+    if (orders.nd == 0 || best.termination == Termination::kCancelled) return best;
+    const LongRegression regression(data, *std::max_element(orders.nk.begin(), orders.nk.end()));
+    if (!regression.predicts_better_than(best.noise_variance[0])) return best;
+    const FitOptions plain = options.started({condition.state, false});
+    const PolynomialOrders system = PolynomialOrders::output_error(orders.nb, orders.nf, orders.nk);
+    for (const IdData& filtered : regression.filtered_data(condition.state == InitialState::kZero)) {
+        Fit first;
+        try {
+            first = fit_discrete_output("bj", filtered, system, plain, output_error_search(options));
+        } catch (const InvalidArgument&) {
+            continue;  // too little happens in the filtered inputs
+        }
+        first.start = condition;
+        Fit other = search_from(first, output_errors(first, model.experiments()), model, data, options);
+        if (other.termination == Termination::kCancelled) break;
+        if (other.noise_variance[0] < best.noise_variance[0]) best = std::move(other);
+        if (!regression.predicts_better_than(best.noise_variance[0])) break;
+    }
+    return best;
+}
+
 Fit bj_fit(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
     const CentredData centred = centred_for(data, options.offset);
     const std::vector<SampledExperiment> experiments = sampled_experiments(centred.data);
     const auto [first, errors] = output_error_start(data, experiments, orders, options);
-    const ArmaNoise noise = start_noise(errors, orders.nc, orders.nd, output_power(data));
-    Vector start(orders.parameter_count());
-    start << first.theta, noise.C.tail(orders.nc), noise.D.tail(orders.nd);
-    Fit fit =
-        fit_prediction("bj", PredictionModel(orders, first.start, experiments), first.start, data.Ts, {start}, options);
+    const PredictionModel model(orders, first.start, experiments);
+    Fit fit = or_from_filtered_data(search_from(first, errors, model, data, options), centred.data, model, options);
     add_operating_points(fit, centred.removed);
     return fit;
 }

@@ -7,6 +7,7 @@
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/discrete/long_regression.h"
 #include "numerics/fit/finished_fit.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
@@ -101,11 +102,18 @@ double largest_change(const Vector& next, const Vector& before, const Vector& er
 /// The passes between the noise model and the instrumental equations.
 class Passes {
   public:
-    Passes(const TransferOutput& model, const Vector& y, const NoiseOrders& orders, const FitOptions& options)
-        : model_(model), y_(y), orders_(orders), options_(options) {}
+    /// From where `start` ended, which stays stable if it is.
+    Passes(TransferOutput model, const Fit& start, const NoiseOrders& orders, const FitOptions& options)
+        : model_(std::move(model)), y_(model_.target()), orders_(orders), options_(options) {
+        if (std::none_of(start.models.begin(), start.models.end(), has_unstable_pole)) model_.keep_stable();
+        model_.fix(options.fixed);
+        theta_ = search_point(start, model_, model_.seconds()).cwiseMax(model_.lower()).cwiseMin(model_.upper());
+    }
 
-    void run(const Vector& start) {
-        theta_ = start;
+    /// Initial values and offsets that suit the other parameters, in the place of those of the start.
+    void set_linear_part() { solve_linear_part(model_, theta_); }
+
+    void run() {
         noise_ = ArmaNoise::white(orders_.nc, orders_.nd);
         for (int pass = 0; pass < std::max(1, options_.max_iterations); ++pass) {
             if (pass > 0 && options_.cancel && options_.cancel()) {
@@ -124,6 +132,8 @@ class Passes {
     }
 
     Vector simulated() const { return model_.output_at(theta_); }
+    double variance() const { return variance_; }  ///< of e
+    bool cancelled() const { return termination_ == Termination::kCancelled; }
     /// Nothing but rounding is left, so that there is no noise to model.
     bool exact(const Vector& errors) const {
         return errors.norm() <= kNoiseRounding * (y_.array() - y_.mean()).matrix().norm();
@@ -181,13 +191,13 @@ class Passes {
         if (solution_.noise_variance[0] > 0) solution_.covariance *= variance_ / solution_.noise_variance[0];
     }
 
-    const TransferOutput& model_;
-    const Vector& y_;
+    TransferOutput model_;
+    Vector y_;
     NoiseOrders orders_;
     FitOptions options_;
     Vector theta_;
     Fit solution_;
-    double variance_ = 0;
+    double variance_ = kInfinity;
     Termination termination_ = Termination::kIterationLimit;
     std::vector<FitIteration> trace_;
 };
@@ -209,6 +219,42 @@ void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders, do
                 "A root of {} lies nearly on the unit circle: the noise drifts, or its orders do not suit.", name));
 }
 
+/// Samples that an input may be late.
+Index most_late(const TransferStructure& structure, const DelayRange& range, double Ts) {
+    double longest = structure.free_delays ? range.largest : 0;
+    for (const TransferChannel& channel : structure.channels) longest = std::max(longest, channel.delay);
+    return static_cast<Index>(std::ceil(longest / Ts));
+}
+
+/// The passes, or better ones where a long regression predicts better than they do: from models of filtered data, whose
+/// simulation error a drift does not dominate.
+Passes best_passes(const IdData& data, const TransferOutput& model, const Fit& start, const DelayRange& range,
+                   const NoiseOrders& orders, const FitOptions& options) {
+    Passes best(model, start, orders, options);
+    best.run();
+    if (orders.nd == 0 || best.without_noise_ || best.cancelled()) return best;
+    const LongRegression regression(data, most_late(start.structure, range, data.Ts));
+    if (!regression.predicts_better_than(best.variance())) return best;
+    const FitOptions plain = options.started({start.start.state, false});
+    for (const IdData& filtered : regression.filtered_data(start.start.state == InitialState::kZero)) {
+        Fit other;
+        try {
+            other = srivc(filtered, start.structure, plain);
+        } catch (const InvalidArgument&) {
+            continue;  // too little happens in the filtered inputs
+        }
+        other.initial_values.clear();
+        other.offsets.setZero();
+        Passes passes(model, other, orders, options);
+        passes.set_linear_part();
+        passes.run();
+        if (passes.cancelled()) break;
+        if (passes.variance() < best.variance()) best = std::move(passes);
+        if (!regression.predicts_better_than(best.variance())) break;
+    }
+    return best;
+}
+
 Fit rivc_fit(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders,
              const FitOptions& options) {
     check_transfer_data("rivc", data, structure, options.offset);
@@ -220,11 +266,7 @@ Fit rivc_fit(const IdData& data, const TransferStructure& structure, const Noise
     const CentredData centred = centred_for(data, options.offset);
     TransferOutput model(structure, start.start, centred.data, range.least, range.largest);
     model.leave_out(unheard_beginning(start, centred.data));
-    if (std::none_of(start.models.begin(), start.models.end(), has_unstable_pole)) model.keep_stable();
-    model.fix(options.fixed);
-    const Vector y = model.target();
-    Passes passes(model, y, orders, wanted);
-    passes.run(search_point(start, model, model.seconds()).cwiseMax(model.lower()).cwiseMin(model.upper()));
+    const Passes passes = best_passes(centred.data, model, start, range, orders, wanted);
     Fit result = passes.fit(start.start);
     result.structure = structure;
     result.fit_percent = Vector::Constant(

@@ -84,7 +84,7 @@ namespace {
 
 constexpr Index kComparedSamples = 10'000;  // on which poorer structures are compared
 constexpr int kComparedPasses = 4;
-constexpr Index kFewestToCompare = 4;  // parameters: smaller models were not seen to end in bad minima
+constexpr Index kFewestToCompare = 4;  // parameters: poorer models of smaller ones are told by their errors
 constexpr double kComparedTolerance = 1e-3, kNoGain = 1e-3;
 constexpr double kPoorFit = 20;    // per cent: where little is explained, the passes easily miss the best
 constexpr double kFineFit = 99.9;  // per cent: nothing is missing that would be worth a search
@@ -150,7 +150,7 @@ bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& op
 /// Whether the errors follow the input: what is missing may be within reach of the structure.
 bool leaves_dynamics(const Fit& estimate, const IdData& data) {
     const TransferStructure& structure = estimate.structure;
-    if (structure.inputs > 1 || structure.outputs > 1 || estimate.theta.size() < kFewestToCompare) return false;
+    if (structure.inputs > 1 || structure.outputs > 1) return false;
     if (estimate.fit_percent[0] > kFineFit) return false;
     return data.sample_count() <= 2 * kComparedSamples
                ? errors_follow_input(data, estimate)
@@ -162,8 +162,7 @@ bool leaves_dynamics(const Fit& estimate, const IdData& data) {
 Fit search_where_passes_fail(Fit estimate, const IdData& data, const FitOptions& options, const SearchAids& aids) {
     const bool settled = estimate.termination == Termination::kConverged;
     const bool poor = !(estimate.fit_percent.minCoeff() > kPoorFit);
-    const bool alone = aids.poorer.empty();
-    if (!settled || poor || (alone && leaves_dynamics(estimate, data)) ||
+    if (!settled || poor || leaves_dynamics(estimate, data) ||
         gains_nothing(estimate, data, options, aids.poorer))
         return better_by_search(std::move(estimate), data, options, aids);
     check_transient("srivc", data, estimate, estimate.theta.size());

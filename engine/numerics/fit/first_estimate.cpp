@@ -26,13 +26,6 @@ double longest_record(const IdData& data) {
     return longest;
 }
 
-/// Part of the data with one output, one input and this output signal in each experiment.
-IdData single_channel(const IdData& data, const std::vector<Vector>& outputs, Index input) {
-    IdData part = data.select({1}, {input + 1});
-    for (std::size_t e = 0; e < outputs.size(); ++e) part.experiments[e].y = outputs[e];
-    return part;
-}
-
 /// Channels with denominators of their own at one output: each fitted to its share of a common model.
 void start_channels(const IdData& data, const TransferStructure& structure, Index output, double lambda, Hold hold_y,
                     Vector& theta) {
@@ -88,6 +81,12 @@ std::vector<CutoffStart> valleys_over_the_cutoff(const std::vector<CutoffStart>&
 }
 
 }  // namespace
+
+IdData single_channel(const IdData& data, const std::vector<Vector>& outputs, Index input) {
+    IdData part = data.select({1}, {input + 1});
+    for (std::size_t e = 0; e < outputs.size(); ++e) part.experiments[e].y = outputs[e];
+    return part;
+}
 
 IdData beginning_of(const IdData& data, Index most_samples) {
     IdData part;

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "numerics/fit/fit.h"
 
 namespace dynlab::inline numerics {
@@ -7,6 +9,9 @@ namespace dynlab::inline numerics {
 
 /// The part of a record that start values are looked for on: its beginning, so that it starts from rest as the whole.
 IdData beginning_of(const IdData& data, Index most_samples);
+
+/// The data of one input with this signal in each experiment as the output.
+IdData single_channel(const IdData& data, const std::vector<Vector>& outputs, Index input);
 
 /// lssvf's theta with poles mirrored, for any structure: where an output's channels have denominators of their own, a
 /// common one of their joint order is fitted first and each channel then to its share of that model's output. NaN when

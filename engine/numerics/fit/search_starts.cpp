@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/fit/delay_scan.h"
@@ -9,6 +10,7 @@
 #include "numerics/fit/first_estimate.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/polynomial.h"
+#include "numerics/signals/response_peaks.h"
 
 namespace dynlab::inline numerics {
 
@@ -21,6 +23,9 @@ constexpr double kApart = 1.5;              // of one added root to the next
 constexpr int kPlaces = 12;                 // to which poles are moved
 constexpr double kSlowestPlace = 0.1;       // rad in the longest record
 constexpr double kMovedDamping = 0.1;
+constexpr std::size_t kMostPeaks = 5;
+constexpr double kDampingOfPeaks[] = {0.1, 0.02};
+constexpr double kPhases[] = {-1, -0.5, 0.5, 1};  // of a quarter turn, by which a free delay moves at a peak
 constexpr std::size_t kMostExchanged = 4;
 constexpr double kMayBecomeBest = 1.2;    // of the loss found, before numerator and poles move together
 constexpr Index kPlacedSamples = 10'000;  // on which the places are compared
@@ -88,8 +93,12 @@ std::vector<PoleExchange> pole_exchanges(const ComplexVector& poles) {
     return all;
 }
 
+Vector pair_factor(double w, double damping) {
+    return Vector{{1.0, 2 * damping * w, w * w}};
+}
+
 Vector moved_factor(bool pair, double w) {
-    return pair ? Vector{{1.0, 2 * kMovedDamping * w, w * w}} : Vector{{1.0, w}};
+    return pair ? pair_factor(w, kMovedDamping) : Vector{{1.0, w}};
 }
 
 /// p times (s + root).
@@ -224,18 +233,19 @@ NestedSolution with_linear_part(const IdData& data, const TransferStructure& str
     return {structure.free_delays ? with_delays(structure, at, theta) : theta, loss, structure};
 }
 
-std::vector<Vector> exchanged_poles(const IdData& data, const TransferStructure& structure, const Fit& found) {
+namespace {
+
+/// The valleys of the loss over the frequencies to which poles are moved.
+std::vector<NestedSolution> valleys_over_places(const IdData& data, const TransferStructure& structure,
+                                                const Fit& found, const std::vector<PoleExchange>& exchanges) {
     const double delay = structure.delay(found.theta, 0, 0);
-    ComplexVector poles = roots(structure.denominator(found.theta, 0, 0));
-    std::stable_sort(poles.begin(), poles.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
-    const IdData part = beginning_of(data, kPlacedSamples);
-    const std::vector<double> places = places_of_poles(part);
+    const std::vector<double> places = places_of_poles(data);
     std::vector<NestedSolution> all;
-    for (const PoleExchange& exchange : pole_exchanges(poles)) {
+    for (const PoleExchange& exchange : exchanges) {
         std::vector<NestedSolution> tried;
         for (const double w : places) {
             const Vector A = multiply(exchange.kept, moved_factor(exchange.pair, w));
-            tried.push_back(with_linear_part(part, structure, found.start, A, delay));
+            tried.push_back(with_linear_part(data, structure, found.start, A, delay));
         }
         for (std::size_t i = 0; i < tried.size(); ++i) {
             const bool valley = tried[i].loss < kMayBecomeBest * found.loss &&
@@ -244,9 +254,59 @@ std::vector<Vector> exchanged_poles(const IdData& data, const TransferStructure&
             if (valley) all.push_back(tried[i]);
         }
     }
-    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.loss < b.loss; });
+    return all;
+}
+
+/// The delay found, the least one, and those by which the phase at a frequency moves; the found one where it is fixed.
+std::vector<double> delays_at_peak(const IdData& data, const TransferStructure& structure, const Fit& found, double w,
+                                   const FitOptions& options) {
+    const double delay = structure.delay(found.theta, 0, 0);
+    if (!structure.free_delays) return {delay};
+    const DelayRange range = delay_range(data, options);
+    std::vector<double> delays = {delay, range.least};
+    for (const double phase : kPhases) {
+        const double moved = delay + phase * std::numbers::pi / (2 * w);
+        if (moved > range.least && moved < range.largest) delays.push_back(moved);
+    }
+    return delays;
+}
+
+/// Pairs at each peak of the measured frequency response.
+std::vector<NestedSolution> pairs_at_peaks(const IdData& data, const TransferStructure& structure, const Fit& found,
+                                           const std::vector<PoleExchange>& exchanges, const FitOptions& options) {
+    std::vector<NestedSolution> all;
+    for (const double w : response_peaks(data, kMostPeaks))
+        for (const PoleExchange& exchange : exchanges) {
+            if (!exchange.pair) continue;
+            NestedSolution best;
+            for (const double damping : kDampingOfPeaks)
+                for (const double delay : delays_at_peak(data, structure, found, w, options)) {
+                    const Vector A = multiply(exchange.kept, pair_factor(w, damping));
+                    NestedSolution one = with_linear_part(data, structure, found.start, A, delay);
+                    if (one.loss < best.loss) best = std::move(one);
+                }
+            if (std::isfinite(best.loss)) all.push_back(std::move(best));
+        }
+    return all;
+}
+
+void append_best(std::vector<Vector>& starts, std::vector<NestedSolution> solutions) {
+    std::ranges::stable_sort(solutions, {}, &NestedSolution::loss);
+    for (std::size_t i = 0; i < std::min(kMostExchanged, solutions.size()); ++i)
+        starts.push_back(std::move(solutions[i].theta));
+}
+
+}  // namespace
+
+std::vector<Vector> exchanged_poles(const IdData& data, const TransferStructure& structure, const Fit& found,
+                                    const FitOptions& options) {
+    ComplexVector poles = roots(structure.denominator(found.theta, 0, 0));
+    std::stable_sort(poles.begin(), poles.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
+    const IdData part = beginning_of(data, kPlacedSamples);
+    const std::vector<PoleExchange> exchanges = pole_exchanges(poles);
     std::vector<Vector> starts;
-    for (std::size_t i = 0; i < std::min(kMostExchanged, all.size()); ++i) starts.push_back(all[i].theta);
+    append_best(starts, valleys_over_places(part, structure, found, exchanges));
+    append_best(starts, pairs_at_peaks(part, structure, found, exchanges, options));
     return starts;
 }
 

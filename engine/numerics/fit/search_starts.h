@@ -70,9 +70,12 @@ NestedSolution with_linear_part(const IdData& data, const TransferStructure& str
                                 const VectorView& A, double delay);
 
 /// theta of models of one input and one output in which one or two poles of `found`, a fit of the structure, have
-/// changed places: a real one for others, the two slowest or the two fastest for a pair of damping 0.1, each at twelve
-/// frequencies over the band that the record can show. The rest follows by least squares. Of each exchange the valleys
-/// of the loss over the frequency count, below 1.2 times the loss of `found`; best first, at most four.
-std::vector<Vector> exchanged_poles(const IdData& data, const TransferStructure& structure, const Fit& found);
+/// changed places: a real one for others, the two slowest or the two fastest for a pair. The rest follows by least
+/// squares. Pairs of damping 0.1 are tried at twelve frequencies over the band that the record can show, of which the
+/// valleys of the loss over the frequency count, below 1.2 times the loss of `found`; pairs of damping 0.1 and 0.02 at
+/// the peaks of the measured frequency response (signals/response_peaks.h), where the delay is free for several delays.
+/// Best first, at most four of each kind.
+std::vector<Vector> exchanged_poles(const IdData& data, const TransferStructure& structure, const Fit& found,
+                                    const FitOptions& options);
 
 }  // namespace dynlab::inline numerics

@@ -39,19 +39,6 @@ Vector with_stable_poles(const TransferStructure& structure, Vector theta) {
     return theta;
 }
 
-// The initial values and offsets that suit the other parameters best, by least squares.
-void solve_linear_part(const TransferOutput& model, Vector& theta) {
-    const Index count = model.linear_count();
-    theta.tail(count).setZero();
-    if (count == 0) return;
-    Vector output;
-    Matrix sensitivities;
-    model.simulate(theta, output, &sensitivities);
-    if (!output.allFinite()) return;
-    const LeastSquares fit = solve_least_squares(sensitivities.rightCols(count), model.target() - output);
-    if (fit.solution.allFinite()) theta.tail(count) = fit.solution;
-}
-
 Vector first_point(const TransferOutput& model, const TransferStructure& structure, const Vector& theta_start) {
     const Index count = structure.parameter_count();
     Vector theta = Vector::Zero(model.parameter_count()), output;
@@ -106,6 +93,18 @@ Fit search(TransferOutput& model, const TransferStructure& structure, const IdDa
 }
 
 }  // namespace
+
+void solve_linear_part(const TransferOutput& model, Vector& theta) {
+    const Index count = model.linear_count();
+    theta.tail(count).setZero();
+    if (count == 0) return;
+    Vector output;
+    Matrix sensitivities;
+    model.simulate(theta, output, &sensitivities);
+    if (!output.allFinite()) return;
+    const LeastSquares fit = solve_least_squares(sensitivities.rightCols(count), model.target() - output);
+    if (fit.solution.allFinite()) theta.tail(count) = fit.solution;
+}
 
 Vector counted_variations(TransferOutput model) {
     model.set_weights(Vector::Ones(model.weights().size()));
@@ -365,6 +364,13 @@ Index value_count(const TransferStructure& structure, const StartCondition& cond
     return structure.parameter_count() + experiments * values;
 }
 
+Message output_error_message(const Fit& fit) {
+    return has_settled(fit) ? Message("Output error converged after {}, simulated {}: {}.", iteration_count(fit),
+                                      description(fit.start), simulation_text(fit))
+                            : Message("Output error stopped after {}, simulated {}: {}.", iteration_count(fit),
+                                      description(fit.start), simulation_text(fit));
+}
+
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
                         const Vector& theta_start, const FitOptions& options, double unheard) {
     check_transfer_data("Output error", data, structure, condition.offset ? Offset::kEstimate : options.offset);
@@ -378,11 +384,7 @@ Fit refine_output_error(const IdData& data, const TransferStructure& structure, 
                        : refine_jointly(data, structure, condition, theta_start, options, unheard);
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     describe_search(estimate, data, options, range);
-    estimate.message = has_settled(estimate)
-                           ? Message("Output error converged after {}, simulated {}: {}.", iteration_count(estimate),
-                                     description(estimate.start), simulation_text(estimate))
-                           : Message("Output error stopped after {}, simulated {}: {}.", iteration_count(estimate),
-                                     description(estimate.start), simulation_text(estimate));
+    estimate.message = output_error_message(estimate);
     return estimate;
 }
 

@@ -31,6 +31,9 @@ namespace dynlab::inline numerics {
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
                         const Vector& theta_start, const FitOptions& options, double unheard = 0);
 
+/// How such a search ended, with the iterations of its whole trace.
+Message output_error_message(const Fit& fit);
+
 /// `unheard` for a model with this delay (s), or with those of a fit: the longest and a sample more; zero where the
 /// start is not estimated, and where it would be half of the shortest record.
 double unheard_beginning(const StartCondition& start, double delay, const IdData& data);
@@ -47,6 +50,10 @@ Vector counted_variations(TransferOutput model);
 void keep_parameters(Fit& fit, const TransferOutput& model, const StartCondition& condition, const Vector& seconds);
 /// The way back: where a search begins at this fit.
 Vector search_point(const Fit& fit, const TransferOutput& model, const Vector& seconds);
+
+/// Sets initial values and offsets, at the end of theta, to those that suit the other parameters best, by least
+/// squares; to zero where the simulation grows beyond all bounds.
+void solve_linear_part(const TransferOutput& model, Vector& theta);
 
 /// One output of a problem whose outputs share no denominator, as a problem of its own.
 struct OutputProblem {

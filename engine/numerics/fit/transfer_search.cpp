@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "numerics/error.h"
+#include "numerics/fit/channel_scan.h"
 #include "numerics/fit/delay_scan.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/discrete/sampled_starts.h"
@@ -220,7 +221,7 @@ Fit or_from_further_starts(const IdData& record, const TransferStructure& struct
         refined(sampled_starts(record, structure, best, options));
     if (record.sample_count() <= kNestedSamples &&
         (errors_are_coloured(record, best) || errors_follow_input(record, best)))
-        refined(exchanged_poles(record, structure, best));
+        refined(exchanged_poles(record, structure, best, options));
     return best;
 }
 
@@ -247,7 +248,8 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     } else if (!aids.delays.empty()) {
         starts = {start_at_delays(for_start, structure, aids.delays, options)};
     } else {
-        scan = scan_delays(for_start, structure, options);
+        scan = has_separate_channels(structure) && options.fixed.empty() ? scan_channels(for_start, structure, options)
+                                                                         : scan_delays(for_start, structure, options);
         options.largest_delay = scan.largest;
         starts = scan.starts;
         // A scan from neighbours may miss the solution for the least delay.
@@ -287,6 +289,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     }
     best = settled(record, structure, std::move(best), options);
     best = without_unheard_inputs(record, structure, std::move(best), options);
+    best.message = output_error_message(best);
     if (remove) add_operating_points(best, centred.removed);
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;
