@@ -1,30 +1,15 @@
 #include "course/grading/kept_stages.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "course/checks/check_descriptions.h"
 #include "data_io/values/cbor_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/hash.h"
 
 namespace dynlab::inline course {
 
 DYNLAB_DESCRIBE(KeptRuns, fingerprint, work, remark, language)
 
 namespace fs = std::filesystem;
-
-std::string hash_of_files(std::vector<fs::path> files, const fs::path& folder) {
-    std::sort(files.begin(), files.end());
-    Sha256 hash;
-    for (const fs::path& file : files) {
-        const std::string name = file.lexically_relative(folder).string();
-        hash.add(fmt::format("{}:{}:{}:", name.size(), name, fs::file_size(file))).add_file(file);
-    }
-    return hash.hex();
-}
 
 std::optional<Grade> earlier_grade(const fs::path& folder) {
     const fs::path file = folder / "results.json";

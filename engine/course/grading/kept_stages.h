@@ -10,9 +10,6 @@
 
 namespace dynlab::inline course {
 
-/// Of the files in `folder`: their names there and their contents, in the order of their names.
-std::string hash_of_files(std::vector<std::filesystem::path> files, const std::filesystem::path& folder);
-
 /// What a script did when it was run, kept apart from what the checks say of it: with other checks it need not run
 /// again.
 struct KeptRuns {

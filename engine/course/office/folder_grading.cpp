@@ -42,12 +42,12 @@ DYNLAB_DESCRIBE(GradingInputs, inputs, isolation, timeout)
 
 /// The name of this machine's time zone, as the course needs one.
 std::string machine_zone() {
-    const char* const set = std::getenv("TZ");
-    if (set && *set) return set;
+    const fs::path zones = "/usr/share/zoneinfo";
     std::error_code none;
-    const std::string zone = fs::read_symlink("/etc/localtime", none).string(), folder = "zoneinfo/";
-    const std::size_t at = zone.find(folder);
-    return at == std::string::npos ? "UTC" : zone.substr(at + folder.size());
+    const char* const set = std::getenv("TZ");
+    std::string zone = set != nullptr ? set : fs::canonical("/etc/localtime", none).lexically_relative(zones).string();
+    if (zone.starts_with(':')) zone.erase(0, 1);
+    return !zone.empty() && fs::is_regular_file(zones / zone, none) ? zone : "UTC";
 }
 
 /// One process at a time has the course of `out` open, on whatever machine: a database on a shared disk needs that. It
@@ -59,7 +59,8 @@ void with_course(const FolderRequest& request, const std::function<void(Course&)
         if (const FileLock lock(request.out / ".course.lock"); lock.held()) {
             if (!is_graded_folder(request.out))
                 make_whole_folder(folder, [&](const fs::path& growing) {
-                    Course::create(growing, fs::absolute(request.out).lexically_normal().filename().string(),
+                    fs::permissions(growing, fs::perms::owner_all);
+                    Course::create(growing, fs::weakly_canonical(request.out).filename().string(),
                                    request.timezone.empty() ? machine_zone() : request.timezone);
                 });
             Course course(folder);
@@ -67,20 +68,6 @@ void with_course(const FolderRequest& request, const std::function<void(Course&)
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-}
-
-GradingInput file_input(const std::string& file) {
-    if (file.empty()) return {};
-    return {file, sha256_of_file(file)};
-}
-
-/// Of all files in a folder and below it.
-GradingInput folder_input(const std::string& folder) {
-    if (folder.empty() || !fs::is_directory(folder)) return {};
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file()) files.push_back(entry.path());
-    return {folder, hash_of_files(std::move(files), folder)};
 }
 
 const std::map<std::string, Message>& input_names() {
@@ -184,11 +171,12 @@ void FolderGrading::prepare(Course& course) {
     const auto shown_path = [](const std::string& path) { return path.empty() ? path : fs::proximate(path).string(); };
     now.inputs["lesson checks"] = {assignment_.lesson + "/checks.lua",  // wherever it is installed
                                    sha256_of_file(options_.setup.lesson.folder / "checks.lua")};
-    now.inputs["checks"] = {shown_path(assignment_.checks), folder_input(assignment_.checks).hash};
+    now.inputs["checks"] = {shown_path(assignment_.checks),
+                            fs::is_directory(assignment_.checks) ? digest_of_folder(assignment_.checks).hex() : ""};
     now.inputs["secret"] = {shown_path(assignment_.secret),  // its file's own hash would help to guess it
                             options_.setup.secret.empty() ? "" : sha256_of("dynlab grade:" + options_.setup.secret)};
-    if (!request_.deadlines.empty()) now.inputs["deadlines"] = file_input(request_.deadlines);
     now.inputs.try_emplace("deadlines");
+    if (!request_.deadlines.empty()) now.inputs["deadlines"] = {request_.deadlines, sha256_of_file(request_.deadlines)};
     now.inputs["keep"] = {assignment_.keep, assignment_.keep};
     const std::string zone = request_.timezone.empty() ? course.clock().zone() : request_.timezone;
     now.inputs["timezone"] = {zone, zone};

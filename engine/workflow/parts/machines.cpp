@@ -244,12 +244,12 @@ std::vector<Message> do_on_hosts(const Machines& machines, const WorkInParts& wo
     fs::remove(log);  // `missing` says what is left to do, also where results were deleted since
     ChildOptions child;
     // Its own marks ({}, {#}, {.}) mean nothing in the words of the command, all of which are quoted.
-    const std::string part = replaced(command_line(), "{", "{''");
+    const std::string command = replaced(command_line(), "{", "{''");
     child.command = {"parallel",    "--will-cite",
                      "--plain",     "--joblog",
                      log.string(),  "--retries",
                      "3",           "--sshloginfile",
-                     list.string(), part + fmt::format(" --part {{}}/{}", machines.parts),
+                     list.string(), command + fmt::format(" --part {{}}/{}", machines.parts),
                      ":::"};
     for (const int part : work.missing) child.command.push_back(std::to_string(part));
     const ChildResult done = run_parallel(child);
