@@ -46,22 +46,17 @@ CourseWork::CourseWork(Course& course, const Assignment& assignment) {
 CourseWork::CourseWork(Course& course, const Assignment& assignment, const ReceivedClass& received) {
     std::map<std::int64_t, Stored> versions;
     for (Stored& version : read(course, assignment)) versions.emplace(version.id, std::move(version));
-    for (const ReceivedSubmission& one : received.submissions) {
-        WorkItem item;
-        if (const auto version = versions.find(one.version); version != versions.end()) {
-            item = item_of(version->second, assignment);
+    for (WorkItem item : received.items) {
+        const auto version = versions.find(item.version);
+        if (version != versions.end()) {
+            date(item, version->second, assignment);
             if (needs_confirmation(item.lateness) && !version->second.confirmed)
                 item.lateness = unconfirmed(item.lateness);
-        } else if (one.version != 0) {
-            work_.notes.push_back(Message("\"{}\" is withdrawn, and left out", one.submission.name));
+        } else if (item.version != 0) {
+            work_.notes.push_back(Message("\"{}\" is withdrawn, and left out", item.submission.name));
             continue;
         }
-        item.submission = one.submission;
-        item.content = one.content;
-        item.students = one.students;
-        item.group = one.group;
-        item.unmatched = one.unmatched;
-        item.addressee = one.submission.person;
+        item.addressee = item.submission.person;
         address(item);
         work_.items.push_back(std::move(item));
     }
@@ -69,14 +64,10 @@ CourseWork::CourseWork(Course& course, const Assignment& assignment, const Recei
     conclude_lateness(work_);
 }
 
-WorkItem CourseWork::item_of(const Stored& version, const Assignment& assignment) const {
-    WorkItem item;
-    item.content = version.hash;
-    item.version = version.id, item.group_id = version.group;
+void CourseWork::date(WorkItem& item, const Stored& version, const Assignment& assignment) {
     item.received = version.received;
     const Costs& costs = assignment.costs;
     item.lateness = lateness_of({version.due, assignment.grace, costs.late_day, costs.late_most}, version.first);
-    return item;
 }
 
 /// The file under a name that tells what it is.
@@ -89,7 +80,9 @@ void CourseWork::add(Course& course, const Stored& version, const Assignment& as
         files_.path() / std::to_string(work_.items.size()) / (pack ? group.name + ending : "analysis.lua");
     fs::create_directories(copy.parent_path());
     fs::copy_file(course.file(version.hash), copy);
-    WorkItem item = item_of(version, assignment);
+    WorkItem item;
+    item.content = version.hash, item.version = version.id, item.group_id = version.group;
+    date(item, version, assignment);
     item.submission.name = name_of(group, version.part, version.number);
     item.submission.path = copy;
     item.submission.archive = pack;

@@ -47,7 +47,7 @@ class CourseWork {
         bool confirmed = false;                    ///< the time of receipt was corrected or confirmed
     };
     std::vector<Stored> read(Course& course, const Assignment& assignment);
-    WorkItem item_of(const Stored& version, const Assignment& assignment) const;
+    static void date(WorkItem& item, const Stored& version, const Assignment& assignment);
     void add(Course& course, const Stored& version, const Assignment& assignment);
     void address(WorkItem& item) const;
 

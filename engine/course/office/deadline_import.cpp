@@ -69,18 +69,20 @@ class RowsOfGroups {
     RowsOfGroups(Course& course, const Assignment& a, const std::string& reason, Instant now)
         : course_(course), assignment_(a), reason_(reason), now_(now) {}
 
-    void add(const Group& group, const DeadlineRow& row) {
+    void add(std::int64_t group, const DeadlineRow& row) {
         if (row.grace != assignment_.grace || row.percent_per_day != assignment_.costs.late_day ||
             row.most_percent != assignment_.costs.late_most)
             throw InvalidArgument("a course has one grace and one penalty for all; use extra, or another deadline");
-        const auto [known, fresh] = rows_.try_emplace(group.id, group.name, row);
-        if (!fresh && known->second.second.deadline < row.deadline) known->second.second = row;
+        const auto [known, fresh] = rows_.try_emplace(group, row);
+        if (!fresh && known->second.deadline < row.deadline) known->second = row;
     }
     int extend_all() {
         int extended = 0;
-        for (const auto& [id, row] : rows_) {
-            if (due_for(course_, assignment_, id, "first") == row.second.deadline) continue;
-            extend(course_, assignment_, row.first, "first", row.second.deadline, reason_, now_);
+        for (const Group& group : groups_of(course_)) {
+            const auto row = rows_.find(group.id);
+            if (row == rows_.end() || due_for(course_, assignment_, group.id, "first") == row->second.deadline)
+                continue;
+            extend(course_, assignment_, group.name, "first", row->second.deadline, reason_, now_);
             ++extended;
         }
         return extended;
@@ -93,7 +95,7 @@ class RowsOfGroups {
                  assignment_.id);
              rows.next();) {
             const auto row = rows_.find(rows.integer(1));
-            const std::optional<Instant> received = row == rows_.end() ? others : row->second.second.received;
+            const std::optional<Instant> received = row == rows_.end() ? others : row->second.received;
             if (received && *received != rows.integer(2)) wanted[rows.integer(0)] = *received;
         }
         if (wanted.empty()) return 0;
@@ -110,7 +112,7 @@ class RowsOfGroups {
     const Assignment& assignment_;
     const std::string& reason_;
     Instant now_;
-    std::map<std::int64_t, std::pair<std::string, DeadlineRow>> rows_;  ///< with the group's name, by its id
+    std::map<std::int64_t, DeadlineRow> rows_;  ///< by group
 };
 
 }  // namespace
@@ -139,7 +141,7 @@ std::map<std::string, DeadlineRow> read_deadlines(const fs::path& file) {
 }
 
 DeadlineImport import_deadlines(Course& course, const Assignment& assignment, const fs::path& file, Instant now,
-                                const std::map<std::string, std::string>& submissions) {
+                                const std::map<std::string, std::int64_t>& submissions) {
     const std::map<std::string, DeadlineRow> table = read_deadlines(file);
     const std::string reason = "imported from " + file.filename().string();
     const auto all = table.find(kForAll);
@@ -155,7 +157,7 @@ DeadlineImport import_deadlines(Course& course, const Assignment& assignment, co
         if (who == kForAll) continue;
         try {
             const auto submission = submissions.find(who);
-            rows.add(group_named(course, submission == submissions.end() ? who : submission->second), row);
+            rows.add(submission == submissions.end() ? group_named(course, who).id : submission->second, row);
         } catch (const InvalidArgument& error) {
             done.complaints.push_back(Message("the row of \"{}\": {}", who, message_of(error)));
         }

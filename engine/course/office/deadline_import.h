@@ -29,9 +29,9 @@ struct DeadlineImport {
 
 /// Takes such a table into the course: the row of * becomes deadline, grace and penalty of the assignment, other rows
 /// extensions of groups; the times in `received` are corrections. A row names a group, a student in any spelling, or
-/// one of `submissions` (by name, the name of its group). Of several rows of a group the one with the latest deadline
+/// one of `submissions` (the ids of groups by names). Of several rows of a group the one with the latest deadline
 /// counts. A row that says what the course has already changes nothing. Throws as read_deadlines.
 DeadlineImport import_deadlines(Course& course, const Assignment& assignment, const std::filesystem::path& file,
-                                Instant now, const std::map<std::string, std::string>& submissions = {});
+                                Instant now, const std::map<std::string, std::int64_t>& submissions = {});
 
 }  // namespace dynlab::inline course

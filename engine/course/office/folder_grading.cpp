@@ -200,10 +200,10 @@ void FolderGrading::receive(Course& course) {
     ReceivedClass received = receive_class(course, assignment_, *submissions_, times, now);
     std::ranges::move(complaints_, std::back_inserter(received.complaints));
     if (!request_.deadlines.empty()) {
-        std::map<std::string, std::string> groups;
-        for (const ReceivedSubmission& one : received.submissions)
-            for (const std::string& name : {one.submission.name, one.submission.lms_id, one.submission.person})
-                if (!name.empty() && !one.group_name.empty()) groups[name] = one.group_name;
+        std::map<std::string, std::int64_t> groups;
+        for (const WorkItem& item : received.items)
+            for (const std::string& name : {item.submission.name, item.submission.lms_id, item.submission.person})
+                if (!name.empty() && item.group_id != 0) groups[name] = item.group_id;
         const DeadlineImport done = import_deadlines(course, assignment_, request_.deadlines, now, groups);
         std::ranges::copy(done.complaints, std::back_inserter(received.complaints));
         assignment_ = assignment_named(course, assignment_.name);

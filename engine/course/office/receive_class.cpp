@@ -63,10 +63,9 @@ class ClassReceiver {
     ClassReceiver(Course& course, const Assignment& assignment, const ClassSubmissions& submissions,
                   const ArrivalTimes& times, Instant now)
         : course_(course), assignment_(assignment), times_(times), now_(now), students_(lone_students_of(course)) {
-        for (const Submission& submission : submissions.all())
-            received_.submissions.emplace_back().submission = submission;
+        for (const Submission& submission : submissions.all()) received_.items.emplace_back().submission = submission;
         left_out_ = submissions.left_out();
-        files_.resize(received_.submissions.size());
+        files_.resize(received_.items.size());
     }
 
     ReceivedClass run() {
@@ -93,7 +92,7 @@ class ClassReceiver {
         const std::string list = course_.remembered(owners_setting(assignment_));
         if (!list.empty()) owners.read_list(course_.file(list));
         std::vector<Submission> all;
-        for (ReceivedSubmission& one : received_.submissions) {
+        for (WorkItem& one : received_.items) {
             Owners::Found found = owners.find(one.submission);
             one.students = std::move(found.students);
             one.group = std::move(found.group);
@@ -106,7 +105,7 @@ class ClassReceiver {
 
     /// What goes wrong with one submission stops no other.
     void pack(std::size_t i) {
-        ReceivedSubmission& one = received_.submissions[i];
+        WorkItem& one = received_.items[i];
         File& file = files_[i];
         const SubmissionLimits limits;
         try {
@@ -131,7 +130,7 @@ class ClassReceiver {
     }
 
     /// By what else than its own name it may be called.
-    std::vector<std::string> names_of(const ReceivedSubmission& one) const {
+    std::vector<std::string> names_of(const WorkItem& one) const {
         std::vector<std::string> names;
         for (const std::size_t place : one.students)
             for (const std::string& name : known_names_of(students_[place])) names.push_back(name);
@@ -143,7 +142,7 @@ class ClassReceiver {
         std::vector<fs::path> paths;
         bool refused = !left_out_.empty();
         for (std::size_t i = 0; i < files_.size(); ++i) {
-            ReceivedSubmission& one = received_.submissions[i];
+            WorkItem& one = received_.items[i];
             refused = refused || !files_[i].trouble.empty();
             if (!files_[i].trouble.empty()) continue;
             std::set<Instant> received;  // then, and as it was corrected
@@ -158,14 +157,13 @@ class ClassReceiver {
         if (fresh.empty() && moved.empty() && corrected.empty() && !refused) return;
         if (!fresh.empty()) course_.keep_files(paths, [](std::size_t, const KeptFile&) {});
         Transaction transaction(course_.database());
-        for (const std::size_t i : fresh) add(received_.submissions[i], files_[i]);
+        for (const std::size_t i : fresh) add(received_.items[i], files_[i]);
         for (const std::size_t i : corrected)
-            record_arrival(course_, assignment_, received_.submissions[i].version, files_[i].at,
+            record_arrival(course_, assignment_, received_.items[i].version, files_[i].at,
                            "by the platform's table of times", now_);
-        for (const std::size_t i : moved) take_from_others(received_.submissions[i]);
+        for (const std::size_t i : moved) take_from_others(received_.items[i]);
         for (std::size_t i = 0; i < files_.size(); ++i)
-            if (!files_[i].trouble.empty())
-                refuse(received_.submissions[i].submission.name, files_[i].trouble, files_[i].at);
+            if (!files_[i].trouble.empty()) refuse(received_.items[i].submission.name, files_[i].trouble, files_[i].at);
         for (const Message& clause : left_out_) refuse("-", clause, now_);
         if (!fresh.empty()) course_.note(fmt::format("{}: {} received, first", assignment_.name, fresh.size()), now_);
         transaction.commit();
@@ -181,29 +179,28 @@ class ClassReceiver {
     }
 
     /// Of the student or group that it belongs to; null where that is nobody.
-    const Group* group_of_owner(const ReceivedSubmission& one) const {
+    const Group* group_of_owner(const WorkItem& one) const {
         if (one.students.empty()) return nullptr;
         const auto found = groups_.find(one.group.empty() ? students_[one.students.front()].id : one.group);
         return found == groups_.end() ? nullptr : &found->second;
     }
 
-    bool is_known(ReceivedSubmission& one, std::set<Instant>& received) {
+    bool is_known(WorkItem& one, std::set<Instant>& received) {
         const Group* const owner = group_of_owner(one);  // of nobody's work the group is one without members
         Rows rows = course_.database().query(
-            "SELECT v.id, group_id, g.name, v.received_at, (SELECT w.received_at FROM arrived w WHERE w.id = v.id) "
-            "FROM versions v JOIN groups g ON g.id = group_id WHERE assignment = ?1 AND v.name = ?2 AND hash = ?3 AND "
-            "stage = ?4 AND "
-            "part = ?5 AND CASE ?6 WHEN 0 THEN NOT EXISTS (SELECT 1 FROM memberships m WHERE m.group_id = v.group_id) "
-            "ELSE group_id = ?6 END ORDER BY v.id DESC LIMIT 1",
+            "SELECT id, group_id, received_at, (SELECT w.received_at FROM arrived w WHERE w.id = v.id) FROM versions v "
+            "WHERE assignment = ?1 AND name = ?2 AND hash = ?3 AND stage = ?4 AND part = ?5 AND CASE ?6 WHEN 0 THEN "
+            "NOT EXISTS (SELECT 1 FROM memberships m WHERE m.group_id = v.group_id) "
+            "ELSE group_id = ?6 END ORDER BY id DESC LIMIT 1",
             assignment_.id, file_name(one.submission), one.content, kStage, kPart,
             owner == nullptr ? std::int64_t{0} : owner->id);
         if (!rows.next()) return false;
-        one.version = rows.integer(0), one.group_id = rows.integer(1), one.group_name = rows.text(2);
-        received = {rows.integer(3), rows.integer(4)};
+        one.version = rows.integer(0), one.group_id = rows.integer(1);
+        received = {rows.integer(2), rows.integer(3)};
         return true;
     }
 
-    void add(ReceivedSubmission& one, const File& file) {
+    void add(WorkItem& one, const File& file) {
         const std::string name = file_name(one.submission);
         const Group group = group_for(one, name);
         Rows last = course_.database().query(
@@ -214,19 +211,19 @@ class ClassReceiver {
         NewVersion version{group.id,    group.name, kStage,     kPart,   {}, last.integer(0) + 1,
                            one.content, name,       file.bytes, file.at, {}};
         one.version = add_version(course_, assignment_, version, now_).id;
-        one.group_id = group.id, one.group_name = group.name;
+        one.group_id = group.id;
         keep_participant(course_, assignment_.id, one.submission, group);
         take_from_others(one);
     }
 
     /// The roster or the list of owners gives it to somebody else than before.
-    bool stands_with_others(const ReceivedSubmission& one) {
+    bool stands_with_others(const WorkItem& one) {
         return course_.database()
             .query("SELECT 1 FROM standing WHERE assignment = ? AND name = ? AND hash = ? AND group_id <> ?",
                    assignment_.id, file_name(one.submission), one.content, one.group_id)
             .next();
     }
-    void take_from_others(const ReceivedSubmission& one) {
+    void take_from_others(const WorkItem& one) {
         course_.database().run(
             "INSERT INTO withdrawals (version, withdrawn, reason, made_at) SELECT id, id <> ?1, 'whose it is was "
             "corrected', ?2 FROM arrived WHERE id = ?1 AND withdrawn OR assignment = ?3 AND name = ?4 AND hash = ?5 "
@@ -235,7 +232,7 @@ class ClassReceiver {
     }
 
     /// Of nobody's work that of its earlier versions, or a new one.
-    Group group_for(const ReceivedSubmission& one, const std::string& name) {
+    Group group_for(const WorkItem& one, const std::string& name) {
         Database& db = course_.database();
         if (const Group* const owner = group_of_owner(one)) return *owner;
         Rows before = db.query(

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "course/grading/work_item.h"
 #include "course/intake/arrival_times.h"
 #include "course/intake/class_submissions.h"
 #include "course/store/assignments.h"
@@ -9,18 +10,9 @@
 
 namespace dynlab::inline course {
 
-/// A submission of a class, as the course has it now.
-struct ReceivedSubmission {
-    Submission submission;
-    std::int64_t version = 0, group_id = 0;  ///< 0: it could not be kept
-    std::string group;                       ///< empty for a student without one, and where it is nobody's
-    std::string group_name;                  ///< in the course, where each has one
-    std::string content;                     ///< SHA-256 of all of it; of what could not be kept, why
-    std::vector<std::size_t> students;       ///< places in lone_students_of(course)
-    Message unmatched;                       ///< why it belongs to no student
-};
+/// The submissions of a class as the course has them now.
 struct ReceivedClass {
-    std::vector<ReceivedSubmission> submissions;
+    std::vector<WorkItem> items;      ///< not addressed and dated yet; students: places in lone_students_of(course)
     std::vector<Message> complaints;  ///< what is no submission, and rows of the list of owners that match none
 };
 
