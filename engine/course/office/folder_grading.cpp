@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kMemory[] = "grade", kCourse[] = "course", kDatabase[] = "course.db";
+constexpr char kMemory[] = "grade", kCourse[] = "course";
 
 /// An input that marks depend on: as it was named, and a hash of its content.
 struct GradingInput {
@@ -143,7 +143,7 @@ Assignment wanted_assignment(Course& course, const FolderRequest& request) {
 }  // namespace
 
 bool is_graded_folder(const fs::path& out) {
-    return fs::exists(out / kCourse / kDatabase);
+    return fs::exists(out / kCourse / "course.db");
 }
 
 FolderGrading::FolderGrading(FolderRequest request) : request_(std::move(request)) {
