@@ -179,5 +179,23 @@ TEST_F(course_grading, a_mark_by_a_student_s_name_goes_to_the_work_that_the_stud
     EXPECT_THAT(done({"history"}), Not(HasSubstr("for whom")));
 }
 
+// oracle: the history and the store of before
+TEST_F(course_grading, grading_again_what_has_not_changed_leaves_the_history_as_it_was) {
+    submit("group-02", kSolution, "2026-02-27 12:00");
+    grade();
+    const std::string history = done({"history"});
+    EXPECT_THAT(history, HasSubstr("lab4: 1 graded"));
+    grade();
+    EXPECT_EQ(done({"history"}), history);
+}
+
+// oracle: the history
+TEST_F(course_grading, unreadable_file_can_be_withdrawn) {
+    work().write("group-02.rar", "Rar!\x1a\x07\x01");
+    course({"submit", "group-02.rar", "--at", "2026-02-27 12:00", "--isolation", bench_.level()});
+    done({"withdraw", "lab4", "group-02", "--part", "unreadable", "--reason", "sent by mistake"});
+    EXPECT_THAT(done({"history"}), HasSubstr("(unreadable v1) withdrawn; reason: sent by mistake"));
+}
+
 }  // namespace test_course_grading
 }  // namespace dynlab::test

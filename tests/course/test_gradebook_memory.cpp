@@ -3,9 +3,9 @@
 
 #include <ctime>
 
-#include "course/grading/class_folder.h"
-#include "course/grading/deadlines.h"
 #include "course/grading_bench.h"
+#include "course/office/deadline_import.h"
+#include "course/office/folder_grading.h"
 #include "platform/error.h"
 #include "platform/locks/file_lock.h"
 #include "platform/temporary_folder.h"
@@ -46,7 +46,6 @@ TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
     EXPECT_THAT(whole, HasSubstr(",a,graded,5,5,"));
     expect_refused(bench.grade({"--secret", "other.txt", "--checks", "none", "--only", "a"}),
                    "your own checks (own then, none now), the secret");
-    expect_refused(bench.grade({"--deadlines", "none"}), "the deadlines (deadlines.csv then, none now)");
     expect_refused(
         bench.grade({"--checks", "own", "--secret", "secret.txt", "--deadlines", "deadlines.csv", "--keep", "newest"}),
         "which hand-in counts (best then, newest now)");
@@ -185,12 +184,19 @@ TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
          {"Anna Müller_900001_assignsubmission_file_", "group-2", "Ben Lee_900003_assignsubmission_file_"})
         bench.hand_in(name, kSolution);
     work.write("roster.csv", "id;name;group\n1;Anna Müller;group-1\n2;Zoë Ade;group-2\n3;Ben Lee;group-3\n");
-    ClassSources sources;
-    sources.submissions = work.path("in");
-    sources.roster = work.path("roster.csv");
+    const TemporaryFolder store;
+    Course::create(store.path(), "k", "UTC");
+    Course course(store.path());
+    import_roster(course, work.path("roster.csv"), true);
+    Assignment lab;
+    lab.name = lab.lesson = "99_small", lab.kind = "lab";
+    add_assignment(course, lab);
+    lab = assignment_named(course, "");
+    const ClassSubmissions submissions(work.path("in"), Isolation::kProcess, DYNLAB_PROGRAM);
+    const ReceivedClass received = receive_class(course, lab, submissions, {}, 0);
     const auto chosen = [&](const std::vector<std::string>& words) {
-        sources.only = words;
-        const ClassFolder folder(sources, work.path("out"), {});
+        CourseWork folder(course, lab, received);
+        folder.choose(course, words);
         std::vector<std::string> names;
         for (const std::size_t place : folder.work().chosen)
             names.push_back(folder.work().items[place].submission.name.substr(0, 7));
@@ -233,7 +239,11 @@ TEST(gradebook_memory, nobodys_work_is_told_and_a_list_gives_it_to_somebody) {
     work.write("owners.csv", "submission;id\nmy work;1\n");
     ASSERT_EQ(bench.grade({"--roster", "roster.csv", "--owners", "owners.csv"}).exit_code, 0);
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1,José García,my work,graded,2,2,"));
-    expect_refused(bench.grade({"--owners", "none"}), "the list of owners (owners.csv then, none now)");
+    // The course knows roster and owners from now on.
+    std::filesystem::remove(work.path("roster.csv")), std::filesystem::remove(work.path("owners.csv"));
+    bench.hand_in("my work", "answer('x', 42.1)\n");
+    ASSERT_EQ(work.dynlab({"grade", "in", "--out", "out", "--no-pdf"}).exit_code, 0);
+    EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1,José García,my work,graded,2,2,"));
 }
 
 // oracle: calendar and clock by hand: 20 min late of which 15 min are free costs a day's 10 % of 2 points
@@ -247,7 +257,7 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
                "Kepler,group-4\n5,Last One,group-5\n");
     work.write("deadlines.csv",
                "submission;deadline;extra;grace;percent_per_day\n*;2026-03-01 18:00;;15 min;10\n3;;2 d;;\nGroup "
-               "4;2026-03-01 18:19:30;;0;12,5\ngroup-5;;1 d;;\n");
+               "4;2026-03-01 18:04:30;;;\ngroup-5;;1 d;;\n");
     const ChildResult graded =
         bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv", "--timezone", "Europe/Paris"});
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
@@ -258,7 +268,7 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
     EXPECT_THAT(book, HasSubstr("1,Anna Müller,group-1,graded,1.8,2,0.2,0.33,2,\"" + reason + "\"\r\n"));
     EXPECT_THAT(book, HasSubstr("2,Zoë Ade,group-2,graded,2,2,0,0,2,\r\n"));
     EXPECT_THAT(book, HasSubstr("3,Ben Lee,Ben Lee,graded,2,2,0,0,2,\r\n"));
-    EXPECT_THAT(book, HasSubstr("4,Uma Kepler,Uma Kepler,graded,1.75,2,0.25,0.01,2,"));
+    EXPECT_THAT(book, HasSubstr("4,Uma Kepler,Uma Kepler,graded,1.8,2,0.2,0.26,2,"));
     EXPECT_THAT(work.read("out/results/group-1/feedback.md"),
                 HasSubstr("which costs 0.2 points: received 2026-03-01 18:20 CET, 20 min after"));
     EXPECT_THAT(bench.result("group-1").at("output").get<std::string>(), HasSubstr("costs 0.20 points: " + reason));
@@ -274,7 +284,7 @@ TEST(gradebook_memory, deadlines_that_are_no_time_are_refused_with_their_line) {
         const EnvironmentVariable zone("TZ", "Europe/Paris");
         ::tzset();
         try {
-            const Deadlines read(file);
+            read_deadlines(file);
         } catch (const EnvironmentError& error) {
             return error.what();
         }
@@ -288,28 +298,24 @@ TEST(gradebook_memory, deadlines_that_are_no_time_are_refused_with_their_line) {
     ::tzset();
 }
 
-// oracle: the row of *, and the clock: an hour late of which each day begun costs 10 %
+// oracle: the row of *, and the calendar
 TEST(gradebook_memory, a_row_of_deadlines_may_give_only_what_differs) {
     const TemporaryFolder work;
     const EnvironmentVariable zone("TZ", "UTC");
     ::tzset();
     const std::filesystem::path file = work.path() / "deadlines.csv";
     write_file_atomically(file,
-                          "submission,deadline,extra,grace,received\n*,2026-03-09 18:00,,,\n"
-                          "Max Mustermann,,,,2026-03-09 19:00\nAnn,,2 h,,2026-03-09 19:00\nBo,,,2 h,2026-03-09 19:00\n"
-                          "Cy,,,,\n");
-    const Deadlines deadlines(file);
-    const auto late = [&](const char* name) {
-        Submission submission;
-        submission.name = name;
-        submission.path = file;
-        return deadlines.of(submission, {});
-    };
-    EXPECT_EQ(late("Max Mustermann").hours, 1);
-    EXPECT_EQ(late("Max Mustermann").percent, 10);
-    EXPECT_EQ(late("Ann").percent, 0);
-    EXPECT_EQ(late("Bo").percent, 0);
-    EXPECT_EQ(late("Cy").percent, late("somebody else").percent);
+                          "submission,deadline,extra,grace,received\n*,2026-03-09 18:00,,15 min,\n"
+                          "Max Mustermann,,,,2026-03-09 19:00\nAnn,,2 h,,\n");
+    const auto rows = read_deadlines(file);
+    const Instant due = 1773079200;  // date -u -d '2026-03-09 18:00' +%s
+    EXPECT_EQ(rows.at("*").deadline, due);
+    EXPECT_EQ(rows.at("Max Mustermann").deadline, due);
+    EXPECT_EQ(rows.at("Max Mustermann").received, due + 3600);
+    EXPECT_EQ(rows.at("Max Mustermann").grace, 900);
+    EXPECT_EQ(rows.at("Ann").deadline, due + 7200);
+    EXPECT_EQ(rows.at("Ann").received, std::nullopt);
+    EXPECT_EQ(rows.at("Ann").percent_per_day, 10);
     ::tzset();
 }
 
@@ -364,7 +370,7 @@ TEST(gradebook_memory, results_of_a_killed_run_are_no_submissions) {
         write_file_atomically(folder.path() / name, "x");
     };
     for (const char* file :
-         {"group-1/analysis.lua", "locked/.lock", "begun/.lock", "begun/manual.csv", "begun/grading.json",
+         {"group-1/analysis.lua", "locked/.lock", "begun/.lock", "begun/.course.lock", "begun/course/course.db",
           "begun/results/group-1/results.json", "begun/runs/group-1/run.cbor", "work/.lock", "work/analysis.lua"})
         write(file);
     std::vector<Message> left_out;

@@ -69,6 +69,17 @@ TEST_F(graded_in_parts, a_machine_without_isolation_refuses_its_part) {
     EXPECT_EQ(work().shell("ls shared/results 2>/dev/null").output, "");
 }
 
+// oracle: the names of the folders; GNU parallel has meanings of its own for such words
+TEST_F(graded_in_parts, braces_in_names_reach_the_parts_as_they_are) {
+    if (work().shell("parallel --version").exit_code != 0) GTEST_SKIP() << "GNU parallel is missing";
+    work().shell("mv in '{#} {}' && mkdir in && mv '{#} {}'/s* in && mv in '{1}{.}'");
+    const ChildResult graded = work().shell(
+        fmt::format("\"$DYNLAB\" grade '{{1}}{{.}}' --lesson 99 --out 'o{{}}' --isolation {} --no-pdf --on processes:1",
+                    GradingBench::level()));
+    EXPECT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_THAT(graded.output, HasSubstr("5 submissions: 0 graded now, 5 unchanged"));
+}
+
 TEST_F(graded_in_parts, options_that_do_not_fit_together_are_refused) {
     EXPECT_EQ(grade("o", "--part 3/2").exit_code, 2);
     EXPECT_EQ(grade("o", "--part 1/2 --join").exit_code, 2);

@@ -127,6 +127,40 @@ TEST(grading, goes_on_where_it_was_and_keeps_manual_marks) {
     EXPECT_THAT(unknown.error_output, HasSubstr("there is no submission \"c\""));
 }
 
+// oracle: the mark that the instructor gave
+TEST(grading, marks_of_submissions_that_are_not_chosen_reach_their_feedback) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    bench.hand_in("a", kSolution);
+    bench.hand_in("b", "answer('x', 1)\n");
+    ASSERT_EQ(bench.grade().exit_code, 0);
+    bench.bench().write("out/marks.csv", "who,check,points,reason\nb,x,1.5,good idea\n");
+    EXPECT_THAT(bench.grade({"--only", "a"}).output, HasSubstr("0 graded now, 1 unchanged"));
+    EXPECT_EQ(points(bench.result("b")), (std::vector<double>{1.5, 0}));
+    EXPECT_THAT(bench.bench().read("out/results/b/feedback.md"), HasSubstr("good idea"));
+}
+
+// oracle: the course's own commands on what grade made
+TEST(grading, results_are_of_a_course_with_every_version) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    bench.hand_in("group-1", kSolution);
+    bench.bench().write("in/group-2/report.pdf", "%PDF");
+    bench.bench().write("roster.csv", "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n");
+    EXPECT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 1) << "one cannot be read";
+    const auto course = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"course", "--course", "out/course"});
+        const ChildResult result = bench.bench().dynlab(words);
+        EXPECT_EQ(result.exit_code, 0) << result.error_output;
+        return result.output;
+    };
+    EXPECT_THAT(course({"marks"}), ContainsRegex("group-1 +v1 +5 of 5"));
+    EXPECT_THAT(course({"who", "2"}), HasSubstr("v1"));
+    bench.hand_in("group-1", "answer('x', 1)\n");
+    bench.grade();
+    EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr("1,Anna Müller,group-1,graded,0,"));
+    EXPECT_THAT(course({"who", "1"}), HasSubstr("v2"));
+    EXPECT_THAT(course({"verify"}), HasSubstr("all there and unaltered"));
+}
+
 // oracle: the runs that do not end
 TEST(grading, tells_what_stopped_the_worked_solution_before_what_is_missing) {
     const std::string endless = "while true do end\nanswer('x', 42)\n";
@@ -307,13 +341,14 @@ TEST(grading, a_check_that_comes_to_no_end_costs_nobody_else) {
 }
 
 /// All that a run of grade wrote, but what differs by nature: logs, the kept run of the worked solution, which says how
-/// long it took, and the options that OUT was made with, which name folders.
+/// long it took, and the course, which has a secret key.
 std::map<std::string, std::string> files_of(GradingBench& bench) {
     std::map<std::string, std::string> files;
     const std::filesystem::path out = bench.bench().path("out");
     for (const auto& entry : std::filesystem::recursive_directory_iterator(out))
         if (entry.is_regular_file() && entry.path().filename() != "log.txt" &&
-            entry.path().filename() != ".worked_solution.cbor" && entry.path().filename() != "grading.json")
+            entry.path().filename() != ".worked_solution.cbor" &&
+            *entry.path().lexically_relative(out).begin() != "course")
             files[entry.path().lexically_relative(out)] = read_file(entry.path());
     return files;
 }

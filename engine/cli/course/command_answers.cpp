@@ -7,8 +7,8 @@
 #include "cli/course/course_commands.h"
 #include "course/answers/answers_page.h"
 #include "course/store/assignments.h"
-#include "course/store/graded_work.h"
 #include "course/store/groups.h"
+#include "course/store/newest_versions.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
@@ -16,6 +16,8 @@
 
 namespace dynlab::inline cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct AnswersArguments {
     std::string submissions, assignment, stage = "first", lesson, question, check, roster, out;
@@ -64,6 +66,23 @@ int answers_of_folder(const AnswersArguments& args) {
     return print_answers(std::move(request));
 }
 
+/// Puts what each group submitted last, script or pack, into a folder, as collect_answers reads it.
+bool lay_out_work(Course& course, const Assignment& assignment, const std::string& stage, const fs::path& folder) {
+    for (const Group& group : groups_of(course)) {
+        auto newest = newest_file(course, assignment, group.id, stage, "script");
+        const auto pack = newest_file(course, assignment, group.id, stage, "pack");
+        if (pack && (!newest || pack->received_at > newest->received_at)) newest = pack;
+        if (!newest) continue;
+        const auto stem = archive_stem(newest->name);
+        const fs::path file = newest->part == "script"
+                                  ? folder / group.name / "analysis.lua"
+                                  : folder / (group.name + (stem ? newest->name.substr(stem->size()) : ".zip"));
+        fs::create_directories(file.parent_path());
+        fs::copy_file(course.file(newest->hash), file);
+    }
+    return fs::exists(folder);
+}
+
 int answers_of_course(const CourseArguments& where, const AnswersArguments& args) {
     const TemporaryFolder work;
     AnswersRequest request;
@@ -75,7 +94,7 @@ int answers_of_course(const CourseArguments& where, const AnswersArguments& args
         request.lesson = find_lesson(lesson);
         request.submissions = work.path() / "submissions";
         request.roster = students_of(course);
-        if (lay_out_work(course, assignment, args.stage, request.submissions).groups.empty())
+        if (!lay_out_work(course, assignment, args.stage, request.submissions))
             throw EnvironmentError("{}: no group has submitted a script or a pack", assignment.name);
     }
     request.out = args.out;

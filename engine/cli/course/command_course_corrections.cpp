@@ -130,7 +130,7 @@ void add_file_options(const CorrectionCommand& command) {
         ->type_name("report-NN");
     command.app
         ->add_option("--part", command.words->wanted.part, "Only that; the document and what came with it unless given")
-        ->check(CLI::IsMember({"report", "slides", "script", "review", "pack"}));
+        ->check(CLI::IsMember({"report", "slides", "script", "review", "pack", "unreadable"}));
     command.app->add_option("--version", command.words->wanted.number, "The newest unless given")->type_name("N");
 }
 

@@ -10,12 +10,10 @@
 #include "course/office/course_export.h"
 #include "course/office/course_totals.h"
 #include "course/review/oral_marks.h"
-#include "course/store/graded_work.h"
 #include "course/store/groups.h"
 #include "course/store/marks.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
-#include "platform/temporary_folder.h"
 #include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"
 
@@ -23,7 +21,7 @@ namespace dynlab::inline cli {
 namespace {
 
 struct MarkArguments {
-    std::string assignment, file, at, out, graded, stage = "first";
+    std::string assignment, file, at, out, stage = "first";
     bool json = false, make_sheet = false;
     OralSheetWishes sheet;
 };
@@ -51,22 +49,12 @@ int scores(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     const Instant now = time_of(course, words.at);
-    const TemporaryFolder converted;
-    std::filesystem::path file = words.file;
-    std::vector<std::string> left_out;
-    if (!words.graded.empty()) {
-        GradedScores graded = scores_of_gradebook(a, words.stage, file, words.graded);
-        file = converted.path() / file.filename();
-        write_file_atomically(file, graded.csv);
-        left_out = std::move(graded.left_out);
-    }
+    const std::filesystem::path file = words.file;
     const int fresh = words.stage == "final" ? import_final_scores(course, a, file, now)
                       : a.is_report()        ? import_review_scores(course, a, file, now)
                                              : import_oral_scores(course, a, file, now);
     std::cout << fmt::format("{}: {} new scores.\n", a.name, fresh);
-    for (const std::string& name : left_out)
-        std::cerr << terminal_text(fmt::format("dynlab: {} is not graded whole; it has no score\n", name));
-    return left_out.empty() ? kDone : kFailed;
+    return kDone;
 }
 
 std::string percent(const std::optional<double>& mark, bool overridden) {
@@ -222,10 +210,6 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
                      "final: your own scores of final versions; columns group, criteria")
         ->check(CLI::IsMember({"first", "final"}))
         ->capture_default_str();
-    scored.app
-        ->add_option("--graded", scored.words->graded,
-                     "The CSV is the gradebook.csv of dynlab grade: the share of its points is that of this criterion")
-        ->type_name("CRITERION");
     scored.app->footer(
         "A line a review: reviewer,report,data,... with the reviewing group and the report's\n"
         "pseudonym, as review pairs has them; the reviewer \"instructor\" is you. The latest score counts; - takes a "
@@ -238,8 +222,7 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         "Examples:\n"
         "  dynlab course scores final-talk --sheet --students -o sheet.csv\n"
         "  dynlab course scores crane scores.csv\n"
-        "  dynlab course scores crane finals.csv --stage final\n"
-        "  dynlab course scores final-talk marks/gradebook.csv --graded script");
+        "  dynlab course scores crane finals.csv --stage final");
 
     const auto shown =
         add_one(course, "marks", "Medians, marks of reports and reviewers, odd reviews", where, action, marks);

@@ -7,7 +7,6 @@
 #include "cli/course/course_commands.h"
 #include "course/intake/arrival_times.h"
 #include "course/office/receive.h"
-#include "course/store/graded_work.h"
 #include "course/store/receipts.h"
 #include "course/store/store_check.h"
 #include "platform/atomic_file.h"
@@ -203,41 +202,6 @@ void add_course_verify(CLI::App& course, CourseArguments& where, Action& action)
     });
 }
 
-int lay_out(const CourseArguments& where, const std::string& name, const std::string& stage, const std::string& out) {
-    Course course(where.folder);
-    const LaidOutWork work = lay_out_work(course, assignment_named(course, name), stage, out);
-    const Message groups = plural(static_cast<std::int64_t>(work.groups.size()), "{} group", "{} groups");
-    std::cout << terminal_text(message_text(Message("{}: the work of {}", out, groups))) << '\n';
-    if (!work.without.empty())
-        std::cerr << terminal_text(
-            fmt::format("dynlab: neither script nor pack of {}\n", fmt::join(work.without, ", ")));
-    return work.without.empty() ? kDone : kFailed;
-}
-
-void add_work(CLI::App& parent, CourseArguments& where, Action& action) {
-    struct Words {
-        std::string assignment, out, stage = "first";
-    };
-    auto words = std::make_shared<Words>();
-    CLI::App* command = parent.add_subcommand("work", "Lay out scripts and packs for dynlab grade")->group("");
-    command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
-    command->add_option("-o,--out", words->out, "A new folder")->required()->type_name("FOLDER");
-    command->add_option("--stage", words->stage, "Of which version")
-        ->check(CLI::IsMember({"first", "final"}))
-        ->capture_default_str();
-    command->footer(
-        "Of each group what came last and was not withdrawn, as old as it was handed in. Its marks come back as "
-        "scores\n"
-        "of a criterion.\n"
-        "Example:\n"
-        "  dynlab course work final-talk -o work\n"
-        "  dynlab grade work --lesson 05 --out marks\n"
-        "  dynlab course scores final-talk marks/gradebook.csv --graded script");
-    command->callback([&where, words, &action] {
-        action = [&where, words] { return lay_out(where, words->assignment, words->stage, words->out); };
-    });
-}
-
 }  // namespace
 
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action) {
@@ -247,7 +211,6 @@ void add_receive_commands(CLI::App& course, CourseArguments& where, Action& acti
     review->require_subcommand(1);
     add_receive(*review, "collect", "Take reviews", "review",
                 "dynlab course review collect review-report-07.pdf --from group-02", where, action);
-    add_work(course, where, action);
     add_course_verify(course, where, action);
 }
 

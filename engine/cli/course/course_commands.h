@@ -37,7 +37,7 @@ class WorkBar {
 /// changes.
 CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action);
 
-/// submit, review collect, work, verify.
+/// submit, review collect, verify.
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action);
 
 /// answers.

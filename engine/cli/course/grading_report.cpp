@@ -22,7 +22,8 @@ std::string attention_text(const GradingOutcome& outcome) {
 
 std::string late_text(const GradingOutcome& outcome) {
     if (outcome.late.empty()) return "";
-    std::string text = fmt::format("{} late:\n", outcome.late.size());
+    std::string text =
+        message_text(plural(static_cast<std::int64_t>(outcome.late.size()), "{} late:", "{} late:")) + "\n";
     for (const Message& clause : outcome.late) text += "  " + terminal_text(message_text(clause)) + "\n";
     return text;
 }

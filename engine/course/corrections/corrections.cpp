@@ -70,6 +70,11 @@ class WantedFiles {
     std::optional<std::int64_t> pair_;
 };
 
+std::int64_t group_of_version(Course& course, std::int64_t version) {
+    Rows rows = course.database().query("SELECT group_id FROM versions WHERE id = ?", version);
+    return rows.next() ? rows.integer(0) : 0;
+}
+
 std::vector<std::int64_t> ids_of(const std::vector<Found>& all) {
     std::vector<std::int64_t> ids;
     for (const Found& one : all) ids.push_back(one.id);
@@ -78,23 +83,26 @@ std::vector<std::int64_t> ids_of(const std::vector<Found>& all) {
 
 }  // namespace
 
+void record_arrival(Course& course, const Assignment& a, std::int64_t version, Instant received,
+                    const std::string& reason, Instant now) {
+    Receipt receipt = receipt_of(course, version);
+    const Instant due = due_for(course, a, group_of_version(course, version), receipt.stage);
+    ++receipt.correction;
+    receipt.received = received, receipt.due = due;
+    receipt.late = received > due + a.grace ? received - due : 0;
+    course.database().run(
+        "INSERT INTO arrivals (version, received_at, due_at, late, reason, made_at, signature) VALUES (?, ?, ?, ?, ?, "
+        "?, ?)",
+        version, received, due, receipt.late, reason, now, version_signature(course, receipt));
+}
+
 std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& a, const HandedInWanted& wanted,
                                           Instant received, const std::string& reason, Instant now) {
     refuse_without_reason(reason);
     Transaction transaction(course.database());
     const WantedFiles files(course, a, wanted);
-    const Instant due = due_for(course, a, files.group().id, wanted.stage);
     const std::vector<Found> all = files.all(false);
-    for (const Found& one : all) {
-        Receipt receipt = receipt_of(course, one.id);
-        ++receipt.correction;
-        receipt.received = received, receipt.due = due;
-        receipt.late = received > due + a.grace ? received - due : 0;
-        course.database().run(
-            "INSERT INTO arrivals (version, received_at, due_at, late, reason, made_at, signature) VALUES (?, ?, ?, ?, "
-            "?, ?, ?)",
-            one.id, received, due, receipt.late, reason, now, version_signature(course, receipt));
-    }
+    for (const Found& one : all) record_arrival(course, a, one.id, received, reason, now);
     course.note(fmt::format("{}: {} (v{}) was received at {}; reason: {}", a.name, files.what(), all.front().number,
                             course.clock().show_exactly(received), reason),
                 now);

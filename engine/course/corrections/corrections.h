@@ -25,6 +25,10 @@ struct HandedInWanted {
 std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& assignment, const HandedInWanted& wanted,
                                           Instant received, const std::string& reason, Instant now);
 
+/// Within a transaction, and without a line in the journal: the same of one version.
+void record_arrival(Course& course, const Assignment& assignment, std::int64_t version, Instant received,
+                    const std::string& reason, Instant now);
+
 /// Withdraws versions, as if they had not come, or lets them stand again. Returns their ids.
 std::vector<std::int64_t> withdraw(Course& course, const Assignment& assignment, const HandedInWanted& wanted,
                                    bool withdrawn, const std::string& reason, Instant now);

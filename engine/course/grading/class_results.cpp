@@ -306,8 +306,8 @@ Attention what_needs_attention(const ClassResults& results) {
                 add(Message("\"{}\" was late, which costs {} points: {}", name, points_text(grade.penalty),
                             grade.lateness));
         }
-        if (entry.content.empty()) continue;
-        by_content[entry.content].push_back(&entry);
+        if (entry.item->version == 0) continue;
+        by_content[entry.item->content].push_back(&entry);
     }
     for (const auto& [content, entries] : by_content) {
         const auto of_others = [&](const Entry* entry) {

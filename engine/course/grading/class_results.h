@@ -15,7 +15,6 @@ struct ClassResults {
     struct Entry {
         const WorkItem* item = nullptr;
         std::optional<Grade> grade;  ///< nothing: not graded yet
-        std::string content = {};    ///< hash of what was submitted; empty for what was not looked at
     };
     std::vector<Entry> entries;
     const ClassWork* work = nullptr;

@@ -64,10 +64,6 @@ class ClassGrader {
     }
 
   private:
-    struct Graded {
-        std::optional<Grade> grade;
-        std::string content;  ///< hash of what was submitted; empty for what was not looked at
-    };
     using Waiting = std::pair<std::size_t, GradingPipeline::ToCheck>;
 
     /// How many are checked in one box: enough to forget its start, few enough to keep all threads busy.
@@ -110,16 +106,15 @@ class ClassGrader {
     /// Nothing where its grade is known without its checks: as it was made before, or as it cannot be read.
     std::optional<GradingPipeline::ToCheck> run(std::size_t place) {
         const WorkItem& item = work_.items[place];
-        const GradingPipeline::Keys keys = pipeline_.keys_of(item);
-        graded_[place].content = keys.content;
-        if (std::optional<Grade> kept = pipeline_.kept_grade(item, keys)) {
+        const std::string key = pipeline_.key_of(item);
+        if (std::optional<Grade> kept = pipeline_.kept_grade(item, key)) {
             finish(place, *std::move(kept), outcome_.kept);
             return {};
         }
         try {
-            return GradingPipeline::ToCheck{&item, keys, pipeline_.run(item, keys)};
+            return GradingPipeline::ToCheck{&item, key, pipeline_.run(item)};
         } catch (const SubmissionError& error) {
-            finish(place, pipeline_.unreadable(item, keys, error.message()), outcome_.made);
+            finish(place, pipeline_.unreadable(item, key, error.message()), outcome_.made);
             return {};
         }
     }
@@ -143,14 +138,14 @@ class ClassGrader {
     }
 
     void finish(std::size_t place, Grade grade, int& count) {
-        keep(place, pipeline_.finish(work_.items[place], std::move(grade)));
+        keep(place, pipeline_.finish(work_.items[place], std::move(grade), options_.regrade));
         const std::lock_guard lock(mutex_);
         ++count;
         bar_->advance(++done_);
     }
 
     void keep(std::size_t place, GradingPipeline::Finished finished) {
-        graded_[place].grade = std::move(finished.marked);
+        graded_[place] = std::move(finished.marked);
         if (finished.trouble.empty()) return;
         const std::lock_guard lock(mutex_);
         outcome_.complaints.push_back(Message("\"{}\": {}", work_.items[place].submission.name, finished.trouble));
@@ -163,41 +158,35 @@ class ClassGrader {
         Grade grade = pipeline_.rules().unreadable(name, {});
         grade.unreadable = false;
         const std::lock_guard lock(mutex_);
-        graded_[place].grade = std::move(grade);
+        graded_[place] = std::move(grade);
         outcome_.complaints.push_back(Message("\"{}\" could not be graded: {}", name, reason));
         ++outcome_.failed;
         bar_->advance(++done_);
     }
 
-    /// Those of an earlier run for submissions that are not chosen now.
+    /// Those of an earlier run for submissions that are not chosen now, with the marks and penalties of now.
     void take_earlier_results() {
         for (std::size_t i = 0; i < graded_.size(); ++i) {
-            if (graded_[i].grade) continue;
+            if (graded_[i]) continue;
             const WorkItem& item = work_.items[i];
             std::optional<Grade> grade = earlier_grade(pipeline_.results_of(item));
             if (!grade) continue;
-            GradingPipeline::Keys keys;
-            try {
-                keys = pipeline_.keys_of(item);
-            } catch (const fs::filesystem_error&) {  // cannot be looked into, so that its content is none
-            }
-            graded_[i].content = keys.content;
-            if (grade->fingerprint != keys.grade)
+            if (grade->fingerprint != pipeline_.key_of(item))
                 outcome_.complaints.push_back(
                     Message("the marks of \"{}\" are from before it, the checks or the program changed; grade it, too",
                             item.submission.name));
-            graded_[i].grade = pipeline_.manual().applied(*std::move(grade));
+            keep(i, pipeline_.finish(item, *std::move(grade), false));
         }
-        for (const Graded& one : graded_)
-            if (one.grade && !one.grade->whole() && !one.grade->unreadable) ++outcome_.not_whole;
+        for (const std::optional<Grade>& grade : graded_)
+            if (grade && !grade->whole() && !grade->unreadable) ++outcome_.not_whole;
     }
 
     /// Of several submissions of one student, each that does not count says so: known only when all are graded.
     void say_which_counts() {
         const std::vector<std::string> instead = counted_instead(results());
         for (std::size_t i = 0; i < graded_.size(); ++i) {
-            if (!graded_[i].grade) continue;
-            auto finished = pipeline_.finish_as_counted(work_.items[i], *graded_[i].grade, instead[i]);
+            if (!graded_[i]) continue;
+            auto finished = pipeline_.finish_as_counted(work_.items[i], *graded_[i], instead[i]);
             if (finished) keep(i, *std::move(finished));
         }
     }
@@ -208,8 +197,7 @@ class ClassGrader {
         results.out = options_.out;
         results.setup = &options_.setup;
         results.pdf = options_.pdf, results.documents = &pipeline_.documents();
-        for (std::size_t i = 0; i < graded_.size(); ++i)
-            results.entries.push_back({&work_.items[i], graded_[i].grade, graded_[i].content});
+        for (std::size_t i = 0; i < graded_.size(); ++i) results.entries.push_back({&work_.items[i], graded_[i]});
         results.complaints = outcome_.complaints;
         return results;
     }
@@ -218,7 +206,7 @@ class ClassGrader {
     const GradingOptions& options_;
     GradingOutcome outcome_;
     GradingPipeline pipeline_;
-    std::vector<Graded> graded_;  ///< as work_.items
+    std::vector<std::optional<Grade>> graded_;  ///< as work_.items
     ProgressBar* bar_ = nullptr;
     std::atomic<std::size_t> next_{0};
     std::atomic<bool> stopped_{false};
@@ -226,18 +214,6 @@ class ClassGrader {
     std::mutex mutex_;
     std::exception_ptr failure_;
 };
-
-void refuse_other_lessons(const GradingOptions& options) {
-    const fs::path results = options.out / "results";
-    fs::create_directories(results);
-    for (const auto& entry : fs::directory_iterator(results)) {
-        const std::optional<Grade> grade = earlier_grade(entry.path());
-        if (!grade) continue;
-        if (grade->lesson == options.setup.lesson.slug) return;  // as are all others, which were put beside it
-        throw EnvironmentError("{} holds the results of lesson {}; name another folder with --out",
-                               options.out.string(), grade->lesson);
-    }
-}
 
 const GradingSetup& isolated(const GradingSetup& setup) {
     if (const auto obstacle = obstacle_to(setup.isolation)) throw EnvironmentError(*obstacle);
@@ -255,7 +231,6 @@ FileLock lock_results(const fs::path& out) {
 }
 
 TriedRules::TriedRules(const GradingOptions& options) : rules(isolated(options.setup)) {
-    refuse_other_lessons(options);
     complaints = rules.try_solution(options.out / "runs/.worked_solution.cbor", options.regrade);
     note = rules.note_on_time();
 }
@@ -280,16 +255,11 @@ GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, 
 MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& tried, const GradingOptions& options) {
     const GradingPipeline pipeline(tried.rules, options, work);
     MissingParts missing;
-    const auto graded = [&](const WorkItem& item) {
-        try {
-            return pipeline.kept_grade(item, pipeline.keys_of(item)).has_value();
-        } catch (const fs::filesystem_error&) {  // cannot be looked into
-            return false;
-        }
-    };
     for (std::size_t k = 0; k < work.chosen.size(); ++k) {
         const int part = WorkPart{1, parts}.part_of(k);
-        if (!missing.parts.contains(part) && !graded(work.items[work.chosen[k]])) missing.parts.insert(part);
+        const WorkItem& item = work.items[work.chosen[k]];
+        if (!missing.parts.contains(part) && !pipeline.kept_grade(item, pipeline.key_of(item)))
+            missing.parts.insert(part);
     }
     return missing;
 }

@@ -20,20 +20,15 @@ GradingPipeline::GradingPipeline(const GradingRules& rules, const GradingOptions
       manual_(options.out, work, rules.checks(), options.above_maximum),
       documents_(options.setup.isolation, options.setup.program) {}
 
-GradingPipeline::Keys GradingPipeline::keys_of(const WorkItem& item) const {
-    const std::string content = hash_of_content(item.submission);
-    return {content, rules_.fingerprint(content, item.seed)};
-}
-
-std::optional<Grade> GradingPipeline::kept_grade(const WorkItem& item, const Keys& keys) const {
+std::optional<Grade> GradingPipeline::kept_grade(const WorkItem& item, const std::string& key) const {
     std::optional<Grade> grade = options_.regrade ? std::nullopt : earlier_grade(results_of(item));
-    return grade && grade->fingerprint == keys.grade ? grade : std::nullopt;
+    return grade && grade->fingerprint == key ? grade : std::nullopt;
 }
 
 /// Its files in a folder of their own, and the script there run in boxes.
-GradingPipeline::Run GradingPipeline::run(const WorkItem& item, const Keys& keys) const {
+GradingPipeline::Run GradingPipeline::run(const WorkItem& item) const {
     std::string log;
-    const std::string key = rules_.run_fingerprint(keys.content, item.seed);
+    const std::string key = rules_.run_fingerprint(item.content, item.seed);
     KeptRuns runs = cached(kept_in(item) / "run.cbor", key, options_.regrade, [&] {
         const TemporaryFolder folder;
         const StagedWork staged =
@@ -50,20 +45,20 @@ std::vector<Grade> GradingPipeline::check(std::vector<ToCheck> submissions) cons
         works.push_back({one.item->submission.name, std::move(one.run.runs.work), one.item->seed, one.run.log});
     std::vector<Grade> grades = rules_.judged(std::move(works));
     for (std::size_t i = 0; i < grades.size(); ++i) {
-        grades[i].fingerprint = submissions[i].keys.grade;
+        grades[i].fingerprint = submissions[i].key;
         grades[i].remark = submissions[i].run.runs.remark;
         grades[i].language = submissions[i].run.runs.language;
     }
     return grades;
 }
 
-Grade GradingPipeline::unreadable(const WorkItem& item, const Keys& keys, const Message& why) const {
+Grade GradingPipeline::unreadable(const WorkItem& item, const std::string& key, const Message& why) const {
     Grade grade = rules_.unreadable(item.submission.name, why);
-    grade.fingerprint = keys.grade;
+    grade.fingerprint = key;
     return grade;
 }
 
-GradingPipeline::Finished GradingPipeline::finish(const WorkItem& item, Grade grade) const {
+GradingPipeline::Finished GradingPipeline::finish(const WorkItem& item, Grade grade, bool again) const {
     grade.title = item.addressee;
     if (!item.language.empty()) grade.language = item.language;
     grade.late_hours = item.lateness.hours;
@@ -71,22 +66,22 @@ GradingPipeline::Finished GradingPipeline::finish(const WorkItem& item, Grade gr
     grade.penalty = 0;
     Grade marked = manual_.applied(grade);
     if (!marked.whole_mark) grade.penalty = marked.penalty = marked.earned() * item.lateness.percent / 100;
-    Message trouble = write_files(item, grade, marked);
+    Message trouble = write_files(item, grade, marked, again);
     return {std::move(marked), std::move(trouble)};
 }
 
 /// The file of results last, as it says that the work is done.
-Message GradingPipeline::write_files(const WorkItem& item, const Grade& grade, const Grade& marked) const {
+Message GradingPipeline::write_files(const WorkItem& item, const Grade& grade, const Grade& marked, bool again) const {
     const fs::path folder = results_of(item);
     const std::string results = to_results_json(grade, marked);
     const bool written = fs::exists(folder / (options_.pdf ? "feedback.pdf" : "feedback.md")) &&
                          fs::exists(folder / "results.json") && read_file(folder / "results.json") == results;
-    if (written && !options_.regrade) return {};
+    if (written && !again) return {};
     fs::create_directories(folder);
     Message trouble;
     try {
         const fs::path made = kept_in(item) / "feedback";
-        if (options_.regrade) fs::remove(made);
+        if (again) fs::remove(made);
         set_feedback(marked, folder / "feedback.pdf", made, options_.pdf ? &documents_ : nullptr);
     } catch (const EnvironmentError& error) {  // one that cannot be set stops no other, and no mark
         trouble = error.message();
@@ -109,7 +104,7 @@ std::optional<GradingPipeline::Finished> GradingPipeline::finish_as_counted(cons
     if (!grade) return {};
     grade->counts_instead = instead;
     grade->newest_counts = newest_counts_;
-    return finish(item, *std::move(grade));
+    return finish(item, *std::move(grade), options_.regrade);
 }
 
 }  // namespace dynlab::inline course

@@ -29,35 +29,33 @@ class GradingPipeline {
   public:
     GradingPipeline(const GradingRules& rules, const GradingOptions& options, const ClassWork& work);
 
-    /// What a grade depends on.
-    struct Keys {
-        std::string content, grade;  ///< of what was submitted; of that and of the rules
-    };
-    Keys keys_of(const WorkItem& item) const;
+    /// Of what a grade depends on: what was submitted, and the rules.
+    std::string key_of(const WorkItem& item) const { return rules_.fingerprint(item.content, item.seed); }
 
     /// The grade that an earlier run made under this key; nothing where there is none, or to be made again.
-    std::optional<Grade> kept_grade(const WorkItem& item, const Keys& keys) const;
+    std::optional<Grade> kept_grade(const WorkItem& item, const std::string& key) const;
     /// Staged and run. Throws SubmissionError where there is nothing to run.
     struct Run {
         KeptRuns runs;
         std::string log;
     };
-    Run run(const WorkItem& item, const Keys& keys) const;
+    Run run(const WorkItem& item) const;
     /// Checked: the grades of several, which share one box, in their order.
     struct ToCheck {
         const WorkItem* item = nullptr;
-        Keys keys;
+        std::string key;
         Run run;
     };
     std::vector<Grade> check(std::vector<ToCheck> submissions) const;
-    Grade unreadable(const WorkItem& item, const Keys& keys, const Message& why) const;
+    Grade unreadable(const WorkItem& item, const std::string& key, const Message& why) const;
 
-    /// Marked, with the penalty and what the instructor marked, and its files written; `trouble`: why there is no PDF.
+    /// Marked, with the penalty and what the instructor marked, and its files written where they say anything else, or
+    /// `again`; `trouble`: why there is no PDF.
     struct Finished {
         Grade marked;
         Message trouble;
     };
-    Finished finish(const WorkItem& item, Grade grade) const;
+    Finished finish(const WorkItem& item, Grade grade, bool again) const;
     /// The same once it is known which submission of the same student counts; empty where it is this one. Nothing where
     /// the files say so already.
     std::optional<Finished> finish_as_counted(const WorkItem& item, const Grade& now, const std::string& instead) const;
@@ -71,7 +69,7 @@ class GradingPipeline {
 
   private:
     std::filesystem::path kept_in(const WorkItem& item) const { return options_.out / "runs" / item.submission.name; }
-    Message write_files(const WorkItem& item, const Grade& grade, const Grade& marked) const;
+    Message write_files(const WorkItem& item, const Grade& grade, const Grade& marked, bool again) const;
 
     const GradingRules& rules_;
     const GradingOptions& options_;

@@ -1,61 +1,15 @@
 #include "course/grading/kept_stages.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "course/checks/check_descriptions.h"
 #include "data_io/values/cbor_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/hash.h"
 
 namespace dynlab::inline course {
 
 DYNLAB_DESCRIBE(KeptRuns, fingerprint, work, remark, language)
 
 namespace fs = std::filesystem;
-
-namespace {
-
-void add_named(Sha256& hash, const std::string& name, const fs::path& file) {
-    hash.add(fmt::format("{}:{}:{}:", name.size(), name, fs::file_size(file))).add_file(file);
-}
-
-}  // namespace
-
-std::string hash_of_files(std::vector<fs::path> files, const fs::path& folder) {
-    std::sort(files.begin(), files.end());
-    Sha256 hash;
-    for (const fs::path& file : files) add_named(hash, file.lexically_relative(folder).string(), file);
-    return hash.hex();
-}
-
-std::string hash_of_content(const Submission& submission) {
-    const SubmissionLimits limits;
-    const auto too_large = [](std::uintmax_t bytes) { return fmt::format("too large: {}", bytes); };
-    if (!submission.loose.empty()) {
-        Sha256 hash;
-        for (const LooseFile& file : submission.loose) {
-            const std::uintmax_t bytes = fs::file_size(file.path);
-            if (bytes > limits.bytes) return too_large(bytes);
-            add_named(hash, file.name, file.path);
-        }
-        return hash.hex();
-    }
-    if (submission.archive) {
-        const std::uintmax_t bytes = fs::file_size(submission.path);
-        return bytes > limits.bytes ? too_large(bytes) : sha256_of_file(submission.path);
-    }
-    std::vector<fs::path> files;
-    std::uintmax_t bytes = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(submission.path))
-        if (entry.symlink_status().type() == fs::file_type::regular) {
-            files.push_back(entry.path());
-            bytes += entry.file_size();
-        }
-    return bytes > limits.bytes ? too_large(bytes) : hash_of_files(std::move(files), submission.path);
-}
 
 std::optional<Grade> earlier_grade(const fs::path& folder) {
     const fs::path file = folder / "results.json";

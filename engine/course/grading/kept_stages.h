@@ -7,16 +7,8 @@
 
 #include "course/checks/check_run.h"
 #include "course/grading/grade.h"
-#include "course/intake/submission.h"
 
 namespace dynlab::inline course {
-
-/// SHA-256 of all that was submitted, names and contents. Of what is too large to be graded its size alone: reading it
-/// may take for ever. Throws what the file system does where something cannot be looked into.
-std::string hash_of_content(const Submission& submission);
-
-/// Of the files in `folder`: their names there and their contents, in the order of their names.
-std::string hash_of_files(std::vector<std::filesystem::path> files, const std::filesystem::path& folder);
 
 /// What a script did when it was run, kept apart from what the checks say of it: with other checks it need not run
 /// again.

@@ -1,85 +1,80 @@
 #include "course/grading/late_penalties.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <ctime>
 
 #include "base/reader.h"
 #include "course/intake/arrival_times.h"
-#include "data_io/text_table.h"
-#include "platform/atomic_file.h"
-#include "platform/error.h"
+#include "course/intake/lateness.h"
 
 namespace dynlab::inline course {
 namespace {
 
 constexpr double kNeedsConfirmation = 50;  ///< percent
 
-}  // namespace
-
-LatePenalties::LatePenalties(std::filesystem::path out, bool accept)
-    : file_(std::move(out) / "accepted_late.csv"), accept_(accept) {
-    if (!std::filesystem::exists(file_)) return;
-    const TextTable table = read_text_table(file_);
-    const auto submission = table.column("submission"), percent = table.column("percent");
-    if (!submission || !percent)
-        throw EnvironmentError("{}: the columns submission and percent are needed; there are {}", file_.string(),
-                               listed(table.names));
-    for (const auto& row : table.rows) accepted_[row[*submission]] = number_in_cell(row[*percent]).value_or(0);
+std::string shown_instant(std::int64_t instant) {
+    const std::time_t seconds = instant;
+    std::tm time{};
+    ::localtime_r(&seconds, &time);
+    char text[64];
+    return {text,
+            std::strftime(text, sizeof text, time.tm_sec == 0 ? "%Y-%m-%d %H:%M %Z" : "%Y-%m-%d %H:%M:%S %Z", &time)};
 }
 
-Lateness LatePenalties::counted(const std::string& submission, const Lateness& late) {
-    const auto known = accepted_.find(submission);
-    const bool accepted = accept_ || late.typed || (known != accepted_.end() && known->second >= late.percent);
-    const bool waits = late.percent >= kNeedsConfirmation && !accepted;
-    if (late.percent >= kNeedsConfirmation && accept_) accepted_[submission] = late.percent;
-    seen_[submission] = {late, waits};
-    if (!waits) return late;
-    Lateness waiting = late;
-    waiting.percent = 0;
-    waiting.reason = Message("{}; this penalty of {} % is not applied until your instructor confirms it", late.reason,
-                             significant(late.percent, 4));
+/// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 % of the
+/// points"
+Message reason_of(const LatePolicy& policy, std::int64_t received) {
+    const std::string came = shown_instant(received), due = shown_instant(policy.deadline);
+    const Message duration = duration_message(received - policy.deadline);
+    if (policy.most_percent < 100)
+        return Message(
+            "received {}, {} after the deadline of {}; each begun day costs {} % of the points, at most {} %", came,
+            duration, due, significant(policy.percent_per_day, 4), significant(policy.most_percent, 4));
+    return Message("received {}, {} after the deadline of {}; each begun day costs {} % of the points", came, duration,
+                   due, significant(policy.percent_per_day, 4));
+}
+
+}  // namespace
+
+Lateness lateness_of(const LatePolicy& policy, std::int64_t received) {
+    const std::int64_t late = received - policy.deadline;
+    if (late <= policy.grace) return {};
+    return {static_cast<double>(late) / 3600, late_percent(policy.percent_per_day, policy.most_percent, late),
+            reason_of(policy, received), late};
+}
+
+bool needs_confirmation(const Lateness& lateness) {
+    return lateness.percent >= kNeedsConfirmation;
+}
+
+Lateness unconfirmed(const Lateness& lateness) {
+    Lateness waiting = lateness;
+    waiting.percent = 0, waiting.waiting_percent = lateness.percent;
+    waiting.reason = Message("{}; this penalty of {} % is not applied until your instructor confirms it",
+                             lateness.reason, significant(lateness.percent, 4));
     return waiting;
 }
 
-std::vector<Message> LatePenalties::late() const {
-    std::vector<Message> clauses;
-    for (const auto& [name, seen] : seen_)
-        if (seen.lateness.hours > 0)
-            clauses.push_back(Message("\"{}\": late by {}, {} % of its points", name,
-                                      duration_message(seen.lateness.late),
-                                      significant(seen.waits ? 0 : seen.lateness.percent, 4)));
-    return clauses;
-}
-
-std::vector<Message> LatePenalties::waiting() const {
-    std::vector<Message> sentences;
-    for (const auto& [name, seen] : seen_)
-        if (seen.waits)
-            sentences.push_back(
-                Message("\"{}\" came {} after its deadline, and a penalty of {} % is not applied yet: accept it with "
-                        "--accept-late, or write the true time into the column received of the deadlines",
-                        name, duration_message(seen.lateness.late), significant(seen.lateness.percent, 4)));
-    return sentences;
-}
-
-Message LatePenalties::doubt() const {
+void conclude_lateness(ClassWork& work) {
     std::vector<std::int64_t> late;
-    for (const auto& [name, seen] : seen_)
-        if (seen.lateness.hours > 0) late.push_back(seen.lateness.late);
-    return doubt_about_zone(std::move(late), seen_.size());
-}
-
-void LatePenalties::conclude(ClassWork& work) const {
-    work.late = late();
-    for (const Message& sentence : waiting()) {
-        work.attention.push_back(sentence);
+    std::vector<const WorkItem*> items;
+    for (const WorkItem& item : work.items)
+        if (item.lateness.late > 0) items.push_back(&item);
+    std::ranges::sort(items, {}, [](const WorkItem* item) { return item->submission.name; });
+    for (const WorkItem* item : items) {
+        const Lateness& lateness = item->lateness;
+        late.push_back(lateness.late);
+        work.late.push_back(Message("\"{}\": late by {}, {} % of its points", item->submission.name,
+                                    duration_message(lateness.late), significant(lateness.percent, 4)));
+        if (lateness.waiting_percent == 0) continue;
         ++work.unconfirmed;
+        work.attention.push_back(
+            Message("\"{}\" came {} after its deadline, and a penalty of {} % is not applied yet: accept it with "
+                    "--accept-late, or write the true time into the column received of the deadlines",
+                    item->submission.name, duration_message(lateness.late), significant(lateness.waiting_percent, 4)));
     }
-    if (Message question = doubt(); !question.empty()) work.notes.push_back(std::move(question));
-    if (accepted_.empty()) return;
-    TextTable table;
-    table.names = {"submission", "percent"};
-    for (const auto& [name, percent] : accepted_) table.rows.push_back({name, fmt::format("{}", percent)});
-    write_file_atomically(file_, csv_text(table));
+    if (Message question = doubt_about_zone(std::move(late), work.items.size()); !question.empty())
+        work.notes.push_back(std::move(question));
 }
 
 }  // namespace dynlab::inline course

@@ -14,12 +14,15 @@ struct Lateness {
     double hours = 0, percent = 0;  ///< of the points earned; 0 in time
     Message reason;                 ///< "received ..., 20 min after the deadline of ..."; empty in time
     std::int64_t late = 0;          ///< seconds after the deadline
-    bool typed = false;             ///< the instructor wrote down when it was received
+    double waiting_percent = 0;     ///< not applied until the instructor confirms it (late_penalties.h)
 };
 
 /// A submission to grade, with what a course knows of it.
 struct WorkItem {
     Submission submission;              ///< its name, which no other in the class has, and its files
+    std::string content;                ///< SHA-256 of all that was submitted; empty where that is not known
+    std::int64_t version = 0;           ///< its id in the store of the course; 0: it could not be kept
+    std::int64_t group_id = 0;          ///< of that version
     std::vector<std::size_t> students;  ///< whose it is: places in ClassWork::students
     std::string group;                  ///< empty for a student without one
     Message unmatched;                  ///< why it belongs to no student; empty where it does
@@ -30,8 +33,7 @@ struct WorkItem {
     Lateness lateness;
 };
 
-/// All work of a class on one assignment: what the grading pipeline is given. Where it comes from, a folder with tables
-/// beside it (class_folder.h) or a course, the pipeline does not know.
+/// All work of a class on one assignment: what the grading pipeline is given (office/course_work.h).
 struct ClassWork {
     std::vector<WorkItem> items;
     bool roster = false;              ///< the students are known: one row of marks for each of them, else for each item

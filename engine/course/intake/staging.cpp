@@ -153,6 +153,21 @@ MessageList listed_places(const std::vector<FoundScript>& found) {
     return listed(shown);
 }
 
+[[noreturn]] void refuse_size(const SubmissionLimits& limits) {
+    throw SubmissionError("It is too large: at most {} files and {} MB are looked at.", limits.files,
+                          limits.bytes >> 20);
+}
+
+void copy_loose(const LooseFile& file, const fs::path& folder, const SubmissionLimits& limits) {
+    static const RE2 of_platform(R"((?:.*_)?analysis(?:-\d+)?(\.lua|\.ipynb))", RE2::Latin1);
+    if (fs::file_size(file.path) > limits.bytes) refuse_size(limits);
+    std::string ending;
+    fs::path to = folder / (RE2::FullMatch(file.name, of_platform, &ending) ? "analysis" + ending : file.name);
+    for (int i = 2; fs::exists(to); ++i) to = folder / fmt::format("{} {}", i, file.name);
+    fs::copy_file(file.path, to);
+    fs::last_write_time(to, fs::last_write_time(file.path));
+}
+
 class Stager {
   public:
     Stager(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,
@@ -210,34 +225,13 @@ class Stager {
             return;
         }
         fs::create_directories(root_);
-        if (!submission_.loose.empty()) {
-            for (const LooseFile& file : submission_.loose) copy_loose(file);
-            return;
-        }
-        const FolderCopy copy = copy_folder(submission_.path, root_, limits_.bytes, limits_.files);
-        if (copy.too_large) too_large();
-        for (const std::string& name : copy.left_out)
+        for (const std::string& name : copy_submission(submission_, root_, limits_))
             note_left_out({Message("\"{}\" is a link or not a regular file", utf8_of_name(name))}, "");
     }
 
     void note_left_out(const std::vector<Message>& clauses, const std::string& archive) {
         for (const Message& clause : clauses)
             left_out_.push_back(archive.empty() ? clause : Message("in \"{}\", {}", archive, clause));
-    }
-
-    [[noreturn]] void too_large() const {
-        throw SubmissionError("It is too large: at most {} files and {} MB are looked at.", limits_.files,
-                              limits_.bytes >> 20);
-    }
-
-    void copy_loose(const LooseFile& file) const {
-        static const RE2 of_platform(R"((?:.*_)?analysis(?:-\d+)?(\.lua|\.ipynb))", RE2::Latin1);
-        if (fs::file_size(file.path) > limits_.bytes) too_large();
-        std::string ending;
-        fs::path to = root_ / (RE2::FullMatch(file.name, of_platform, &ending) ? "analysis" + ending : file.name);
-        for (int i = 2; fs::exists(to); ++i) to = root_ / fmt::format("{} {}", i, file.name);
-        fs::copy_file(file.path, to);
-        fs::last_write_time(to, fs::last_write_time(file.path));
     }
 
     std::vector<FoundScript> scripts_in(const fs::path& folder, const std::string& archive) const {
@@ -336,6 +330,15 @@ class Stager {
 };
 
 }  // namespace
+
+std::vector<std::string> copy_submission(const Submission& submission, const fs::path& to,
+                                         const SubmissionLimits& limits) {
+    for (const LooseFile& file : submission.loose) copy_loose(file, to, limits);
+    if (!submission.loose.empty()) return {};
+    FolderCopy copy = copy_folder(submission.path, to, limits.bytes, limits.files);
+    if (copy.too_large) refuse_size(limits);
+    return std::move(copy.left_out);
+}
 
 StagedWork stage_submission(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,
                             const SubmissionLimits& limits) {

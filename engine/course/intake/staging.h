@@ -14,6 +14,12 @@ struct StagedWork {
     bool of_notebook = false;      ///< its analysis.lua was an analysis.ipynb
 };
 
+/// Copies the files of a submission that is no archive into `to`, an empty folder: a folder's, or loose ones, of which
+/// a platform's "..._analysis.lua" and "analysis-1.lua" get their own name again. Returns what was left out: links, and
+/// what is no regular file. Throws SubmissionError for more than the limits allow.
+std::vector<std::string> copy_submission(const Submission& submission, const std::filesystem::path& to,
+                                         const SubmissionLimits& limits = {});
+
 /// Brings a submission's files into `to`, an empty folder, and finds analysis.lua: at any depth, in archives within
 /// archives as well where there is none outside of them; a notebook analysis.ipynb becomes one (notebooks.h). Of
 /// several the newest is taken: by the numbers in their names

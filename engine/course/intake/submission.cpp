@@ -64,12 +64,13 @@ bool is_online_text(const fs::path& entry) {
     return entries.size() == 1 && entries.front().filename() == "onlinetext.html";
 }
 
-/// Whether dynlab grade made the folder, in a run that was killed early as well: its lock comes first, then
-/// manual.csv, gradebook.csv last.
+/// Whether dynlab grade made the folder, in a run that was killed early as well: its locks come first, then its
+/// course; earlier versions wrote manual.csv first and gradebook.csv last.
 bool holds_results(const fs::path& folder) {
     const bool begun =
         fs::exists(folder / ".lock") && (fs::exists(folder / "manual.csv") || entries_of(folder).empty());
-    return begun || (fs::exists(folder / "gradebook.csv") && fs::is_directory(folder / "results"));
+    return begun || fs::exists(folder / ".course.lock") ||
+           (fs::exists(folder / "gradebook.csv") && fs::is_directory(folder / "results"));
 }
 
 bool is_named_by_platform(const fs::path& entry) {

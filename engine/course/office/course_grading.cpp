@@ -5,138 +5,19 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
-#include "course/grading/deadlines.h"
 #include "course/grading/feedback.h"
-#include "course/store/groups.h"
 #include "course/store/marks.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/temporary_folder.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The work of one lab as the course knows it.
-class CourseWork {
-  public:
-    CourseWork(Course& course, const Assignment& assignment) : course_(course), assignment_(assignment) {
-        work_.roster = true;
-        work_.students = students_of(course);
-        work_.deadlines = assignment.first_due != kNoDeadline;
-        work_.newest_counts = assignment.keep == "newest";
-        for (const Group& group : groups_of(course)) groups_.emplace(group.id, group);
-        for (Rows rows = course.database().query(
-                 "SELECT id, group_id, part, number, hash, name, received_at, first_at, due_at FROM standing WHERE "
-                 "assignment = ? AND stage = 'first' AND part IN ('script', 'pack') ORDER BY group_id, number, part",
-                 assignment.id);
-             rows.next();)
-            add(rows);
-    }
-
-    void choose(const std::vector<std::string>& only) {
-        std::vector<std::int64_t> wanted;
-        for (const std::string& name : only) {
-            wanted.push_back(group_named(course_, name).id);
-            if (std::ranges::find(groups_of_items_, wanted.back()) == groups_of_items_.end())
-                throw InvalidArgument("{} has submitted nothing for {}", groups_.at(wanted.back()).name,
-                                      assignment_.name);
-        }
-        for (std::size_t i = 0; i < work_.items.size(); ++i)
-            if (only.empty() || std::ranges::find(wanted, groups_of_items_[i]) != wanted.end())
-                work_.chosen.push_back(i);
-    }
-
-    const ClassWork& work() const { return work_; }
-    std::int64_t version(std::size_t item) const { return versions_[item]; }
-    const std::map<std::int64_t, Group>& groups() const { return groups_; }
-    /// What a row of marks.csv is about: a version by its name, else all versions of a group. Nothing for a name that
-    /// fits neither; the grading complains of the row.
-    struct Marked {
-        std::int64_t group = 0, version = 0;
-        auto operator<=>(const Marked&) const = default;
-    };
-    std::optional<Marked> marked_by(const std::string& who) const {
-        for (std::size_t i = 0; i < work_.items.size(); ++i)
-            if (work_.items[i].submission.name == who) return Marked{groups_of_items_[i], versions_[i]};
-        if (who.empty()) return {};
-        try {
-            return Marked{group_named(course_, who).id, 0};
-        } catch (const InvalidArgument&) {
-            return {};
-        }
-    }
-    /// Names under which a mark stands in marks.csv: of its version, of each version of its group, or of the group
-    /// where it submitted nothing.
-    std::vector<std::string> names_of(const GivenMark& mark) const {
-        std::vector<std::string> names;
-        for (std::size_t i = 0; i < work_.items.size(); ++i)
-            if (groups_of_items_[i] == mark.group && (mark.version == 0 || mark.version == versions_[i]))
-                names.push_back(work_.items[i].submission.name);
-        if (names.empty() && mark.version == 0) names.push_back(groups_.at(mark.group).name);
-        return names;
-    }
-
-  private:
-    /// "group-07", "group-07 v2", "group-07 pack".
-    static std::string name_of(const Group& group, const std::string& part, std::int64_t number) {
-        return group.name + (part == "pack" ? " pack" : "") + (number > 1 ? fmt::format(" v{}", number) : "");
-    }
-
-    /// A file of the store under a name that tells what it is.
-    fs::path named_copy(const std::string& hash, const std::string& name) const {
-        const fs::path copy = files_.path() / std::to_string(work_.items.size()) / name;
-        fs::create_directories(copy.parent_path());
-        fs::copy_file(course_.file(hash), copy);
-        return copy;
-    }
-
-    void add(const Rows& rows) {
-        const Group& group = groups_.at(rows.integer(1));
-        const bool pack = rows.text(2) == "pack";
-        WorkItem item;
-        item.submission.name = name_of(group, rows.text(2), rows.integer(3));
-        item.submission.archive = pack;
-        const std::string name = rows.text(5);
-        const std::string ending = archive_stem(name) ? name.substr(archive_stem(name)->size()) : ".zip";
-        item.submission.path = named_copy(rows.text(4), pack ? group.name + ending : "analysis.lua");
-        if (!pack) item.submission.loose = {{item.submission.path, "analysis.lua"}};
-        item.received = rows.integer(6);
-        const Costs& costs = assignment_.costs;
-        if (work_.deadlines)
-            item.lateness =
-                lateness_of({rows.integer(8), assignment_.grace, costs.late_day, costs.late_most}, rows.integer(7));
-        address(item, group);
-        work_.items.push_back(std::move(item));
-        versions_.push_back(rows.integer(0));
-        groups_of_items_.push_back(group.id);
-    }
-
-    void address(WorkItem& item, const Group& group) const {
-        item.group = group.name;
-        item.addressee = group.name;
-        const std::vector<std::string> members = members_at(course_, group.id, item.received);
-        for (std::size_t place = 0; place < work_.students.size(); ++place) {
-            const Student& student = work_.students[place];
-            if (std::ranges::find(members, student.id) == members.end()) continue;
-            item.students.push_back(place);
-            if (!student.language.empty()) item.language = student.language;
-            if (student.seed) item.seed = student.seed;
-            if (group.name == student.id && !student.name.empty()) item.addressee = student.name;
-        }
-        if (item.students.empty()) item.unmatched = Message("the group {} had no members then", group.name);
-    }
-
-    Course& course_;
-    const Assignment& assignment_;
-    TemporaryFolder files_;
-    ClassWork work_;
-    std::map<std::int64_t, Group> groups_;
-    std::vector<std::int64_t> versions_, groups_of_items_;  ///< of the items
-};
 
 /// The marks in force, by what they are about and the check.
 class MarksInForce {
@@ -168,16 +49,10 @@ class JoinedMarks {
   public:
     JoinedMarks(Course& course, const Assignment& assignment)
         : course_(course), setting_(fmt::format("marks joined {}", assignment.id)) {}
-    std::optional<std::int64_t> last() const {
-        Rows rows = course_.database().query("SELECT CAST(value AS INTEGER) FROM course WHERE key = ?", setting_);
-        return rows.next() ? std::optional(rows.integer(0)) : std::nullopt;
-    }
+    std::optional<std::int64_t> last() const { return read_number<std::int64_t>(course_.remembered(setting_)); }
     void note(std::int64_t mark) const {
         Transaction transaction(course_.database());
-        course_.database().run(
-            "INSERT INTO course VALUES (?, ?) ON CONFLICT DO UPDATE SET value = excluded.value WHERE value <> "
-            "excluded.value",
-            setting_, std::to_string(mark));
+        course_.remember(setting_, std::to_string(mark));
         transaction.commit();
     }
 
@@ -186,11 +61,29 @@ class JoinedMarks {
     std::string setting_;
 };
 
+/// A mark whose row the instructor took out of the file, or emptied, is in force no more.
+void take_back_lost_rows(Course& course, const Assignment& assignment, const CourseWork& work, const MarksFile& file,
+                         const MarksInForce& before) {
+    std::set<std::pair<CourseWork::Marked, std::string>> written;
+    for (const MarksFile::Row& row : file.rows())
+        if (const auto marked = work.marked_by(course, row.who); marked && row.points)
+            written.insert({*marked, row.check});
+    for (const GivenMark& mark : marks_in_force(course, assignment)) {
+        const CourseWork::Marked marked{mark.group, mark.version};
+        if (!mark.student.empty() || written.contains({marked, mark.item}) || before.of(marked, mark.item) == nullptr ||
+            work.names_of(mark.group, mark.version).empty())
+            continue;
+        give_mark(course, assignment, {mark.group, "", mark.item, {}, "its row was taken out", mark.version},
+                  CourseClock::now());
+    }
+}
+
 /// Brings marks.csv and the marks of the store together. A row that differs from what the two had in common last time
 /// was changed by the instructor and goes into the store; one that does not follows the store. An emptied row takes
-/// nothing back: it is filled again.
-void join_marks(Course& course, const Assignment& assignment, const CourseWork& work,
-                const std::map<std::string, double>& most, const fs::path& results) {
+/// nothing back: it is filled again. Only where marks are given in the file alone, `file_alone`, a mark whose row is
+/// not there any more, or is empty, is taken back.
+void join_rows(Course& course, const Assignment& assignment, const CourseWork& work,
+               const std::map<std::string, double>& most, const fs::path& results, bool file_alone) {
     MarksFile file(results);
     const JoinedMarks joined(course, assignment);
     Transaction transaction(course.database());  // a mark that a command gives meanwhile comes with the next join
@@ -199,11 +92,11 @@ void join_marks(Course& course, const Assignment& assignment, const CourseWork& 
     const MarksInForce now(marks_in_force(course, assignment));
     std::vector<MarksFile::Row> filled;
     for (const MarksFile::Row& row : file.rows()) {
-        const auto marked = work.marked_by(row.who);
+        const auto marked = work.marked_by(course, row.who);
         const auto points = most.find(row.check);
         if (!marked || points == most.end() || row.points > points->second) continue;  // complained of by the grading
         const GivenMark* const mark = now.of(*marked, row.check);
-        if (says(row, mark)) continue;
+        if (says(row, mark) || (file_alone && !row.points)) continue;
         if (row.points && !says(row, before.of(*marked, row.check)))
             give_mark(course, assignment, {marked->group, "", row.check, row.points, row.reason, marked->version},
                       CourseClock::now());
@@ -211,6 +104,7 @@ void join_marks(Course& course, const Assignment& assignment, const CourseWork& 
             filled.push_back(
                 {row.line, row.who, row.check, mark ? mark->points : std::nullopt, mark ? mark->reason : ""});
     }
+    if (file_alone) take_back_lost_rows(course, assignment, work, file, before);
     const std::vector<GivenMark> all = marks_ever_given(course, assignment),
                                  in_force = marks_in_force(course, assignment);
     transaction.commit();
@@ -218,24 +112,10 @@ void join_marks(Course& course, const Assignment& assignment, const CourseWork& 
     std::vector<MarksFile::Row> missing;
     for (const GivenMark& mark : in_force)
         if (mark.student.empty())
-            for (const std::string& name : work.names_of(mark))
+            for (const std::string& name : work.names_of(mark.group, mark.version))
                 missing.push_back({0, name, mark.item, mark.points, mark.reason});
     file.add(missing);
     joined.note(all.empty() ? 0 : all.back().id);
-}
-
-void record_results(Course& course, const Assignment& assignment, const CourseWork& work, const fs::path& results) {
-    Transaction transaction(course.database());
-    for (std::size_t i = 0; i < work.work().items.size(); ++i) {
-        const std::optional<Grade> grade = earlier_grade(results / "results" / work.work().items[i].submission.name);
-        if (!grade) continue;
-        VersionResult result{work.version(i), {}, grade->fingerprint};
-        for (const CheckGrade& check : grade->checks)
-            result.checks.push_back({check.id, check.points, check.earned, check.graded});
-        record_result(course, result, CourseClock::now());
-    }
-    course.note(fmt::format("{}: graded", assignment.name));
-    transaction.commit();
 }
 
 }  // namespace
@@ -244,7 +124,7 @@ fs::path results_folder(const Course& course, const Assignment& assignment) {
     return course.folder() / "marks" / assignment.name;
 }
 
-GradingOutcome grade_assignment(Course& course, const Assignment& assignment, const CourseGradingRequest& request) {
+GradingOptions grading_options(const Assignment& assignment, const CourseGradingRequest& request, const fs::path& out) {
     if (!assignment.is_lab())
         throw InvalidArgument("{} is not a lab: only labs are graded by checks; see dynlab course scores",
                               assignment.name);
@@ -257,21 +137,46 @@ GradingOutcome grade_assignment(Course& course, const Assignment& assignment, co
         if (options.setup.secret.empty())
             throw EnvironmentError("{} is empty: hidden records drawn from it would be no secret", assignment.secret);
     }
-    options.out = results_folder(course, assignment);
+    options.out = out;
     options.regrade = request.regrade, options.pdf = request.pdf, options.above_maximum = request.above_maximum;
-    const FileLock lock = lock_results(options.out);
-    CourseWork work(course, assignment);
-    if (work.work().items.empty())
-        throw InvalidArgument("nothing was submitted for {} yet: dynlab course submit FILE... --assignment {}",
-                              assignment.name, assignment.name);
-    work.choose(request.only);
-    const TriedRules tried(options);
+    return options;
+}
+
+void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const TriedRules& tried,
+                const GradingOptions& options, bool file_alone) {
     std::map<std::string, double> most;  // points by check; with --force any
     for (const CheckDescription& check : tried.rules.checks())
         most[check.id] = check.points, most[kWholeItem] += check.points;
     if (options.above_maximum)
         for (auto& [check, points] : most) points = std::numeric_limits<double>::infinity();
-    join_marks(course, assignment, work, most, options.out);
+    join_rows(course, assignment, work, most, options.out, file_alone);
+}
+
+void record_results(Course& course, const Assignment& assignment, const CourseWork& work, const fs::path& out) {
+    Transaction transaction(course.database());
+    int fresh = 0;
+    for (const WorkItem& item : work.work().items) {
+        const std::optional<Grade> grade = earlier_grade(out / "results" / item.submission.name);
+        if (!grade || item.version == 0) continue;
+        VersionResult result{item.version, {}, grade->fingerprint};
+        for (const CheckGrade& check : grade->checks)
+            result.checks.push_back({check.id, check.points, check.earned, check.graded});
+        if (record_result(course, result, CourseClock::now())) ++fresh;
+    }
+    if (fresh > 0) course.note(fmt::format("{}: {} graded", assignment.name, fresh));
+    transaction.commit();
+}
+
+GradingOutcome grade_assignment(Course& course, const Assignment& assignment, const CourseGradingRequest& request) {
+    const GradingOptions options = grading_options(assignment, request, results_folder(course, assignment));
+    const FileLock lock = lock_results(options.out);
+    CourseWork work(course, assignment);
+    if (work.work().items.empty())
+        throw InvalidArgument("nothing was submitted for {} yet: dynlab course submit FILE... --assignment {}",
+                              assignment.name, assignment.name);
+    work.choose(course, request.only);
+    const TriedRules tried(options);
+    join_marks(course, assignment, work, tried, options, false);
     GradingOutcome outcome = grade_class(work.work(), tried, options);
     record_results(course, assignment, work, options.out);
     return outcome;

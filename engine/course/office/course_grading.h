@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "course/grading/grade_class.h"
-#include "course/store/assignments.h"
+#include "course/office/course_work.h"
 
 namespace dynlab::inline course {
 
 struct CourseGradingRequest {
     GradingSetup setup;             ///< lesson, own checks and secret are those of the assignment
-    std::vector<std::string> only;  ///< groups, by any identifier; all when empty
+    std::vector<std::string> only;  ///< groups, students or submissions, by any identifier; all when empty
     bool regrade = false, pdf = true, above_maximum = false;
 };
 
@@ -21,5 +21,17 @@ std::filesystem::path results_folder(const Course& course, const Assignment& ass
 /// marks.csv in the folder of results are taken in, and those given by command are written there. Throws
 /// InvalidArgument for an assignment that is no lab; EnvironmentError as grade_class does.
 GradingOutcome grade_assignment(Course& course, const Assignment& assignment, const CourseGradingRequest& request);
+
+// Its steps, which folder_grading.h takes too.
+
+/// Throws InvalidArgument for an assignment that is no lab, EnvironmentError for an empty secret.
+GradingOptions grading_options(const Assignment& assignment, const CourseGradingRequest& request,
+                               const std::filesystem::path& out);
+/// Brings marks.csv and the marks of the store together. `file_alone`: a row that is taken out takes its mark back.
+void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const TriedRules& tried,
+                const GradingOptions& options, bool file_alone);
+/// Enters what the checks gave.
+void record_results(Course& course, const Assignment& assignment, const CourseWork& work,
+                    const std::filesystem::path& out);
 
 }  // namespace dynlab::inline course

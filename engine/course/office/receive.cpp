@@ -22,6 +22,7 @@
 #include "course/store/refusals.h"
 #include "course/store/senders.h"
 #include "course/store/side_by_side.h"
+#include "course/store/versions.h"
 #include "documents/pdf/pdf_layout.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
@@ -393,20 +394,15 @@ class HandInReceiver {
         }
         received.version = any ? before.integer(1) + 1 : 1;
         const Assignment& a = outcome_.assignment;
-        const Instant due = due_for(course_, a, c.group.id, request_.stage);
-        received.late = c.at > due + a.grace ? c.at - due : 0;
-        course_.record_file(c.hash, c.bytes, request_.at);
         received.twin = same_as(c);
         received.earlier = earlier_with_the_same(c);
+        const AddedVersion added = add_version(course_, a,
+                                               {c.group.id, c.group.name, request_.stage, c.part, pair,
+                                                received.version, c.hash, c.name, c.bytes, c.at, c.inspection.json},
+                                               request_.at);
+        received.id = added.id;
+        received.late = added.late;
         received.marked_late = c.file->sender.late && received.late == 0;
-        const Receipt receipt{course_.name(), a.name,           c.group.name, request_.stage, c.part, c.name,
-                              c.hash,         received.version, c.bytes,      received.late,  c.at,   due};
-        db.run(
-            "INSERT INTO versions (assignment, group_id, stage, pair, part, number, hash, name, received_at, due_at, "
-            "late, findings, signature) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            a.id, c.group.id, request_.stage, pair, c.part, received.version, c.hash, c.name, c.at, due, received.late,
-            c.inspection.json, version_signature(course_, receipt));
-        received.id = db.getLastInsertRowid();
         // What its receipt tells is when this version came; what counts is when its content did.
         if (Rows standing = db.query("SELECT late FROM standing WHERE id = ?", received.id); standing.next())
             received.late = standing.integer(0);

@@ -175,8 +175,8 @@ DROP TABLE assignments;
 ALTER TABLE new_assignments RENAME TO assignments;
 ALTER TABLE students ADD COLUMN language TEXT NOT NULL DEFAULT '';
 ALTER TABLE students ADD COLUMN own_data INTEGER;
-CREATE TABLE results (id INTEGER PRIMARY KEY, version INTEGER NOT NULL REFERENCES versions, earned REAL,
-  possible REAL NOT NULL, checks TEXT NOT NULL, fingerprint TEXT NOT NULL, made_at INTEGER NOT NULL);
+CREATE TABLE results (id INTEGER PRIMARY KEY, version INTEGER NOT NULL REFERENCES versions, possible REAL NOT NULL,
+  checks TEXT NOT NULL, fingerprint TEXT NOT NULL, made_at INTEGER NOT NULL);
 CREATE INDEX results_of_version ON results (version);
 CREATE TABLE marks (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
   group_id INTEGER NOT NULL REFERENCES groups, student TEXT REFERENCES students, item TEXT NOT NULL,

@@ -249,6 +249,18 @@ void Course::record_file(const std::string& hash, std::int64_t bytes, Instant at
     database_.run("INSERT OR IGNORE INTO files VALUES (?, ?, ?)", hash, bytes, at);
 }
 
+std::string Course::remembered(const std::string& key) {
+    Rows rows = database_.query("SELECT value FROM course WHERE key = ?", key);
+    return rows.next() ? rows.text(0) : "";
+}
+
+void Course::remember(const std::string& key, const std::string& value) {
+    database_.run(
+        "INSERT INTO course VALUES (?, ?) ON CONFLICT DO UPDATE SET value = excluded.value WHERE value <> "
+        "excluded.value",
+        key, value);
+}
+
 void Course::note(const std::string& what, Instant at) {
     database_.run("INSERT INTO journal (at, what) VALUES (?, ?)", at, what);
 }

@@ -61,6 +61,9 @@ class Course {
     /// Within a transaction: the store speaks of this content from now on.
     void record_file(const std::string& hash, std::int64_t bytes, Instant at);
     std::filesystem::path file(const std::string& hash) const;
+    /// A setting of a command, by a name of its own; empty where it was never set. It is set within a transaction.
+    std::string remembered(const std::string& key);
+    void remember(const std::string& key, const std::string& value);
     /// Within a transaction: a line in the journal.
     void note(const std::string& what, Instant at = CourseClock::now());
 

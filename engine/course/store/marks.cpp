@@ -121,18 +121,17 @@ bool give_mark(Course& course, const Assignment& assignment, const GivenMark& ma
     return true;
 }
 
-void record_result(Course& course, const VersionResult& result, Instant now) {
+bool record_result(Course& course, const VersionResult& result, Instant now) {
     const std::string checks = json_of(result.checks);
     Rows newest = course.database().query(
         "SELECT checks, fingerprint FROM results WHERE version = ? ORDER BY id DESC LIMIT 1", result.version);
-    if (newest.next() && newest.text(0) == checks && newest.text(1) == result.fingerprint) return;
-    double earned = 0, possible = 0;
-    bool whole = !result.checks.empty();
-    for (const CheckPoints& check : result.checks)
-        earned += check.earned, possible += check.points, whole = whole && check.graded;
+    if (newest.next() && newest.text(0) == checks && newest.text(1) == result.fingerprint) return false;
+    double possible = 0;
+    for (const CheckPoints& check : result.checks) possible += check.points;
     course.database().run(
-        "INSERT INTO results (version, earned, possible, checks, fingerprint, made_at) VALUES (?, ?, ?, ?, ?, ?)",
-        result.version, whole ? std::optional(earned) : std::nullopt, possible, checks, result.fingerprint, now);
+        "INSERT INTO results (version, possible, checks, fingerprint, made_at) VALUES (?, ?, ?, ?, ?)", result.version,
+        possible, checks, result.fingerprint, now);
+    return true;
 }
 
 std::optional<double> LabMark::percent() const {

@@ -47,8 +47,9 @@ struct VersionResult {
     std::string fingerprint;  ///< of all that it depends on
 };
 
-/// Within a transaction: the newest result of a version counts; the same one again is not entered.
-void record_result(Course& course, const VersionResult& result, Instant now);
+/// Within a transaction: the newest result of a version counts; the same one again is not entered. Returns whether it
+/// is new.
+bool record_result(Course& course, const VersionResult& result, Instant now);
 
 /// What a group has for a lab: the version that counts, the best or the newest as the assignment has it.
 struct LabMark {

@@ -19,10 +19,7 @@ void keep_participant(Course& course, std::int64_t assignment, const Submission&
     for (const std::string& id : group.members) {
         Rows rows = course.database().query("SELECT name FROM students WHERE id = ?", id);
         if (!rows.next() || (group.members.size() > 1 && !same_person(rows.text(0), sender.person))) continue;
-        course.database().run(
-            "INSERT INTO course VALUES (?, ?) ON CONFLICT DO UPDATE SET value = excluded.value WHERE value <> "
-            "excluded.value",
-            setting_of(assignment) + id, sender.lms_id);
+        course.remember(setting_of(assignment) + id, sender.lms_id);
     }
 }
 

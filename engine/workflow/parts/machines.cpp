@@ -243,17 +243,13 @@ std::vector<Message> do_on_hosts(const Machines& machines, const WorkInParts& wo
     write_file_atomically(list, fmt::format("{}\n", fmt::join(machines.words, "\n")));
     fs::remove(log);  // `missing` says what is left to do, also where results were deleted since
     ChildOptions child;
-    child.command = {"parallel",
-                     "--will-cite",
-                     "--plain",
-                     "--joblog",
-                     log.string(),
-                     "--resume-failed",
-                     "--retries",
-                     "3",
-                     "--sshloginfile",
-                     list.string(),
-                     command_line() + fmt::format(" --part {{}}/{}", machines.parts),
+    // Its own marks ({}, {#}, {.}) mean nothing in the words of the command, all of which are quoted.
+    const std::string command = replaced(command_line(), "{", "{''");
+    child.command = {"parallel",    "--will-cite",
+                     "--plain",     "--joblog",
+                     log.string(),  "--retries",
+                     "3",           "--sshloginfile",
+                     list.string(), command + fmt::format(" --part {{}}/{}", machines.parts),
                      ":::"};
     for (const int part : work.missing) child.command.push_back(std::to_string(part));
     const ChildResult done = run_parallel(child);

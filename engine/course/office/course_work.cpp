@@ -1,0 +1,162 @@
+#include "course/office/course_work.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "course/grading/late_penalties.h"
+#include "numerics/error.h"
+#include "platform/error.h"
+
+namespace dynlab::inline course {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "group-07", "group-07 v2", "group-07 pack".
+std::string name_of(const Group& group, const std::string& part, std::int64_t number) {
+    return group.name + (part == "pack" ? " pack" : "") + (number > 1 ? fmt::format(" v{}", number) : "");
+}
+
+}  // namespace
+
+std::vector<CourseWork::Stored> CourseWork::read(Course& course, const Assignment& assignment) {
+    work_.students = lone_students_of(course);
+    work_.roster = !work_.students.empty();
+    work_.newest_counts = assignment.keep == "newest";
+    for (const Group& group : groups_of(course)) groups_.emplace(group.id, group);
+    std::vector<Stored> versions;
+    for (Rows rows = course.database().query(
+             "SELECT id, group_id, number, part, hash, name, received_at, first_at, due_at, EXISTS (SELECT 1 FROM "
+             "arrivals a WHERE a.version = s.id) FROM standing s WHERE assignment = ? AND stage = 'first' AND part IN "
+             "('script', 'pack') ORDER BY group_id, number, part",
+             assignment.id);
+         rows.next();)
+        versions.push_back({rows.integer(0), rows.integer(1), rows.integer(2), rows.text(3), rows.text(4), rows.text(5),
+                            rows.integer(6), rows.integer(7), rows.integer(8), rows.integer(9) != 0});
+    work_.deadlines = assignment.first_due != kNoDeadline ||
+                      std::ranges::any_of(versions, [](const Stored& v) { return v.due != kNoDeadline; });
+    return versions;
+}
+
+CourseWork::CourseWork(Course& course, const Assignment& assignment) {
+    for (const Stored& version : read(course, assignment)) add(course, version, assignment);
+}
+
+CourseWork::CourseWork(Course& course, const Assignment& assignment, const ReceivedClass& received) {
+    std::map<std::int64_t, Stored> versions;
+    for (Stored& version : read(course, assignment)) versions.emplace(version.id, std::move(version));
+    for (WorkItem item : received.items) {
+        const auto version = versions.find(item.version);
+        if (version != versions.end()) {
+            date(item, version->second, assignment);
+            if (needs_confirmation(item.lateness) && !version->second.confirmed)
+                item.lateness = unconfirmed(item.lateness);
+        } else if (item.version != 0) {
+            work_.notes.push_back(Message("\"{}\" is withdrawn, and left out", item.submission.name));
+            continue;
+        }
+        item.addressee = item.submission.person;
+        address(item);
+        work_.items.push_back(std::move(item));
+    }
+    work_.complaints = received.complaints;
+    conclude_lateness(work_);
+}
+
+void CourseWork::date(WorkItem& item, const Stored& version, const Assignment& assignment) {
+    item.received = version.received;
+    const Costs& costs = assignment.costs;
+    item.lateness = lateness_of({version.due, assignment.grace, costs.late_day, costs.late_most}, version.first);
+}
+
+/// The file under a name that tells what it is.
+void CourseWork::add(Course& course, const Stored& version, const Assignment& assignment) {
+    const Group& group = groups_.at(version.group);
+    const bool pack = version.part == "pack";
+    const auto stem = archive_stem(version.name);
+    const std::string ending = stem ? version.name.substr(stem->size()) : ".zip";
+    const fs::path copy =
+        files_.path() / std::to_string(work_.items.size()) / (pack ? group.name + ending : "analysis.lua");
+    fs::create_directories(copy.parent_path());
+    fs::copy_file(course.file(version.hash), copy);
+    WorkItem item;
+    item.content = version.hash, item.version = version.id, item.group_id = version.group;
+    date(item, version, assignment);
+    item.submission.name = name_of(group, version.part, version.number);
+    item.submission.path = copy;
+    item.submission.archive = pack;
+    if (!pack) item.submission.loose = {{copy, "analysis.lua"}};
+    const std::vector<std::string> members = members_at(course, group.id, item.received);
+    for (std::size_t place = 0; place < work_.students.size(); ++place)
+        if (std::ranges::find(members, work_.students[place].id) != members.end()) item.students.push_back(place);
+    if (item.students.empty()) item.unmatched = Message("the group {} had no members then", group.name);
+    const bool alone = item.students.size() == 1 && work_.students[item.students.front()].id == group.name;
+    if (!alone) item.group = group.name;
+    address(item);
+    work_.items.push_back(std::move(item));
+}
+
+/// Whom the feedback is for, in which language, and whose data the script had.
+void CourseWork::address(WorkItem& item) const {
+    if (!item.group.empty()) item.addressee = item.group;
+    for (const std::size_t place : item.students) {
+        const Student& student = work_.students[place];
+        if (item.group.empty()) item.addressee = student.name.empty() ? student.id : student.name;
+        if (!student.language.empty()) item.language = student.language;
+        if (student.seed) item.seed = student.seed;
+    }
+}
+
+void CourseWork::choose(Course& course, const std::vector<std::string>& names) {
+    std::vector<bool> wanted(work_.items.size(), names.empty());
+    for (const std::string& name : names) {
+        bool found = false;
+        const auto take = [&](const auto& fits) {
+            for (std::size_t i = 0; i < wanted.size(); ++i)
+                if (fits(work_.items[i])) wanted[i] = found = true;
+        };
+        take([&](const WorkItem& item) {
+            const Submission& s = item.submission;
+            return s.name == name || s.lms_id == name || s.person == name || s.path.filename() == name;
+        });
+        try {
+            if (!found) take([id = group_named(course, name).id](const WorkItem& item) { return item.group_id == id; });
+        } catch (const InvalidArgument&) {  // is told below
+        }
+        if (!found)
+            throw EnvironmentError("there is no submission \"{}\", nor one of a group or student of that name", name);
+    }
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        if (wanted[i]) work_.chosen.push_back(i);
+}
+
+std::vector<const WorkItem*> CourseWork::waiting() const {
+    std::vector<const WorkItem*> items;
+    for (const WorkItem& item : work_.items)
+        if (item.lateness.waiting_percent > 0) items.push_back(&item);
+    return items;
+}
+
+std::optional<CourseWork::Marked> CourseWork::marked_by(Course& course, const std::string& who) const {
+    for (const WorkItem& item : work_.items)
+        if (item.submission.name == who)
+            return item.version == 0 ? std::nullopt : std::optional(Marked{item.group_id, item.version});
+    if (who.empty()) return {};
+    try {
+        return Marked{group_named(course, who).id, 0};
+    } catch (const InvalidArgument&) {
+        return {};
+    }
+}
+
+std::vector<std::string> CourseWork::names_of(std::int64_t group, std::int64_t version) const {
+    std::vector<std::string> names;
+    for (const WorkItem& item : work_.items)
+        if (item.group_id == group && (version == 0 || version == item.version)) names.push_back(item.submission.name);
+    const auto found = groups_.find(group);
+    if (names.empty() && version == 0 && found != groups_.end()) names.push_back(found->second.name);
+    return names;
+}
+
+}  // namespace dynlab::inline course
