@@ -166,7 +166,7 @@ TEST_F(corrections, an_override_is_taken_back) {
     done({"withdraw", "crane", "group-01", "--mark", "work", "--reason", "found"});
     EXPECT_THAT(done({"marks", "crane"}), Not(HasSubstr("yours")));
     EXPECT_THAT(course({"withdraw", "crane", "group-01", "--mark", "work", "--reason", "x"}).error_output,
-                HasSubstr("you have set no mark of group-01"));
+                HasSubstr("group-01 has no mark of yours for"));
     done({"mark", "crane", "group-01", "work", "105", "--force", "--reason", "more than was asked"});
     EXPECT_THAT(done({"marks", "crane"}), HasSubstr("105.0 (yours)"));
 }

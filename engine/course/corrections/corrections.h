@@ -25,6 +25,13 @@ struct HandedInWanted {
 std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& assignment, const HandedInWanted& wanted,
                                           Instant received, const std::string& reason, Instant now);
 
+/// Within a transaction, and without a line in the journal: the same of one version.
+void record_arrival(Course& course, const Assignment& assignment, std::int64_t version, Instant received,
+                    const std::string& reason, Instant now);
+/// The times of receipt are right, however late they are: penalties that wait for it are applied.
+void confirm_arrivals(Course& course, const Assignment& assignment, const std::vector<std::int64_t>& versions,
+                      Instant now);
+
 /// Withdraws versions, as if they had not come, or lets them stand again. Returns their ids.
 std::vector<std::int64_t> withdraw(Course& course, const Assignment& assignment, const HandedInWanted& wanted,
                                    bool withdrawn, const std::string& reason, Instant now);

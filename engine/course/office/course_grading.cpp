@@ -211,8 +211,9 @@ void join_marks(Course& course, const Assignment& assignment, const CourseWork& 
             filled.push_back(
                 {row.line, row.who, row.check, mark ? mark->points : std::nullopt, mark ? mark->reason : ""});
     }
-    const std::vector<GivenMark> all = marks_ever_given(course, assignment),
-                                 in_force = marks_in_force(course, assignment);
+    const std::vector<GivenMark> in_force = marks_in_force(course, assignment);
+    Rows newest = course.database().query("SELECT max(id) FROM marks WHERE assignment = ?", assignment.id);
+    const std::int64_t last_now = newest.next() ? newest.optional_integer(0).value_or(0) : 0;
     transaction.commit();
     for (const MarksFile::Row& row : filled) file.fill(row.who, row.check, row.points, row.reason);
     std::vector<MarksFile::Row> missing;
@@ -221,7 +222,7 @@ void join_marks(Course& course, const Assignment& assignment, const CourseWork& 
             for (const std::string& name : work.names_of(mark))
                 missing.push_back({0, name, mark.item, mark.points, mark.reason});
     file.add(missing);
-    joined.note(all.empty() ? 0 : all.back().id);
+    joined.note(last_now);
 }
 
 void record_results(Course& course, const Assignment& assignment, const CourseWork& work, const fs::path& results) {

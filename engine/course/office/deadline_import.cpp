@@ -27,7 +27,7 @@ DeadlineImport import_deadlines(Course& course, const Assignment& assignment, co
     if (const auto all = table.rules().find(kForAll); all != table.rules().end()) {
         a.first_due = all->second.deadline, a.grace = all->second.grace;
         a.costs.late_day = all->second.percent_per_day, a.costs.late_most = all->second.most_percent;
-        change_assignment(course, a, reason);
+        set_assignment(course, a, reason);
     }
     for (const auto& [who, rule] : table.rules()) {
         if (who == kForAll) continue;

@@ -29,6 +29,7 @@ struct Received {
     std::string group, part, about;  ///< about: of a review, the pseudonym of the report
     std::int64_t version = 0, id = 0;
     std::int64_t late = 0;     ///< of its content, which may be that of an earlier version
+    double waiting = 0;        ///< percent that its lateness costs once the instructor confirms the time of receipt
     bool known = false;        ///< the same content as the version before: nothing was changed
     bool voluntary = false;    ///< a review of a report that had been taken back
     bool from_pack = false;    ///< a PDF that was taken out of the group's pack

@@ -1,5 +1,6 @@
 #include "course/office/recognised_file.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include "course/findings/findings_report.h"
@@ -38,7 +39,8 @@ void explain_unreadable(const IncomingFile& file, const Assignment& assignment, 
         found.reason = Message("It is a {} archive, which cannot be opened here; zip and tar can.", kind);
     } else {
         found.trouble = "other-kind";
-        found.reason = assignment.is_report()
+        found.reason = assignment.is_lab() ? Message("It is neither a script (.lua) nor a pack (.zip, .tar.gz).")
+                       : assignment.is_report()
                            ? Message("It is neither a PDF nor a pack (.zip, .tar.gz).")
                            : Message("It is not a PDF, no script (.lua) and no pack (.zip, .tar.gz).");
     }
@@ -46,34 +48,22 @@ void explain_unreadable(const IncomingFile& file, const Assignment& assignment, 
 
 }  // namespace
 
-std::string document_part_of(const Assignment& assignment, const std::string& stage) {
-    if (stage == "review") return "review";
-    return assignment.is_report() || assignment.kind == "lab" ? "report" : "slides";
-}
-
 RecognisedFile recognise(const IncomingFile& file, const Assignment& assignment, const std::string& stage) {
     RecognisedFile found{kUnreadable, file.name, {}, {}, {}};
     const std::string kind = kind_of_file_at(file.name, file.file);
-    if (kind.empty() || (kind == "script" && assignment.is_report()) || fs::file_size(file.file) == 0) {
+    const std::vector<std::string> parts = parts_of(assignment, stage);
+    const bool document = kind == "pdf" || kind == "text";
+    const std::string part = !document ? kind : assignment.is_lab() ? "" : parts.front();
+    if (fs::file_size(file.file) == 0 || std::ranges::find(parts, part) == parts.end()) {
         explain_unreadable(file, assignment, found);
         return found;
     }
-    found.text = kind == "text";
-    found.part = kind == "pdf" || found.text ? document_part_of(assignment, stage) : kind;
+    found.part = part, found.text = kind == "text";
     if (kind == "pdf" && ending_of(file.name) != ".pdf") {
         found.name += ".pdf";
         found.remark = Message("a PDF, although its name ends in \"{}\"", ending_of(file.name));
     }
     return found;
-}
-
-Inspection unreadable_inspection(const std::string& trouble, const Message& reason) {
-    CheckResult result;
-    result.subject = kUnreadable;
-    result.findings.push_back({trouble, Severity::kRule, 0, "", reason, Message("Submit a file that can be read.")});
-    Inspection inspection = inspection_from(findings_as_json(result));
-    inspection.trouble = trouble;
-    return inspection;
 }
 
 }  // namespace dynlab::inline course

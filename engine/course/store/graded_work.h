@@ -22,7 +22,7 @@ LaidOutWork lay_out_work(Course& course, const Assignment& assignment, const std
 /// The scores that a gradebook of such work gives for one criterion: the share of the possible points, times the most
 /// that the criterion gives, rounded to hundredths. Which is not graded whole is left out.
 struct GradedScores {
-    std::string csv;  ///< as import_oral_scores reads it, for reports import_review_scores or import_final_scores
+    std::string csv;                    ///< as import_scores reads it
     std::vector<std::string> left_out;  ///< submissions
 };
 /// Throws EnvironmentError for a file that is no gradebook.csv, InvalidArgument for a criterion that is none.

@@ -125,7 +125,7 @@ Receipt receipt_of(Course& course, std::int64_t version, std::optional<std::int6
     Database& db = course.database();
     Rows rows = db.query(
         "SELECT a.name, g.name, v.stage, v.part, v.name, v.hash, v.number, f.bytes, v.late, v.received_at, v.due_at "
-        "FROM versions v JOIN assignments a ON a.id = v.assignment JOIN groups g ON g.id = v.group_id "
+        "FROM versions v JOIN assignments a ON a.id = v.assignment LEFT JOIN groups g ON g.id = v.group_id "
         "JOIN files f ON f.hash = v.hash WHERE v.id = ?",
         version);
     if (!rows.next()) throw EnvironmentError("there is no version {} in this course", version);
