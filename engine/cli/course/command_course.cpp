@@ -199,6 +199,7 @@ int enter_assignment(const CourseArguments& where, const AssignmentArguments& wo
     const bool other_kind = !kind.empty() && kind != a.kind;
     a.name = known != all.end() ? known->name : words.name;
     if (!kind.empty()) a.kind = kind;
+    if (!a.is_report()) a.review_due.reset(), a.final_due.reset();
     if (words.reviews) a.reviews = *words.reviews;
     apply(words, course.clock(), a);
     if (!words.criteria.empty())
