@@ -10,7 +10,7 @@
 #include "course/intake/owners.h"
 #include "course/office/receive.h"
 #include "course/store/groups.h"
-#include "course/store/participants.h"
+#include "course/store/senders.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"

@@ -4,8 +4,8 @@
 
 #include "course/intake/notebooks.h"
 #include "course/intake/submission.h"
+#include "course/office/recognised_file.h"
 #include "course/review/version_reading.h"
-#include "course/store/file_kind.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -17,7 +17,6 @@
 #include "course/store/exceptions.h"
 #include "course/store/inspection.h"
 #include "course/store/marks.h"
-#include "course/store/participants.h"
 #include "course/store/receipts.h"
 #include "course/store/senders.h"
 #include "course/store/side_by_side.h"

@@ -8,6 +8,11 @@
 
 namespace dynlab::inline course {
 
+/// What kind of file it is that can be read at `file` and was received under `name`, by its first bytes and its name's
+/// ending: "pdf", "pack" (zip or tar), "script" (.lua), "text" (what a word processor writes: .docx, .odt, ...), or
+/// empty for anything else. Throws EnvironmentError.
+std::string kind_of_file_at(const std::string& name, const std::filesystem::path& file);
+
 /// What a file that came in is. Its content says so; its name counts only where the content leaves it open.
 struct RecognisedFile {
     std::string part;     ///< report, slides, script, review, pack; kUnreadable
