@@ -193,7 +193,7 @@ TEST_F(corrections, changes_of_an_assignment_are_recorded_or_refused) {
                 AllOf(HasSubstr("reviews 1 instead of 3"), HasSubstr("criteria form:10,method:20 instead of data:5,"),
                       HasSubstr("; reason: few came")));
     EXPECT_THAT(course({"assignment", "crane", "--kind", "talk", "--reason", "x"}).error_output,
-                HasSubstr("work was submitted for crane already: it stays a report"));
+                HasSubstr("work was submitted for crane already: its kind stays report"));
     course_.bench().write("s.csv", "reviewer,report,form\ninstructor,group-01,8\n");
     done({"scores", "crane", "s.csv"});
     EXPECT_THAT(course({"assignment", "crane", "--criteria", "form:20", "--reason", "x"}).error_output,

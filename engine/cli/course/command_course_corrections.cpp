@@ -23,8 +23,8 @@ using Correct = int (*)(Course&, const Assignment&, const CorrectionArguments&);
 int correct_time(Course& course, const Assignment& a, const CorrectionArguments& words) {
     const auto versions = correct_arrival(course, a, words.wanted, course.clock().parse(words.time, "TIME"),
                                           words.reason, time_of(course, words.at));
-    for (const std::int64_t version : versions)
-        std::cout << terminal_text(fmt::format("Corrected receipt: {}\n", write_receipt(course, version).string()));
+    for (const auto& file : write_receipts(course, versions))
+        std::cout << terminal_text(fmt::format("Corrected receipt: {}\n", file.string()));
     return kDone;
 }
 

@@ -101,8 +101,8 @@ bool confirm_penalties(Course& course, const ReceiveOutcome& outcome, bool accep
     }
     if (waiting.empty() || !accept) return !waiting.empty();
     confirm_arrivals(course, outcome.assignment, waiting, now);
-    for (const std::int64_t version : waiting)
-        std::cout << terminal_text(fmt::format("Confirmed receipt: {}\n", write_receipt(course, version).string()));
+    for (const fs::path& file : write_receipts(course, waiting))
+        std::cout << terminal_text(fmt::format("Confirmed receipt: {}\n", file.string()));
     return false;
 }
 

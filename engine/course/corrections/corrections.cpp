@@ -37,8 +37,7 @@ class WantedFiles {
         const std::vector<std::string> parts = parts_of(assignment_, wanted_.stage);
         if (!wanted_.part.empty()) {
             if (std::ranges::find(parts, wanted_.part) == parts.end())
-                throw InvalidArgument("{} is a {}: the parts of its {} are {}", assignment_.name, assignment_.kind,
-                                      stage_name(wanted_.stage), listed(parts));
+                throw InvalidArgument("{} has no {}: its parts are {}", assignment_.name, wanted_.part, listed(parts));
             return {one(wanted_.part, withdrawn)};
         }
         std::optional<Found> document = newest(assignment_.is_lab() ? "" : parts.front(), withdrawn);

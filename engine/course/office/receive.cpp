@@ -51,26 +51,6 @@ struct Candidate {
     std::map<std::string, double> scores;  ///< of a review's pack, by criterion
 };
 
-/// Makes its folder.
-fs::path place_of(const Course& course, std::int64_t version, const Receipt& receipt) {
-    const fs::path folder = course.folder() / "receipts" / receipt.assignment;
-    fs::create_directories(folder);
-    return folder / fmt::format("{:05}-{}-{}-{}{}.txt", version, receipt.group, receipt.stage, receipt.part,
-                                receipt.correction > 0 ? fmt::format("-corrected-{}", receipt.correction) : "");
-}
-
-void write_receipts(Course& course, const std::vector<Received>& received) {
-    std::vector<NewFile> files;
-    std::set<fs::path> places;  // of a file that came twice there is one version
-    for (const Received& one : received) {
-        const Receipt receipt = receipt_of(course, one.id);
-        const fs::path file = place_of(course, one.id, receipt);
-        if (!fs::exists(file) && places.insert(file).second)
-            files.push_back({file, signed_receipt(receipt, course.signing_key())});
-    }
-    course.write(files);
-}
-
 class HandInReceiver {
   public:
     HandInReceiver(Course& course, const ReceiveRequest& request)
@@ -94,7 +74,9 @@ class HandInReceiver {
         write();
         outcome_.receipts = course_.folder() / "receipts" / outcome_.assignment.name;
         if (!outcome_.received.empty()) course_.publish_key();
-        write_receipts(course_, outcome_.received);
+        std::vector<std::int64_t> versions;
+        for (const Received& one : outcome_.received) versions.push_back(one.id);
+        write_receipts(course_, versions);
         return std::move(outcome_);
     }
 
@@ -444,13 +426,6 @@ class HandInReceiver {
 };
 
 }  // namespace
-
-fs::path write_receipt(Course& course, std::int64_t version, std::optional<std::int64_t> correction) {
-    const Receipt receipt = receipt_of(course, version, correction);
-    const fs::path file = place_of(course, version, receipt);
-    if (!fs::exists(file)) course.write({{file, signed_receipt(receipt, course.signing_key())}});
-    return file;
-}
 
 ReceiveOutcome receive(Course& course, const ReceiveRequest& request) {
     return HandInReceiver(course, request).run();

@@ -59,8 +59,4 @@ struct ReceiveOutcome {
 /// written after it, so that a crash loses nothing and the same command completes it.
 ReceiveOutcome receive(Course& course, const ReceiveRequest& request);
 
-/// Writes a version's receipt, or its newest correction, or the one with this number, into receipts/ASSIGNMENT/;
-/// returns the file.
-std::filesystem::path write_receipt(Course& course, std::int64_t version, std::optional<std::int64_t> correction = {});
-
 }  // namespace dynlab::inline course

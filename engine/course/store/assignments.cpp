@@ -106,7 +106,7 @@ bool only_later(Assignment a, const Assignment& b, const CourseClock& clock) {
 /// What submissions and scores depend on does not change after them.
 void refuse_change_of_form(Course& course, const Assignment& known, const Assignment& wanted, bool has_work) {
     if (has_work && wanted.kind != known.kind)
-        throw InvalidArgument("work was submitted for {} already: it stays a {}", known.name, known.kind);
+        throw InvalidArgument("work was submitted for {} already: its kind stays {}", known.name, known.kind);
     if (criteria_text(wanted.criteria) == criteria_text(known.criteria)) return;
     Rows scored = course.database().query(
         "SELECT 1 FROM marks m JOIN criteria c ON c.assignment = m.assignment AND c.name = m.item WHERE c.assignment = "
