@@ -89,7 +89,7 @@ class HandInReceiver {
     /// What cannot be taken is kept all the same. Throws for a file that was given alone.
     Candidate candidate_of(const IncomingFile& file) {
         Candidate candidate;
-        candidate.file = &file;
+        candidate.file = &file, candidate.at = request_.at;
         try {
             if (!file.sender.name.empty()) identify(candidate);
             if (!file.left_out.empty()) throw EnvironmentError(file.left_out);

@@ -60,8 +60,9 @@ void IncomingFiles::add(const fs::path& given) {
     }
     const fs::path to = scratch_.path() / std::to_string(++unpacked_);
     fs::create_directories(to);
+    int number = 0;
     for (const Message& clause : unpack_export(given, to, way_.level, way_.program))
-        leave_out(name, source, {}, Message("{}; it was left out", clause));
+        leave_out(fmt::format("{} ({})", name, ++number), source, {}, Message("{}; it was left out", clause));
     add_batch(to, source);
 }
 
