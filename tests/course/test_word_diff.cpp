@@ -3,7 +3,6 @@
 
 #include <random>
 
-#include "course/review/value_changes.h"
 #include "course/review/word_diff.h"
 
 namespace dynlab::test {

@@ -9,7 +9,7 @@
 #include "cli/course/grading_report.h"
 #include "course/office/course_grading.h"
 #include "course/review/review_marks.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/groups.h"
 #include "course/store/marks.h"
 #include "course/store/newest_versions.h"

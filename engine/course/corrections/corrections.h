@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "course/store/assignments.h"
-#include "course/store/exceptions.h"
 #include "course/store/groups.h"
 
 namespace dynlab::inline course {

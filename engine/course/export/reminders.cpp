@@ -6,7 +6,7 @@
 #include "base/languages.h"
 #include "base/reader.h"
 #include "course/review/review_pairs.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/inspection.h"
 #include "course/store/newest_versions.h"
 

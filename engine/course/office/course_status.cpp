@@ -8,7 +8,7 @@
 
 #include "base/reader.h"
 #include "course/review/review_pairs.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/groups.h"
 #include "course/store/inspection.h"
 #include "course/store/marks.h"

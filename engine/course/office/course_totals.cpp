@@ -7,7 +7,7 @@
 #include <set>
 
 #include "course/review/review_marks.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/groups.h"
 #include "course/store/marks.h"
 #include "course/store/newest_versions.h"

@@ -2,7 +2,7 @@
 
 #include "base/reader.h"
 #include "course/review/review_marks.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/newest_versions.h"
 
 namespace dynlab::inline course {

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/reader.h"
 #include "course/review/review_marks.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/newest_versions.h"
 #include "data_io/text_table.h"
 #include "numerics/error.h"

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,5 +84,17 @@ std::vector<Criterion> usual_criteria(const std::string& kind);
 
 /// "late-day:10,missing-review:25"; empty for none. Throws InvalidArgument.
 Costs costs_of(const std::string& text);
+
+// What the instructor allowed or kept from a group besides what holds for all. Corrections make such entries
+// (corrections/corrections.h), each with a reason; the newest holds.
+
+/// Throws InvalidArgument for an empty reason.
+void refuse_without_reason(const std::string& reason);
+
+/// The deadline of a group, extended or not. Throws InvalidArgument for a stage that the assignment does not have.
+Instant due_for(Course& course, const Assignment& assignment, std::int64_t group, const std::string& stage);
+
+/// Whether a group's report, or its review of a pair, is held back.
+bool is_held(Course& course, const Assignment& assignment, std::int64_t group, std::optional<std::int64_t> pair);
 
 }  // namespace dynlab::inline course

@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/groups.h"
 #include "data_io/values/json_values.h"
 #include "numerics/error.h"
