@@ -46,6 +46,13 @@ const std::vector<Alias>& aliases() {
     return all;
 }
 
+/// An assignment may be called add, change or remove. The old commands had its name behind that word.
+bool is_new_form(const Words& before, Words::const_iterator begin, Words::const_iterator end) {
+    if (before.front() != "assignment") return false;
+    begin += static_cast<std::ptrdiff_t>(before.size());
+    return begin == end || begin->starts_with('-');
+}
+
 /// Behind `course` and its option --course DIR; the end where the words are of another command.
 std::size_t course_command(const Words& words) {
     const auto skip_folder = [&words](std::size_t at) {
@@ -62,7 +69,7 @@ std::vector<std::string> with_new_names(std::vector<std::string> words, std::str
     const auto begin = words.begin() + static_cast<std::ptrdiff_t>(course_command(words));
     for (const auto& [before, now] : aliases()) {
         if (static_cast<std::size_t>(words.end() - begin) < before.size() ||
-            !std::equal(before.begin(), before.end(), begin))
+            !std::equal(before.begin(), before.end(), begin) || is_new_form(before, begin, words.end()))
             continue;
         note = message_text(Message("note: dynlab course {} is now dynlab course {}; the old name works until 2027",
                                     fmt::format("{}", fmt::join(before, " ")), fmt::format("{}", fmt::join(now, " "))));

@@ -33,7 +33,7 @@ const CLI::App* reached_command(const CLI::App* app) {
     return app;
 }
 
-/// As it is typed: "dynlab course peer".
+/// As it is typed: "dynlab course review".
 std::string whole_name(const CLI::App* command) {
     if (command->get_parent() == nullptr) return "dynlab";
     return whole_name(command->get_parent()) + " " + command->get_name();

@@ -82,7 +82,7 @@ class CourseBench {
         crane.final_due = noon("2026-03-15");
         crane.grace = 600, crane.reviews = reviews;
         crane.criteria = usual_criteria(crane.kind);
-        add_assignment(course, crane);
+        set_assignment(course, crane);
         return folder;
     }
     void copy_from(const std::filesystem::path& folder) const {

@@ -166,7 +166,7 @@ TEST_F(corrections, an_override_is_taken_back) {
     done({"withdraw", "crane", "group-01", "--mark", "work", "--reason", "found"});
     EXPECT_THAT(done({"marks", "crane"}), Not(HasSubstr("yours")));
     EXPECT_THAT(course({"withdraw", "crane", "group-01", "--mark", "work", "--reason", "x"}).error_output,
-                HasSubstr("you have set no mark of group-01"));
+                HasSubstr("group-01 has no mark of yours for"));
     done({"mark", "crane", "group-01", "work", "105", "--force", "--reason", "more than was asked"});
     EXPECT_THAT(done({"marks", "crane"}), HasSubstr("105.0 (yours)"));
 }
@@ -180,6 +180,43 @@ TEST_F(corrections, an_assignment_is_removed_while_nothing_hangs_on_it) {
     course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
     EXPECT_THAT(course({"assignment", "--remove", "crane", "--reason", "x"}).error_output,
                 HasSubstr("something hangs on it (its versions)"));
+}
+
+// oracle: the settings before and after, in the history
+TEST_F(corrections, changes_of_an_assignment_are_recorded_or_refused) {
+    done({"assignment", "crane", "--reviews", "3"});
+    EXPECT_THAT(done({"history"}), HasSubstr("assignment crane changed: reviews 3 instead of 2"));
+    course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
+    EXPECT_THAT(course({"assignment", "crane", "--reviews", "1"}).error_output, HasSubstr("give --reason"));
+    done({"assignment", "crane", "--reviews", "1", "--criteria", "form:10,method:20", "--reason", "few came"});
+    EXPECT_THAT(done({"history"}),
+                AllOf(HasSubstr("reviews 1 instead of 3"), HasSubstr("criteria form:10,method:20 instead of data:5,"),
+                      HasSubstr("; reason: few came")));
+    EXPECT_THAT(course({"assignment", "crane", "--kind", "talk", "--reason", "x"}).error_output,
+                HasSubstr("work was submitted for crane already: its kind stays report"));
+    course_.bench().write("s.csv", "reviewer,report,form\ninstructor,group-01,8\n");
+    done({"scores", "crane", "s.csv"});
+    EXPECT_THAT(course({"assignment", "crane", "--criteria", "form:20", "--reason", "x"}).error_output,
+                HasSubstr("scores were given for crane already: its criteria stay form:10,method:20"));
+    EXPECT_THAT(done({"marks", "crane"}), HasSubstr("80.0"));
+}
+
+// oracle: two days begun at 30 points each, only once the instructor says that the time is right
+TEST_F(corrections, a_penalty_of_half_the_points_waits_for_the_instructor) {
+    done({"assignment", "crane", "--costs", "late-day:30"});
+    const ChildResult late = course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-03 11:00", {"--no-checks"});
+    EXPECT_EQ(late.exit_code, 1);
+    EXPECT_THAT(late.error_output, HasSubstr("group-01 is late by 1 d 23 h; the penalty of 60 % is not applied until"));
+    course_.bench().write("s.csv", "reviewer,report,data\ninstructor,group-01,5\n");
+    done({"scores", "crane", "s.csv"});
+    const auto marks = [&] { return done({"marks", "crane", "--at", "2026-03-04 12:00"}); };
+    EXPECT_THAT(marks(), AllOf(HasSubstr("100.0"), HasSubstr("60 for a first version late by 1 d 23 h wait until")));
+    const ChildResult confirmed =
+        course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-04 11:00", {"--no-checks", "--accept-late"});
+    EXPECT_EQ(confirmed.exit_code, 0) << confirmed.error_output;
+    EXPECT_THAT(confirmed.output, HasSubstr("-corrected-1.txt"));
+    EXPECT_THAT(marks(), AllOf(HasSubstr("40.0"), Not(HasSubstr("wait"))));
+    EXPECT_THAT(done({"verify"}), HasSubstr("all there and unaltered"));
 }
 
 TEST_F(corrections_of_reviews, a_newer_version_goes_out_again_or_is_held_back) {

@@ -96,8 +96,7 @@ TEST_F(course_faults, a_kill_anywhere_in_other_commands_loses_nothing) {
         {"import more.csv", "SELECT id, name FROM students; SELECT student, group_id, until IS NULL FROM memberships"},
         {"assignment add second --first 2026-04-01T12:00 --review 2026-04-08T12:00 --final 2026-04-15T12:00",
          "SELECT name, first_due FROM assignments; SELECT * FROM criteria"},
-        {"override crane group-02 work 80 --reason late",
-         "SELECT DISTINCT group_id, what, percent, reason FROM overrides"}};
+        {"override crane group-02 work 80 --reason late", "SELECT DISTINCT group_id, item, points, reason FROM marks"}};
     for (const auto& [command, query] : commands) {
         bench_.bench().write("command", command);
         bench_.bench().shell("rm -rf calm && cp -r k calm && $DYNLAB course --course calm " + command +

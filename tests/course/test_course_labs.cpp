@@ -1,13 +1,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "base/reader.h"
+#include "course/corrections/corrections.h"
 #include "course/course_bench.h"
 #include "course/office/course_totals.h"
 #include "course/office/deadline_import.h"
+#include "course/office/receive.h"
 #include "course/office/who.h"
+#include "course/store/inspection.h"
 #include "course/store/marks.h"
-#include "course/store/refusals.h"
+#include "course/store/newest_versions.h"
+#include "course/store/store_check.h"
 #include "numerics/error.h"
 
 namespace dynlab::test {
@@ -25,7 +31,7 @@ class LabCourse {
         lab.name = "lab4", lab.kind = "lab", lab.lesson = "04", lab.keep = keep, lab.weight = 3;
         lab.first_due = at("2026-03-01 12:00");
         lab.costs = costs_of("late-day:10,late-most:25");
-        add_assignment(course_, lab);
+        set_assignment(course_, lab);
     }
     Course& course() { return course_; }
     Instant at(const std::string& time) const { return course_.clock().parse(time, "time"); }
@@ -33,17 +39,30 @@ class LabCourse {
     std::int64_t group(int i) { return group_named(course_, CourseBench::group(i)).id; }
 
     /// A script of a group as it is in the store; returns the version's id.
-    std::int64_t submit(int i, const std::string& time, int number = 1) {
+    std::int64_t submit(int i, const std::string& time, int number = 1, const std::string& part = "script") {
         const std::string hash = course_.keep(CourseBench::group(i) + time);
         Transaction transaction(course_.database());
         course_.record_file(hash, 1, at(time));
         course_.database().run(
             "INSERT INTO versions (assignment, group_id, stage, part, number, hash, name, received_at, due_at, late, "
-            "findings, signature) VALUES (?, ?, 'first', 'script', ?, ?, 'analysis.lua', ?, ?, 0, '', '')",
-            lab().id, group(i), std::int64_t{number}, hash, at(time), lab().first_due);
+            "findings, signature) VALUES (?, ?, 'first', ?, ?, ?, 'analysis.lua', ?, ?, 0, '', '')",
+            lab().id, group(i), part, std::int64_t{number}, hash, at(time), lab().first_due);
         const std::int64_t id = course_.database().getLastInsertRowid();
         transaction.commit();
         return id;
+    }
+    /// Files by their names as they come in together.
+    ReceiveOutcome take(const std::vector<std::pair<std::string, std::string>>& files, const std::string& time,
+                        const std::string& from = "") {
+        ReceiveRequest request;
+        std::set<std::string> given;
+        for (const auto& [name, content] : files) {
+            bench_.bench().write(name, content);
+            if (given.insert(name.substr(0, name.find('/'))).second)
+                request.files.push_back(bench_.bench().path(name.substr(0, name.find('/'))));
+        }
+        request.assignment = "lab4", request.at = at(time), request.from = from, request.checks = false;
+        return receive(course_, request);
     }
     /// Of checks x and y with 4 and 6 points.
     void grade(std::int64_t version, double x, double y, bool y_graded = true) {
@@ -104,7 +123,6 @@ TEST(course_labs, marks_by_hand_replace_points_and_can_be_taken_back) {
     EXPECT_EQ(course.earned(1), 2);
     course.mark({group, "", "*", {}, "not copied"});
     EXPECT_EQ(course.earned(1), 9);
-    EXPECT_EQ(marks_ever_given(course.course(), course.lab()).size(), 3u);
     EXPECT_EQ(marks_in_force(course.course(), course.lab()).size(), 1u);
     course.mark({group, "s1", "*", 10, "did it alone"});
     EXPECT_EQ(course.earned(1), 9) << "of the group";
@@ -140,17 +158,12 @@ TEST(course_labs, who_tells_all_of_a_student_by_any_name) {
     LabCourse course;
     course.grade(course.submit(1, "2026-03-01 13:00"), 4, 6);
     course.mark({course.group(1), "", "x", 1, "see me"});
-    {
-        Transaction transaction(course.course().database());
-        record_refused(course.course(), course.lab(),
-                       {course.group(1), "first", "lab4.rar", "", "cannot be opened", course.at("2026-02-28 12:00")});
-        transaction.commit();
-    }
+    course.take({{"group-01.rar", "Rar!\x1A\x07"}}, "2026-02-28 12:00");
     const Instant now = course.at("2026-03-05 12:00");
     for (const char* name : {"Student 1", "s1", "Group 1"})
         EXPECT_THAT(who_text(course.course(), name, now),
                     AllOf(HasSubstr("Student 1 (s1)"), HasSubstr("first script v1"), HasSubstr("late by 1 h"),
-                          HasSubstr("not taken: lab4.rar"), HasSubstr("mark of Student 1: 63 percent"),
+                          HasSubstr("group-01.rar: It is a RAR archive"), HasSubstr("mark of Student 1: 63 percent"),
                           HasSubstr("group-01 has 1 points for x; reason: see me")))
             << name;
     EXPECT_THAT(who_text(course.course(), "s2", now), Not(HasSubstr("see me")));
@@ -182,35 +195,65 @@ TEST(course_labs, table_of_deadlines_becomes_extensions_and_times_of_receipt) {
     EXPECT_EQ(again.extended + again.corrected, 0);
 }
 
-// oracle: the file that came and was not taken
-TEST(course_labs, refused_files_are_open_until_something_is_taken) {
+// oracle: the file that came, and what was taken later
+TEST(course_labs, file_of_unknown_sender_is_named_until_it_is_taken) {
     LabCourse course;
-    const RefusedFile file{course.group(2), "first", "lab4.rar", "", "cannot be opened", course.at("2026-02-28 12:00")};
-    for (int i = 0; i < 2; ++i) {
-        Transaction transaction(course.course().database());
-        record_refused(course.course(), course.lab(), file);
-        transaction.commit();
-    }
-    EXPECT_EQ(refused_files(course.course(), course.lab(), true).size(), 1u);
-    course.submit(2, "2026-02-28 13:00");
-    EXPECT_EQ(refused_files(course.course(), course.lab(), true).size(), 0u);
-    EXPECT_EQ(refused_files(course.course(), course.lab()).size(), 1u);
+    const auto not_taken = [&] { return files_not_taken(course.course(), course.lab()).size(); };
+    for (int i = 0; i < 2; ++i)
+        course.take({{"Mallory.lua", "print(1)"}, {"group-01.lua", "print(2)"}}, "2026-02-28 12:00");
+    EXPECT_EQ(not_taken(), 1u);
+    course.take({{"Mallory.lua", "print(1)"}}, "2026-02-28 13:00", "group-02");
+    EXPECT_EQ(not_taken(), 0u);
 }
 
-// oracle: what came from somebody unknown was taken when the instructor said whose it is
-TEST(course_labs, refused_file_that_is_taken_later_is_not_open) {
+// oracle: the files that came: each one is in the store with its name, taken or not
+TEST(course_labs, every_file_of_a_folder_leaves_a_trace) {
     LabCourse course;
-    const std::string time = "2026-02-28 13:00";
-    const std::string hash = course.course().keep(CourseBench::group(2) + time);  // what submit() gives
-    course.course().settle({hash});
-    {
-        Transaction transaction(course.course().database());
-        record_refused(course.course(), course.lab(), {{}, "first", "x.lua", hash, "of nobody", course.at(time)});
-        transaction.commit();
+    course.take({{"in/group-01/analysis.lua", "print(1)"},
+                 {"in/group-01/notes.txt", "notes"},
+                 {"in/group-01/report.pdf", small_pdf("report")},
+                 {"in/group-01/empty.csv", ""},
+                 {"in/stranger/analysis.lua", "print(2)"}},
+                "2026-02-28 12:00");
+    std::set<std::string> traces;
+    for (Rows rows = course.course().database().query("SELECT part, name FROM versions"); rows.next();)
+        traces.insert(rows.text(0) + " " + rows.text(1));
+    EXPECT_THAT(traces,
+                ::testing::UnorderedElementsAre("script analysis.lua", "unreadable notes.txt", "unreadable report.pdf",
+                                                "unreadable empty.csv", "unreadable analysis.lua"));
+    const HandedInParts parts = newest_versions(course.course(), course.lab())[course.group(1)]["first"];
+    EXPECT_EQ(parts.size(), 1u) << "what lies beside the script needs nobody";
+    EXPECT_TRUE(check_store(course.course()).troubles.empty());
+}
+
+// oracle: what a lab consists of
+TEST(course_labs, pdf_of_a_lab_is_no_report) {
+    LabCourse course;
+    const ReceiveOutcome taken = course.take({{"group-01.pdf", small_pdf("report")}}, "2026-02-28 12:00");
+    EXPECT_EQ(taken.received.at(0).part, kUnreadable);
+    EXPECT_EQ(taken.received.at(0).trouble, "other-kind");
+    HandedInWanted wanted;
+    wanted.group = "group-01", wanted.part = "report";
+    try {
+        withdraw(course.course(), course.lab(), wanted, true, "wrong file", course.at("2026-02-28 13:00"));
+        FAIL() << "a lab has no report";
+    } catch (const InvalidArgument& error) {
+        EXPECT_EQ(message_text(error.message()), "lab4 has no report: its parts are script, pack");
     }
-    EXPECT_EQ(refused_files(course.course(), course.lab(), true).size(), 1u);
-    course.submit(2, time);
-    EXPECT_EQ(refused_files(course.course(), course.lab(), true).size(), 0u);
+}
+
+// oracle: the order in which they came
+TEST(course_labs, corrections_are_of_the_script_or_pack_that_came_last) {
+    LabCourse course;
+    course.submit(1, "2026-02-01 12:00");
+    const std::int64_t pack = course.submit(1, "2026-02-02 12:00", 1, "pack");
+    HandedInWanted wanted;
+    wanted.group = "group-01";
+    EXPECT_THAT(correct_arrival(course.course(), course.lab(), wanted, course.at("2026-02-03 12:00"), "log",
+                                course.at("2026-02-04 12:00")),
+                ::testing::ElementsAre(pack));
+    EXPECT_THAT(withdraw(course.course(), course.lab(), wanted, true, "wrong file", course.at("2026-02-04 12:00")),
+                ::testing::ElementsAre(pack));
 }
 
 }  // namespace test_course_labs

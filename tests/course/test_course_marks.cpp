@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "course/course_bench.h"
-#include "course/review/pack_scores.h"
+#include "course/office/packed_document.h"
 
 namespace dynlab::test {
 namespace test_course_marks {

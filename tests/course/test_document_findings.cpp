@@ -3,7 +3,7 @@
 
 #include "check_fixture.h"
 #include "course/findings/findings_report.h"
-#include "course/findings/leftover_findings.h"
+#include "course/findings/text_findings.h"
 #include "platform/atomic_file.h"
 #include "support/message_texts.h"
 #include "support/pdf_inspection.h"

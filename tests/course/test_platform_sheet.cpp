@@ -83,6 +83,15 @@ TEST_F(platform_sheet, columns_of_an_unknown_language_are_found_by_their_content
     EXPECT_THAT(moodle.text(), HasSubstr("Συμμετέχων 13,Bo M,9,10.00,\n"));
 }
 
+// oracle: the header; with one row every number is the same in all rows
+TEST_F(platform_sheet, a_number_of_a_single_row_is_no_maximum) {
+    PlatformSheet moodle = sheet("Αναγνωριστικό,Όνομα,Αριθμός,Βαθμός,Μέγιστος\nΣυμμετέχων 12,Ada L,1001,,10.00\n");
+    moodle.set_grade(moodle.people().at(0), "9");
+    EXPECT_THAT(moodle.text(), HasSubstr("12,Ada L,1001,9,10.00\n"));
+    EXPECT_THAT(refusal("Αναγνωριστικό,Όνομα,Αριθμός,Βαθμός,Μέγιστος\nΣυμμετέχων 12,Ada L,1001,7,10.00\n"),
+                HasSubstr("the column of grades is not recognised"));
+}
+
 TEST_F(platform_sheet, canvas_fills_the_column_of_the_assignment) {
     const std::string before =
         "Student,ID,SIS User ID,SIS Login ID,Section,Lab 3 (1233),Lab 4 (1234),Current Score\n"

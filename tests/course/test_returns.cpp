@@ -6,7 +6,7 @@
 #include "course/export/returned_files.h"
 #include "course/office/receive.h"
 #include "course/review/review_pairs.h"
-#include "course/store/participants.h"
+#include "course/store/senders.h"
 #include "platform/error.h"
 
 namespace dynlab::test {

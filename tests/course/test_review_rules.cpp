@@ -10,8 +10,9 @@
 #include "course/office/course_export.h"
 #include "course/office/course_status.h"
 #include "course/office/receive.h"
-#include "course/review/oral_marks.h"
 #include "course/review/peer_review.h"
+#include "course/review/review_marks.h"
+#include "course/review/score_sheet.h"
 #include "course/store/newest_versions.h"
 
 namespace dynlab::test {
@@ -76,10 +77,10 @@ class Term {
         return {};
     }
     int score(const ReviewPair& pair, const std::string& points, const std::string& time) {
-        return import_review_scores(course_, crane_,
-                                    file("s.csv", "reviewer,report,data\n" + pair.reviewer_name + "," +
-                                                      pair.report_pseudonym() + "," + points + "\n"),
-                                    at(time));
+        return import_scores(course_, crane_, "first",
+                             file("s.csv", "reviewer,report,data\n" + pair.reviewer_name + "," +
+                                               pair.report_pseudonym() + "," + points + "\n"),
+                             at(time));
     }
     std::optional<double> work_of(std::int64_t group, const std::string& time = "2026-03-10 10:00") {
         for (const GroupMark& mark : course_marks(course_, crane_, at(time)).groups)
@@ -164,7 +165,8 @@ TEST_F(review_rules, a_dash_takes_a_score_back) {
     EXPECT_EQ(work_of(pair.author), Mark());
     submit("final", "group-02", "2026-03-14 10:00");
     const auto finals = [&](const std::string& points, const std::string& time) {
-        return import_final_scores(course_, crane_, file("f.csv", "group,data\ngroup-02," + points + "\n"), at(time));
+        return import_scores(course_, crane_, "final", file("f.csv", "group,data\ngroup-02," + points + "\n"),
+                             at(time));
     };
     finals("5", "2026-03-15 10:00");
     EXPECT_EQ(work_of(id("group-02")), Mark(100));
@@ -176,7 +178,7 @@ TEST_F(review_rules, a_dash_takes_a_score_back) {
 TEST_F(review_rules, scores_without_a_submission_are_refused) {
     const auto finals = [&](const std::string& row) {
         return refusal([&] {
-            import_final_scores(course_, crane_, file("f.csv", "group,data\n" + row + "\n"), at("2026-03-15 10:00"));
+            import_scores(course_, crane_, "final", file("f.csv", "group,data\n" + row + "\n"), at("2026-03-15 10:00"));
         });
     };
     EXPECT_THAT(finals("group-02,4"), HasSubstr("group-02 has submitted no final version of crane"));
@@ -191,7 +193,7 @@ TEST_F(review_rules, scores_without_a_submission_are_refused) {
 // oracle: the mark that was given
 TEST_F(review_rules, export_has_the_mark_that_one_student_alone_was_given) {
     Transaction transaction(course_.database());
-    give_mark(course_, crane_, {id("group-03"), "s3", "work", 77, "oral"}, at("2026-03-06 10:00"));
+    give_mark(course_, crane_, {id("group-03"), "s3", kWholeItem, 77, "oral"}, at("2026-03-06 10:00"));
     transaction.commit();
     EXPECT_THAT(marks_csv(course_, crane_), HasSubstr(",77,oral,"));
 }
@@ -199,9 +201,9 @@ TEST_F(review_rules, export_has_the_mark_that_one_student_alone_was_given) {
 // oracle: the group at the time of the first version; another one has a mark of its own
 TEST_F(review_rules, marks_follow_the_membership_at_the_submission) {
     const auto mine = [&](const std::string& group, const std::string& points) {
-        import_review_scores(course_, crane_,
-                             file("s.csv", "reviewer,report,data\ninstructor," + group + "," + points + "\n"),
-                             at("2026-03-06 10:00"));
+        import_scores(course_, crane_, "first",
+                      file("s.csv", "reviewer,report,data\ninstructor," + group + "," + points + "\n"),
+                      at("2026-03-06 10:00"));
     };
     mine("group-03", "4"), mine("group-04", "2");
     course_.database().run("UPDATE memberships SET until = ? WHERE student = 's3'", at("2026-03-03 10:00"));
@@ -263,18 +265,19 @@ TEST_F(review_rules, missing_points_of_an_oral_count_zero) {
     Assignment talk;
     talk.name = "talk", talk.kind = "talk", talk.first_due = at("2026-04-01 12:00");
     talk.criteria = {{"content", 5}, {"script", 5}, {"answers", 10}};
-    add_assignment(course_, talk);
+    set_assignment(course_, talk);
     talk = assignment_named(course_, "talk");
-    import_oral_scores(course_, talk,
-                       file("o.csv", "group,student,content,script\ngroup-01,,4,5\ngroup-02,,4,\ngroup-03,s3,5,\n"),
-                       at("2026-04-02 10:00"));
+    import_scores(course_, talk, "first",
+                  file("o.csv", "group,student,content,script\ngroup-01,,4,5\ngroup-02,,4,\ngroup-03,s3,5,\n"),
+                  at("2026-04-02 10:00"));
     std::map<std::int64_t, GroupMark> marks;
-    for (const GroupMark& mark : course_marks(course_, talk, at("2026-04-02 11:00")).groups) marks[mark.group] = mark;
+    const Marks all = course_marks(course_, talk, at("2026-04-02 11:00"));
+    for (const GroupMark& mark : all.groups) marks[mark.group] = mark;
     EXPECT_EQ(marks[id("group-01")].work, Mark(90));  // nobody has points for answers yet
     EXPECT_EQ(marks[id("group-02")].work, Mark(40));
     EXPECT_THAT(marks[id("group-02")].zeros, ElementsAre("script"));
     EXPECT_EQ(marks[id("group-03")].work, Mark());
-    EXPECT_EQ(marks[id("group-03")].work_mark_of("s3"), Mark(50));
+    EXPECT_EQ(all.work_of(marks[id("group-03")], "s3").percent, Mark(50));
     EXPECT_EQ(marks[id("group-04")].work, Mark());
     EXPECT_THAT(marks_csv(course_, talk), HasSubstr("no points for script, counted as 0"));
 }

@@ -56,12 +56,12 @@ TEST_F(store_seal, what_was_taken_away_or_changed_is_told) {
         troubles_after("UPDATE pairs SET author = reviewer % 3 + 1 WHERE id = 1 AND author <> reviewer % 3 + 1; "
                        "UPDATE pairs SET ended_at = 1 WHERE id = 2"),
         HasSubstr("the table pairs was changed"));
-    EXPECT_THAT(troubles_after("UPDATE overrides SET percent = 99"), HasSubstr("the table overrides was changed"));
+    EXPECT_THAT(troubles_after("UPDATE marks SET points = 99"), HasSubstr("the table marks was changed"));
     EXPECT_THAT(troubles_after("UPDATE pseudonyms SET number = number + 1000"), HasSubstr("the table pseudonyms"));
     EXPECT_THAT(troubles_after("UPDATE assignments SET first_due = first_due + 9"), HasSubstr("the table assignments"));
     EXPECT_THAT(troubles_after("DELETE FROM journal WHERE id = 2"), HasSubstr("the table journal"));
     EXPECT_THAT(troubles_after("UPDATE memberships SET group_id = 2 WHERE student = 's1'"), HasSubstr("memberships"));
-    EXPECT_THAT(troubles_after("CREATE TRIGGER t AFTER INSERT ON scores BEGIN DELETE FROM overrides; END"),
+    EXPECT_THAT(troubles_after("CREATE TRIGGER t AFTER INSERT ON pairs BEGIN DELETE FROM marks; END"),
                 HasSubstr("(tables themselves)"));
     EXPECT_THAT(troubles_after("DELETE FROM seals WHERE id = 2"), HasSubstr("or one before it is missing"));
     EXPECT_THAT(troubles_after("UPDATE seals SET at = at + 1 WHERE id = 1"), HasSubstr("seal 1"));

@@ -3,7 +3,6 @@
 
 #include <random>
 
-#include "course/review/value_changes.h"
 #include "course/review/word_diff.h"
 
 namespace dynlab::test {
@@ -142,9 +141,23 @@ TEST(word_diff, values_answers_and_cells_are_compared_by_name) {
     Texts texts;
     for (const ValueChange& change : changes.changed)
         texts.push_back(change.name + ": " + change.before + " -> " + change.after);
-    EXPECT_THAT(texts, ElementsAre("K: 8.5 -> 8.6", "fit: 80.0 -> 90.0", "models: ARX, fit (row 2): 82 -> 93",
+    EXPECT_THAT(texts, ElementsAre("K: 8.5 -> 8.6", "fit: 80.0 -> 90.0", "models: ARX, fit (2): 82 -> 93",
                                    "models: SRIVC, fit:  -> 95", "old: text -> "));
     EXPECT_EQ(changes.compared, 7u);
+}
+
+// oracle: the two runs: nothing differs but the answer, the second row, which moved down, and the second column
+TEST(word_diff, entries_of_the_same_name_are_compared_each_with_its_own) {
+    RunRecord before, after;
+    before.values = {{"K", {8, "8"}}, {"t: A, fit", {1, "1"}}};
+    after.values = before.values;
+    before.answers["K"] = {"number", "8"}, after.answers["K"] = {"number", "9"};
+    before.tables["t"] = {{"model", "fit", "fit"}, {{"A", "", "2"}, {"A", "3", "4"}}};
+    after.tables["t"] = {{"model", "fit", "fit"}, {{"B", "0", "0"}, {"A", "", "2"}, {"A", "3", "5"}}};
+    Texts texts;
+    for (const ValueChange& change : value_changes(before, after).changed)
+        texts.push_back(change.name + ": " + change.before + " -> " + change.after);
+    EXPECT_THAT(texts, ElementsAre("K: 8 -> 9", "t: A, fit (4): 4 -> 5", "t: B, fit:  -> 0", "t: B, fit (2):  -> 0"));
 }
 
 }  // namespace test_word_diff

@@ -183,7 +183,7 @@ void apply(const AssignmentArguments& words, const CourseClock& clock, Assignmen
 
 /// Adds it, or changes what was named of it: with a reason at any time, without one while that costs no student
 /// anything.
-int set_assignment(const CourseArguments& where, const AssignmentArguments& words) {
+int enter_assignment(const CourseArguments& where, const AssignmentArguments& words) {
     Course course(where.folder);
     if (words.remove) {
         remove_assignment(course, assignment_named(course, words.name), words.reason);
@@ -199,6 +199,7 @@ int set_assignment(const CourseArguments& where, const AssignmentArguments& word
     const bool other_kind = !kind.empty() && kind != a.kind;
     a.name = known != all.end() ? known->name : words.name;
     if (!kind.empty()) a.kind = kind;
+    if (!a.is_report()) a.review_due.reset(), a.final_due.reset();
     if (words.reviews) a.reviews = *words.reviews;
     apply(words, course.clock(), a);
     if (!words.criteria.empty())
@@ -207,10 +208,7 @@ int set_assignment(const CourseArguments& where, const AssignmentArguments& word
         a.criteria = usual_criteria(a.kind);
     if (a.is_lab() && a.lesson.empty()) throw InvalidArgument("a lab is graded by the checks of a lesson: --lesson NN");
     if (known == all.end() && !words.reason.empty() && !all.empty()) assignment_named(course, words.name);  // throws
-    const bool other_form = other_kind || words.reviews || !words.criteria.empty();
-    const bool changed = known != all.end() && !words.reason.empty() && !other_form
-                             ? change_assignment(course, a, words.reason)
-                             : add_assignment(course, a);
+    const bool changed = set_assignment(course, a, words.reason);
     std::cout << (changed ? "" : "Nothing new. ") << terminal_text(course_summary(course, CourseClock::now()));
     return kDone;
 }
@@ -276,7 +274,8 @@ void add_assignment_command(CLI::App& course, CourseArguments& where, Action& ac
         "  dynlab course assignment crane --lesson 03_crane --first \"2026-02-28 13:00\" \\\n"
         "            --review \"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews 2\n"
         "  dynlab course assignment crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
-    command->callback([&where, words, &action] { action = [&where, words] { return set_assignment(where, *words); }; });
+    command->callback(
+        [&where, words, &action] { action = [&where, words] { return enter_assignment(where, *words); }; });
 }
 
 void add_who(CLI::App& course, CourseArguments& where, Action& action) {

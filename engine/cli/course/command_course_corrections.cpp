@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <set>
 
 #include "cli/course/course_commands.h"
 #include "course/corrections/corrections.h"
 #include "course/office/receive.h"
-#include "course/review/review_marks.h"
 #include "course/store/marks.h"
 #include "course/store/receipts.h"
 #include "numerics/error.h"
@@ -25,38 +23,23 @@ using Correct = int (*)(Course&, const Assignment&, const CorrectionArguments&);
 int correct_time(Course& course, const Assignment& a, const CorrectionArguments& words) {
     const auto versions = correct_arrival(course, a, words.wanted, course.clock().parse(words.time, "TIME"),
                                           words.reason, time_of(course, words.at));
-    for (const std::int64_t version : versions)
-        std::cout << terminal_text(fmt::format("Corrected receipt: {}\n", write_receipt(course, version).string()));
+    for (const auto& file : write_receipts(course, versions))
+        std::cout << terminal_text(fmt::format("Corrected receipt: {}\n", file.string()));
     return kDone;
 }
 
-int take_back_mark(Course& course, const Assignment& a, const CorrectionArguments& words) {
-    const Instant now = time_of(course, words.at);
-    if (!a.is_lab() && words.mark != "work" && words.mark != "reviews")
-        throw InvalidArgument("{} has marks of work and reviews: --mark work, or --mark reviews", a.name);
-    const std::string student = words.alone ? student_named(course, words.wanted.group).id : "";
-    const Group group = words.alone ? Group() : group_named(course, words.wanted.group);
-    const std::string& whose = words.alone ? student : group.name;
-    if (!a.is_lab() && !words.alone) {
-        take_back_override(course, a, group.name, words.mark, words.reason, now);
-    } else {
-        Transaction transaction(course.database());
-        std::set<std::int64_t> groups;  // of which all versions lose the mark at once
-        for (const GivenMark& mark : marks_in_force(course, a)) {
-            if (mark.student != student || (!words.alone && mark.group != group.id) || mark.item != words.mark)
-                continue;
-            if (groups.insert(mark.group).second)
-                give_mark(course, a, {mark.group, student, words.mark, {}, words.reason}, now);
-        }
-        if (groups.empty()) throw InvalidArgument("{} has no mark of yours for {}", whose, words.mark);
-        transaction.commit();
-    }
-    std::cout << terminal_text(fmt::format("{}: your mark of {} ({}) is taken back.\n", a.name, whose, words.mark));
+int withdraw_mark(Course& course, const Assignment& a, const CorrectionArguments& words) {
+    const std::string item = item_called(a, words.mark);
+    Transaction transaction(course.database());
+    take_back_mark(course, a, words.wanted.group, words.alone, item, words.reason, time_of(course, words.at));
+    transaction.commit();
+    std::cout << terminal_text(
+        fmt::format("{}: your mark of {} ({}) is taken back.\n", a.name, words.wanted.group, words.mark));
     return kDone;
 }
 
 int tell_withdrawn(Course& course, const Assignment& a, const CorrectionArguments& words, bool withdrawn) {
-    if (!words.mark.empty()) return take_back_mark(course, a, words);
+    if (!words.mark.empty()) return withdraw_mark(course, a, words);
     const auto versions = withdraw(course, a, words.wanted, withdrawn, words.reason, time_of(course, words.at));
     for (const std::int64_t version : versions) {
         const Receipt receipt = receipt_of(course, version);

@@ -9,7 +9,7 @@
 #include "cli/course/grading_report.h"
 #include "course/office/course_grading.h"
 #include "course/review/review_marks.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/groups.h"
 #include "course/store/marks.h"
 #include "course/store/newest_versions.h"
@@ -50,51 +50,6 @@ struct MarkWords {
     bool alone = false, force = false;
 };
 
-/// The most that the checks of a lab give, by check and as a whole; nothing before it was graded.
-std::optional<double> most_of(Course& course, const Assignment& a, const std::string& item) {
-    std::optional<double> most;
-    for (Rows rows = course.database().query(
-             "SELECT r.checks, r.possible FROM results r JOIN versions v ON v.id = r.version WHERE v.assignment = ? "
-             "ORDER BY r.id DESC LIMIT 1",
-             a.id);
-         rows.next();) {
-        if (item == kWholeItem) return rows.number(1);
-        for (const CheckPoints& check : checks_in(rows.text(0)))
-            if (check.id == item) most = check.points;
-        if (!most) throw InvalidArgument("{} has no check \"{}\"; * is the whole submission", a.name, item);
-    }
-    return most;
-}
-
-void mark_lab(Course& course, const Assignment& a, const GivenMark& mark, const MarkWords& words) {
-    const std::optional<double> most = most_of(course, a, mark.item);
-    if (most && *mark.points > *most && !words.force)
-        throw InvalidArgument("{} points are more than the {} of \"{}\"; correct it, or give --force", *mark.points,
-                              *most, mark.item);
-    Transaction transaction(course.database());
-    give_mark(course, a, mark, time_of(course, words.at));
-    transaction.commit();
-    std::cout << terminal_text(fmt::format("{}: {} has {} points for {}; dynlab course grade {} writes the feedback.\n",
-                                           a.name, words.who, *mark.points, mark.item, a.name));
-}
-
-void mark_percent(Course& course, const Assignment& a, const GivenMark& mark, const MarkWords& words) {
-    const Instant now = time_of(course, words.at);
-    const std::string group = mark.student.empty() ? group_named(course, words.who).name : "";
-    if (*mark.points > 100 && !words.force)
-        throw InvalidArgument("{} percent are more than 100; correct it, or give --force", *mark.points);
-    if (mark.student.empty()) {
-        override_mark(course, a, group, mark.item, *mark.points, words.reason, now);
-    } else {
-        refuse_without_reason(words.reason);
-        Transaction transaction(course.database());
-        give_mark(course, a, mark, now);
-        transaction.commit();
-    }
-    std::cout << terminal_text(fmt::format("{}: the mark of {} for its {} is {} percent.\n", a.name,
-                                           mark.student.empty() ? group : mark.student, mark.item, *mark.points));
-}
-
 /// The id of the student who is called so; empty for a group's name.
 std::string student_called(Course& course, const std::string& who) {
     try {
@@ -111,6 +66,8 @@ std::int64_t group_of_work(Course& course, const Assignment& a, const std::strin
     return author != authors.end() ? author->second : group_named(course, who).id;
 }
 
+constexpr double kMaxPercent = 200;  ///< for work that deserves more than all
+
 int set_mark(const CourseArguments& where, const MarkWords& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
@@ -118,17 +75,26 @@ int set_mark(const CourseArguments& where, const MarkWords& words) {
     const std::string student = words.alone ? student_named(course, words.who).id : student_called(course, words.who);
     mark.group = group_of_work(course, a, student, words.who);
     if (words.alone) mark.student = student;
-    mark.item = words.mark.size() > 1 ? words.mark.front() : a.is_lab() ? kWholeItem : "work";
+    mark.item = words.mark.size() > 1 ? item_called(a, words.mark.front()) : kWholeItem;
     mark.points = number_in_cell(words.mark.back());
     mark.reason = words.reason;
     if (!mark.points || *mark.points < 0)
         throw InvalidArgument("a mark is a number from 0, but \"{}\" was given", words.mark.back());
-    if (!a.is_lab() && mark.item != "work" && mark.item != "reviews")
-        throw InvalidArgument("{} has marks of work and reviews, but \"{}\" was given", a.name, mark.item);
-    if (a.is_lab())
-        mark_lab(course, a, mark, words);
-    else
-        mark_percent(course, a, mark, words);
+    const double most = most_points(course, a, mark.item).value_or(*mark.points);
+    if (*mark.points > most && !words.force)
+        throw InvalidArgument("{} is more than the {} of \"{}\"; correct it, or give --force", *mark.points, most,
+                              mark.item);
+    if (!a.is_lab() && *mark.points > kMaxPercent)
+        throw InvalidArgument("a mark is a number from 0 to {} percent, but {} was given", kMaxPercent, *mark.points);
+    refuse_without_reason(words.reason);
+    Transaction transaction(course.database());
+    give_mark(course, a, mark, time_of(course, words.at));
+    transaction.commit();
+    std::cout << terminal_text(
+        a.is_lab() ? fmt::format("{}: {} has {} points for {}; dynlab course grade {} writes the feedback.\n", a.name,
+                                 words.who, *mark.points, mark.item, a.name)
+                   : fmt::format("{}: {} has {} percent for its {}.\n", a.name, words.who, *mark.points,
+                                 mark.item == kWholeItem ? "work" : mark.item));
     return kDone;
 }
 

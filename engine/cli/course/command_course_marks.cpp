@@ -9,7 +9,8 @@
 #include "cli/course/course_commands.h"
 #include "course/office/course_export.h"
 #include "course/office/course_totals.h"
-#include "course/review/oral_marks.h"
+#include "course/review/review_marks.h"
+#include "course/review/score_sheet.h"
 #include "course/store/groups.h"
 #include "course/store/marks.h"
 #include "numerics/error.h"
@@ -23,7 +24,7 @@ namespace {
 struct MarkArguments {
     std::string assignment, file, at, out, stage = "first";
     bool json = false, make_sheet = false;
-    OralSheetWishes sheet;
+    OralSheetOptions sheet;
 };
 using Run = int (*)(const CourseArguments&, const MarkArguments&);
 
@@ -49,16 +50,13 @@ int scores(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     const Instant now = time_of(course, words.at);
-    const std::filesystem::path file = words.file;
-    const int fresh = words.stage == "final" ? import_final_scores(course, a, file, now)
-                      : a.is_report()        ? import_review_scores(course, a, file, now)
-                                             : import_oral_scores(course, a, file, now);
+    const int fresh = import_scores(course, a, words.stage, words.file, now);
     std::cout << fmt::format("{}: {} new scores.\n", a.name, fresh);
     return kDone;
 }
 
-std::string percent(const std::optional<double>& mark, bool overridden) {
-    return mark ? fmt::format("{:.1f}{}", *mark, overridden ? " (yours)" : "") : "-";
+std::string percent(const FinalMark& mark) {
+    return mark.percent ? fmt::format("{:.1f}{}", *mark.percent, mark.given != nullptr ? " (yours)" : "") : "-";
 }
 
 /// What was taken off marks, and criteria that were forgotten: a mark without them is of the others only.
@@ -114,9 +112,7 @@ void tell_students_and_comments(Course& course, const Assignment& a, const Marks
             for (const StudentMark& own : mark.students) {
                 std::vector<std::string> row = {group.name, own.student, names[own.student]};
                 for (const auto& points : own.points) row.push_back(points ? fmt::format("{}", *points) : "-");
-                const GivenMark* const given = all.own_mark(own.student, "work");
-                row.push_back(given ? percent(given->points, true)
-                                    : percent(mark.work_mark_of(own.student), mark.work_override.has_value()));
+                row.push_back(percent(all.work_of(mark, own.student)));
                 rows.push_back(row);
             }
         }
@@ -153,8 +149,8 @@ int marks(const CourseArguments& where, const MarkArguments& words) {
             if (mark.group != group.id) continue;
             std::vector<std::string> row = {group.name};
             for (const auto& median : mark.medians) row.push_back(median ? fmt::format("{}", *median) : "-");
-            row.push_back(percent(mark.work_mark(), mark.work_override.has_value()));
-            row.push_back(percent(mark.reviews_mark(), mark.reviews_override.has_value()));
+            row.push_back(percent(all.work_of(mark)));
+            row.push_back(percent(all.reviews_of(mark)));
             rows.push_back(row);
         }
     std::cout << terminal_text(aligned_table(header, rows));

@@ -5,6 +5,7 @@
 
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
+#include "course/corrections/corrections.h"
 #include "course/intake/arrival_times.h"
 #include "course/office/receive.h"
 #include "course/store/receipts.h"
@@ -23,7 +24,7 @@ struct ReceiveArguments {
     std::vector<std::string> files;
     std::vector<std::string> of;
     std::string assignment, from, at, times, isolation = "full", stage = "first";
-    bool no_checks = false, first = false;
+    bool no_checks = false, first = false, accept_late = false;
 };
 
 Message remark(const Received& r) {
@@ -83,6 +84,27 @@ void show(const ReceiveOutcome& outcome, const std::string& stage, bool timed) {
         std::cerr << "dynlab: " << terminal_text(message_text(refused)) << '\n';
 }
 
+/// Penalties of half the points or more wait for the instructor; returns whether any still does.
+bool confirm_penalties(Course& course, const ReceiveOutcome& outcome, bool accept, Instant now) {
+    std::vector<std::int64_t> waiting;
+    for (const Received& r : outcome.received) {
+        if (r.waiting <= 0) continue;
+        waiting.push_back(r.id);
+        if (!accept)
+            std::cerr << "dynlab: "
+                      << terminal_text(message_text(Message(
+                             "{} is late by {}; the penalty of {} % is not applied until you confirm it: repeat this "
+                             "with --accept-late, or correct the time with dynlab course set-received",
+                             r.group, duration_message(r.late), significant(r.waiting, 4))))
+                      << '\n';
+    }
+    if (waiting.empty() || !accept) return !waiting.empty();
+    confirm_arrivals(course, outcome.assignment, waiting, now);
+    for (const fs::path& file : write_receipts(course, waiting))
+        std::cout << terminal_text(fmt::format("Confirmed receipt: {}\n", file.string()));
+    return false;
+}
+
 int receive_files(const CourseArguments& where, const ReceiveArguments& words, const std::string& stage) {
     Course course(where.folder);
     ReceiveRequest request;
@@ -105,7 +127,8 @@ int receive_files(const CourseArguments& where, const ReceiveArguments& words, c
     const ReceiveOutcome outcome = receive(course, request);
     bar.finish();
     show(outcome, stage, !words.times.empty());
-    return outcome.refused.empty() ? kDone : kFailed;
+    const bool waiting = confirm_penalties(course, outcome, words.accept_late, request.at);
+    return outcome.refused.empty() && !waiting ? kDone : kFailed;
 }
 
 void add_receive(CLI::App& parent, const char* name, const char* about, const std::string& stage,
@@ -123,6 +146,7 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
             ->type_name("first|final")
             ->capture_default_str()
             ->check(CLI::IsMember({"first", "final"}));
+        command->add_flag("--accept-late", words->accept_late, "Apply penalties of half the points or more");
         command->add_flag("--first", words->first, "A first version, even of a report whose reviews are out");
     }
     if (stage == "review")

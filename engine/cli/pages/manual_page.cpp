@@ -29,7 +29,7 @@ std::string in_one_line(std::string text) {
     return plain(text);
 }
 
-/// "dynlab course roster"
+/// "dynlab course import"
 std::string words_of(const CLI::App& command) {
     const CLI::App* parent = command.get_parent();
     return parent == nullptr ? command.get_name() : words_of(*parent) + " " + command.get_name();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "course/review/review_pairs.h"
 #include "course/store/receipts.h"
 #include "numerics/error.h"
@@ -32,13 +34,19 @@ class WantedFiles {
 
     /// Those that are withdrawn, or those that are not.
     std::vector<Found> all(bool withdrawn) const {
-        const std::string document = wanted_.stage == "review" ? "review" : assignment_.document();
-        if (!wanted_.part.empty()) return {one(wanted_.part, withdrawn)};
-        std::vector<Found> found = {has(document, withdrawn) ? one(document, withdrawn) : one("pack", withdrawn)};
+        const std::vector<std::string> parts = parts_of(assignment_, wanted_.stage);
+        if (!wanted_.part.empty()) {
+            if (std::ranges::find(parts, wanted_.part) == parts.end())
+                throw InvalidArgument("{} has no {}: its parts are {}", assignment_.name, wanted_.part, listed(parts));
+            return {one(wanted_.part, withdrawn)};
+        }
+        std::optional<Found> document = newest(assignment_.is_lab() ? "" : parts.front(), withdrawn);
+        std::vector<Found> found = {document ? *document : one("pack", withdrawn)};
         for (Rows rows = db_.query("SELECT w.id, w.number, w.part FROM arrived w JOIN versions o ON o.id = w.id JOIN "
                                    "versions v ON v.id = ? WHERE o.assignment = v.assignment AND o.group_id = "
                                    "v.group_id AND o.stage = v.stage AND ifnull(o.pair, 0) = ifnull(v.pair, 0) AND "
-                                   "o.received_at = v.received_at AND o.part <> v.part AND w.withdrawn = ?",
+                                   "o.received_at = v.received_at AND o.part <> v.part AND o.part <> 'unreadable' AND "
+                                   "w.withdrawn = ?",
                                    found.front().id, std::int64_t{withdrawn});
              rows.next();)
             found.push_back({rows.integer(0), rows.integer(1), rows.text(2)});
@@ -46,21 +54,21 @@ class WantedFiles {
     }
 
   private:
-    Rows rows(const std::string& part, bool withdrawn) const {
-        return db_.query(
-            "SELECT id, number FROM arrived WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, 0) = "
-            "? AND part = ? AND withdrawn = ? AND number = ifnull(?, number) ORDER BY number DESC",
+    /// Without a part the script or pack that came last.
+    std::optional<Found> newest(const std::string& part, bool withdrawn) const {
+        Rows rows = db_.query(
+            "SELECT id, number, part FROM arrived WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, "
+            "0) = ? AND (part = ?5 OR (?5 = '' AND part IN ('script', 'pack'))) AND withdrawn = ? AND number = "
+            "ifnull(?, number) ORDER BY CASE ?5 WHEN '' THEN received_at ELSE number END DESC, id DESC",
             assignment_.id, group_.id, wanted_.stage, pair_.value_or(0), part, std::int64_t{withdrawn}, wanted_.number);
+        if (!rows.next()) return {};
+        return Found{rows.integer(0), rows.integer(1), rows.text(2)};
     }
-    bool has(const std::string& part, bool withdrawn) const { return rows(part, withdrawn).next(); }
     Found one(const std::string& part, bool withdrawn) const {
-        Rows found = rows(part, withdrawn);
-        if (!found.next()) {
-            const std::string version = wanted_.number ? fmt::format("{} v{}", part, *wanted_.number) : part;
-            throw withdrawn ? InvalidArgument("there is no withdrawn {} ({}) for {}", what(), version, assignment_.name)
-                            : InvalidArgument("there is no {} ({}) for {}", what(), version, assignment_.name);
-        }
-        return {found.integer(0), found.integer(1), part};
+        if (const auto found = newest(part, withdrawn)) return *found;
+        const std::string version = wanted_.number ? fmt::format("{} v{}", part, *wanted_.number) : part;
+        throw withdrawn ? InvalidArgument("there is no withdrawn {} ({}) for {}", what(), version, assignment_.name)
+                        : InvalidArgument("there is no {} ({}) for {}", what(), version, assignment_.name);
     }
 
     Database& db_;
@@ -94,6 +102,14 @@ void record_arrival(Course& course, const Assignment& a, std::int64_t version, I
         "INSERT INTO arrivals (version, received_at, due_at, late, reason, made_at, signature) VALUES (?, ?, ?, ?, ?, "
         "?, ?)",
         version, received, due, receipt.late, reason, now, version_signature(course, receipt));
+}
+
+void confirm_arrivals(Course& course, const Assignment& a, const std::vector<std::int64_t>& versions, Instant now) {
+    Transaction transaction(course.database());
+    for (const std::int64_t version : versions)
+        record_arrival(course, a, version, receipt_of(course, version).received, "confirmed", now);
+    course.note(fmt::format("{}: {} times of receipt confirmed", a.name, versions.size()), now);
+    transaction.commit();
 }
 
 std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& a, const HandedInWanted& wanted,

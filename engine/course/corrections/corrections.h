@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "course/store/assignments.h"
-#include "course/store/exceptions.h"
 #include "course/store/groups.h"
 
 namespace dynlab::inline course {
@@ -28,6 +27,9 @@ std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& assi
 /// Within a transaction, and without a line in the journal: the same of one version.
 void record_arrival(Course& course, const Assignment& assignment, std::int64_t version, Instant received,
                     const std::string& reason, Instant now);
+/// The times of receipt are right, however late they are: penalties that wait for it are applied.
+void confirm_arrivals(Course& course, const Assignment& assignment, const std::vector<std::int64_t>& versions,
+                      Instant now);
 
 /// Withdraws versions, as if they had not come, or lets them stand again. Returns their ids.
 std::vector<std::int64_t> withdraw(Course& course, const Assignment& assignment, const HandedInWanted& wanted,

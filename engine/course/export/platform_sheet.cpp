@@ -127,15 +127,19 @@ std::vector<std::size_t> PlatformSheet::rows() const {
     return all;
 }
 
-/// The one whose cells are all the same number.
+/// The only one whose cells are all the same number, behind a column that can hold grades.
 std::optional<std::size_t> PlatformSheet::maximum_column() const {
     const std::vector<std::size_t> all = rows();
+    std::vector<std::size_t> found;
     for (std::size_t column = 1; column < names_.size() && !all.empty(); ++column) {
         const std::string first = value(all.front(), column);
-        const bool same = std::ranges::all_of(all, [&](std::size_t row) { return value(row, column) == first; });
-        if (same && number_in_cell(first).value_or(0) > 0) return column;
+        const bool fits = std::ranges::all_of(all, [&](std::size_t row) {
+            const std::string grade = value(row, column - 1);
+            return value(row, column) == first && (grade.empty() || number_in_cell(grade));
+        });
+        if (fits && number_in_cell(first).value_or(0) > 0) found.push_back(column);
     }
-    return {};
+    return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 
 std::string PlatformSheet::listed_columns() const {

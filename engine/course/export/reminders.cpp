@@ -5,9 +5,9 @@
 
 #include "base/languages.h"
 #include "base/reader.h"
-#include "course/office/recognised_file.h"
 #include "course/review/review_pairs.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
+#include "course/store/inspection.h"
 #include "course/store/newest_versions.h"
 
 namespace dynlab::inline course {
@@ -26,7 +26,7 @@ class Gaps {
         : course_(course), assignment_(assignment), group_(group), now_(now), early_(early) {}
 
     void document(const char* stage, const HandedInParts& parts, const Message& what) {
-        const auto found = parts.find(document_part_of(assignment_, stage)), unread = parts.find(kUnreadable);
+        const auto found = parts.find(parts_of(assignment_, stage).front()), unread = parts.find(kUnreadable);
         const Message due = Message("due {}", date_of(course_.clock(), due_of(stage)));
         const bool replaced =
             unread != parts.end() && (found == parts.end() || found->second.received_at < unread->second.received_at);

@@ -8,9 +8,9 @@
 #include "course/export/mailing.h"
 #include "course/export/platform_sheet.h"
 #include "course/intake/owners.h"
-#include "course/office/receive.h"
 #include "course/store/groups.h"
-#include "course/store/participants.h"
+#include "course/store/receipts.h"
+#include "course/store/senders.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/hash.h"
@@ -93,12 +93,13 @@ class Returner {
             for (const auto& entry : fs::directory_iterator(folder))
                 add(files, group, std::string(way) + "/" + entry.path().filename().string(), entry.path());
         }
+        std::vector<std::int64_t> versions;
         for (Rows rows = course_.database().query("SELECT id FROM versions WHERE assignment = ? AND group_id = ?",
                                                   assignment_.id, group.id);
-             rows.next();) {
-            const fs::path receipt = write_receipt(course_, rows.integer(0));
+             rows.next();)
+            versions.push_back(rows.integer(0));
+        for (const fs::path& receipt : write_receipts(course_, versions))
             add(files, group, "receipts/" + receipt.filename().string(), receipt);
-        }
         if (files.empty()) return;
         std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
         for (const FileToReturn& file : files) outcome_.files[group.name].push_back(file.name());

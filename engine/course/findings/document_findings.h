@@ -52,10 +52,10 @@ struct CheckResult {
 };
 
 /// Checks a PDF from anybody. Findings about the file itself: not-pdf, encrypted, damaged, too-large, scanned (rules),
-/// protected (hint); further ones in section_findings.h, name_findings.h, figure_findings.h, language_findings.h,
-/// layout_findings.h and leftover_findings.h. Without a standard, slides (landscape) are held against the template
-/// "slides", documents with more headings of the form "peer_review" than of "lab_report" against that, and others
-/// against "lab_report". Throws PdfRefusal when there is no such file or it may not be read.
+/// protected (hint); further ones in text_findings.h and anonymity/anonymity_findings.h. Without a standard, slides
+/// (landscape) are held against the template "slides", documents with more headings of the form "peer_review" than of
+/// "lab_report" against that, and others against "lab_report". Throws PdfRefusal when there is no such file or it may
+/// not be read.
 CheckResult check_pdf(const std::filesystem::path& file, const CheckOptions& wishes = {}, const PdfLimits& limits = {});
 
 void sort_findings(Findings& findings);  ///< rules first, then by page

@@ -1,4 +1,4 @@
-#include "course/findings/language_findings.h"
+#include "course/findings/text_findings.h"
 
 #include <algorithm>
 #include <set>

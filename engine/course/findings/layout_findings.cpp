@@ -1,4 +1,4 @@
-#include "course/findings/layout_findings.h"
+#include "course/findings/text_findings.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "course/findings/leftover_findings.h"
+#include "course/findings/text_findings.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "course/findings/section_findings.h"
+#include "course/findings/text_findings.h"
 
 #include <algorithm>
 #include <optional>

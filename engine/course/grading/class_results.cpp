@@ -91,15 +91,17 @@ std::vector<const Entry*> work_that_counts(const ClassResults& results) {
 /// A sentence for each owner with several submissions.
 std::vector<Message> several_of_one(const ClassResults& results) {
     if (!results.work->roster) return {};
-    std::map<std::string, std::vector<const Entry*>> by_owner;
+    std::map<std::pair<std::string, bool>, std::vector<const Entry*>> by_owner;  // a group may have a student's id
     for (const Entry& entry : results.entries)
         if (!entry.item->students.empty())
-            by_owner[entry.item->group.empty() ? results.work->students[entry.item->students.front()].id
-                                               : entry.item->group]
+            by_owner[entry.item->group.empty()
+                         ? std::pair(results.work->students[entry.item->students.front()].id, false)
+                         : std::pair(entry.item->group, true)]
                 .push_back(&entry);
     std::vector<Message> sentences;
-    for (const auto& [owner, entries] : by_owner) {
+    for (const auto& [key, entries] : by_owner) {
         if (entries.size() < 2) continue;
+        const std::string& owner = key.first;
         const Entry* counts = nullptr;
         std::vector<std::string> names;
         for (const Entry* entry : entries) {
@@ -217,13 +219,13 @@ std::string mistakes_of(const std::vector<CheckStatistics>& checks) {
     return list.empty() ? "None that was made twice.\n" : list;
 }
 
-std::string attention_of(const ClassResults& results) {
+std::string attention_of(const ClassResults& results, const Attention& found) {
     std::string attention;
     const auto add = [&](const Message& sentence) {
         attention += "- " + escaped_markdown(message_text(sentence)) + "\n";
     };
     for (const Message& complaint : results.complaints) add(complaint);
-    for (const Message& sentence : what_needs_attention(results).sentences) add(sentence);
+    for (const Message& sentence : found.sentences) add(sentence);
     return attention.empty() ? "Nothing.\n" : attention;
 }
 
@@ -336,7 +338,7 @@ std::vector<std::string> counted_instead(const ClassResults& results) {
     return names;
 }
 
-void write_class_results(const ClassResults& results) {
+void write_class_results(const ClassResults& results, const Attention& attention) {
     write_file_atomically(results.out / "gradebook.csv", csv_text(gradebook_of(results)));
     ask_for_marks(results);
     double possible = 0;
@@ -351,7 +353,7 @@ void write_class_results(const ClassResults& results) {
     record.tables["success"] = success_of(checks);
     record.tables["marks"] = marks_of(results);
     record.texts["mistakes"] = {mistakes_of(checks)};
-    record.texts["attention"] = {attention_of(results)};
+    record.texts["attention"] = {attention_of(results, attention)};
     record.figures["points"] = histogram_of(points, possible);
     GnuplotRenderer renderer;
     const TemporaryFolder drawn;

@@ -55,10 +55,10 @@ class ClassGrader {
         std::ranges::sort(outcome_.complaints, {}, [](const Message& complaint) { return message_text(complaint); });
         const ClassResults all = results();
         Attention attention = what_needs_attention(all);
+        write_class_results(all, attention);
         outcome_.attention = std::move(attention.sentences);
         outcome_.unowned = static_cast<int>(attention.unowned);
         outcome_.unreadable = static_cast<int>(attention.unreadable);
-        write_class_results(all);
         for (const Message& note : pipeline_.documents().notes()) outcome_.notes.push_back(note);
         return std::move(outcome_);
     }

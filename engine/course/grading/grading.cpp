@@ -101,7 +101,7 @@ std::optional<GradingPipeline::Finished> GradingPipeline::finish_as_counted(cons
                                                                             const std::string& instead) const {
     if (now.counts_instead == instead && (instead.empty() || now.newest_counts == newest_counts_)) return {};
     std::optional<Grade> grade = earlier_grade(results_of(item));
-    if (!grade) return {};
+    if (!grade || grade->fingerprint != now.fingerprint) return {};  // it could not be graded now
     grade->counts_instead = instead;
     grade->newest_counts = newest_counts_;
     return finish(item, *std::move(grade), options_.regrade);

@@ -136,8 +136,12 @@ Message doubt_about_zone(std::vector<std::int64_t> late, std::size_t files) {
     std::ranges::sort(late);
     if (files < kFewest || 10 * late.size() < 9 * files || late.back() > kWidestZone) return {};
     const char* const set = std::getenv("TZ");
+    const Message half = duration_message(late[late.size() / 2]);
+    if (set == nullptr)
+        return Message("{} of {} files are late, half of them by {} or less: is the time zone of this machine right?",
+                       late.size(), files, half);
     return Message("{} of {} files are late, half of them by {} or less: is the time zone {} right?", late.size(),
-                   files, duration_message(late[late.size() / 2]), set == nullptr ? "of this machine" : set);
+                   files, half, set);
 }
 
 }  // namespace dynlab::inline course

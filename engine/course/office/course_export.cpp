@@ -11,8 +11,8 @@
 
 #include "base/error.h"
 #include "base/reader.h"
-#include "course/review/oral_marks.h"
 #include "course/review/review_marks.h"
+#include "course/review/score_sheet.h"
 #include "course/store/course_schema.h"
 #include "course/store/groups.h"
 #include "course/store/marks.h"
@@ -173,31 +173,37 @@ void insert_row(Database& db, const std::string& table, const StoredRow& row) {
     statement.next();
 }
 
-/// Makes the imported course in `folder`, a new one.
+/// Makes the imported course in `folder`, a new one: with the tables that the exported one had, which opening it then
+/// brings to today's.
 void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::string, std::string>& settings,
-                   const std::vector<fs::path>& handed_in, CourseExport& all) {
+                   const std::vector<fs::path>& handed_in, const CourseExport& all) {
     fs::create_directories(folder);
     if (fs::exists(from / "course.key")) fs::copy_file(from / "course.key", folder / "course.key");
     Course::create(folder, settings["name"], settings["zone"]);
+    {
+        const std::vector<const char*>& steps = course_steps();
+        const auto version = std::clamp<std::int64_t>(all.tables_version.value_or(2), 1, std::ssize(steps));
+        const fs::path file = folder / "course.db";
+        fs::remove(file);
+        Database db(file, Database::Opening::kNew);
+        fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
+        migrate_course(db, Database::Opening::kNew, file.string(), {steps.begin(), steps.begin() + version});
+        db.execute("PRAGMA foreign_keys = OFF");  // tables come in any order
+        Transaction transaction(db);
+        for (const auto& [table, rows] : all.tables) {
+            if (!db.query("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?", table).next())
+                throw EnvironmentError("there is no table \"{}\"", printable(table));
+            for (const StoredRow& row : rows) insert_row(db, table, row);
+        }
+        if (db.query("PRAGMA foreign_key_check").next())
+            throw EnvironmentError("a row refers to one that is not there");
+        transaction.commit();
+    }
     Course course(folder);
     std::vector<std::string> hashes;
     for (const fs::path& kept : handed_in) hashes.push_back(course.keep(read_file(kept)));
     course.settle(hashes);
-    Database& db = course.database();
-    Transaction transaction(db);
-    db.execute("DELETE FROM course; DELETE FROM journal; DELETE FROM seals");  // what create wrote
-    const bool older = all.tables_version.value_or(0) < static_cast<std::int64_t>(course_steps().size());
-    for (const std::string& table : course_tables()) {
-        if (older && !all.tables.contains(table)) continue;  // one that a later version brought
-        for (StoredRow& row : all.tables[table]) {
-            if (older && table != "students")
-                row.erase("seed");  // from which earlier versions drew pairs and pseudonyms
-            if (older && table == "assignments")
-                if (auto& kind = row["kind"]; kind.value == StoredCell{"presentation"}.value) kind.value = "talk";
-            insert_row(db, table, row);
-        }
-    }
-    transaction.commit();
+    Transaction(course.database()).commit();  // seals what the exported course had not sealed
 }
 
 /// Throws ValueError for a file that is not an export.
@@ -255,12 +261,8 @@ std::string marks_csv(Course& course, const Assignment& a, Instant now) {
                     ++all, written += pair.written, late = std::max(late, pair.late);
             row.insert(row.end(), {first.first, first.second, all > 0 ? fmt::format("{} of {}", written, all) : "",
                                    all > 0 ? hours_text(late) : "", a.is_report() ? last.first : "", last.second});
-            const GivenMark *const work = marks.own_mark(s.id, "work"), *const reviews =
-                                                                            marks.own_mark(s.id, "reviews");
-            row.insert(row.end(), {percent_text(work ? work->points : mark->work_mark_of(s.id)),
-                                   work ? work->reason : mark->work_reason,
-                                   percent_text(reviews ? reviews->points : mark->reviews_mark()),
-                                   reviews ? reviews->reason : mark->reviews_reason});
+            for (const FinalMark& own : {marks.work_of(*mark, s.id), marks.reviews_of(*mark, s.id)})
+                row.insert(row.end(), {percent_text(own.percent), own.given != nullptr ? own.given->reason : ""});
             std::vector<std::string> remarks;
             const Group& group = groups.at(id);
             if (group.name != s.group) remarks.push_back("marks of " + group.name + ", the group at the submission");

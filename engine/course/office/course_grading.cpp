@@ -105,8 +105,9 @@ void join_rows(Course& course, const Assignment& assignment, const CourseWork& w
                 {row.line, row.who, row.check, mark ? mark->points : std::nullopt, mark ? mark->reason : ""});
     }
     if (file_alone) take_back_lost_rows(course, assignment, work, file, before);
-    const std::vector<GivenMark> all = marks_ever_given(course, assignment),
-                                 in_force = marks_in_force(course, assignment);
+    const std::vector<GivenMark> in_force = marks_in_force(course, assignment);
+    Rows newest = course.database().query("SELECT max(id) FROM marks WHERE assignment = ?", assignment.id);
+    const std::int64_t last_now = newest.next() ? newest.optional_integer(0).value_or(0) : 0;
     transaction.commit();
     for (const MarksFile::Row& row : filled) file.fill(row.who, row.check, row.points, row.reason);
     std::vector<MarksFile::Row> missing;
@@ -115,7 +116,7 @@ void join_rows(Course& course, const Assignment& assignment, const CourseWork& w
             for (const std::string& name : work.names_of(mark.group, mark.version))
                 missing.push_back({0, name, mark.item, mark.points, mark.reason});
     file.add(missing);
-    joined.note(all.empty() ? 0 : all.back().id);
+    joined.note(last_now);
 }
 
 }  // namespace

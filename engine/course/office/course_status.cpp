@@ -7,13 +7,12 @@
 #include <set>
 
 #include "base/reader.h"
-#include "course/office/recognised_file.h"
 #include "course/review/review_pairs.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/groups.h"
+#include "course/store/inspection.h"
 #include "course/store/marks.h"
 #include "course/store/newest_versions.h"
-#include "course/store/refusals.h"
 #include "platform/terminal/aligned_table.h"
 
 namespace dynlab::inline course {
@@ -77,17 +76,17 @@ class Status {
         for (const Group& group : groups_of(course_)) add(group);
         std::string text = heading() + '\n' + aligned_table(header(), rows_) + '\n' + sums();
         const std::string next = next_step();
-        return text + refusals() + (next.empty() ? "" : "Next: " + next + '\n');
+        return text + not_taken() + (next.empty() ? "" : "Next: " + next + '\n');
     }
 
   private:
     /// Files that were not taken and after which nothing came that was.
-    std::string refusals() const {
+    std::string not_taken() const {
         std::string text;
-        for (const RefusedFile& file : refused_files(course_, assignment_, true))
-            text +=
-                message_text(Message("Not taken: {}, {}: {}", file.name, course_.clock().show(file.at), file.reason)) +
-                "\n";
+        for (const FileNotTaken& file : files_not_taken(course_, assignment_))
+            text += message_text(Message("Not taken: {}, {}: {}", file.name, course_.clock().show(file.received_at),
+                                         file.reason)) +
+                    "\n";
         return text;
     }
 

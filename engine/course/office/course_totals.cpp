@@ -7,7 +7,7 @@
 #include <set>
 
 #include "course/review/review_marks.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/groups.h"
 #include "course/store/marks.h"
 #include "course/store/newest_versions.h"
@@ -33,10 +33,11 @@ class AssignmentMarks {
         if (a_.is_lab())
             return lab_percent(with_own_.contains(student) ? lab_marks(course_, a_, student) : labs_, group);
         const auto mark = std::ranges::find(marks_.groups, group, &GroupMark::group);
-        std::optional<double> work, reviews;
-        if (mark != marks_.groups.end()) work = mark->work_mark_of(student), reviews = mark->reviews_mark();
-        if (const GivenMark* const own = marks_.own_mark(student, "work")) work = own->points;
-        if (const GivenMark* const own = marks_.own_mark(student, "reviews")) reviews = own->points;
+        GroupMark of_group;
+        of_group.group = group;
+        if (mark != marks_.groups.end()) of_group = *mark;
+        const std::optional<double> work = marks_.work_of(of_group, student).percent,
+                                    reviews = marks_.reviews_of(of_group, student).percent;
         if (!work || !reviews || !a_.is_report()) return work;
         const double share = a_.reviews_weight / 100;
         return (1 - share) * *work + share * *reviews;

@@ -149,7 +149,7 @@ DeadlineImport import_deadlines(Course& course, const Assignment& assignment, co
     if (all != table.end()) {
         a.first_due = all->second.deadline, a.grace = all->second.grace;
         a.costs.late_day = all->second.percent_per_day, a.costs.late_most = all->second.most_percent;
-        change_assignment(course, a, reason);
+        set_assignment(course, a, reason);
     }
     DeadlineImport done;
     RowsOfGroups rows(course, a, reason, now);

@@ -1,7 +1,9 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/message.h"
 #include "platform/box.h"
@@ -25,5 +27,12 @@ struct OpenedPack {
 /// pack's analysis and text, in a box as well. Throws SubmissionError for a pack that cannot be unpacked.
 OpenedPack open_pack(const std::filesystem::path& pack, const std::string& part, const std::filesystem::path& to,
                      Isolation level, const std::filesystem::path& program);
+
+/// The points that the script of a review (report_templates/peer_review.lua) gives, by criterion: the entries NAME =
+/// NUMBER of its table `scores`. The script is read, not run; whatever else stands there gives nothing.
+std::map<std::string, double> scores_in_script(std::string_view script);
+
+/// The same of the analysis.lua that lies highest in an unpacked pack; nothing where there is none.
+std::map<std::string, double> scores_in_pack(const std::filesystem::path& folder);
 
 }  // namespace dynlab::inline course

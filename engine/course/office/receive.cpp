@@ -12,14 +12,11 @@
 #include "base/reader.h"
 #include "course/office/packed_document.h"
 #include "course/office/recognised_file.h"
-#include "course/review/pack_scores.h"
-#include "course/review/review_marks.h"
 #include "course/review/review_pairs.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/inspection.h"
-#include "course/store/participants.h"
+#include "course/store/marks.h"
 #include "course/store/receipts.h"
-#include "course/store/refusals.h"
 #include "course/store/senders.h"
 #include "course/store/side_by_side.h"
 #include "course/store/versions.h"
@@ -46,32 +43,13 @@ struct Candidate {
     bool timed = false;  ///< as `time_of` tells
     std::optional<ReviewPair> pair;
     bool from_pack = false, made = false;  ///< a PDF that was taken out of the group's pack; made of it
-    bool unreadable = false;               ///< no PDF, but the document all the same: kept, and told
+    bool unreadable = false;               ///< no PDF, but the document all the same
+    bool silent = false;                   ///< kept as a trace only: not taken, or beside the file that counts
     Message missing;                       ///< of a pack without the PDF that is wanted
     Message remark;                        ///< name and content differ
     Inspection inspection;
     std::map<std::string, double> scores;  ///< of a review's pack, by criterion
 };
-
-/// Makes its folder.
-fs::path place_of(const Course& course, std::int64_t version, const Receipt& receipt) {
-    const fs::path folder = course.folder() / "receipts" / receipt.assignment;
-    fs::create_directories(folder);
-    return folder / fmt::format("{:05}-{}-{}-{}{}.txt", version, receipt.group, receipt.stage, receipt.part,
-                                receipt.correction > 0 ? fmt::format("-corrected-{}", receipt.correction) : "");
-}
-
-void write_receipts(Course& course, const std::vector<Received>& received) {
-    std::vector<NewFile> files;
-    std::set<fs::path> places;  // of a file that came twice there is one version
-    for (const Received& one : received) {
-        const Receipt receipt = receipt_of(course, one.id);
-        const fs::path file = place_of(course, one.id, receipt);
-        if (!fs::exists(file) && places.insert(file).second)
-            files.push_back({file, signed_receipt(receipt, course.signing_key())});
-    }
-    course.write(files);
-}
 
 class HandInReceiver {
   public:
@@ -88,15 +66,17 @@ class HandInReceiver {
 
     ReceiveOutcome run() {
         for (const fs::path& file : request_.files) incoming_.add(file);
-        outcome_.refused = incoming_.left_out();
-        for (const IncomingFile* file : wanted_files()) attempt(*file, [&] { identify(*file); });
+        for (const IncomingFile& file : incoming_.files()) candidates_.push_back(candidate_of(file));
+        mark_what_lies_beside();
         settle_doubles();
         open_packs();
         keep_all();
         write();
         outcome_.receipts = course_.folder() / "receipts" / outcome_.assignment.name;
         if (!outcome_.received.empty()) course_.publish_key();
-        write_receipts(course_, outcome_.received);
+        std::vector<std::int64_t> versions;
+        for (const Received& one : outcome_.received) versions.push_back(one.id);
+        write_receipts(course_, versions);
         return std::move(outcome_);
     }
 
@@ -106,47 +86,36 @@ class HandInReceiver {
                 [this](const Submission& submission) { return senders_.knows(submission); }};
     }
 
-    template <class Work>
-    void attempt(const IncomingFile& file, const Work& work) {
+    /// What cannot be taken is kept all the same. Throws for a file that was given alone.
+    Candidate candidate_of(const IncomingFile& file) {
+        Candidate candidate;
+        candidate.file = &file, candidate.at = request_.at;
         try {
-            work();
+            if (!file.sender.name.empty()) identify(candidate);
+            if (!file.left_out.empty()) throw EnvironmentError(file.left_out);
         } catch (const std::runtime_error& error) {
             if (!incoming_.batch()) throw EnvironmentError("{}: {}", file.source, message_of(error));
             outcome_.refused.push_back(Message("{}: {}", file.source, message_of(error)));
-            const std::string why = message_text(message_of(error)),
-                              hash = kept_content(course_, file.file, kMostBytes);
-            refused_.push_back({{}, request_.stage, file.name, hash, why, request_.at});
+            make_trace(candidate, kNotTaken, message_of(error));
         }
+        return candidate;
     }
 
-    /// What cannot be read needs no trace where a PDF or a pack lies beside it in the sender's folder.
-    std::vector<const IncomingFile*> wanted_files() const {
-        std::set<std::string> fruitful;
-        const auto counts = [&](const IncomingFile& file) {
-            try {
-                const RecognisedFile found = recognise(file, outcome_.assignment, request_.stage);
-                return found.part != kUnreadable && !found.text;
-            } catch (const EnvironmentError&) {
-                return true;  // what cannot be opened is complained of by its name when its turn comes
-            }
-        };
-        for (const IncomingFile& file : incoming_.files())
-            if (!file.folder.empty() && counts(file)) fruitful.insert(file.folder);
-        std::vector<const IncomingFile*> wanted;
-        for (const IncomingFile& file : incoming_.files())
-            if (!fruitful.contains(file.folder) || counts(file)) wanted.push_back(&file);
-        return wanted;
+    static void make_trace(Candidate& candidate, const char* trouble, const Message& reason) {
+        candidate.part = kUnreadable, candidate.name = candidate.file->name;
+        candidate.inspection = unreadable_inspection(trouble, reason);
+        candidate.silent = true, candidate.unreadable = false, candidate.pair = {};
     }
 
-    void identify(const IncomingFile& file) {
-        Candidate candidate;
-        candidate.file = &file;
-        const std::optional<Group> group = from_ ? from_ : senders_.find(file.sender);
-        if (!group) throw EnvironmentError(senders_.complaint(file.sender));
-        candidate.group = *group;
+    void identify(Candidate& candidate) {
+        const IncomingFile& file = *candidate.file;
         const std::optional<Instant> time = request_.time_of ? request_.time_of(file) : std::nullopt;
         candidate.at = time.value_or(request_.at), candidate.timed = time.has_value();
         candidate.bytes = static_cast<std::int64_t>(fs::file_size(file.file));
+        const std::optional<Group> group = from_ ? from_ : senders_.find(file.sender);
+        if (!group) throw EnvironmentError(senders_.complaint(file.sender));
+        candidate.group = *group;
+        if (!file.left_out.empty()) return;
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
             throw EnvironmentError("the file has more than {} MB", kMostBytes >> 20);
         RecognisedFile found = recognise(file, outcome_.assignment, request_.stage);
@@ -155,7 +124,6 @@ class HandInReceiver {
         if (!found.trouble.empty()) candidate.inspection = unreadable_inspection(found.trouble, found.reason);
         if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
         if (request_.stage == "review") candidate.pair = reviewed_pair(pairs_, *group, report_of(file));
-        candidates_.push_back(std::move(candidate));
     }
 
     /// By what is told, which report a review is of.
@@ -200,51 +168,49 @@ class HandInReceiver {
         return fmt::format("{}/{}/{}", c.group.id, part, c.pair ? c.pair->id : 0);
     }
 
-    /// Of several files of a group for the same thing nobody can say which holds: they are kept as unreadable, unless
-    /// they are the same, as platforms give a team's file once for each member.
-    void settle_doubles() {
-        drop_unreadable_doubles();
-        std::map<std::string, std::vector<Candidate*>> by_slot;
-        for (Candidate& c : candidates_) by_slot[slot_of(c, c.part)].push_back(&c);
-        std::set<std::string> ambiguous;
-        for (const auto& [slot, all] : by_slot) {
-            if (all.size() == 1) continue;
-            std::set<std::string> contents;
-            for (Candidate* c : all) contents.insert(c->hash = sha256_of_file(c->file->file));
-            if (contents.size() > 1) ambiguous.insert(slot);
-        }
-        std::vector<Candidate> single;
-        std::set<std::string> taken;
-        for (Candidate& c : candidates_) {
-            if (c.part != kUnreadable && ambiguous.contains(slot_of(c, c.part))) {
-                outcome_.refused.push_back(
-                    Message("{}: {} gave several files that could be the {}; receive the one that holds alone",
-                            c.file->source, c.group.name, c.part));
-                c.inspection = unreadable_inspection(
-                    "several", Message("It is one of several files that could be the {}.", c.part));
-                c.part = kUnreadable, c.unreadable = false;
-            }
-            if (taken.insert(slot_of(c, c.part) + (c.part == kUnreadable ? c.hash : "")).second)
-                single.push_back(std::move(c));
-        }
-        candidates_ = std::move(single);
-    }
-
-    /// What cannot be read and came beside what can: beside the PDF that was made of it, or beside the pack.
-    void drop_unreadable_doubles() {
-        std::set<std::string> readable, anything;
+    /// What cannot be read beside what can, in the same folder, or beside the PDF that was made of it, or beside a
+    /// pack: it is not complained of.
+    void mark_what_lies_beside() {
+        std::set<std::string> readable, anything, folders;
         for (const Candidate& c : candidates_) {
             if (c.unreadable || c.part == kUnreadable) continue;
             readable.insert(slot_of(c, c.part == "pack" ? document_part() : c.part));
             anything.insert(slot_of(c, ""));
+            if (!c.file->folder.empty()) folders.insert(c.file->folder);
         }
-        std::erase_if(candidates_, [&](const Candidate& c) {
-            return (c.unreadable && readable.contains(slot_of(c, c.part))) ||
-                   (c.part == kUnreadable && anything.contains(slot_of(c, "")));
-        });
+        for (Candidate& c : candidates_)
+            if (!c.silent && ((c.unreadable && readable.contains(slot_of(c, c.part))) ||
+                              (c.part == kUnreadable && anything.contains(slot_of(c, ""))) ||
+                              ((c.unreadable || c.part == kUnreadable) && folders.contains(c.file->folder))))
+                make_trace(c, kBeside, Message("It came beside the file that counts."));
     }
 
-    std::string document_part() const { return document_part_of(outcome_.assignment, request_.stage); }
+    /// Of several files of a group for the same thing nobody can say which holds: they are kept as unreadable, unless
+    /// they are the same, as platforms give a team's file once for each member.
+    void settle_doubles() {
+        std::map<std::string, std::map<std::string, const IncomingFile*>> contents;  // by slot and hash, the first one
+        std::map<std::string, int> files;
+        for (const Candidate& c : candidates_)
+            if (c.part != kUnreadable) ++files[slot_of(c, c.part)];
+        for (Candidate& c : candidates_)
+            if (c.part != kUnreadable && files[slot_of(c, c.part)] > 1) {
+                c.hash = sha256_of_file(c.file->file);
+                contents[slot_of(c, c.part)].try_emplace(c.hash, c.file);
+            }
+        std::erase_if(candidates_, [&](const Candidate& c) {
+            return !c.hash.empty() && contents[slot_of(c, c.part)][c.hash] != c.file;
+        });
+        for (Candidate& c : candidates_) {
+            if (c.hash.empty() || contents[slot_of(c, c.part)].size() == 1) continue;
+            outcome_.refused.push_back(
+                Message("{}: {} gave several files that could be the {}; receive the one that holds alone",
+                        c.file->source, c.group.name, c.part));
+            make_trace(c, "several", Message("It is one of several files that could be the {}.", c.part));
+            c.silent = false;
+        }
+    }
+
+    std::string document_part() const { return parts_of(outcome_.assignment, request_.stage).front(); }
 
     /// A pack's PDF counts as if it had come beside it, unless one did.
     void open_packs() {
@@ -289,12 +255,20 @@ class HandInReceiver {
             inspector.emplace(request_.stage == "review" ? everybody() : nullptr, outcome_.assignment.lesson);
         if (inspector && candidates_.size() > 1) prepare_to_read_pdfs();
         std::vector<fs::path> files;
-        for (const Candidate& candidate : candidates_) files.push_back(candidate.file->file);
+        for (const Candidate& candidate : candidates_)
+            files.push_back(static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes ? nothing()
+                                                                                      : candidate.file->file);
         const auto look = [&](std::size_t i, const KeptFile& kept) {
             candidates_[i].hash = kept.hash, candidates_[i].bytes = kept.bytes;
             inspect(candidates_[i], inspector);
         };
         course_.keep_files(files, look, request_.progress);
+    }
+
+    /// Stands for a file that is too large to be kept.
+    fs::path nothing() const {
+        write_file_atomically(opened_.path() / "nothing", "");
+        return opened_.path() / "nothing";
     }
 
     std::shared_ptr<const IdentityMatcher> everybody() const {
@@ -322,18 +296,32 @@ class HandInReceiver {
             if (candidate.from_pack && known_packs.contains(slot_of(candidate, "pack")) &&
                 has_any(candidate, candidate.part))
                 continue;
-            outcome_.received.push_back(take(candidate));
+            Received received = take(candidate);
+            if (!candidate.pair && candidate.part != kUnreadable) received.waiting = waiting_percent(received);
+            if (candidate.silent) {
+                if (!received.known && received.trouble == kNotTaken)
+                    course_.note(fmt::format("{}: {} was not taken: {}", outcome_.assignment.name, candidate.name,
+                                             message_text(candidate.inspection.reason)),
+                                 request_.at);
+                continue;
+            }
             keep_participant(course_, outcome_.assignment.id, candidate.file->sender, candidate.group);
-            if (!outcome_.received.back().known)
-                ++fresh;
-            else if (candidate.part == "pack")
-                known_packs.insert(slot_of(candidate, "pack"));
+            fresh += !received.known;
+            if (received.known && candidate.part == "pack") known_packs.insert(slot_of(candidate, "pack"));
+            outcome_.received.push_back(std::move(received));
         }
-        for (const RefusedFile& file : refused_) record_refused(course_, outcome_.assignment, file);
+        for (GivenMark& score : scores_) score.version = newest_review(course_, score.pair);
+        enter_marks(course_, outcome_.assignment, scores_, request_.at);
         if (fresh > 0)
             course_.note(fmt::format("{}: {} received, {}", outcome_.assignment.name, fresh, request_.stage),
                          request_.at);
         transaction.commit();
+    }
+
+    double waiting_percent(const Received& received) const {
+        const Costs& costs = outcome_.assignment.costs;
+        const bool confirmed = course_.database().query("SELECT 1 FROM arrivals WHERE version = ?", received.id).next();
+        return waits_for_confirmation(costs, received.late, confirmed) ? late_percent(costs, received.late) : 0;
     }
 
     bool has_any(const Candidate& c, const std::string& part) const {
@@ -379,12 +367,14 @@ class HandInReceiver {
         if (!has_any(c, document_part())) received.missing = c.missing;
         if (c.pair) received.about = c.pair->report_pseudonym(), received.voluntary = c.pair->ended;
         Rows before = db.query(
-            "SELECT v.id, v.number, v.hash, s.late, s.id IS NULL FROM versions v LEFT JOIN standing s ON s.id = v.id "
-            "WHERE v.assignment = ? AND v.group_id = ? AND v.stage = ? AND ifnull(v.pair, 0) = ? AND v.part = ? ORDER "
-            "BY v.part = ? AND v.hash = ? DESC, v.number DESC LIMIT 1",
-            outcome_.assignment.id, c.group.id, request_.stage, pair.value_or(0), c.part, kUnreadable, c.hash);
+            "SELECT v.id, v.number, v.hash, s.late, s.id IS NULL, v.name FROM versions v LEFT JOIN standing s ON s.id "
+            "= v.id "
+            "WHERE v.assignment = ? AND v.group_id IS nullif(?, 0) AND v.stage = ? AND ifnull(v.pair, 0) = ? AND "
+            "v.part "
+            "= ? ORDER BY v.part = ? AND v.hash = ? AND v.name = ? DESC, v.number DESC LIMIT 1",
+            outcome_.assignment.id, c.group.id, request_.stage, pair.value_or(0), c.part, kUnreadable, c.hash, c.name);
         const bool any = before.next();
-        if (any && before.text(2) == c.hash) {
+        if (any && before.text(2) == c.hash && (c.part != kUnreadable || before.text(5) == c.name)) {
             received.known = true, received.id = before.integer(0), received.version = before.integer(1);
             received.late = before.integer(3), received.withdrawn = before.integer(4) != 0;
             Rows arrived = db.query("SELECT received_at FROM arrived WHERE id = ?", received.id);
@@ -409,7 +399,9 @@ class HandInReceiver {
         for (std::size_t i = 0; i < a.criteria.size(); ++i) {
             const auto points = c.scores.find(a.criteria[i].name);
             if (points == c.scores.end() || points->second > a.criteria[i].most) continue;
-            add_review_score(course_, *pair, static_cast<std::int64_t>(i), points->second, c.at);
+            GivenMark& score = scores_.emplace_back();
+            score.group = c.pair->author, score.pair = c.pair->id;
+            score.item = a.criteria[i].name, score.points = points->second;
             ++received.scores;
         }
         return received;
@@ -422,20 +414,13 @@ class HandInReceiver {
     std::optional<Group> from_;
     std::vector<ReviewPair> pairs_;
     std::vector<Candidate> candidates_;
-    TemporaryFolder opened_;            ///< what packs held
-    std::deque<IncomingFile> packed_;   ///< candidates point to them
-    std::vector<RefusedFile> refused_;  ///< of senders who are not known, or too large
+    TemporaryFolder opened_;           ///< what packs held
+    std::deque<IncomingFile> packed_;  ///< candidates point to them
+    std::vector<GivenMark> scores_;    ///< in packs of reviews
     ReceiveOutcome outcome_;
 };
 
 }  // namespace
-
-fs::path write_receipt(Course& course, std::int64_t version, std::optional<std::int64_t> correction) {
-    const Receipt receipt = receipt_of(course, version, correction);
-    const fs::path file = place_of(course, version, receipt);
-    if (!fs::exists(file)) course.write({{file, signed_receipt(receipt, course.signing_key())}});
-    return file;
-}
 
 ReceiveOutcome receive(Course& course, const ReceiveRequest& request) {
     return HandInReceiver(course, request).run();

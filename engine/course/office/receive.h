@@ -29,6 +29,7 @@ struct Received {
     std::string group, part, about;  ///< about: of a review, the pseudonym of the report
     std::int64_t version = 0, id = 0;
     std::int64_t late = 0;     ///< of its content, which may be that of an earlier version
+    double waiting = 0;        ///< percent that its lateness costs once the instructor confirms the time of receipt
     bool known = false;        ///< the same content as the version before: nothing was changed
     bool voluntary = false;    ///< a review of a report that had been taken back
     bool from_pack = false;    ///< a PDF that was taken out of the group's pack
@@ -57,9 +58,5 @@ struct ReceiveOutcome {
 /// others'; of a single file the trouble is thrown instead. Files are stored before the transaction and receipts are
 /// written after it, so that a crash loses nothing and the same command completes it.
 ReceiveOutcome receive(Course& course, const ReceiveRequest& request);
-
-/// Writes a version's receipt, or its newest correction, or the one with this number, into receipts/ASSIGNMENT/;
-/// returns the file.
-std::filesystem::path write_receipt(Course& course, std::int64_t version, std::optional<std::int64_t> correction = {});
 
 }  // namespace dynlab::inline course

@@ -12,8 +12,8 @@
 #include "course/intake/folder_copy.h"
 #include "course/intake/owners.h"
 #include "course/intake/staging.h"
-#include "course/store/participants.h"
-#include "course/store/refusals.h"
+#include "course/store/inspection.h"
+#include "course/store/senders.h"
 #include "course/store/side_by_side.h"
 #include "course/store/versions.h"
 #include "platform/error.h"
@@ -156,6 +156,8 @@ class ClassReceiver {
         }
         if (fresh.empty() && moved.empty() && corrected.empty() && !refused) return;
         if (!fresh.empty()) course_.keep_files(paths, [](std::size_t, const KeptFile&) {});
+        const std::string nothing = refused ? course_.keep("") : "";
+        if (refused) course_.settle({nothing});
         Transaction transaction(course_.database());
         for (const std::size_t i : fresh) add(received_.items[i], files_[i]);
         for (const std::size_t i : corrected)
@@ -163,14 +165,25 @@ class ClassReceiver {
                            "by the platform's table of times", now_);
         for (const std::size_t i : moved) take_from_others(received_.items[i]);
         for (std::size_t i = 0; i < files_.size(); ++i)
-            if (!files_[i].trouble.empty()) refuse(received_.items[i].submission.name, files_[i].trouble, files_[i].at);
-        for (const Message& clause : left_out_) refuse("-", clause, now_);
+            if (!files_[i].trouble.empty())
+                refuse(received_.items[i].submission.name, files_[i].trouble, files_[i].at, nothing);
+        for (const Message& clause : left_out_) refuse("-", clause, now_, nothing);
         if (!fresh.empty()) course_.note(fmt::format("{}: {} received, first", assignment_.name, fresh.size()), now_);
         transaction.commit();
     }
 
-    void refuse(const std::string& name, const Message& why, Instant at) {
-        record_refused(course_, assignment_, {{}, kStage, name, "", message_text(why), at});
+    /// What cannot be taken leaves a trace, once for each reason. `nothing`: hash of an empty file.
+    void refuse(const std::string& name, const Message& why, Instant at, const std::string& nothing) {
+        const std::string findings = unreadable_inspection(kNotTaken, why).json;
+        Rows last = course_.database().query(
+            "SELECT ifnull(max(number), 0), ifnull(max(name = ? AND findings = ?), 0) FROM versions WHERE assignment = "
+            "? AND group_id IS NULL AND part = ?",
+            name, findings, assignment_.id, kUnreadable);
+        last.next();
+        if (last.integer(1) != 0) return;
+        add_version(course_, assignment_,
+                    {0, "", kStage, kUnreadable, {}, last.integer(0) + 1, nothing, name, 0, at, findings}, now_);
+        course_.note(fmt::format("{}: {} was not taken: {}", assignment_.name, name, message_text(why)), now_);
     }
 
     /// Under which its file is kept: an archive's with its ending.

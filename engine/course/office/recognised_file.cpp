@@ -1,16 +1,46 @@
 #include "course/office/recognised_file.h"
 
+#include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "course/findings/findings_report.h"
 #include "course/intake/submission.h"
-#include "course/store/file_kind.h"
+#include "platform/atomic_file.h"
+#include "platform/error.h"
 #include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kStart = 1024;
+
+/// As much as its kind can be recognised from: all of a script.
+std::string start_of(const std::string& name, const fs::path& file) {
+    if (name.ends_with(".lua")) return read_file(file);
+    std::string start(kStart, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(start.data(), static_cast<std::streamsize>(kStart));
+    if (in.bad() || !in.is_open()) throw EnvironmentError("the file cannot be read");
+    start.resize(static_cast<std::size_t>(in.gcount()));
+    return start;
+}
+
+std::string kind_of_file(const std::string& name, std::string_view content) {
+    const auto begins = [&](std::string_view magic) { return content.substr(0, magic.size()) == magic; };
+    if (content.substr(0, 1024).find("%PDF-") != std::string_view::npos) return "pdf";
+    const bool archive = begins("PK\x03\x04") || begins("\x1F\x8B") ||
+                         begins(std::string_view("\xFD"
+                                                 "7zXZ\0",
+                                                 6)) ||
+                         begins("BZh") || content.substr(0, 262).ends_with("ustar");
+    if (archive && archive_stem(name)) return "pack";
+    if (name.ends_with(".lua") && content.find('\0') == std::string_view::npos) return "script";
+    static const std::set<std::string> written = {".docx", ".doc", ".odt", ".rtf", ".pages", ".pptx", ".ppt", ".odp"};
+    return written.contains(ending_of(name)) ? "text" : "";
+}
 
 std::string magic_bytes(const fs::path& file) {
     std::string bytes(8, '\0');
@@ -38,7 +68,8 @@ void explain_unreadable(const IncomingFile& file, const Assignment& assignment, 
         found.reason = Message("It is a {} archive, which cannot be opened here; zip and tar can.", kind);
     } else {
         found.trouble = "other-kind";
-        found.reason = assignment.is_report()
+        found.reason = assignment.is_lab() ? Message("It is neither a script (.lua) nor a pack (.zip, .tar.gz).")
+                       : assignment.is_report()
                            ? Message("It is neither a PDF nor a pack (.zip, .tar.gz).")
                            : Message("It is not a PDF, no script (.lua) and no pack (.zip, .tar.gz).");
     }
@@ -46,34 +77,26 @@ void explain_unreadable(const IncomingFile& file, const Assignment& assignment, 
 
 }  // namespace
 
-std::string document_part_of(const Assignment& assignment, const std::string& stage) {
-    if (stage == "review") return "review";
-    return assignment.is_report() || assignment.kind == "lab" ? "report" : "slides";
+std::string kind_of_file_at(const std::string& name, const fs::path& file) {
+    return kind_of_file(name, start_of(name, file));
 }
 
 RecognisedFile recognise(const IncomingFile& file, const Assignment& assignment, const std::string& stage) {
     RecognisedFile found{kUnreadable, file.name, {}, {}, {}};
     const std::string kind = kind_of_file_at(file.name, file.file);
-    if (kind.empty() || (kind == "script" && assignment.is_report()) || fs::file_size(file.file) == 0) {
+    const std::vector<std::string> parts = parts_of(assignment, stage);
+    const bool document = kind == "pdf" || kind == "text";
+    const std::string part = !document ? kind : assignment.is_lab() ? "" : parts.front();
+    if (fs::file_size(file.file) == 0 || std::ranges::find(parts, part) == parts.end()) {
         explain_unreadable(file, assignment, found);
         return found;
     }
-    found.text = kind == "text";
-    found.part = kind == "pdf" || found.text ? document_part_of(assignment, stage) : kind;
+    found.part = part, found.text = kind == "text";
     if (kind == "pdf" && ending_of(file.name) != ".pdf") {
         found.name += ".pdf";
         found.remark = Message("a PDF, although its name ends in \"{}\"", ending_of(file.name));
     }
     return found;
-}
-
-Inspection unreadable_inspection(const std::string& trouble, const Message& reason) {
-    CheckResult result;
-    result.subject = kUnreadable;
-    result.findings.push_back({trouble, Severity::kRule, 0, "", reason, Message("Submit a file that can be read.")});
-    Inspection inspection = inspection_from(findings_as_json(result));
-    inspection.trouble = trouble;
-    return inspection;
 }
 
 }  // namespace dynlab::inline course

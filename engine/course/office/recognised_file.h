@@ -8,9 +8,10 @@
 
 namespace dynlab::inline course {
 
-/// The part under which files are kept that nobody can read as what the assignment wants: they leave a trace and a
-/// receipt, and replace nothing.
-inline constexpr const char* kUnreadable = "unreadable";
+/// What kind of file it is that can be read at `file` and was received under `name`, by its first bytes and its name's
+/// ending: "pdf", "pack" (zip or tar), "script" (.lua), "text" (what a word processor writes: .docx, .odt, ...), or
+/// empty for anything else. Throws EnvironmentError.
+std::string kind_of_file_at(const std::string& name, const std::filesystem::path& file);
 
 /// What a file that came in is. Its content says so; its name counts only where the content leaves it open.
 struct RecognisedFile {
@@ -23,11 +24,5 @@ struct RecognisedFile {
 };
 /// `stage`: "first", "review" or "final". Throws EnvironmentError for a file that cannot be opened.
 RecognisedFile recognise(const IncomingFile& file, const Assignment& assignment, const std::string& stage);
-
-/// The part of the assignment's document: "report", "slides" or "review".
-std::string document_part_of(const Assignment& assignment, const std::string& stage);
-
-/// What is kept beside a file that nobody can read.
-Inspection unreadable_inspection(const std::string& trouble, const Message& reason);
 
 }  // namespace dynlab::inline course

@@ -8,11 +8,11 @@
 #include <map>
 #include <set>
 
+#include "base/reader.h"
 #include "course/office/course_totals.h"
 #include "course/store/groups.h"
 #include "course/store/inspection.h"
 #include "course/store/receipts.h"
-#include "course/store/refusals.h"
 #include "numerics/error.h"
 #include "platform/terminal/aligned_table.h"
 
@@ -84,9 +84,6 @@ class WhoIs {
         for (const std::int64_t group : shown) add_versions(assignment, group, rows);
         std::string text = fmt::format("\n{} ({})\n", assignment.name, assignment.kind);
         if (!rows.empty()) text += aligned_table({"group", "what", "received", "state", "receipt"}, rows);
-        for (const RefusedFile& file : refused_files(course_, assignment))
-            if (file.group && shown.contains(*file.group))
-                text += fmt::format("  not taken: {}, {}: {}\n", file.name, course_.clock().show(file.at), file.reason);
         for (const std::int64_t group : shown) text += extensions_text(assignment, group);
         const auto marks = marks_of_students(course_, assignment, now_);
         for (const Student& person : people_) {
@@ -104,21 +101,21 @@ class WhoIs {
 
     void add_versions(const Assignment& assignment, std::int64_t group,
                       std::vector<std::vector<std::string>>& table) const {
-        for (
-            Rows rows = course_.database().query(
-                "SELECT w.id, w.stage, w.part, w.number, w.received_at, w.withdrawn, w.findings, ifnull((SELECT s.late "
-                "FROM standing s WHERE s.id = w.id), 0) FROM arrived w WHERE w.assignment = ? AND w.group_id = ? ORDER "
-                "BY w.received_at, w.id",
-                assignment.id, group);
-            rows.next();) {
-            const std::string unreadable = inspection_from(rows.text(6)).trouble;
-            const std::int64_t late = rows.integer(7);
+        for (Rows rows = course_.database().query("SELECT w.id, w.stage, w.part, w.number, w.received_at, w.withdrawn, "
+                                                  "w.findings, w.name, ifnull((SELECT s.late "
+                                                  "FROM standing s WHERE s.id = w.id), 0) FROM arrived w WHERE "
+                                                  "w.assignment = ? AND w.group_id = ? ORDER "
+                                                  "BY w.received_at, w.id",
+                                                  assignment.id, group);
+             rows.next();) {
+            const Inspection seen = inspection_from(rows.text(6));
+            const std::int64_t late = rows.integer(8);
             table.push_back({name_of(group), fmt::format("{} {} v{}", rows.text(1), rows.text(2), rows.integer(3)),
                              course_.clock().show(rows.integer(4)),
-                             rows.integer(5) != 0  ? "withdrawn"
-                             : !unreadable.empty() ? unreadable
-                             : late > 0            ? "late by " + duration_text(late)
-                                                   : "in time",
+                             rows.integer(5) != 0    ? "withdrawn"
+                             : !seen.trouble.empty() ? fmt::format("{}: {}", rows.text(7), message_text(seen.reason))
+                             : late > 0              ? "late by " + duration_text(late)
+                                                     : "in time",
                              fmt::format("{:05}", rows.integer(0))});
         }
     }

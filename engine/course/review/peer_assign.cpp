@@ -7,7 +7,7 @@
 #include "base/reader.h"
 #include "course/review/allocation.h"
 #include "course/review/peer_review.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/newest_versions.h"
 #include "numerics/error.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "course/review/peer_review.h"
-#include "course/store/exceptions.h"
+#include "course/store/assignments.h"
 #include "course/store/newest_versions.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"

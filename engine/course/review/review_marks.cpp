@@ -7,7 +7,7 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr double kOutlierDistance = 0.35;  // of the scale, on average over the criteria
-constexpr double kLowScoreShare = 0.4;     // of all points: what may call for revenge
+constexpr double kLowPercent = 40;         // of all points: what may call for revenge
 constexpr double kZeroDistance = 2;        // half the scale away on average earns nothing
 
 std::optional<double> median(std::vector<double> values) {
@@ -32,13 +32,8 @@ class ReviewMarker {
     GroupMark group(std::int64_t id) const {
         GroupMark mark;
         mark.group = id;
-        double sum = 0, most = 0;
-        for (std::size_t c = 0; c < criteria_.size(); ++c) {
-            mark.medians.push_back(median(scores(id, c, nullptr)));
-            if (!mark.medians.back()) continue;
-            sum += *mark.medians.back(), most += criteria_[c].most;
-        }
-        if (most > 0) mark.work = 100 * sum / most;
+        for (std::size_t c = 0; c < criteria_.size(); ++c) mark.medians.push_back(median(scores(id, c, nullptr)));
+        mark.work = percent_of(criteria_, mark.medians);
         std::vector<double> earned;
         for (const ScoredReview& r : reviews_) {
             if (r.reviewer != id || id == 0) continue;
@@ -84,10 +79,7 @@ class ReviewMarker {
     bool was_hurt_by(std::int64_t reviewer, std::int64_t author) const {
         for (const ScoredReview& r : reviews_) {
             if (r.reviewer != author || r.author != reviewer) continue;
-            double sum = 0, most = 0;
-            for (std::size_t c = 0; c < criteria_.size(); ++c)
-                if (r.points[c]) sum += *r.points[c], most += criteria_[c].most;
-            if (most > 0 && sum < kLowScoreShare * most) return true;
+            if (percent_of(criteria_, r.points).value_or(100) < kLowPercent) return true;
         }
         return false;
     }
@@ -96,23 +88,58 @@ class ReviewMarker {
     const std::vector<ScoredReview>& reviews_;
 };
 
+/// The newest mark of a student, or else of the group; null where there is none.
+const GivenMark* instructors_word(const std::vector<GivenMark>& given, std::int64_t group, const std::string& student,
+                                  const char* item) {
+    const GivenMark *of_student = nullptr, *of_group = nullptr;
+    for (const GivenMark& mark : given) {
+        if (mark.item != item) continue;
+        if (mark.student.empty() && mark.group == group) of_group = &mark;
+        if (!student.empty() && mark.student == student) of_student = &mark;
+    }
+    return of_student != nullptr ? of_student : of_group;
+}
+
 }  // namespace
+
+std::optional<double> percent_of(const std::vector<Criterion>& criteria, const CriterionPoints& points) {
+    double sum = 0, most = 0;
+    for (std::size_t c = 0; c < criteria.size(); ++c)
+        if (points[c]) sum += *points[c], most += criteria[c].most;
+    if (most == 0) return {};
+    return 100 * sum / most;
+}
+
+GivenPoints points_by_owner(const Assignment& assignment, const std::vector<GivenMark>& marks) {
+    GivenPoints given;
+    for (const GivenMark& mark : marks) {
+        const auto criterion = std::ranges::find(assignment.criteria, mark.item, &Criterion::name);
+        if (criterion == assignment.criteria.end()) continue;
+        CriterionPoints& points = mark.pair != 0          ? given.pairs[mark.pair]
+                                  : !mark.student.empty() ? given.students[mark.student]
+                                  : mark.stage == "final" ? given.finals[mark.group]
+                                                          : given.groups[mark.group];
+        points.resize(assignment.criteria.size());
+        points[static_cast<std::size_t>(criterion - assignment.criteria.begin())] = mark.points;
+    }
+    return given;
+}
 
 const StudentMark* GroupMark::own_points_of(const std::string& student) const {
     const auto own = std::ranges::find(students, student, &StudentMark::student);
     return own == students.end() ? nullptr : &*own;
 }
 
-std::optional<double> GroupMark::work_mark_of(const std::string& student) const {
-    const StudentMark* const own = work_override ? nullptr : own_points_of(student);
-    return own ? own->work : work_mark();
+FinalMark Marks::work_of(const GroupMark& mark, const std::string& student) const {
+    if (const GivenMark* const word = instructors_word(given, mark.group, student, kWholeItem))
+        return {word->points, word};
+    const StudentMark* const own = mark.own_points_of(student);
+    return {own != nullptr ? own->work : mark.work, nullptr};
 }
 
-const GivenMark* Marks::own_mark(const std::string& student, const std::string& item) const {
-    const GivenMark* found = nullptr;
-    for (const GivenMark& mark : own)
-        if (mark.student == student && mark.item == item) found = &mark;
-    return found;
+FinalMark Marks::reviews_of(const GroupMark& mark, const std::string& student) const {
+    const GivenMark* const word = instructors_word(given, mark.group, student, kReviewsItem);
+    return word != nullptr ? FinalMark{word->points, word} : FinalMark{mark.reviews, nullptr};
 }
 
 Marks marks_of(const std::vector<Criterion>& criteria, const std::vector<ScoredReview>& reviews,

@@ -70,6 +70,14 @@ std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignmen
     return pairs;
 }
 
+std::int64_t newest_review(Course& course, std::int64_t pair) {
+    Rows rows = course.database().query(
+        "SELECT id FROM standing WHERE pair = ? AND part IN ('review', 'pack') ORDER BY part = 'review' DESC, number "
+        "DESC LIMIT 1",
+        pair);
+    return rows.next() ? rows.integer(0) : 0;
+}
+
 ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& reviewer, const std::string& name) {
     std::vector<const ReviewPair*> given, taken_back;
     for (const ReviewPair& pair : pairs) {

@@ -31,6 +31,9 @@ struct ReviewPair {
 /// All pairs of an assignment, ended ones too, by reviewer and author.
 std::vector<ReviewPair> review_pairs(Course& course, const Assignment& assignment);
 
+/// The id of the newest version of a pair's review, or of its pack where it has no document; 0 where none stands.
+std::int64_t newest_review(Course& course, std::int64_t pair);
+
 /// The pair of this reviewer whose report's pseudonym is in `name`; the only one where `name` has none. Pairs that were
 /// taken back after they were sent come last. Throws EnvironmentError that names the reports of the group.
 ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& reviewer, const std::string& name);

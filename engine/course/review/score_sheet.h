@@ -1,66 +1,35 @@
 #pragma once
 #include <filesystem>
-#include <optional>
-#include <set>
+#include <map>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "base/error.h"
 #include "course/store/assignments.h"
-#include "course/store/groups.h"
-#include "data_io/text_table.h"
-#include "platform/error.h"
 
 namespace dynlab::inline course {
 
-/// What was given for each criterion; what nobody gave is not there.
-using CriterionPoints = std::vector<std::optional<double>>;
+/// Reads a table of scores, whole or not at all, and returns how many scores and comments are new. Every table has
+/// columns of criteria; an empty cell changes nothing, and "-" takes a score back. Of a report at the stage "first":
+/// reviewer (a group) and report (report-NN; may be missing where the group has one), where the reviewer "instructor"
+/// is the instructor, and the report a pseudonym or a group. At the stage "final": group. Of a talk: group, student (an
+/// id, or a name that one student has) or both, and comment; a row without a student is of the whole group. Points for
+/// a group that dropped out or submitted nothing, or of a withdrawn review, are refused. Throws InvalidArgument for a
+/// lab, EnvironmentError with file, line and column.
+int import_scores(Course& course, const Assignment& assignment, const std::string& stage,
+                  const std::filesystem::path& file, Instant now);
 
-/// 100 sum of points / sum of most, over what was scored.
-std::optional<double> percent_of(const std::vector<Criterion>& criteria, const CriterionPoints& points);
-
-/// Throws InvalidArgument for a group that dropped out.
-void refuse_dropped_out(const Group& group);
-
-/// A cell of a score sheet.
-struct ScoreEntry {
-    bool given = false;            ///< false: the cell is empty, and the score before stays
-    std::optional<double> points;  ///< given without points ("-"): the score before is taken back
+struct OralSheetOptions {
+    bool students = false;  ///< a row a student as well, below the group's
+    bool drawn = false;  ///< in a random order, the same one each time, that only the course's key gives; else by name
 };
+/// The sheet for the oral: a row a group, a column a criterion with what was given so far, and one for comments, as
+/// CSV. Throws InvalidArgument for a report or a lab.
+std::string oral_sheet(Course& course, const Assignment& assignment, const OralSheetOptions& options = {});
 
-/// A table of scores as it is typed in: each row has an owner and points.
-class ScoreSheet {
-  public:
-    /// There must be a column of `owners` and one of a criterion; besides them there may be `others`. `assignment`
-    /// must outlive it. Throws EnvironmentError with file and line.
-    ScoreSheet(const Assignment& assignment, const std::filesystem::path& file, const std::vector<std::string>& owners,
-               std::set<std::string> others = {});
-
-    std::size_t rows() const { return table_.rows.size(); }
-    std::string cell(std::size_t row, const std::string& name) const;  ///< empty without such a column
-    /// Throws EnvironmentError for a cell that is neither empty nor "-" nor a number from 0 to the criterion's most.
-    ScoreEntry entry(std::size_t row, std::size_t criterion) const;
-    bool has_points(std::size_t row) const;
-
-    /// What `work` throws about a row gets its place.
-    template <class Work>
-    auto at(std::size_t row, const Work& work) const {
-        try {
-            return work();
-        } catch (const std::runtime_error& error) {
-            fail(table_.lines[row], message_of(error));
-        } catch (const std::logic_error& error) {
-            fail(table_.lines[row], message_of(error));
-        }
-    }
-
-  private:
-    [[noreturn]] void fail(int line, const Message& what) const;
-
-    const Assignment& assignment_;
-    std::filesystem::path file_;
-    TextTable table_;
+/// The newest comment on a group at the oral, and on each of its members.
+struct OralComments {
+    std::map<std::int64_t, std::string> groups;
+    std::map<std::string, std::string> students;  ///< by their ids
 };
+OralComments oral_comments(Course& course, const Assignment& assignment);
 
 }  // namespace dynlab::inline course

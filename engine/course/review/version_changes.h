@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "course/boxes/boxed_document.h"
-#include "course/review/value_changes.h"
 #include "course/review/word_diff.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "course/boxes/boxed_document.h"
-#include "course/review/report_words.h"
+#include "course/review/word_diff.h"
 #include "documents/run_record.h"
 #include "platform/box.h"
 

@@ -1,11 +1,9 @@
 #include "course/store/assignments.h"
 
 #include <fmt/format.h>
-
 #include <set>
 
 #include "course/intake/lateness.h"
-#include "course/store/exceptions.h"
 #include "numerics/error.h"
 #include "platform/spelling.h"
 #include "platform/text/read_number.h"
@@ -55,34 +53,73 @@ std::string costs_text(const Costs& costs) {
     return fmt::format("{}", fmt::join(items, ","));
 }
 
-bool same(const Assignment& a, const Assignment& b) {
-    const auto words = [](const Assignment& x) {
-        std::string all =
-            fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", x.kind, x.lesson, x.first_due,
-                        x.review_due.value_or(0), x.final_due.value_or(0), x.grace, x.reviews, costs_text(x.costs),
-                        x.final_weight, x.weight, x.reviews_weight, x.checks, x.secret, x.keep);
-        for (const Criterion& c : x.criteria) all += fmt::format("|{}:{}", c.name, c.most);
-        return all;
+std::string criteria_text(const std::vector<Criterion>& criteria) {
+    std::vector<std::string> items;
+    for (const Criterion& c : criteria) items.push_back(fmt::format("{}:{}", c.name, c.most));
+    return fmt::format("{}", fmt::join(items, ","));
+}
+
+/// Everything that can change about an assignment, by name.
+std::vector<std::pair<const char*, std::string>> facts_of(const Assignment& a, const CourseClock& clock) {
+    const auto time = [&clock](std::optional<Instant> due) {
+        return due && *due != kNoDeadline ? clock.show_exactly(*due) : std::string();
     };
-    return words(a) == words(b);
+    const auto number = [](double value) { return fmt::format("{}", value); };
+    return {{"kind", a.kind},
+            {"lesson", a.lesson},
+            {"first", time(a.first_due)},
+            {"review", time(a.review_due)},
+            {"final", time(a.final_due)},
+            {"grace", duration_text(a.grace)},
+            {"reviews", number(a.reviews)},
+            {"criteria", criteria_text(a.criteria)},
+            {"costs", costs_text(a.costs)},
+            {"final weight", number(a.final_weight)},
+            {"weight", number(a.weight)},
+            {"reviews weight", number(a.reviews_weight)},
+            {"checks", a.checks},
+            {"secret", a.secret},
+            {"keep", a.keep}};
+}
+
+/// "first B instead of A" for each difference.
+std::vector<std::string> differences(const Assignment& before, const Assignment& now, const CourseClock& clock) {
+    const auto old_facts = facts_of(before, clock), new_facts = facts_of(now, clock);
+    const auto shown = [](const std::string& text) { return text.empty() ? "none" : text; };
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < old_facts.size(); ++i)
+        if (const auto& [name, text] = new_facts[i]; text != old_facts[i].second)
+            all.push_back(fmt::format("{} {} instead of {}", name, shown(text), shown(old_facts[i].second)));
+    return all;
 }
 
 /// Whether `b` only gives more time than `a`.
-bool only_later(Assignment a, const Assignment& b) {
+bool only_later(Assignment a, const Assignment& b, const CourseClock& clock) {
     const bool later = b.first_due >= a.first_due && b.review_due.value_or(0) >= a.review_due.value_or(0) &&
                        b.final_due.value_or(0) >= a.final_due.value_or(0) && b.grace >= a.grace;
     a.first_due = b.first_due, a.review_due = b.review_due, a.final_due = b.final_due, a.grace = b.grace;
-    return later && same(a, b);
+    return later && differences(a, b, clock).empty();
 }
 
-void write_criteria(Database& db, const Assignment& assignment) {
-    int position = 0;
-    for (const Criterion& c : assignment.criteria)
-        db.run(
-            "INSERT INTO criteria VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET name = excluded.name, most = "
-            "excluded.most",
-            assignment.id, position++, c.name, c.most);
-    db.run("DELETE FROM criteria WHERE assignment = ? AND place >= ?", assignment.id, position);
+/// What submissions and scores depend on does not change after them.
+void refuse_change_of_form(Course& course, const Assignment& known, const Assignment& wanted, bool has_work) {
+    if (has_work && wanted.kind != known.kind)
+        throw InvalidArgument("work was submitted for {} already: its kind stays {}", known.name, known.kind);
+    if (criteria_text(wanted.criteria) == criteria_text(known.criteria)) return;
+    Rows scored = course.database().query(
+        "SELECT 1 FROM marks m JOIN criteria c ON c.assignment = m.assignment AND c.name = m.item WHERE c.assignment = "
+        "?",
+        known.id);
+    if (scored.next())
+        throw InvalidArgument("scores were given for {} already: its criteria stay {}", known.name,
+                              criteria_text(known.criteria));
+}
+
+void write_criteria(Database& db, std::int64_t assignment, const std::vector<Criterion>& criteria) {
+    db.run("DELETE FROM criteria WHERE assignment = ?", assignment);
+    std::int64_t place = 0;
+    for (const Criterion& c : criteria)
+        db.run("INSERT INTO criteria VALUES (?, ?, ?, ?)", assignment, place++, c.name, c.most);
 }
 
 /// "a:5, b" as {a, 5}, {b, ""}.
@@ -101,81 +138,40 @@ std::vector<std::pair<std::string, std::string>> named_numbers(const std::string
 
 }  // namespace
 
-bool add_assignment(Course& course, Assignment wanted) {
+bool set_assignment(Course& course, Assignment wanted, const std::string& reason) {
     refuse_odd_name("the assignment's name", wanted.name);
+    if (!wanted.is_report()) wanted.reviews = 0;
     refuse_bad_deadlines(wanted, course.clock());
     Database& db = course.database();
     Transaction transaction(db);
+    std::string note = fmt::format("assignment {} added", wanted.name);
     for (const Assignment& known : assignments_of(course)) {
         if (::strcasecmp(known.name.c_str(), wanted.name.c_str()) != 0) continue;
-        if (same(known, wanted)) return false;
-        const bool used = db.query("SELECT 1 FROM versions WHERE assignment = ?", known.id).next();
-        if (used && !only_later(known, wanted))
+        const std::vector<std::string> changes = differences(known, wanted, course.clock());
+        if (changes.empty()) return false;
+        const bool has_work = db.query("SELECT 1 FROM versions WHERE assignment = ?", known.id).next();
+        refuse_change_of_form(course, known, wanted, has_work);
+        if (has_work && reason.empty() && !only_later(known, wanted, course.clock()))
             throw InvalidArgument(
                 "work was submitted for {} already: only deadlines may move, to later ones, and the grace grow; give "
                 "--reason to change more",
                 known.name);
-        db.run(
-            "UPDATE assignments SET kind = ?, lesson = ?, first_due = ?, review_due = ?, final_due = ?, grace = ?, "
-            "reviews = ?, costs = ?, final_weight = ?, weight = ?, reviews_weight = ?, checks = ?, secret = ?, keep = "
-            "? WHERE id = ?",
-            wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
-            wanted.reviews, costs_text(wanted.costs), wanted.final_weight, wanted.weight, wanted.reviews_weight,
-            wanted.checks, wanted.secret, wanted.keep, known.id);
-        wanted.id = known.id;
-        write_criteria(db, wanted);
-        course.note(fmt::format("assignment {} changed", known.name));
-        transaction.commit();
-        return true;
+        wanted.name = known.name;
+        note = fmt::format("assignment {} changed: {}", known.name, fmt::join(changes, ", "));
     }
     db.run(
         "INSERT INTO assignments (name, kind, lesson, first_due, review_due, final_due, grace, reviews, made_at, "
         "costs, final_weight, weight, reviews_weight, checks, secret, keep) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
-        "?, "
-        "?, ?, ?, ?)",
+        "?, ?, ?, ?, ?) ON CONFLICT (name) DO UPDATE SET kind = excluded.kind, lesson = excluded.lesson, first_due = "
+        "excluded.first_due, review_due = excluded.review_due, final_due = excluded.final_due, grace = "
+        "excluded.grace, reviews = excluded.reviews, costs = excluded.costs, final_weight = excluded.final_weight, "
+        "weight = excluded.weight, reviews_weight = excluded.reviews_weight, checks = excluded.checks, secret = "
+        "excluded.secret, keep = excluded.keep",
         wanted.name, wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
-        wanted.is_report() ? wanted.reviews : 0, CourseClock::now(), costs_text(wanted.costs), wanted.final_weight,
-        wanted.weight, wanted.reviews_weight, wanted.checks, wanted.secret, wanted.keep);
-    wanted.id = db.getLastInsertRowid();
-    write_criteria(db, wanted);
-    course.note(fmt::format("assignment {} added", wanted.name));
-    transaction.commit();
-    return true;
-}
-
-bool change_assignment(Course& course, const Assignment& wanted, const std::string& reason) {
-    refuse_without_reason(reason);
-    refuse_bad_deadlines(wanted, course.clock());
-    Transaction transaction(course.database());
-    const Assignment known = assignment_named(course, wanted.name);
-    std::vector<std::string> changes;
-    const auto compare = [&changes](const char* what, const std::string& before, const std::string& now) {
-        if (before != now) changes.push_back(fmt::format("{} {} instead of {}", what, now, before));
-    };
-    const auto time = [&course](std::optional<Instant> due) {
-        return due && *due != kNoDeadline ? course.clock().show_exactly(*due) : std::string("none");
-    };
-    const auto named = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
-    compare("lesson", named(known.lesson), named(wanted.lesson));
-    compare("first", time(known.first_due), time(wanted.first_due));
-    compare("review", time(known.review_due), time(wanted.review_due));
-    compare("final", time(known.final_due), time(wanted.final_due));
-    compare("grace", duration_text(known.grace), duration_text(wanted.grace));
-    compare("costs", named(costs_text(known.costs)), named(costs_text(wanted.costs)));
-    compare("final weight", fmt::format("{}", known.final_weight), fmt::format("{}", wanted.final_weight));
-    const auto number = [](double value) { return fmt::format("{}", value); };
-    compare("weight", number(known.weight), number(wanted.weight));
-    compare("reviews weight", number(known.reviews_weight), number(wanted.reviews_weight));
-    compare("checks", named(known.checks), named(wanted.checks));
-    compare("secret", named(known.secret), named(wanted.secret));
-    compare("keep", known.keep, wanted.keep);
-    if (changes.empty()) return false;
-    course.database().run(
-        "UPDATE assignments SET lesson = ?, first_due = ?, review_due = ?, final_due = ?, grace = ?, costs = ?, "
-        "final_weight = ?, weight = ?, reviews_weight = ?, checks = ?, secret = ?, keep = ? WHERE id = ?",
-        wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace, costs_text(wanted.costs),
-        wanted.final_weight, wanted.weight, wanted.reviews_weight, wanted.checks, wanted.secret, wanted.keep, known.id);
-    course.note(fmt::format("assignment {} changed: {}; reason: {}", known.name, fmt::join(changes, ", "), reason));
+        wanted.reviews, CourseClock::now(), costs_text(wanted.costs), wanted.final_weight, wanted.weight,
+        wanted.reviews_weight, wanted.checks, wanted.secret, wanted.keep);
+    write_criteria(db, assignment_named(course, wanted.name).id, wanted.criteria);
+    course.note(note + (reason.empty() ? "" : "; reason: " + reason));
     transaction.commit();
     return true;
 }
@@ -184,12 +180,11 @@ void remove_assignment(Course& course, const Assignment& assignment, const std::
     refuse_without_reason(reason);
     Database& db = course.database();
     Transaction transaction(db);
-    for (const char* table : {"versions", "pairs", "oral_scores", "student_scores", "oral_comments",
-                              "instructor_scores", "overrides", "extensions", "marks"})
+    for (const char* table : {"versions", "pairs", "extensions", "marks"})
         if (db.query(fmt::format("SELECT 1 FROM {} WHERE assignment = ?", table), assignment.id).next())
             throw InvalidArgument("{} cannot be removed: something hangs on it (its {}); nothing was changed",
                                   assignment.name, table);
-    for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations", "refusals"})
+    for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations"})
         db.run(fmt::format("DELETE FROM {} WHERE assignment = ?", table), assignment.id);
     db.run("DELETE FROM assignments WHERE id = ?", assignment.id);
     course.note(
@@ -236,6 +231,12 @@ Assignment assignment_named(Course& course, const std::string& name) {
                    : InvalidArgument("there is no assignment \"{}\"; there is {}", name, known);
     throw near ? InvalidArgument("there is no assignment \"{}\"; there are {}; did you mean {}?", name, known, *near)
                : InvalidArgument("there is no assignment \"{}\"; there are {}", name, known);
+}
+
+std::vector<std::string> parts_of(const Assignment& assignment, const std::string& stage) {
+    if (stage == "review") return {"review", "pack"};
+    if (assignment.is_talk()) return {"slides", "script", "pack"};
+    return {assignment.document(), "pack"};
 }
 
 void refuse_without_reviews(const Assignment& assignment) {
@@ -285,6 +286,37 @@ Costs costs_of(const std::string& text) {
 
 double late_percent(const Costs& costs, std::int64_t late) {
     return late_percent(costs.late_day, costs.late_most, late);
+}
+
+bool waits_for_confirmation(const Costs& costs, std::int64_t late, bool confirmed) {
+    constexpr double kNeedsConfirmation = 50;
+    return !confirmed && late_percent(costs, late) >= kNeedsConfirmation;
+}
+
+void refuse_without_reason(const std::string& reason) {
+    if (reason.empty()) throw InvalidArgument("say why: --reason \"...\"; it stands in the history");
+}
+
+Instant due_for(Course& course, const Assignment& a, std::int64_t group, const std::string& stage) {
+    const std::optional<Instant> common = stage == "first"    ? std::optional(a.first_due)
+                                          : stage == "review" ? a.review_due
+                                                              : a.final_due;
+    if (!common) {
+        if (stage == "review") refuse_without_reviews(a);
+        throw a.is_talk() ? InvalidArgument("{} is a talk: it has no final version", a.name)
+                          : InvalidArgument("{} is a lab: it has no final version", a.name);
+    }
+    Rows own = course.database().query(
+        "SELECT due_at FROM extensions WHERE assignment = ? AND group_id = ? AND stage = ? ORDER BY id DESC LIMIT 1",
+        a.id, group, stage);
+    return own.next() ? own.optional_integer(0).value_or(*common) : *common;
+}
+
+bool is_held(Course& course, const Assignment& a, std::int64_t group, std::optional<std::int64_t> pair) {
+    Rows rows = course.database().query(
+        "SELECT held FROM holds WHERE assignment = ? AND group_id = ? AND ifnull(pair, 0) = ? ORDER BY id DESC LIMIT 1",
+        a.id, group, pair.value_or(0));
+    return rows.next() && rows.integer(0) != 0;
 }
 
 }  // namespace dynlab::inline course

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,16 +50,12 @@ struct Assignment {
     const char* document() const { return is_report() ? "report" : is_talk() ? "slides" : "script"; }
 };
 
-/// Adds it. The same words again change nothing; other words for an assignment that nobody handed anything in for
-/// change it. Returns whether something changed. Throws InvalidArgument: deadlines out of order, a report without them,
-/// a lab or a talk with those of a review, a name that cannot be a file name, a change after the first hand-in other
-/// than later deadlines or more grace.
-bool add_assignment(Course& course, Assignment assignment);
-
-/// Changes deadlines in both directions, grace, lesson, costs and weight of an assignment, at any time; lateness and
-/// marks follow. The journal tells what was before, and the reason. Returns whether something changed. Throws
-/// InvalidArgument: no reason, deadlines out of order.
-bool change_assignment(Course& course, const Assignment& wanted, const std::string& reason);
+/// Adds an assignment, or makes the one of this name as wanted; lateness and marks follow. The history has every
+/// difference, and the reason. Returns whether something changed. Throws InvalidArgument: deadlines out of order, a
+/// report without them, a lab or a talk with those of a review, a name that cannot be a file name; once work was
+/// submitted another kind, or without a reason anything but later deadlines or more grace; other criteria once scores
+/// were given.
+bool set_assignment(Course& course, Assignment wanted, const std::string& reason = "");
 /// Takes an assignment out. Throws InvalidArgument where something hangs on it: files, pairs, scores, marks.
 void remove_assignment(Course& course, const Assignment& assignment, const std::string& reason);
 
@@ -66,11 +63,18 @@ std::vector<Assignment> assignments_of(Course& course);  ///< in the order of th
 /// By name; with an empty name the only one. Throws InvalidArgument.
 Assignment assignment_named(Course& course, const std::string& name);
 
+/// The parts of what is submitted at a stage ("first", "review", "final"): the document first, if there is one, then
+/// script and pack. Of a lab, script and pack are two forms of the same.
+std::vector<std::string> parts_of(const Assignment& assignment, const std::string& stage);
+
 /// Throws InvalidArgument for a lab or a talk.
 void refuse_without_reviews(const Assignment& assignment);
 
 /// What being late by `late` seconds costs, in percent: late_day for each day or part of a day, late_most at most.
 double late_percent(const Costs& costs, std::int64_t late);
+/// A penalty of half the points or more is more often a wrong time than a late student: it is not applied until the
+/// instructor corrected or confirmed the time of receipt.
+bool waits_for_confirmation(const Costs& costs, std::int64_t late, bool confirmed);
 
 /// "clarity:5, methods:10" as criteria. Throws InvalidArgument.
 std::vector<Criterion> criteria_of(const std::string& text);
@@ -80,5 +84,17 @@ std::vector<Criterion> usual_criteria(const std::string& kind);
 
 /// "late-day:10,missing-review:25"; empty for none. Throws InvalidArgument.
 Costs costs_of(const std::string& text);
+
+// What the instructor allowed or kept from a group besides what holds for all. Corrections make such entries
+// (corrections/corrections.h), each with a reason; the newest holds.
+
+/// Throws InvalidArgument for an empty reason.
+void refuse_without_reason(const std::string& reason);
+
+/// The deadline of a group, extended or not. Throws InvalidArgument for a stage that the assignment does not have.
+Instant due_for(Course& course, const Assignment& assignment, std::int64_t group, const std::string& stage);
+
+/// Whether a group's report, or its review of a pair, is held back.
+bool is_held(Course& course, const Assignment& assignment, std::int64_t group, std::optional<std::int64_t> pair);
 
 }  // namespace dynlab::inline course

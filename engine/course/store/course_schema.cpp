@@ -59,8 +59,7 @@ CREATE TABLE journal (id INTEGER PRIMARY KEY, at INTEGER NOT NULL, what TEXT NOT
 CREATE TABLE former_names (student TEXT NOT NULL REFERENCES students, name TEXT NOT NULL, mail TEXT NOT NULL,
   until INTEGER NOT NULL, PRIMARY KEY (student, name, mail)) WITHOUT ROWID;
 )",
-    // Corrections are rows of their own, the newest of which holds; what was received stays as it was signed. The view
-    // `standing` is what holds now: versions that are not withdrawn, with time, deadline and lateness as corrected.
+    // Corrections are rows of their own, the newest of which holds; what was received stays as it was signed.
     R"(
 CREATE TABLE arrivals (id INTEGER PRIMARY KEY, version INTEGER NOT NULL REFERENCES versions,
   received_at INTEGER NOT NULL, due_at INTEGER NOT NULL, late INTEGER NOT NULL CHECK (late >= 0),
@@ -98,20 +97,8 @@ DROP TABLE former_overrides;
 CREATE INDEX versions_of_pair ON versions (pair);
 CREATE INDEX versions_of_hash ON versions (hash);
 CREATE INDEX sendings_of_pair ON sendings (pair);
-CREATE VIEW arrived AS SELECT v.id, v.assignment, v.group_id, v.stage, v.pair, v.part, v.number, v.hash, v.name,
-  v.findings, a.grace,
-  ifnull((SELECT c.received_at FROM arrivals c WHERE c.version = v.id ORDER BY c.id DESC LIMIT 1), v.received_at)
-    AS received_at,
-  ifnull((SELECT e.due_at FROM extensions e WHERE e.assignment = v.assignment AND e.group_id = v.group_id AND
-    e.stage = v.stage ORDER BY e.id DESC LIMIT 1),
-    CASE v.stage WHEN 'first' THEN a.first_due WHEN 'review' THEN a.review_due ELSE a.final_due END) AS due_at,
-  ifnull((SELECT w.withdrawn FROM withdrawals w WHERE w.version = v.id ORDER BY w.id DESC LIMIT 1), 0) AS withdrawn
-  FROM versions v JOIN assignments a ON a.id = v.assignment;
-CREATE VIEW standing AS SELECT *, CASE WHEN received_at > due_at + grace THEN received_at - due_at ELSE 0 END AS late
-  FROM arrived WHERE NOT withdrawn;
 )",
-    // A version with the content of an earlier one is as late as that one. Points of students at the oral: null takes
-    // back what was given.
+    // Points of students at the oral: null takes back what was given.
     R"(
 CREATE TABLE student_scores (assignment INTEGER NOT NULL REFERENCES assignments,
   student TEXT NOT NULL REFERENCES students, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
@@ -119,13 +106,6 @@ CREATE TABLE student_scores (assignment INTEGER NOT NULL REFERENCES assignments,
 CREATE TABLE oral_comments (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
   group_id INTEGER NOT NULL REFERENCES groups, student TEXT REFERENCES students, comment TEXT NOT NULL,
   made_at INTEGER NOT NULL);
-DROP VIEW standing;
-CREATE VIEW standing AS SELECT *,
-  CASE WHEN first_at > due_at + grace THEN first_at - due_at ELSE 0 END AS late
-  FROM (SELECT w.*, (SELECT min(e.received_at) FROM arrived e WHERE e.hash = w.hash AND e.number <= w.number AND
-    NOT e.withdrawn AND e.assignment = w.assignment AND e.group_id = w.group_id AND e.stage = w.stage AND
-    ifnull(e.pair, 0) = ifnull(w.pair, 0) AND e.part = w.part) AS first_at
-    FROM arrived w WHERE NOT w.withdrawn);
 )",
     // Pairs and pseudonyms are stored as they were drawn; there is no seed that they follow from.
     R"(
@@ -159,8 +139,6 @@ DROP TABLE former_scores;
 CREATE TABLE stops (pair INTEGER NOT NULL REFERENCES pairs,
   way TEXT NOT NULL CHECK (way IN ('to reviewer', 'to author')), version INTEGER NOT NULL REFERENCES versions,
   made_at INTEGER NOT NULL, PRIMARY KEY (pair, way, version)) WITHOUT ROWID;
-DROP VIEW standing;
-DROP VIEW arrived;
 CREATE TABLE new_assignments (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE COLLATE NOCASE,
   kind TEXT NOT NULL CHECK (kind IN ('lab', 'report', 'talk')), lesson TEXT NOT NULL, first_due INTEGER NOT NULL,
   review_due INTEGER, final_due INTEGER, grace INTEGER NOT NULL CHECK (grace >= 0),
@@ -186,6 +164,68 @@ CREATE INDEX marks_of_group ON marks (assignment, group_id);
 CREATE TABLE refusals (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
   group_id INTEGER REFERENCES groups, stage TEXT NOT NULL, name TEXT NOT NULL, hash TEXT REFERENCES files,
   reason TEXT NOT NULL, received_at INTEGER NOT NULL);
+)",
+    // One store of marks: of a check, of a criterion, or of the whole submission (item *), by the instructor or, with a
+    // pair, by a reviewer; null points take back. Items of reports and talks are, besides their criteria, `reviews` and
+    // `comment`, which has a text only. A file that was not taken, or whose sender is not known, is a version of the
+    // part `unreadable`: no file comes without a trace.
+    R"(
+CREATE TABLE new_marks (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, student TEXT REFERENCES students,
+  stage TEXT NOT NULL DEFAULT 'first' CHECK (stage IN ('first', 'final')), pair INTEGER REFERENCES pairs,
+  version INTEGER REFERENCES versions, item TEXT NOT NULL, points REAL CHECK (points >= 0), reason TEXT NOT NULL,
+  made_at INTEGER NOT NULL);
+INSERT INTO new_marks (id, assignment, group_id, student, version, item, points, reason, made_at)
+  SELECT m.id, m.assignment, m.group_id, m.student, m.version,
+  CASE WHEN a.kind <> 'lab' AND m.item = 'work' THEN '*' ELSE m.item END, m.points, m.reason, m.made_at
+  FROM marks m JOIN assignments a ON a.id = m.assignment;
+INSERT INTO new_marks (assignment, group_id, item, points, reason, made_at)
+  SELECT assignment, group_id, replace(what, 'work', '*'), percent, reason, made_at FROM overrides ORDER BY id;
+INSERT INTO new_marks (assignment, group_id, pair, version, item, points, reason, made_at)
+  SELECT p.assignment, p.author, s.pair, (SELECT w.id FROM versions w WHERE w.pair = s.pair AND w.part IN ('review',
+  'pack') AND w.received_at <= s.given_at AND NOT ifnull((SELECT x.withdrawn FROM withdrawals x WHERE x.version = w.id
+  AND x.made_at < s.given_at ORDER BY x.id DESC LIMIT 1), 0) ORDER BY w.part = 'review' DESC, w.number DESC LIMIT 1),
+  c.name, s.points, '', s.given_at FROM scores s JOIN pairs p ON p.id = s.pair
+  JOIN criteria c ON c.assignment = p.assignment AND c.place = s.criterion ORDER BY s.given_at;
+INSERT INTO new_marks (assignment, group_id, stage, item, points, reason, made_at)
+  SELECT s.assignment, s.group_id, s.stage, c.name, s.points, '', s.given_at FROM instructor_scores s
+  JOIN criteria c ON c.assignment = s.assignment AND c.place = s.criterion ORDER BY s.given_at;
+INSERT INTO new_marks (assignment, group_id, item, points, reason, made_at)
+  SELECT s.assignment, s.group_id, c.name, s.points, '', s.given_at FROM oral_scores s
+  JOIN criteria c ON c.assignment = s.assignment AND c.place = s.criterion ORDER BY s.given_at;
+INSERT INTO new_marks (assignment, group_id, student, item, points, reason, made_at)
+  SELECT s.assignment, (SELECT m.group_id FROM memberships m WHERE m.student = s.student ORDER BY m.until IS NOT NULL,
+  m.since LIMIT 1), s.student, c.name, s.points, '', s.given_at FROM student_scores s
+  JOIN criteria c ON c.assignment = s.assignment AND c.place = s.criterion ORDER BY s.given_at;
+INSERT INTO new_marks (assignment, group_id, student, item, points, reason, made_at)
+  SELECT assignment, group_id, student, 'comment', NULL, comment, made_at FROM oral_comments ORDER BY id;
+DROP TABLE marks;
+ALTER TABLE new_marks RENAME TO marks;
+CREATE INDEX marks_of_group ON marks (assignment, group_id);
+DROP TABLE overrides;
+DROP TABLE scores;
+DROP TABLE instructor_scores;
+DROP TABLE oral_scores;
+DROP TABLE student_scores;
+DROP TABLE oral_comments;
+DROP TABLE refusals;
+CREATE TABLE new_versions (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER REFERENCES groups, stage TEXT NOT NULL CHECK (stage IN ('first', 'review', 'final')),
+  pair INTEGER REFERENCES pairs, part TEXT NOT NULL, number INTEGER NOT NULL CHECK (number > 0),
+  hash TEXT NOT NULL REFERENCES files, name TEXT NOT NULL, received_at INTEGER NOT NULL, due_at INTEGER NOT NULL,
+  late INTEGER NOT NULL CHECK (late >= 0), findings TEXT NOT NULL, signature TEXT NOT NULL,
+  CHECK (part = 'unreadable' OR (group_id IS NOT NULL AND (stage = 'review') = (pair IS NOT NULL))));
+INSERT INTO new_versions SELECT * FROM versions;
+DROP TABLE versions;
+ALTER TABLE new_versions RENAME TO versions;
+CREATE UNIQUE INDEX versions_once ON versions (assignment, group_id, stage, ifnull(pair, 0), part, number);
+CREATE INDEX versions_of_pair ON versions (pair);
+CREATE INDEX versions_of_hash ON versions (hash);
+)"};
+
+/// Versions with time and deadline as corrected; and those that are not withdrawn, with their lateness: a version with
+/// the content of an earlier one is as late as that one.
+constexpr char kViews[] = R"(
 CREATE VIEW arrived AS SELECT v.id, v.assignment, v.group_id, v.stage, v.pair, v.part, v.number, v.hash, v.name,
   v.findings, a.grace,
   ifnull((SELECT c.received_at FROM arrivals c WHERE c.version = v.id ORDER BY c.id DESC LIMIT 1), v.received_at)
@@ -198,10 +238,10 @@ CREATE VIEW arrived AS SELECT v.id, v.assignment, v.group_id, v.stage, v.pair, v
 CREATE VIEW standing AS SELECT *,
   CASE WHEN first_at > due_at + grace THEN first_at - due_at ELSE 0 END AS late
   FROM (SELECT w.*, (SELECT min(e.received_at) FROM arrived e WHERE e.hash = w.hash AND e.number <= w.number AND
-    NOT e.withdrawn AND e.assignment = w.assignment AND e.group_id = w.group_id AND e.stage = w.stage AND
+    NOT e.withdrawn AND e.assignment = w.assignment AND e.group_id IS w.group_id AND e.stage = w.stage AND
     ifnull(e.pair, 0) = ifnull(w.pair, 0) AND e.part = w.part) AS first_at
     FROM arrived w WHERE NOT w.withdrawn);
-)"};
+)";
 
 std::int64_t pragma(Database& database, const char* name) {
     Rows rows = database.query(fmt::format("PRAGMA {}", name));
@@ -213,12 +253,9 @@ std::int64_t pragma(Database& database, const char* name) {
 
 const std::vector<std::string>& course_tables() {
     static const std::vector<std::string> tables = {
-        "course",         "groups",        "students",    "memberships", "assignments",       "criteria",
-        "files",          "pseudonyms",    "allocations", "pairs",       "versions",          "sendings",
-        "scores",         "oral_scores",   "overrides",   "journal",     "former_names",      "arrivals",
-        "extensions",     "withdrawals",   "holds",       "pair_wishes", "instructor_scores", "returns",
-        "student_scores", "oral_comments", "results",     "marks",       "refusals",          "stops",
-        "seals"};
+        "course",      "groups", "students",    "memberships", "assignments", "criteria",     "files",    "pseudonyms",
+        "allocations", "pairs",  "versions",    "sendings",    "journal",     "former_names", "arrivals", "extensions",
+        "withdrawals", "holds",  "pair_wishes", "returns",     "results",     "marks",        "stops",    "seals"};
     return tables;
 }
 
@@ -261,8 +298,10 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
     // A table that others refer to can only be made again while nobody asks for what they refer to.
     database.execute("PRAGMA foreign_keys = OFF");
     Transaction transaction(database);
+    database.execute("DROP VIEW IF EXISTS standing; DROP VIEW IF EXISTS arrived");
     for (std::int64_t version = version_of(); version < newest; ++version)  // another may have done it meanwhile
         database.execute(steps[static_cast<std::size_t>(version)]);
+    database.execute(kViews);
     if (database.query("PRAGMA foreign_key_check").next())
         throw EnvironmentError("{}: a row refers to one that is not there; nothing was changed, take a backup", file);
     database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, newest));

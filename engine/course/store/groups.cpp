@@ -39,10 +39,10 @@ bool same_name(const std::string& a, const std::string& b) {
 
 /// Names of groups become names of folders and files: of receipts, and of what is returned.
 void refuse_odd_group(const std::string& name) {
-    constexpr std::size_t kMostBytes = 100;
-    if (name.size() > kMostBytes)
+    constexpr std::size_t kMaxNameBytes = 100;
+    if (name.size() > kMaxNameBytes)
         throw EnvironmentError("the group's name \"{}...\" is too long: at most {} bytes, but it has {}",
-                               terminal_text(name.substr(0, 40)), kMostBytes, name.size());
+                               terminal_text(name.substr(0, 40)), kMaxNameBytes, name.size());
     if (!name.starts_with('.') && name.find_first_of("/\\\n\r\t") == name.npos && terminal_text(name) == name) return;
     throw EnvironmentError(
         "the group's name \"{}\" cannot name a folder: it must not begin with a full stop, nor hold /, \\ or "
@@ -168,8 +168,7 @@ std::vector<Group> groups_of(Course& course) {
     std::map<std::int64_t, std::size_t> index;
     for (Rows rows = course.database().query(
              "SELECT id, name, left_at FROM groups WHERE id IN (SELECT group_id FROM memberships WHERE until IS NULL "
-             "UNION SELECT group_id FROM versions UNION SELECT group_id FROM oral_scores UNION SELECT group_id FROM "
-             "overrides UNION SELECT group_id FROM marks) ORDER BY name");
+             "UNION SELECT group_id FROM versions UNION SELECT group_id FROM marks) ORDER BY name");
          rows.next();) {
         index[rows.integer(0)] = groups.size();
         groups.push_back({rows.integer(0), rows.text(1), !rows.isColumnNull(2), {}});

@@ -60,8 +60,9 @@ void IncomingFiles::add(const fs::path& given) {
     }
     const fs::path to = scratch_.path() / std::to_string(++unpacked_);
     fs::create_directories(to);
+    int number = 0;
     for (const Message& clause : unpack_export(given, to, way_.level, way_.program))
-        left_out_.push_back(Message("{}: {}; it was left out", source, clause));
+        leave_out(fmt::format("{} ({})", name, ++number), source, {}, Message("{}; it was left out", clause));
     add_batch(to, source);
 }
 
@@ -76,8 +77,16 @@ void IncomingFiles::add_file(const fs::path& file, const std::string& source) {
         write_file_atomically(script, script_of_handed_in(file));
         files_.push_back({script, fs::path(name).stem().string() + ".lua", source, sender_of(name), {}, given_ - 1});
     } catch (const SubmissionError& error) {
-        left_out_.push_back(Message("{}: {} It was left out", source, error.message()));
+        files_.push_back({file, name, source, sender_of(name), {}, given_ - 1, error.message()});
     }
+}
+
+/// What has no content of its own.
+void IncomingFiles::leave_out(const std::string& name, const std::string& source, const Submission& sender,
+                              const Message& reason) {
+    const fs::path nothing = scratch_.path() / "nothing";
+    if (!fs::exists(nothing)) write_file_atomically(nothing, "");
+    files_.push_back({nothing, name, source, sender, {}, given_ - 1, reason});
 }
 
 /// A file of a folder: links could lead to files that nobody handed in.
@@ -86,9 +95,9 @@ void IncomingFiles::add_found(const fs::path& file, const std::string& source) {
     if (type == fs::file_type::regular)
         add_file(file, source);
     else
-        left_out_.push_back(type == fs::file_type::symlink
-                                ? Message("{}: a link; it was left out", source)
-                                : Message("{}: not a regular file; it was left out", source));
+        leave_out(file.filename(), source, sender_of(file.filename()),
+                  type == fs::file_type::symlink ? Message("a link; it was left out")
+                                                 : Message("not a regular file; it was left out"));
 }
 
 void IncomingFiles::add_batch(const fs::path& folder, const std::string& source) {

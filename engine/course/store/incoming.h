@@ -17,6 +17,7 @@ struct IncomingFile {
     Submission sender;           ///< name, person and lms_id as the folder's or the file's name tells them
     std::string folder = {};     ///< source of the sender's own folder; empty for a file alone
     std::size_t given = 0;       ///< as how manieth it, or what it lay in, was given
+    Message left_out = {};       ///< why it cannot be taken, a clause; what holds nothing is an empty file then
 };
 
 /// Everything that was given to receive: files, folders, and what Moodle or Canvas exports as one zip. Archives are
@@ -35,7 +36,6 @@ class IncomingFiles {
     void add(const std::filesystem::path& given);
 
     const std::vector<IncomingFile>& files() const { return files_; }
-    const std::vector<Message>& left_out() const { return left_out_; }  ///< sentences
     bool batch() const { return batch_; }  ///< more than one file, so that one bad file need not stop the others
 
   private:
@@ -45,13 +45,14 @@ class IncomingFiles {
     void add_folder_of(const Submission& sender, const std::filesystem::path& folder, const std::string& source,
                        const std::string& own);
 
+    void leave_out(const std::string& name, const std::string& source, const Submission& sender, const Message& reason);
+
     Way way_;
     TemporaryFolder scratch_;
     int unpacked_ = 0;
     std::size_t given_ = 0;
     bool batch_ = false;
     std::vector<IncomingFile> files_;
-    std::vector<Message> left_out_;
 };
 
 }  // namespace dynlab::inline course

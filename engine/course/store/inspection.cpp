@@ -9,14 +9,15 @@ namespace dynlab::inline course {
 namespace {
 
 Inspection summary_of(const CheckResult& result, const std::string& json_text) {
-    static const std::set<std::string> unreadable = {"not-pdf",        "encrypted",  "damaged", "too-large", "scanned",
-                                                     "closed-archive", "other-kind", "several", "empty"};
+    static const std::set<std::string> unreadable = {"not-pdf", "encrypted",      "damaged",    "too-large",
+                                                     "scanned", "closed-archive", "other-kind", "several",
+                                                     "empty",   kNotTaken,        kBeside};
     Inspection inspection;
     inspection.json = json_text;
     for (const Finding& finding : result.findings) {
         if (finding.severity != Severity::kRule) continue;
         ++inspection.rules_broken;
-        if (unreadable.contains(finding.id)) inspection.trouble = finding.id;
+        if (unreadable.contains(finding.id)) inspection.trouble = finding.id, inspection.reason = finding.what;
         inspection.names = inspection.names || finding.id.starts_with("name-");
     }
     return inspection;
@@ -47,6 +48,13 @@ Inspection Inspector::inspect(const std::filesystem::path& pdf, const std::strin
     CheckResult result = check_pdf(pdf, wishes_.at(part));
     result.subject = part + ".pdf";
     return summary_of(result, findings_as_json(result));
+}
+
+Inspection unreadable_inspection(const std::string& trouble, const Message& reason) {
+    CheckResult result;
+    result.subject = kUnreadable;
+    result.findings.push_back({trouble, Severity::kRule, 0, "", reason, Message("Submit a file that can be read.")});
+    return inspection_from(findings_as_json(result));
 }
 
 Inspection inspection_from(const std::string& json) {

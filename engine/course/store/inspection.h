@@ -11,8 +11,19 @@ struct Inspection {
     int rules_broken = 0;
     bool names = false;   ///< somebody of the course is named
     std::string trouble;  ///< id of the finding that keeps the file from being read: damaged, ...; else empty
+    Message reason;       ///< the same in a sentence
     std::string json;     ///< findings_as_json; empty when nothing was looked at
 };
+
+/// The part of files that are kept although they are not the assignment's: no file comes without a trace. Files that
+/// nobody can read have a receipt, but replace nothing.
+inline constexpr char kUnreadable[] = "unreadable";
+/// Troubles of files that somebody could read: nobody knows whose they are or where they belong; or they came beside
+/// the file that counts.
+inline constexpr char kNotTaken[] = "not-taken", kBeside[] = "beside";
+
+/// What is kept beside such a file.
+Inspection unreadable_inspection(const std::string& trouble, const Message& reason);
 
 /// Looks at PDFs as dynlab check does. Several threads may use one at once.
 class Inspector {

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <tuple>
 
+#include "course/store/assignments.h"
+#include "course/store/groups.h"
 #include "data_io/values/json_values.h"
+#include "numerics/error.h"
 
 namespace dynlab::inline course {
 
@@ -19,9 +23,20 @@ std::string name_of(Course& course, std::int64_t group) {
     return rows.next() ? rows.text(0) : "";
 }
 
+/// Whose mark it is, by whom, and for what.
+using MarkKey = std::tuple<std::int64_t, std::string, std::string, std::int64_t, std::string>;
+MarkKey key_of(const GivenMark& mark) {
+    return {mark.group, mark.student, mark.stage, mark.pair, mark.item};
+}
+
+std::vector<CheckPoints> checks_in(const std::string& json) {
+    return from_json<std::vector<CheckPoints>>(json);
+}
+
 /// One version of a lab with its newest result.
 struct GradedVersion {
     std::int64_t id = 0, group = 0, number = 0, late = 0;
+    bool confirmed = false;  ///< the time of receipt was corrected or confirmed
     std::optional<std::vector<CheckPoints>> checks;
 };
 
@@ -30,13 +45,12 @@ std::vector<GradedVersion> graded_versions(Course& course, const Assignment& ass
     std::vector<GradedVersion> versions;
     for (Rows rows = course.database().query(
              "SELECT s.id, s.group_id, s.number, s.late, (SELECT r.checks FROM results r WHERE r.version = s.id ORDER "
-             "BY "
-             "r.id "
-             "DESC LIMIT 1) FROM standing s WHERE s.assignment = ? AND s.stage = 'first' AND s.part IN ('script', "
-             "'pack') ORDER BY s.received_at, s.id",
+             "BY r.id DESC LIMIT 1), EXISTS (SELECT 1 FROM arrivals a WHERE a.version = s.id) FROM standing s WHERE "
+             "s.assignment = ? AND s.stage = 'first' AND s.part IN ('script', 'pack') ORDER BY s.received_at, s.id",
              assignment.id);
          rows.next();) {
-        GradedVersion version{rows.integer(0), rows.integer(1), rows.integer(2), rows.integer(3), {}};
+        GradedVersion version{rows.integer(0), rows.integer(1),      rows.integer(2),
+                              rows.integer(3), rows.integer(5) != 0, {}};
         if (!rows.isColumnNull(4)) version.checks = checks_in(rows.text(4));
         versions.push_back(std::move(version));
     }
@@ -62,63 +76,103 @@ LabMark mark_of(const Assignment& assignment, const GradedVersion& version, cons
     }
     if (const auto own = given.find(kWholeItem); own != given.end())
         return whole_mark(version.group, version.number, mark.possible, own->second);
-    mark.penalty = earned * late_percent(assignment.costs, version.late) / 100;
+    if (!waits_for_confirmation(assignment.costs, version.late, version.confirmed))
+        mark.penalty = earned * late_percent(assignment.costs, version.late) / 100;
     if (whole) mark.earned = earned - mark.penalty;
     return mark;
 }
 
 }  // namespace
 
-std::vector<CheckPoints> checks_in(const std::string& json) {
-    return from_json<std::vector<CheckPoints>>(json);
-}
-
-std::vector<GivenMark> marks_ever_given(Course& course, const Assignment& assignment) {
-    std::vector<GivenMark> marks;
-    for (Rows rows = course.database().query("SELECT group_id, ifnull(student, ''), item, points, reason, "
-                                             "ifnull(version, 0), id FROM marks WHERE assignment = ? ORDER BY id",
-                                             assignment.id);
-         rows.next();)
-        marks.push_back({rows.integer(0), rows.text(1), rows.text(2),
-                         rows.isColumnNull(3) ? std::nullopt : std::optional(rows.number(3)), rows.text(4),
-                         rows.integer(5), rows.integer(6)});
-    return marks;
+std::string item_called(const Assignment& assignment, const std::string& name) {
+    return !assignment.is_lab() && name == "work" ? kWholeItem : name;
 }
 
 std::vector<GivenMark> marks_in_force(Course& course, const Assignment& assignment, std::optional<std::int64_t> until) {
-    std::map<std::tuple<std::int64_t, std::string, std::string>, std::map<std::int64_t, GivenMark>> newest;
-    for (const GivenMark& mark : marks_ever_given(course, assignment)) {
-        if (until && mark.id > *until) break;
-        auto& by_version = newest[{mark.group, mark.student, mark.item}];
-        if (mark.version == 0) by_version.clear();
-        by_version[mark.version] = mark;
+    std::map<MarkKey, std::map<std::int64_t, GivenMark>> newest;  // by version
+    for (Rows rows = course.database().query(
+             "SELECT group_id, ifnull(student, ''), item, points, reason, ifnull(version, 0), id, ifnull(pair, 0), "
+             "stage FROM marks m WHERE assignment = ? AND id <= ? AND item <> 'comment' AND (version IS NULL OR EXISTS "
+             "(SELECT 1 FROM standing s WHERE s.id = m.version)) ORDER BY id",
+             assignment.id, until.value_or(std::numeric_limits<std::int64_t>::max()));
+         rows.next();) {
+        GivenMark mark{rows.integer(0), rows.text(1),    rows.text(2),    {},          rows.text(4),
+                       rows.integer(5), rows.integer(6), rows.integer(7), rows.text(8)};
+        if (!rows.isColumnNull(3)) mark.points = rows.number(3);
+        auto& by_version = newest[key_of(mark)];
+        if (mark.version == 0 || mark.pair != 0) by_version.clear();  // a reviewer's is of the review as it is now
+        by_version[mark.version] = std::move(mark);
     }
     std::vector<GivenMark> marks;
     for (const auto& [key, by_version] : newest)
         for (const auto& [version, mark] : by_version)
             if (mark.points) marks.push_back(mark);
+    std::ranges::sort(marks, {}, &GivenMark::id);
     return marks;
 }
 
+int enter_marks(Course& course, const Assignment& assignment, const std::vector<GivenMark>& marks, Instant now) {
+    std::map<std::pair<MarkKey, std::int64_t>, GivenMark> known;
+    const auto place_of = [](const GivenMark& mark) {
+        return std::pair(key_of(mark), mark.pair != 0 ? std::int64_t{0} : mark.version);
+    };
+    for (GivenMark& mark : marks_in_force(course, assignment)) known[place_of(mark)] = std::move(mark);
+    int fresh = 0;
+    for (const GivenMark& mark : marks) {
+        GivenMark& before = known[place_of(mark)];
+        if (before.points == mark.points && (before.reason == mark.reason || !mark.points)) continue;
+        before = mark;
+        ++fresh;
+        course.database().run(
+            "INSERT INTO marks (assignment, group_id, student, stage, pair, version, item, points, reason, made_at) "
+            "VALUES (?, ?, nullif(?, ''), ?, nullif(?, 0), nullif(?, 0), ?, ?, ?, ?)",
+            assignment.id, mark.group, mark.student, mark.stage, mark.pair, mark.version, mark.item, mark.points,
+            mark.reason, now);
+    }
+    return fresh;
+}
+
 bool give_mark(Course& course, const Assignment& assignment, const GivenMark& mark, Instant now) {
-    for (const GivenMark& known : marks_in_force(course, assignment))
-        if (known.group == mark.group && known.student == mark.student && known.item == mark.item &&
-            known.version == mark.version && known.points == mark.points && known.reason == mark.reason)
-            return false;
-    std::optional<std::string> student;
-    if (!mark.student.empty()) student = mark.student;
-    course.database().run(
-        "INSERT INTO marks (assignment, group_id, student, item, points, reason, made_at, version) VALUES (?, ?, ?, ?, "
-        "?, ?, ?, nullif(?, 0))",
-        assignment.id, mark.group, student, mark.item, mark.points, mark.reason, now, mark.version);
+    if (enter_marks(course, assignment, {mark}, now) == 0) return false;
     const std::string who = mark.student.empty() ? name_of(course, mark.group) : mark.student,
                       what = mark.item == kWholeItem ? "the whole" : mark.item,
                       why = mark.reason.empty() ? "" : "; reason: " + mark.reason;
+    const char* const unit = assignment.is_lab() ? "points" : "percent";
     course.note(mark.points
-                    ? fmt::format("{}: {} has {} points for {}{}", assignment.name, who, *mark.points, what, why)
-                    : fmt::format("{}: the points of {} for {} are taken back{}", assignment.name, who, what, why),
+                    ? fmt::format("{}: {} has {} {} for {}{}", assignment.name, who, *mark.points, unit, what, why)
+                    : fmt::format("{}: the {} of {} for {} are taken back{}", assignment.name, unit, who, what, why),
                 now);
     return true;
+}
+
+void take_back_mark(Course& course, const Assignment& assignment, const std::string& who, bool alone,
+                    const std::string& item, const std::string& reason, Instant now) {
+    refuse_without_reason(reason);
+    const std::string student = alone ? student_named(course, who).id : "";
+    const Group group = alone ? Group() : group_named(course, who);
+    bool any = false;
+    for (const GivenMark& mark : marks_in_force(course, assignment))
+        if (mark.pair == 0 && mark.stage == "first" && mark.student == student && mark.item == item &&
+            (alone || mark.group == group.id))
+            any = give_mark(course, assignment, {mark.group, student, item, {}, reason, mark.version}, now) || any;
+    if (!any) throw InvalidArgument("{} has no mark of yours for {}", alone ? student : group.name, item);
+}
+
+std::optional<double> most_points(Course& course, const Assignment& assignment, const std::string& item) {
+    if (!assignment.is_lab()) {
+        if (item == kReviewsItem) refuse_without_reviews(assignment);
+        if (item == kReviewsItem || item == kWholeItem) return 100;
+        throw InvalidArgument("{} has marks of work and reviews, but \"{}\" was given", assignment.name, item);
+    }
+    Rows rows = course.database().query(
+        "SELECT r.checks, r.possible FROM results r JOIN versions v ON v.id = r.version WHERE v.assignment = ? ORDER "
+        "BY r.id DESC LIMIT 1",
+        assignment.id);
+    if (!rows.next()) return {};
+    if (item == kWholeItem) return rows.number(1);
+    for (const CheckPoints& check : checks_in(rows.text(0)))
+        if (check.id == item) return check.points;
+    throw InvalidArgument("{} has no check \"{}\"; * is the whole submission", assignment.name, item);
 }
 
 bool record_result(Course& course, const VersionResult& result, Instant now) {

@@ -7,30 +7,47 @@
 
 namespace dynlab::inline course {
 
-/// The item of a mark that is of the whole submission.
-inline constexpr char kWholeItem[] = "*";
+/// Items of marks besides checks and criteria: the whole submission (of a report or a talk in percent), and what the
+/// group's reviews are worth, in percent.
+inline constexpr char kWholeItem[] = "*", kReviewsItem[] = "reviews";
 
-/// Points that the instructor gave by hand, instead of those of a check, or of all of them.
+/// An item as it is typed: of a report or a talk, `work` is the whole submission.
+std::string item_called(const Assignment& assignment, const std::string& name);
+
+/// Points that somebody gave: the instructor, or a reviewer.
 struct GivenMark {
-    std::int64_t group = 0;
+    std::int64_t group = 0;        ///< whose work it is
     std::string student;           ///< id of the only member who gets them; empty: all of the group
-    std::string item;              ///< a check; * for the whole; of a report or a talk "work", in percent
+    std::string item;              ///< a check, a criterion, or one of those above
     std::optional<double> points;  ///< nothing: taken back
     std::string reason;
-    std::int64_t version = 0;  ///< id of the only version that it is of; 0: of all
-    std::int64_t id = 0;       ///< once it is stored; later ones have larger ids
+    std::int64_t version = 0;     ///< id of the only version that it is of; 0: of all
+    std::int64_t id = 0;          ///< once it is stored; later ones have larger ids
+    std::int64_t pair = 0;        ///< of the reviewer who gave it; 0: the instructor
+    std::string stage = "first";  ///< "first" or "final"
 };
 
 /// The marks of an assignment that are in force, or were when the mark with the id `until` was the last one: of each
-/// owner, item and version the newest, where no newer one is of all versions; not those that were taken back.
+/// owner, item and version the newest, where no newer one is of all versions; not those that were taken back, nor those
+/// of withdrawn versions. Oldest first.
 std::vector<GivenMark> marks_in_force(Course& course, const Assignment& assignment,
                                       std::optional<std::int64_t> until = {});
-/// All that were ever given, oldest first.
-std::vector<GivenMark> marks_ever_given(Course& course, const Assignment& assignment);
 
-/// Within a transaction: enters a mark, with a line in the journal; the newest of equal ones is not entered again.
-/// Returns whether it is new.
+/// Within a transaction: enters marks that say something new, without a line in the journal. Returns their number.
+int enter_marks(Course& course, const Assignment& assignment, const std::vector<GivenMark>& marks, Instant now);
+
+/// Within a transaction: enters the instructor's mark, with a line in the journal; the newest of equal ones is not
+/// entered again. Returns whether it is new.
 bool give_mark(Course& course, const Assignment& assignment, const GivenMark& mark, Instant now);
+
+/// Within a transaction: the instructor's mark of an item is taken back, for all versions. With `alone` only that of
+/// this student. Throws InvalidArgument where there is none.
+void take_back_mark(Course& course, const Assignment& assignment, const std::string& who, bool alone,
+                    const std::string& item, const std::string& reason, Instant now);
+
+/// The most that may be given for an item of a lab, once it was graded. Throws InvalidArgument for an item that the
+/// assignment does not have.
+std::optional<double> most_points(Course& course, const Assignment& assignment, const std::string& item);
 
 /// What the checks gave one version of a submission of a lab.
 struct CheckPoints {
@@ -38,9 +55,6 @@ struct CheckPoints {
     double points = 0, earned = 0;
     bool graded = true;
 };
-/// Of the text in which the store has them.
-std::vector<CheckPoints> checks_in(const std::string& json);
-
 struct VersionResult {
     std::int64_t version = 0;  ///< its id
     std::vector<CheckPoints> checks;

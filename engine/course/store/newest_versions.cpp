@@ -20,26 +20,40 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
     std::map<std::int64_t, std::map<std::string, HandedInParts>> all;
     for (Rows rows = course.database().query(
              "SELECT group_id, stage, CASE ?2 WHEN 'lab' THEN replace(part, 'pack', 'script') ELSE part END, number, "
-             "late, received_at, findings FROM standing WHERE assignment = ?1 AND stage <> 'review' ORDER BY CASE ?2 "
-             "WHEN "
-             "'lab' THEN received_at ELSE number END, id",
+             "late, received_at, findings, EXISTS (SELECT 1 FROM arrivals a WHERE a.version = s.id) FROM standing s "
+             "WHERE assignment = ?1 AND stage <> 'review' ORDER BY CASE ?2 WHEN 'lab' THEN received_at ELSE number "
+             "END, id",
              assignment.id, assignment.kind);
          rows.next();) {
-        HandedIn& newest = all[rows.integer(0)][rows.text(1)][rows.text(2)];
         const Inspection seen = inspection_from(rows.text(6));
+        if (seen.trouble == kNotTaken || seen.trouble == kBeside) continue;
+        HandedIn& newest = all[rows.integer(0)][rows.text(1)][rows.text(2)];
         const bool timely = newest.version > 0 && newest.late == 0 && newest.trouble.empty();
-        newest = {rows.integer(3),   rows.integer(4), rows.integer(5), timely ? newest.version : newest.in_time,
-                  seen.rules_broken, seen.trouble};
+        newest = {rows.integer(3),      rows.integer(4),   rows.integer(5), timely ? newest.version : newest.in_time,
+                  rows.integer(7) != 0, seen.rules_broken, seen.trouble};
     }
     return all;
 }
 
+std::vector<FileNotTaken> files_not_taken(Course& course, const Assignment& assignment) {
+    std::vector<FileNotTaken> files;
+    for (Rows rows = course.database().query(
+             "SELECT name, findings, received_at FROM standing r WHERE assignment = ?1 AND part = ?2 AND NOT EXISTS "
+             "(SELECT 1 FROM standing s WHERE s.assignment = ?1 AND s.part <> ?2 AND (s.hash = r.hash OR (s.group_id = "
+             "r.group_id AND s.stage = r.stage AND s.received_at >= r.received_at))) ORDER BY id",
+             assignment.id, kUnreadable);
+         rows.next();)
+        if (const Inspection seen = inspection_from(rows.text(1)); seen.trouble == kNotTaken)
+            files.push_back({rows.text(0), seen.reason, rows.integer(2)});
+    return files;
+}
+
 std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment) {
     std::map<std::int64_t, Instant> submitted;
-    for (Rows rows = course.database().query(
-             "SELECT group_id, min(received_at) FROM standing WHERE assignment = ? AND stage = 'first' GROUP BY "
-             "group_id",
-             assignment.id);
+    for (Rows rows = course.database().query("SELECT group_id, min(received_at) FROM standing WHERE assignment = ? AND "
+                                             "stage = 'first' GROUP BY "
+                                             "group_id",
+                                             assignment.id);
          rows.next();)
         submitted[rows.integer(0)] = rows.integer(1);
     std::map<std::string, std::int64_t> authors, present;

@@ -12,6 +12,7 @@ struct HandedIn {
     std::int64_t version = 0, late = 0;
     Instant received_at = 0;
     std::int64_t in_time = 0;  ///< of a late one: the newest earlier version that was in time and can be read, or 0
+    bool confirmed = false;    ///< the time of receipt was corrected or confirmed
     int rules_broken = 0;
     std::string trouble;  ///< why it cannot be read; else empty
     bool is_late() const { return late > 0 && in_time == 0; }
@@ -26,6 +27,14 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
 /// The group whose work of an assignment counts for each student (by id): the group that the student belonged to when
 /// it first submitted, else the student's group now. The first membership of a student counts from the beginning.
 std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment);
+
+/// A file of which nobody can say whose it is or where it belongs, until it or a later one is taken.
+struct FileNotTaken {
+    std::string name;
+    Message reason;  ///< a sentence or a clause
+    Instant received_at = 0;
+};
+std::vector<FileNotTaken> files_not_taken(Course& course, const Assignment& assignment);
 
 /// A file of a version that is not withdrawn.
 struct StandingFile {

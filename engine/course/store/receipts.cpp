@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 
@@ -125,7 +126,7 @@ Receipt receipt_of(Course& course, std::int64_t version, std::optional<std::int6
     Database& db = course.database();
     Rows rows = db.query(
         "SELECT a.name, g.name, v.stage, v.part, v.name, v.hash, v.number, f.bytes, v.late, v.received_at, v.due_at "
-        "FROM versions v JOIN assignments a ON a.id = v.assignment JOIN groups g ON g.id = v.group_id "
+        "FROM versions v JOIN assignments a ON a.id = v.assignment LEFT JOIN groups g ON g.id = v.group_id "
         "JOIN files f ON f.hash = v.hash WHERE v.id = ?",
         version);
     if (!rows.next()) throw EnvironmentError("there is no version {} in this course", version);
@@ -139,6 +140,24 @@ Receipt receipt_of(Course& course, std::int64_t version, std::optional<std::int6
         receipt.late = corrected.integer(2);
     }
     return receipt;
+}
+
+std::vector<std::filesystem::path> write_receipts(Course& course, const std::vector<std::int64_t>& versions) {
+    std::vector<NewFile> files;
+    std::vector<std::filesystem::path> places;
+    for (const std::int64_t version : versions) {
+        const Receipt receipt = receipt_of(course, version);
+        const std::filesystem::path folder = course.folder() / "receipts" / receipt.assignment;
+        std::filesystem::create_directories(folder);
+        places.push_back(folder /
+                         fmt::format("{:05}-{}-{}-{}{}.txt", version, receipt.group, receipt.stage, receipt.part,
+                                     receipt.correction > 0 ? fmt::format("-corrected-{}", receipt.correction) : ""));
+        const bool twice = std::ranges::find(files, places.back(), &NewFile::file) != files.end();
+        if (!std::filesystem::exists(places.back()) && !twice)
+            files.push_back({places.back(), signed_receipt(receipt, course.signing_key())});
+    }
+    course.write(files);
+    return places;
 }
 
 }  // namespace dynlab::inline course

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "course/store/course_store.h"
 
@@ -54,5 +55,9 @@ bool is_version_signature(const Course& course, const Receipt& receipt, std::str
 /// The receipt of a version, from the store: with the newest correction, or the one with this number. Throws
 /// EnvironmentError for an unknown one.
 Receipt receipt_of(Course& course, std::int64_t version, std::optional<std::int64_t> correction = {});
+
+/// Writes the receipts of versions, with their newest corrections, into receipts/ASSIGNMENT/ where they are not there
+/// yet; returns the files.
+std::vector<std::filesystem::path> write_receipts(Course& course, const std::vector<std::int64_t>& versions);
 
 }  // namespace dynlab::inline course

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,5 +25,15 @@ class Senders {
     std::vector<Student> students_;
     Owners owners_;
 };
+
+/// Moodle numbers participants for each assignment: the number is in the names of submissions and is kept with
+/// the assignment, beside the one in the roster.
+
+/// Within a transaction: keeps the number in the name that Moodle gave a sender of this group, for the member of that
+/// name, or the only one. Names of other platforms have none.
+void keep_participant(Course& course, std::int64_t assignment, const Submission& sender, const Group& group);
+
+/// Numbers of students in this assignment, by id.
+std::map<std::string, std::string> participants_of(Course& course, std::int64_t assignment);
 
 }  // namespace dynlab::inline course

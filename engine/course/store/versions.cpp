@@ -1,6 +1,5 @@
 #include "course/store/versions.h"
 
-#include "course/store/exceptions.h"
 #include "course/store/receipts.h"
 
 namespace dynlab::inline course {
@@ -13,7 +12,7 @@ AddedVersion add_version(Course& course, const Assignment& a, const NewVersion& 
     course.record_file(v.hash, v.bytes, now);
     course.database().run(
         "INSERT INTO versions (assignment, group_id, stage, pair, part, number, hash, name, received_at, due_at, late, "
-        "findings, signature) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        "findings, signature) VALUES (?, nullif(?, 0), ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         a.id, v.group, v.stage, v.pair, v.part, v.number, v.hash, v.name, v.at, due, late, v.findings,
         version_signature(course, receipt));
     return {course.database().getLastInsertRowid(), late};

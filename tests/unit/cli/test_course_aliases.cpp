@@ -40,5 +40,15 @@ TEST(course_aliases, other_words_stay) {
         EXPECT_EQ(renamed(words), words);
 }
 
+// oracle: the old commands had a name behind add, change and remove
+TEST(course_aliases, an_assignment_may_be_called_as_an_old_command) {
+    for (const Words& words :
+         {Words{"course", "assignment", "add", "--first", "2026-03-01 12:00"}, Words{"course", "assignment", "change"},
+          Words{"course", "assignment", "remove", "--reason", "x"}})
+        EXPECT_EQ(renamed(words), words);
+    EXPECT_THAT(renamed({"course", "assignment", "add", "remove", "--first", "x"}),
+                ElementsAre("course", "assignment", "remove", "--first", "x"));
+}
+
 }  // namespace test_course_aliases
 }  // namespace dynlab::test
