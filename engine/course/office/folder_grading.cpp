@@ -75,7 +75,7 @@ const std::map<std::string, Message>& input_names() {
                                                          {"checks", Message("your own checks")},
                                                          {"secret", Message("the secret")},
                                                          {"deadlines", Message("the deadlines")},
-                                                         {"keep", Message("which hand-in counts")},
+                                                         {"keep", Message("which submission counts")},
                                                          {"timezone", Message("the time zone")}};
     return names;
 }

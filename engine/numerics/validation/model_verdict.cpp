@@ -1,7 +1,5 @@
 #include "numerics/validation/model_verdict.h"
 
-#include <fmt/format.h>
-
 #include "numerics/fit/diagnosis.h"
 
 namespace dynlab::inline numerics {
@@ -29,7 +27,7 @@ Message missing_part(const ModelStanding& model) {
 bool belongs_to(const std::string& parameter, std::size_t number) {
     const std::size_t at = parameter.rfind("_y");
     if (at == std::string::npos) return true;
-    const std::string own = fmt::format("_y{}", number), rest = parameter.substr(at);
+    const std::string own = "_y" + std::to_string(number), rest = parameter.substr(at);
     return rest == own || rest.starts_with(own + "u");
 }
 

@@ -12,7 +12,7 @@
 namespace test_unwrap {
 
 using namespace dynlab;
-using namespace dynlab::test;
+
 using testing::HasSubstr;
 
 Vector wrapped(const Vector& x, double period, double low) {
