@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "numerics/error.h"
+#include "numerics/fit/discrete/discrete_fit.h"
 #include "numerics/linalg/least_squares.h"
 
 namespace dynlab::inline numerics {
@@ -44,31 +45,23 @@ Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const Fi
     return sums;
 }
 
-/// The level at which the output stands at zero inputs, where a constant in the equations explains clearly more: looked
-/// for where the simulation is much worse than the prediction.
+/// The level at which the output stands at zero inputs, where the simulation is much worse than the prediction and an
+/// output-error model with an offset simulates much better.
 std::optional<double> missed_level(const IdData& data, const Fit& estimate) {
-    constexpr double kWorse = 5, kClearly = 20;  // per cent of fit, N log of losses
+    constexpr double kWorse = 5;  // per cent of fit
     if (!(estimate.fit_percent[0] < estimate.prediction_fit_percent - kWorse) || data.input_count() == 0)
         return std::nullopt;
-    IdData with_constant = data;
-    for (Experiment& experiment : with_constant.experiments) {
-        experiment.u.conservativeResize(Eigen::NoChange, experiment.u.cols() + 1);
-        experiment.u.rightCols(1).setOnes();
+    const PolynomialOrders& own = *estimate.orders;
+    const PolynomialOrders orders =
+        PolynomialOrders::output_error(own.nb, std::vector<int>(own.inputs(), own.na), own.nk);
+    try {
+        const FitOptions options;
+        const Fit fit = fit_discrete_output("arx", data, orders, options, output_error_search(options));
+        if (!fit.start.offset || !(fit.fit_percent[0] > estimate.fit_percent[0] + kWorse)) return std::nullopt;
+        return fit.offsets(0, 0);
+    } catch (const InvalidArgument&) {
+        return std::nullopt;
     }
-    PolynomialOrders orders = *estimate.orders;
-    orders.nb.push_back(1);
-    orders.nf.push_back(0);
-    orders.nk.push_back(0);
-    const ArxEquations equations(with_constant, orders);
-    const Index count = equations.count();
-    if (count <= 2 * orders.parameter_count()) return std::nullopt;
-    const Vector theta = solve_arx(equations).theta;
-    double squares = 0;
-    for (const Vector& errors : equations.errors(theta)) squares += errors.squaredNorm();
-    const double N = static_cast<double>(count);
-    if (!(N * std::log(estimate.loss * N / squares) > kClearly)) return std::nullopt;
-    const double level = theta[theta.size() - 1] / (1 + theta.head(orders.na).sum());
-    return std::isfinite(level) ? std::optional<double>(level) : std::nullopt;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "numerics/fit/transfer_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "numerics/error.h"
@@ -203,6 +204,36 @@ Fit settled(const IdData& record, const TransferStructure& structure, Fit fit, c
                                               options.limited(kLastIterations, options.tolerance)));
 }
 
+/// Another valley of the delay far from the estimate, whose loss chance does not tell from the smallest: what differs
+/// between the two is not determined, and standard errors about one of them mean nothing.
+void withdraw_errors_of_rivals(Fit& fit, const IdData& record, const DelayScan& scan) {
+    constexpr Index kScannedSamples = 50'000;  // of a longer record
+    constexpr double kChance = 6.635;          // 99 % quantile of chi-square with one degree of freedom
+    constexpr double kFarSteps = 2, kFarErrors = 3, kSameScale = 1.05, kDiffers = 2;
+    const Vector& losses = scan.losses;
+    if (!fit.structure.single_channel() || losses.size() < 3 || losses.minCoeff() > kSameScale * fit.loss) return;
+    const Index place = fit.structure.delay_index(0, 0);
+    const Index scanned = std::min(record.sample_count(), kScannedSamples);
+    const double limit = losses.minCoeff() * std::exp(kChance / static_cast<double>(scanned));
+    const double far = std::max(kFarSteps * (scan.delays[1] - scan.delays[0]), kFarErrors * fit.std[place]);
+    for (Index i = 1; i + 1 < losses.size(); ++i) {
+        const bool valley = losses[i] <= losses[i - 1] && losses[i] < losses[i + 1];
+        if (!valley || losses[i] > limit || !(std::abs(scan.delays[i] - fit.theta[place]) > far)) continue;
+        std::vector<std::string> names;
+        const auto distance = [&](const Vector& start) { return std::abs(start[place] - scan.delays[i]); };
+        const Vector& other = *std::ranges::min_element(scan.starts, {}, distance);
+        for (Index p = 0; p < fit.theta.size(); ++p)
+            if (p == place || std::abs(other[p] - fit.theta[p]) > kDiffers * fit.std[p])
+                names.push_back(fit.names[static_cast<std::size_t>(p)]);
+        withdraw_errors(fit, names);
+        fit.warnings.push_back(Message(
+            "A delay of {} s explains the data nearly as well, so that {} have no standard errors: decide by what "
+            "you know of the plant, and narrow the range of delays ({}, {}).",
+            significant(scan.delays[i], 3), listed(names), OptionName{"least_delay"}, OptionName{"largest_delay"}));
+        return;
+    }
+}
+
 /// The fit, or a better one where its errors tell that something is missing: from models with other poles, and from
 /// those of difference equations where the errors change quickly.
 Fit or_from_further_starts(const IdData& record, const TransferStructure& structure, Fit best,
@@ -291,6 +322,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     best = without_unheard_inputs(record, structure, std::move(best), options);
     best.message = output_error_message(best);
     if (remove) add_operating_points(best, centred.removed);
+    withdraw_errors_of_rivals(best, record, scan);
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;
     return best;

@@ -50,6 +50,7 @@ bool follows_later_inputs(const FittedRecord& fit, Index first = 1) {
     if (rows < 5 * (past + kLaterInputs)) return false;
     const VectorView u = window.experiments.front().u.col(0);
     const Vector error = fit.error(Eigen::seqN(fit.window.first, count, fit.window.step));
+    if (!error.allFinite()) return false;
     const Autoregression memory = fit_autoregression(error, {count}, kPastInputs, AutoregressiveOrder::kBic);
     const Index order = memory.order();
     const auto white = [&](Index lead) -> Vector {

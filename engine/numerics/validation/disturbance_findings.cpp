@@ -13,6 +13,7 @@ namespace {
 constexpr Index kSlowParts = 20;      // of a record, over which a slow disturbance is averaged
 constexpr double kWorthAWord = 0.08;  // of the output's standard deviation
 constexpr double kWalkWorthAWord = 0.12;
+constexpr double kNearlyAll = 0.8;
 constexpr double kStraightLine = 0.7;  // of the slow part's variance, for it to be called a drift
 constexpr Index kSections = 24;
 constexpr double kLeastError = 0.05;  // of the output's standard deviation, for an error to be worth a word
@@ -125,6 +126,8 @@ void find_disturbance(FittedRecord& fit, RecordFindings& findings) {
     const StraightLine line = straight_line(slow);
     const bool straight = line.share > kStraightLine;
     if (!(size > (straight ? kWorthAWord : kWalkWorthAWord) * fit.deviation())) return;
+    // What a poor model leaves may wander for other reasons, unless nearly all of the output does.
+    if (!fit.trusted() && size < kNearlyAll * fit.deviation()) return;
     fit.disturbance = size;
     fit.taken_off = slow;
     fit.take_off(slow);

@@ -341,6 +341,7 @@ std::optional<LoadedIntegrator> loaded_integrator(const IdData& data) {
     const Experiment& record = integrated.experiments.front();
     const Vector y = record.y.col(0);
     const Vector rest = y - lsim(G, record.u.col(0), data.Ts, integrated.hold);
+    if (!rest.allFinite()) return std::nullopt;
     Matrix line(y.size(), 2);
     line.col(0).setOnes();
     line.col(1) = Vector::LinSpaced(y.size(), 0, 1);

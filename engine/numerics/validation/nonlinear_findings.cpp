@@ -297,7 +297,7 @@ bool gain_explains_error(const FittedRecord& fit) {
     const Vector t = Vector::LinSpaced(x.size(), -1, 1);
     Matrix columns(x.size(), 5);
     columns << Vector::Ones(x.size()), t, x, x.cwiseProduct(t), x.cwiseProduct(t.cwiseAbs2());
-    if (!columns.allFinite()) return false;
+    if (!columns.allFinite() || !fit.error.allFinite()) return false;
     const double line = solve_least_squares(columns.leftCols(3), fit.error).residuals.squaredNorm();
     return solve_least_squares(columns, fit.error).residuals.squaredNorm() < (1 - kMostOfIt) * line;
 }
