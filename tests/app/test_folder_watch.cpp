@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "platform/error.h"
@@ -50,6 +51,20 @@ TEST_F(folder_watch, is_quiet_where_nothing_changes) {
 
 TEST_F(folder_watch, a_folder_that_is_not_there_is_told) {
     EXPECT_THROW(watch.add(folder.path() / "nowhere"), EnvironmentError);
+}
+
+TEST_F(folder_watch, a_file_is_waited_for_where_its_folder_is_not_there_yet) {
+    const fs::path file = folder.path() / "data" / "new" / "rec.csv";
+    watch.add_around(file);
+    fs::create_directories(file.parent_path());
+    const auto seen = changes();
+    EXPECT_TRUE(std::ranges::any_of(seen, [&](const fs::path& one) { return concerns(one, file); }));
+    watch.add_around(file);
+    std::ofstream(file) << "x";
+    EXPECT_THAT(changes(), ElementsAre(file));
+    EXPECT_TRUE(concerns(file, file));
+    EXPECT_FALSE(concerns(folder.path() / "dat", file));
+    EXPECT_FALSE(concerns(file, folder.path() / "data"));
 }
 
 }  // namespace test_folder_watch

@@ -90,6 +90,14 @@ TEST_F(kernel, cells_print_show_values_formulas_and_figures_and_share_locals) {
     EXPECT_EQ(ran.printed, "1\n2\n3\n21\n");
     EXPECT_EQ(ran.first("execute_result")["data"], (json{{"text/plain", "22"}}));
     EXPECT_EQ(ran.first("execute_result")["execution_count"], ran.reply["execution_count"]);
+    // Field case 17: a function of one's own shows its value, too, and a call without values shows nothing.
+    ran = client().run("local function half(x) return x/2 end\nhalf(8)");
+    EXPECT_EQ(ran.first("execute_result")["data"], (json{{"text/plain", "4"}}));
+    ran = client().run("local t = {f = function(a, b) return a, b end}\nt.f(\n  1,\n  2)");
+    EXPECT_EQ(ran.first("execute_result")["data"], (json{{"text/plain", "1\t2"}}));
+    EXPECT_EQ(client().run("half(8);").printed, "");
+    EXPECT_EQ(client().run("local function quiet() end\nquiet()").printed, "");
+    EXPECT_EQ(client().run("print(\"once\")").printed, "once\n");
     ran = client().run("tf({2}, {1, 0.5, 3e-7}, {IODelay = 0.5})");
     EXPECT_EQ(ran.first("execute_result")["data"]["text/latex"],
               "$\\displaystyle G(s) = \\frac{2}{s^{2} + 0.5 s + 3 \\cdot 10^{-7}} e^{-0.5 s}$");

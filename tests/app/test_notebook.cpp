@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/languages.h"
@@ -154,6 +155,35 @@ TEST(notebook, other_files_are_refused_with_a_reason) {
     const json pasted = {{"cell_type", "markdown"}, {"source", "x"}, {"attachments", {{"a.png", json::object()}}}};
     EXPECT_THAT(test::texts_of(script_of_notebook(notebook_with({pasted}).dump(), "a.ipynb").losses),
                 ::testing::ElementsAre(HasSubstr("a.ipynb: cell 1 has a picture that was pasted")));
+}
+
+// Field case 17: a line of a string that reads as a marker, and cells that a script does not have.
+TEST(notebook, lines_that_read_as_markers_come_back_and_are_told) {
+    for (const char* line : {"-- %% [markdown]", "--%%", "-- %% id=x", "--- %%", "---- %% a"}) {
+        const std::string code = std::string("local s = [[\n") + line + "\ninside]]\nprint(s)";
+        const NotebookScript script = script_of_notebook(
+            notebook_with({cell("code", code), cell("markdown", "%% not a cell\n\\%% nor this")}).dump(), "a.ipynb");
+        const json back = json::parse(notebook_of(parse_percent_script(script.source, "a.lua")))["cells"];
+        ASSERT_EQ(back.size(), 2u) << script.source;
+        std::string source;
+        for (const auto& part : back[0]["source"]) source += part.get<std::string>();
+        EXPECT_EQ(source, code);
+        EXPECT_EQ(back[1]["source"], (json{"%% not a cell\n", "\\%% nor this"}));
+        const bool is_marker = std::string(line).substr(0, 3) != "---";
+        EXPECT_EQ(script.losses.size(), is_marker ? 1u : 0u);
+        if (is_marker) EXPECT_THAT(test::texts_of(script.losses).front(), HasSubstr("a.ipynb: cell 1, line 2: "));
+    }
+}
+
+TEST(notebook, raw_cells_are_left_out_and_told) {
+    const NotebookScript script = script_of_notebook(
+        notebook_with({cell("code", "x = 1"), cell("raw", "raw \\newpage"), cell("code", "print(x)")}).dump(),
+        "a.ipynb");
+    EXPECT_THAT(script.source, ::testing::Not(HasSubstr("newpage")));
+    EXPECT_THAT(test::texts_of(script.losses), ::testing::ElementsAre(HasSubstr("a.ipynb: cell 2 is a raw cell")));
+    const int line =
+        static_cast<int>(std::ranges::count(script.source.substr(0, script.source.find("print(x)")), '\n')) + 1;
+    EXPECT_EQ(message_text(place_in_notebook(script.source, line)), "cell 3, line 1");
 }
 
 TEST(notebook, the_command_goes_both_ways_and_keeps_what_others_wrote) {

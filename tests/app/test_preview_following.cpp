@@ -45,6 +45,52 @@ TEST_F(preview_following, follows_data_and_template_of_a_report) {
     EXPECT_TRUE(shows(browser, "The first is 7."));
 }
 
+// Field case 09: data that are gone, come back, come later, or were half written.
+TEST_F(preview_following, follows_data_that_come_later_or_come_back) {
+    const auto data = [&](const std::string& numbers, const std::string& name) { write("t,y\n" + numbers, name); };
+    data("0,1\n1,2\n", "rec.csv");
+    write(kHead +
+          "-- %% id=data\nlocal d = load(\"rec.csv\")\nreport.value(\"m\", mean(d.y), \"%.3f\")\n\n"
+          "-- %% [markdown]\n-- The mean is `m`{.value}.\n");
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(shows(browser, "The mean is 1.500."));
+    fs::remove(file("rec.csv"));
+    ASSERT_TRUE(state_is(browser, "data", "failed"));
+    data("0,5\n1,6\n", "rec.csv");
+    EXPECT_TRUE(shows(browser, "The mean is 5.500."));
+    write("no numbers \"", "rec.csv");
+    ASSERT_TRUE(state_is(browser, "data", "failed"));
+    data("0,7\n1,8\n", "rec.csv.part");
+    fs::rename(file("rec.csv.part"), file("rec.csv"));
+    EXPECT_TRUE(shows(browser, "The mean is 7.500."));
+    // In a folder that is not there yet.
+    write(kHead +
+          "-- %% id=data\nlocal d = load(\"records/a.csv\")\nreport.value(\"m\", mean(d.y), \"%.3f\")\n\n"
+          "-- %% [markdown]\n-- The mean is `m`{.value}.\n");
+    ASSERT_TRUE(state_is(browser, "data", "failed"));
+    fs::create_directory(file("records"));
+    data("0,9\n1,9\n", "records/a.csv");
+    EXPECT_TRUE(shows(browser, "The mean is 9.000."));
+    fs::remove_all(file("records"));
+    ASSERT_TRUE(state_is(browser, "data", "failed"));
+    fs::create_directory(file("records"));
+    data("0,3\n1,3\n", "records/a.csv");
+    EXPECT_TRUE(shows(browser, "The mean is 3.000."));
+}
+
+TEST_F(preview_following, follows_pictures_that_come_later) {
+    write("-- ---\n-- title: A document\n-- ---\n\n-- %% [markdown]\n-- Words.\n--\n-- ![The rig](rig.svg)\n");
+    const Preview preview(file());
+    Browser browser;
+    browser.open(preview.address());
+    ASSERT_TRUE(browser.comes("!document.getElementById('complaints').hidden"));
+    write("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"120\" height=\"40\"></svg>", "rig.svg");
+    EXPECT_TRUE(browser.comes("document.querySelector('figure img')?.naturalWidth === 120"));
+    EXPECT_TRUE(browser.comes("document.getElementById('complaints').hidden"));
+}
+
 TEST_F(preview_following, follows_pictures_and_literature) {
     const auto draw = [&](const std::string& width) {
         write("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"40\"></svg>", "rig.svg");

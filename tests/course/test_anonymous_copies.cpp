@@ -334,6 +334,43 @@ TEST_F(anonymous_copies, copies_are_made_again_from_the_source) {
 }
 
 // Oracle: the submitted folder, which stays as it was, and the size of what a script writes.
+/// Names in all scripts, as LuaLaTeX prints them. Oracle: the names that were written.
+TEST_F(anonymous_copies, names_of_all_scripts_are_found_in_reports_that_are_made_again) {
+    const char* const kNames[] = {"Σωκράτης Παπαδόπουλος", "Дмитрий Иванов", "王小明",      "김민준",
+                                  "محمد الأحمد",           "דוד לויתן",      "क्षत्रिय शर्मा", "გიორგი მაისურაძე",
+                                  "Հայկ Սարգսյան",         "Nguyễn Văn Tuấn"};
+    AnonymousCopySetup named = setup();
+    std::string text = "---\ntitle: A\n---\n\nThe gain is `x`{.value}.\n";
+    for (const char* name : kNames) {
+        Student student;
+        student.name = name;
+        named.names.add(student);
+        text += std::string("\nIt was measured by ") + name + ".\n";
+    }
+    write("work/analysis.lua", "report.value('x', 1)\n");
+    write("work/report.md", text);
+    const AnonymousCopy copy = anonymous_copy(file("work"), file("copy.pdf"), named);
+    EXPECT_TRUE(copy.rebuilt) << message_text(copy.not_rebuilt) << message_text(copy.trouble);
+    EXPECT_FALSE(copy.made);
+    std::string told;
+    for (const Finding& finding : copy.findings)
+        if (finding.severity == Severity::kRule) told += message_text(finding.what) + "\n";
+    for (const char* name : kNames) EXPECT_THAT(told, HasSubstr(std::string("The name of ") + name));
+}
+
+/// Oracle: the mistake in the script.
+TEST_F(anonymous_copies, why_a_report_was_not_made_again_is_told) {
+    write("work/analysis.lua", "local x = nothing + 1\n");
+    write("work/report.md", "---\ntitle: A\n---\n\nText.\n");
+    prose_with("The gain is known.");
+    std::filesystem::rename(file("own.pdf"), file("work/report.pdf"));
+    const AnonymousCopy copy = anonymous_copy(file("work"), file("copy.pdf"), setup());
+    EXPECT_TRUE(copy.made);
+    EXPECT_FALSE(copy.rebuilt);
+    EXPECT_THAT(message_text(copy.not_rebuilt),
+                AllOf(HasSubstr("The report cannot be made again: "), HasSubstr("analysis.lua:1")));
+}
+
 TEST_F(anonymous_copies, a_report_made_again_fills_no_disk) {
     const AnonymousCopySetup setup = this->setup();
     const std::string header = "-- ---\n-- title: Work\n-- ---\n\n-- %%\n";

@@ -11,6 +11,7 @@
 
 namespace dynlab::test {
 namespace test_check_command {
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -59,6 +60,64 @@ TEST(check_command, what_needs_more_than_the_folder_fails_from_a_clean_copy) {
     EXPECT_THAT(result.output, HasSubstr("analysis.lua:1:"));
     EXPECT_THAT(result.output, HasSubstr("link-left-out\n    values.csv: "));
     EXPECT_THAT(result.output, Not(HasSubstr("/folder/")));
+}
+
+// Field case 03 and its like. Oracle: what the script names lies beside it.
+TEST(check_command, what_a_script_that_stands_alone_names_goes_with_it) {
+    const Workbench bench;
+    bench.shell(
+        "gnuplot -e \"set terminal jpeg size 90,60; set output 'rig.jpg'; plot x\"; mkdir -p img/deep records lib;"
+        "cp rig.jpg 'my rig.jpg'; cp rig.jpg img/deep/Übersicht.jpg; cp rig.jpg a_b.jpg; cp rig.jpg 'b (1).jpg'; "
+        "cp rig.jpg r.jpg; cp rig.jpg by_script.jpg");
+    bench.write("records/d.csv", "y\n1\n2\n");
+    bench.write("bare.csv", "y\n1\n2\n");
+    bench.write("lib/tools.lua", "return {two = 2}\n");
+    bench.write("work.lua",
+                "-- %% [markdown]\n-- # The rig\n-- ![The rig](rig.jpg){#fig:rig}\n--\n-- See @fig:rig.\n--\n"
+                "-- ![A](my rig.jpg)\n--\n-- ![B](img/deep/Übersicht.jpg \"Title\")\n--\n-- ![C](a\\_b.jpg)\n--\n"
+                "-- ![D](b (1).jpg)\n--\n-- ![E][r]\n--\n-- [r]: r.jpg\n--\n-- ![F](<my rig.jpg>)\n--\n"
+                "-- ::: {.text name=t}\n-- :::\n\n-- %%\nlocal tools = require(\"lib.tools\")\n"
+                "report.text(\"t\", \"![G](by_script.jpg)\")\n"
+                "print(load(\"records/d.csv\").y[1] + load(\"bare\").y[1] + tools.two)\n");
+    const ChildResult result = bench.dynlab({"check", "work.lua"});
+    EXPECT_THAT(result.output, AllOf(Not(HasSubstr("analysis-fails")), Not(HasSubstr("/box/"))));
+    const ChildResult packed = bench.dynlab({"pack", "work.lua", "-o", "work.zip"});
+    EXPECT_EQ(packed.exit_code, 0) << packed.error_output;
+    const std::string names = bench.shell("unzip -Z1 work.zip").output;
+    for (const char* name : {"rig.jpg", "my rig.jpg", "a_b.jpg", "b (1).jpg", "r.jpg", "by_script.jpg", "records/d.csv",
+                             "bare.csv", "lib/tools.lua"})
+        EXPECT_THAT(names, HasSubstr(name));
+    bench.write("gone.lua", "-- %% [markdown]\n-- # A\n-- ![The rig](none.jpg)\n\n-- %%\nprint(1)\n");
+    const std::string told = bench.dynlab({"check", "gone.lua"}).output;
+    EXPECT_THAT(
+        told, AllOf(HasSubstr("the picture \"none.jpg\" is not in the folder of this file"), Not(HasSubstr("/box/"))));
+}
+
+// Field case 17: a pasted picture is a gap of the report, not the end of it.
+TEST(check_command, a_picture_that_was_pasted_into_a_notebook_is_told_with_the_remedy) {
+    const Workbench bench;
+    bench.write("pasted.ipynb",
+                R"({"cells": [{"cell_type": "markdown", "id": "a", "metadata": {}, "source": ["# Rig\n", "![image.png](attachment:image.png)"],
+ "attachments": {
+        "image.png" : {
+            "image/png" : "iVBORw0KGgo="
+        }}
+}, {"cell_type": "code", "id": "c", "metadata": {}, "outputs": [],
+ "execution_count": null, "source": ["print(1)"]}], "metadata": {}, "nbformat": 4, "nbformat_minor": 5
+})");
+    const std::string told = bench.dynlab({"check", "pasted.ipynb"}).output;
+EXPECT_THAT(told,
+            AllOf(HasSubstr("was pasted into the notebook"), HasSubstr("save it as a file"), Not(HasSubstr("/box/"))));
+}
+
+TEST(check_command, a_copied_cell_and_lost_stars_are_hints) {
+    const Workbench bench;
+    make_folder(bench, std::string("-- %% id=one\n") + kAnalysis + "\n-- %% id=one\nprint(1)\n",
+                std::string(kReport) + "\nThe product 2*3*4 = 24, but not $2*3*4$, `2*3*4` or *2*.\n");
+    const ChildResult result = bench.dynlab({"check", "mine"});
+    EXPECT_THAT(result.output,
+                AllOf(HasSubstr("Another cell has the id \"one\" already."), HasSubstr("analysis.lua:5")));
+    EXPECT_THAT(result.output, AllOf(HasSubstr("report.md:8"), HasSubstr("\"2*3*4\" is printed without its stars")));
 }
 
 // oracle: the same load that grade refuses, and what stands in the file

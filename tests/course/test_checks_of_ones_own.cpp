@@ -26,7 +26,7 @@ std::string said(const nlohmann::json& result, std::size_t check) {
 TEST(checks_of_ones_own, an_answer_that_cannot_be_taken_costs_no_other) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     bench.hand_in("kind", "answer('x', {42})\nanswer('v', vector{1, 2})\n");
-    bench.hand_in("twice", "answer('x', 42)\nanswer('x', 42)\nanswer('v', vector{1, 2})\n");
+    bench.hand_in("twice", "answer('x', 42)\nanswer('x', 43)\nanswer('v', vector{1, 2})\n");
     bench.hand_in("name", "answer('xx', 42)\nanswer('v', vector{1, 2})\n");
     bench.hand_in("function", "answer('x', print)\nanswer('v', vector{1, 2})\n");
     ASSERT_EQ(bench.grade().exit_code, 0);
@@ -37,11 +37,26 @@ TEST(checks_of_ones_own, an_answer_that_cannot_be_taken_costs_no_other) {
         EXPECT_EQ(earned(result, 1), 3) << name;
     }
     EXPECT_EQ(said(bench.result("kind"), 0), "The answer \"x\" must be of the kind number, but a table was given.");
-    EXPECT_EQ(said(bench.result("twice"), 0), "The answer \"x\" was given already.");
+    EXPECT_EQ(said(bench.result("twice"), 0),
+              "The answer \"x\" was given already, with another value; give each answer once.");
     EXPECT_EQ(said(bench.result("name"), 0), "The answer \"x\" was not handed in.");
     // Outside of grading the script's writer is told at once.
     bench.bench().write("own.lua", GradingBench::header(kAnswers) + "answer('x', {42})\n");
     EXPECT_EQ(bench.bench().dynlab({"run", "own.lua"}).exit_code, 1);
+}
+
+// Field case 18. Oracle: the points of the same script without the copies.
+TEST(checks_of_ones_own, a_copied_cell_and_an_answer_given_twice_cost_nothing) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    bench.hand_in("cell", "-- %% id=one\nanswer('x', 42)\n-- %% id=one\nanswer('v', vector{1, 2})\n");
+    bench.hand_in("answer", "answer('x', 42)\nanswer('x', 42)\nanswer('v', vector{1, 2})\nanswer('v', vector{1, 2})\n");
+    ASSERT_EQ(bench.grade().exit_code, 0);
+    for (const char* name : {"cell", "answer"}) {
+        const auto result = bench.result(name);
+        EXPECT_EQ(GradingBench::trouble(result), "") << name;
+        EXPECT_GT(earned(result, 0), 0) << name;
+        EXPECT_EQ(earned(result, 1), 3) << name;
+    }
 }
 
 // oracle: the marks that the instructor wrote

@@ -59,6 +59,23 @@ TEST(name_forms, numbers_of_accounts_and_in_groups) {
                     "student20214711", "2021 4711", "2021-4711", "2021/4711", "number 20 214 711", "(s20214711)"});
 }
 
+// Numbers of a sentence may count something; beside a name, in brackets, after "student" or alone they are a person's.
+TEST(name_forms, numbers_that_may_count_are_not_certain) {
+    IdentityMatcher names;
+    names.add(known("123456", "Ada Lovelace", "group-01"));
+    const auto certain = [&](const std::string& text) {
+        const auto hits = names.find(text, TextManner::kProse);
+        EXPECT_FALSE(hits.empty()) << text;
+        return std::ranges::any_of(hits, &NameHit::certain);
+    };
+    for (const char* text :
+         {"The record has 123456 samples.", "with N = 123456 here", "after 123456 steps", "some 123456\nof them"})
+        EXPECT_FALSE(certain(text)) << text;
+    for (const char* text :
+         {"Student 123456", "Lovelace (123456) and others", "Ada Lovelace 123456", "123456", "ID: 123456 was"})
+        EXPECT_TRUE(certain(text)) << text;
+}
+
 TEST(name_forms, numbers_of_one_digit_say_nothing) {
     IdentityMatcher names;
     names.add(known("1", "Ada Lovelace", "group-01"), true);

@@ -6,6 +6,7 @@
 
 #include "base/reader.h"
 #include "course/answers/answers_page.h"
+#include "course/answers/formulas.h"
 #include "course/answers/hidden_names.h"
 #include "course/answers/written_answers.h"
 #include "course/course_bench.h"
@@ -126,6 +127,22 @@ TEST(written_answers, that_say_the_same_are_one_group) {
     EXPECT_THAT(groups[0].members, ElementsAre(0, 2, 3));
     EXPECT_THAT(groups[0].differences, ElementsAre("", "", "+wrong -biased"));
     EXPECT_THAT(groups[3].members, ElementsAre(6, 8));
+}
+
+// Oracle: MathML's own elements, by hand; what is no formula stays as it is written.
+TEST(written_answers, formulas_are_typeset_on_the_page) {
+    const std::vector<std::string> texts = {"With $a_1 = \\frac{1}{2}$ & <b>, $$ y = x^2\n$$ and `$code$`.",
+                                            "Costs $3 and $4, \\$x and $ y$.",
+                                            "Broken $\\frac{1$ and $\\nosuch{<script>}$.", ""};
+    const TypesetFormulas formulas(texts, strongest_isolation());
+    const std::string page = formulas.html(texts[0]);
+    EXPECT_THAT(page,
+                AllOf(HasSubstr("With <math display=\"inline\""), HasSubstr("<mfrac><mn>1</mn><mn>2</mn></mfrac>"),
+                      HasSubstr("</math> &amp; &lt;b&gt;, <math display=\"block\""),
+                      HasSubstr("<msup><mi>x</mi><mn>2</mn></msup>"), HasSubstr("and `$code$`.")));
+    EXPECT_EQ(formulas.html(texts[1]), texts[1]);
+    EXPECT_THAT(formulas.html(texts[2]), AllOf(Not(HasSubstr("<script")), HasSubstr("Broken $\\frac{1$")));
+    EXPECT_EQ(formulas.html(""), "");
 }
 
 // oracle: the roster

@@ -78,7 +78,7 @@ TEST_F(letterheads, of_a_course_are_above_all_its_documents_but_those_with_their
                 AllOf(HasSubstr("Nancy"), Not(HasSubstr("Lorraine"))));
     write("course/report_templates/settings.yaml", "logo: other.png\n");
     EXPECT_THAT(refusal("Text\n", "other.pdf"),
-                HasSubstr("course/report_templates/settings.yaml: the picture \"other.png\" does not exist in"));
+                HasSubstr("course/report_templates/settings.yaml: the picture \"other.png\" is not in the folder of this file"));
     write("course/report_templates/settings.yaml", "header: Nancy\ntitle: Mine\n");
     EXPECT_THAT(refusal("Text\n", "other.pdf"), HasSubstr("\"title\" is set in templates; settings are logo, header"));
 }
@@ -108,7 +108,7 @@ TEST_F(letterheads, that_name_no_picture_beside_them_are_refused) {
         EXPECT_THAT(refusal(std::string("---\nlogo: ") + name + "\n---\nText\n", "out.pdf"),
                     HasSubstr("report.md:2: logo must be the name of a .png, .jpg or .pdf file beside this one"));
     EXPECT_THAT(refusal("---\nlogo: logo.png\n---\nText\n", "out.pdf"),
-                HasSubstr("report.md: the picture \"logo.png\" does not exist in"));
+                HasSubstr("report.md: the picture \"logo.png\" is not in the folder of this file"));
 }
 
 }  // namespace test_letterheads

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "document_fixture.h"
 #include "support/pdf_inspection.h"
@@ -10,6 +11,7 @@ namespace dynlab {
 namespace test_literature {
 
 using test::inspect_pdf;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -78,6 +80,56 @@ TEST_F(literature, citations_without_a_bibliography_are_errors) {
     EXPECT_THAT(refusal("One.\n\nAs in [@ljung1999].\n"), HasSubstr("report.md:3: @ljung1999 cites literature"));
     EXPECT_THAT(refusal("One @young2011 says.\n"), HasSubstr("report.md:1: @young2011 cites literature"));
     EXPECT_EQ(refusal("Write to ada@example.org or \\@home.\n"), "");
+}
+
+// Oracle: the titles as they are in the file.
+TEST_F(literature, titles_with_signs_of_tex_print_in_full) {
+    const std::pair<const char*, const char*> titles[] = {
+        {"{Control of 50% overshoot in plants}", "Control of 50% Overshoot in Plants"},
+        {"{Ends in 5%}", "Ends in 5%"},
+        {"\"Quoted 5% of {C#} code\"", "Quoted 5% of C# Code"},
+        {"{{C# and F#} in use}", "C# and F# in Use"},
+        {"{The {$5} controller}", "The $5 Controller"},
+        {"{From {$3} to {$4} a piece}", "From $3 to $4 a Piece"},
+        {"{Research & development}", "Research & Development"},
+        {"{Escaped 5\\% \\& {C\\#} and \\$6}", "Escaped 5% & C# and $6"},
+        {"{{A 10% B #1 C $2 D & E}}", "A 10% B #1 C $2 D & E"},
+        {"{Signs {a_b} in {x^y} and 1~m}", "Signs"},
+        {"{Two lines 5%\n  and more}", "Two Lines 5% and More"},
+        {"\"Joined 5% \" # \"of it\"", "Joined 5% of It"},
+    };
+    for (const auto& [written, printed] : titles) {
+        write("books.bib",
+              std::string("% a comment\n@string{acm = \"ACM\"}\n@comment{no, title={50% }}\n@book{x, author={A, B},\n"
+                          "  % of the author\n  title = ") +
+                  written + ",\n  url = {https://x.org/a%20b?c=1&d=2#e}, publisher = acm, year = 2000}\n");
+        const std::string page = std::regex_replace(html(header_ + "As in [@x].\n"), std::regex("<[^>]+>|\n"), " ");
+        const std::string list = std::regex_replace(replaced(page, "&amp;", "&"), std::regex(" +"), " ");
+        EXPECT_THAT(list, HasSubstr(printed)) << written;
+        EXPECT_THAT(list, AllOf(HasSubstr("ACM"), HasSubstr("https://x.org/a%20b?c=1&d=2#e"))) << written;
+    }
+    EXPECT_THAT(inspect_pdf(make(header_ + "As in [@x].\n", "out.pdf")).pages.at(0), HasSubstr("Joined 5% of It"));
+    write("books.bib", "@book{m, author={A, B}, title={On $x^2$ and $\\alpha$ in 5%}, year={2000}}\n");
+    EXPECT_THAT(html(header_ + "As in [@m].\n"), AllOf(HasSubstr("5%"), Not(HasSubstr("$"))));
+}
+
+TEST_F(literature, a_missing_citation_names_its_own_line_and_how_to_declare_a_bibliography) {
+    const std::string text =
+        "<!-- Cite as [@ljung1999] or @ljung1999. -->\n\nSee [@ljung1999b].\n\n```\n@ljung1999\n```\n\nAs in "
+        "[@ljung1999].\n";
+    const std::string message = refusal(text);
+    EXPECT_THAT(message, HasSubstr("report.md:9: @ljung1999 cites literature"));
+    EXPECT_THAT(message, HasSubstr("report.md:3: @ljung1999b cites literature"));
+    EXPECT_THAT(message, AllOf(HasSubstr("\"bibliography: references.bib\" in the header"),
+                               HasSubstr("-- bibliography: references.bib")));
+    EXPECT_THAT(refusal(header_ + "<!-- @ljung1998 -->\n\nTwo [@ljung1998].\n"),
+                HasSubstr("report.md:7: the bibliography"));
+}
+
+TEST_F(literature, keys_with_colons_are_literature_where_the_bibliography_has_them) {
+    write("books.bib", "@book{DBLP:conf/x, author={Colon, C.}, title={Keys}, year={2003}}\n");
+    EXPECT_THAT(html(header_ + "As in [@DBLP:conf/x].\n"), HasSubstr("Colon 2003"));
+    EXPECT_THAT(refusal(header_ + "As in @DBLP:other.\n"), HasSubstr("must be in the bibliography"));
 }
 
 TEST_F(literature, a_link_to_a_file_outside_the_folder_is_refused) {

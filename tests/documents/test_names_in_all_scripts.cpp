@@ -17,6 +17,7 @@ namespace dynlab {
 namespace test_names_in_all_scripts {
 
 using test::inspect_pdf;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -218,10 +219,11 @@ TEST_F(names_in_all_scripts, without_lualatex_single_letters_are_replaced_and_th
     const auto pdf = make("Élise, Björn – Дя, o\u0323\u0300\n", "out.pdf");
     EXPECT_EQ(producer_of(pdf), "pdfTeX");
     EXPECT_THAT(text_of(pdf), HasSubstr("Élise, Björn – ??, ọ"));
-    EXPECT_EQ(notes(),
-              "report.md:1: pdflatex cannot print \"Д\" (U+0414), and LuaLaTeX is not installed: letters of this "
-              "kind are printed as \"?\". To print them: sudo apt install texlive-luatex fonts-noto-core "
-              "fonts-noto-cjk\n");
+    EXPECT_EQ(
+        notes(),
+        "report.md:1: pdflatex cannot print these letters, and LuaLaTeX is not installed, so that they are printed "
+        "as \"?\": Д (U+0414, line 1), я (U+044F, line 1). To print them: sudo apt install texlive-luatex "
+        "fonts-noto-core fonts-noto-cjk\n");
 }
 
 TEST_F(names_in_all_scripts, slides_formulas_tables_and_code_are_set_too) {
@@ -233,6 +235,26 @@ TEST_F(names_in_all_scripts, slides_formulas_tables_and_code_are_set_too) {
     EXPECT_EQ(producer_of(pdf), "LuaTeX");
     for (const char* words : {"Юлия", "Дмитрий : « oui »", "ω≤θ", "x = 1 -- Юлия", "12,5", "محمد"})
         EXPECT_THAT(replaced(text_of(pdf), "\u00A0", " "), HasSubstr(words));
+}
+
+// Oracle: the words as they are written. A letter that one font lacks is printed where another has it.
+TEST_F(names_in_all_scripts, letters_of_code_and_formulas_are_printed_there_and_in_the_text) {
+    const auto pdf =
+        make("Σωκράτης, Ж and é.\n\nCode `Σωκράτης Ж`, formula $v_{é} + \\mathrm{Ж} + α + x^{Дя}$, ☺ and → here.\n",
+             "out.pdf");
+    const std::string text = text_of(pdf);
+    for (const char* words : {"Σωκράτης, Ж and é.", "Code Σωκράτης Ж", "vé + Ж + α + xДя", "☺ and →"})
+        EXPECT_THAT(text, HasSubstr(words));
+    EXPECT_THAT(text, Not(HasSubstr("?")));
+    EXPECT_THAT(notes(), Not(HasSubstr("no installed font")));
+}
+
+// Oracle: the program that is named in the PDF.
+TEST_F(names_in_all_scripts, signs_that_only_direct_the_text_need_no_other_program) {
+    const auto pdf = make("A\u200E b \u202Ax\u202C \uFEFFc, `co\u200Ede`.\n\n```\na\u200Fb\n```\n", "out.pdf");
+    EXPECT_EQ(producer_of(pdf), "pdfTeX");
+    EXPECT_THAT(text_of(pdf), AllOf(HasSubstr("A b x c, code."), HasSubstr("ab")));
+    EXPECT_THAT(notes(), IsEmpty());
 }
 
 TEST_F(names_in_all_scripts, an_error_is_told_with_its_line_as_pdflatex_would) {

@@ -55,6 +55,175 @@ TEST_F(slots, french_numbers_have_a_comma_and_names_keep_their_point) {
     EXPECT_THAT(seen("---\nlang: en\n"), HasSubstr(">17.5 ± 0.4<"));
 }
 
+/// What is read, without tags, the TeX beside formulas, and spaces of formulas.
+std::string read_from(const std::string& html) {
+    std::string text =
+        std::regex_replace(html, std::regex("<annotation[^>]*>[^<]*</annotation>|<mspace[^>]*>|<[^>]+>"), "");
+    for (const auto& [from, to] : {std::pair("&lt;", "<"), {"&gt;", ">"}, {"&amp;", "&"}, {"&quot;", "\""}})
+        text = replaced(text, from, to);
+    return text;
+}
+
+// Oracle: how such numbers are printed, by hand (field case 02).
+TEST_F(slots, values_are_filled_in_captions_cells_headings_and_formulas) {
+    struct Shown {
+        const char *text, *in_prose, *in_formula, *in_french;
+    };
+    constexpr Shown kShown[] = {
+        {"2.50", "2.50", "2.50", "2,50"},
+        {"-2.5", "−2.5", "−2.5", "−2,5"},
+        {"0", "0", "0", "0"},
+        {"1.2e-07", "1.2⋅10−7", "1.2⋅10−7", "1,2⋅10−7"},
+        {"-3.4e+20", "−3.4⋅1020", "−3.4⋅1020", "−3,4⋅1020"},
+        {"-1 + 2i", "−1+2i", "−1+2i", "−1+2i"},
+        {"1e-05 - 3.5i", "1⋅10−5−3.5i", "1⋅10−5−3.5i", "1⋅10−5−3,5i"},
+        {"-2.5 ± 0.1", "−2.5±0.1", "−2.5±0.1", "−2,5±0,1"},
+        {"NaN", "NaN", "NaN", "NaN"},
+        {"-Inf", "-Inf", "−∞", "−∞"},
+        {"-2.5 s", "−2.5 s", "−2.5s", "−2,5s"},
+        {"50% of a_b & #1", "50% of a_b & #1", "50%of a_b &#1", "50%of a_b &#1"},
+        {"$x$ {y} \\alpha ^~<b>", "$x$ {y} \\alpha ^~<b>", "$x$ {y} \\alpha^~<b>", "$x$ {y} \\alpha^~<b>"},
+        {"2024-05-01", "2024-05-01", "2024-05-01", "2024-05-01"},
+        {"version 1.2.3", "version 1.2.3", "version 1.2.3", "version 1.2.3"},
+        {"1.2.3", "1.2.3", "1.2.3", "1.2.3"},
+    };
+    add_figure("a", "Of the script: `v`{.value}.", DocumentFormat::kHtml);
+    record_.tables["t"] = {{"Model", "Cell `v`{.value}."}, {{"P1", "1"}}};
+    const auto without_spaces = [](const std::string& text) {
+        return std::regex_replace(text, std::regex("[ \u202F]"), "");
+    };
+    const std::string body =
+        "# Heading `v`{.value}.\n\nProse `v`{.value}.\n\nFormula $`v`{.value}$.\n\n$$ `v`{.value} $$ {#eq:a}\n\n"
+        "![Caption `v`{.value} and $`v`{.value}$.](figure:a){#fig:a}\n\n![](figure:a)\n\n"
+        "| Column `v`{.value}. |\n|---|\n| In a cell: `v`{.value}. |\n\n: Table `v`{.value}. {#tbl:x}\n\n"
+        "::: {.table name=t}\nRecorded `v`{.value}.\n:::\n\n- item `v`{.value}.\n\n> quote `v`{.value}.[^1]\n\n"
+        "[^1]: note `v`{.value}.\n\n::: note\nBox **`v`{.value}.**\n:::\n";
+    for (const auto& [value, in_prose, in_formula, in_french] : kShown) {
+        record_.values["v"] = {std::nullopt, value};
+        const std::string shown = without_spaces(read_from(html("---\ntitle: Title `v`{.value}.\n---\n" + body)));
+        const std::string prose = without_spaces(in_prose) + ".", formula = without_spaces(in_formula);
+        for (const char* place : {"Title", "Heading", "Prose", "Caption", "Ofthescript:", "Column", "Inacell:",
+                                  "Table2.Recorded", "Table1.Table", "Cell", "item", "quote", "note", "Box"}) {
+            const std::string wanted = place == std::string("Caption")
+                                           ? place + without_spaces(in_prose) + "and" + formula + "."
+                                       : place == std::string("Cell") ? place + without_spaces(value) + "."
+                                                                      : place + prose;
+            EXPECT_THAT(shown, HasSubstr(wanted)) << value;
+        }
+        EXPECT_THAT(shown, HasSubstr("Formula" + formula + ".")) << value;
+        EXPECT_THAT(shown, HasSubstr(formula + "(1)")) << value;
+        const std::string french = without_spaces(read_from(html("---\nlang: fr\n---\nDe $`v`{.value}$.\n")));
+        EXPECT_THAT(french, HasSubstr("De" + without_spaces(in_french) + ".")) << value;
+    }
+}
+
+// Oracle: the rules of signs, (-2)² = 4 and 1 - (-2) = 3.
+TEST_F(slots, a_value_in_a_formula_keeps_the_formulas_meaning) {
+    record_.values["b"] = {-2.5, "-2.5"};
+    record_.values["t"] = {1e-7, "1e-07"};
+    record_.values["g"] = {2.5, "2.5"};
+    const auto tex = [&](const std::string& formula) {
+        const std::string page = html("$" + formula + "$\n");
+        const std::size_t from = page.find("x-tex\">") + 7;
+        return page.substr(from, page.find("</annotation>") - from);
+    };
+    EXPECT_EQ(tex("y = `b`{.value}x + `b`{.value}"), "y = -2.5x + (-2.5)");
+    EXPECT_EQ(tex("`b`{.value}^2 - `b`{.value} \\cdot `g`{.value}"), "(-2.5)^2 - (-2.5) \\cdot 2.5");
+    EXPECT_EQ(tex("`g`{.value}^2, `t`{.value}^2"), "2.5^2, (1 \\cdot 10^{-7})^2");
+    record_.values["c"] = {std::nullopt, "-1 + 2i"};
+    EXPECT_EQ(tex("`c`{.value} \\cdot 2, `c`{.value}x, `c`{.value}"),
+              "(-1 + 2\\,\\mathrm{i}) \\cdot 2, (-1 + 2\\,\\mathrm{i})x, -1 + 2\\,\\mathrm{i}");
+    EXPECT_EQ(tex("x^`b`{.value}, x_`g`{.value}, \\sqrt`b`{.value}"), "x^{-2.5}, x_{2.5}, \\sqrt{-2.5}");
+    EXPECT_EQ(tex("\\frac{`b`{.value}}{`g`{.value}}"), "\\frac{-2.5}{2.5}");
+    EXPECT_EQ(tex("\\text{if `b`{.value} s}"), "\\text{if $-2.5$ s}");
+    EXPECT_EQ(tex("\\text{the `quoted\' part}"), "\\text{the `quoted\' part}");
+}
+
+// Oracle: the text that poppler reads, in PDFs of pages and slides.
+TEST_F(slots, values_of_captions_formulas_and_headings_are_in_the_pdf) {
+    add_figure("a", "", DocumentFormat::kPdf);
+    record_.values["gain"] = {2.5, "2.50"};
+    record_.values["low"] = {-1.5e-6, "-1.5e-06"};
+    record_.values["odd"] = {std::nullopt, "50% & #1_$ {x} \\par ~^"};
+    const std::string body =
+        "# Heading `gain`{.value}\n\nWith $K = `gain`{.value}$ and $a = `low`{.value}$, $\\text{not} "
+        "`odd`{.value}$.\n\n"
+        "![Response with `gain`{.value} and `odd`{.value}](figure:a){#fig:a}\n";
+    for (const char* header :
+         {"---\ntitle: Of `gain`{.value}\n---\n", "---\ntitle: Of `gain`{.value}\nlayout: slides\n---\n"}) {
+        std::string text;
+        for (const std::string& page : inspect_pdf(make(header + body, "out.pdf")).pages) text += page;
+        for (const char* words :
+             {"Of 2.50", "Heading 2.50", "K = 2.50", "a = −1.5 · 10−6", "Response with 2.50 and 50% & #1_$ {x} \\par"})
+            EXPECT_THAT(text, HasSubstr(words)) << header;
+    }
+}
+
+TEST_F(slots, a_missing_value_is_told_with_its_line_and_shown_as_gap_wherever_it_stands) {
+    record_.values["gain"] = {2.5, "2.5"};
+    add_figure("a", "", DocumentFormat::kHtml);
+    for (const char* place :
+         {"$x = `gian`{.value}$", "![A `gian`{.value}](figure:a)", "| a |\n|---|\n| `gian`{.value} |",
+          "# H `gian`{.value}", "$$ \\text{a `gian`{.value}} $$", "- i `gian`{.value}"}) {
+        const std::string text = std::string("One.\n\n") + place + "\n";
+        EXPECT_THAT(refusal(text), HasSubstr("the script reported no value \"gian\"; did you mean \"gain\"?")) << place;
+        const auto [gaps, page] = draft(text);
+        EXPECT_THAT(gaps, ContainsRegex("report.md:[35]: the script reported no value")) << place;
+        EXPECT_THAT(read_from(page), HasSubstr("??")) << place;
+    }
+}
+
+TEST_F(slots, what_is_no_slot_is_told_with_its_line_and_the_right_form) {
+    record_.values["gain"] = {2.5, "2.5"};
+    const std::string before = "Right: `gain`{.value}.\n\n```\n`gain` {.value}\n```\n\n";
+    EXPECT_THAT(refusal(before + "A `gain` {.value}\n"),
+                HasSubstr("report.md:7: \"`gain` {.value}\" is not a value slot; write `name`{.value}"));
+    EXPECT_THAT(refusal(before + "A 'gain'{.value}\n"), HasSubstr("report.md:7: \"'{.value}\" is not a value slot"));
+    EXPECT_THAT(refusal(before + "$K = `gain`$\n"), HasSubstr("report.md:1: the formula holds `gain`"));
+    EXPECT_THAT(refusal(before + "$K = `gain`{.valeu}$\n"), HasSubstr("the slot `gain`{.valeu} has an unknown class"));
+    EXPECT_THAT(refusal(before + "[a](https://x.org/`gain`{.value})\n"), HasSubstr("addresses are not filled in"));
+    EXPECT_THAT(refusal(before + "![a](`gain`{.value}.png)\n"), HasSubstr("addresses are not filled in"));
+}
+
+// Oracle: lines counted by hand.
+TEST_F(slots, messages_name_the_line_of_the_text_and_not_of_a_comment_or_of_a_longer_name) {
+    add_figure("ab", "", DocumentFormat::kHtml);
+    EXPECT_THAT(refusal("<!-- write `x`{.value}\nor `x`{.value} -->\n\n`x`{.value}\n"), HasSubstr("report.md:4: "));
+    EXPECT_THAT(refusal("```\n`x`{.value}\n```\n\n`x`{.value}\n"), HasSubstr("report.md:5: "));
+    EXPECT_THAT(refusal("![A](figure:ab)\n\n![A](figure:a)\n"), HasSubstr("report.md:3: "));
+    EXPECT_THAT(refusal("![A](figure:ab){#fig:a-b}\n\nSee @fig:a-b.\n\nSee @fig:a.\n"), HasSubstr("report.md:5: "));
+}
+
+TEST_F(slots, a_picture_that_was_pasted_into_a_notebook_is_a_gap_with_a_remedy) {
+    const auto [gaps, page] =
+        draft("# Rig\n\n![image.png](attachment:image.png)\n\nAnd ![x](attachment:b.png) here.\n");
+    EXPECT_THAT(gaps, HasSubstr("report.md:3: the picture \"image.png\" was pasted into the notebook"));
+    EXPECT_THAT(gaps, HasSubstr("report.md:5: the picture \"b.png\""));
+    EXPECT_THAT(gaps, HasSubstr("save it as a file beside the notebook"));
+    EXPECT_THAT(page, HasSubstr("??"));
+}
+
+// Oracle: the files that are there. No message names a folder: it may be one that only the program has.
+TEST_F(slots, pictures_are_found_by_paths_of_all_forms) {
+    const auto draw = [&](const std::string& name) { write(name, small_svg()); };
+    for (const char* name :
+         {"rig.svg", "my rig.svg", "Übersicht.svg", "a_b.svg", "img/deep/x.svg", "rig (1).svg", "50%.svg"})
+        draw(name);
+    for (const char* shown :
+         {"![R](rig.svg)", "![R](my rig.svg)", "![R](<my rig.svg>)", "![R](my%20rig.svg)", "![R](Übersicht.svg)",
+          "![R](a_b.svg)", "![R](a\\_b.svg)", "![R](img/deep/x.svg)", "![R](./rig.svg \"Title\")",
+          "![R][p]\n\n[p]: rig.svg", "![R](rig (1).svg)", "![R](50%25.svg)"})
+        EXPECT_EQ(refusal(std::string(shown) + "\n"), "") << shown;
+    for (const char* missing : {"![R](none.svg)", "![R](img/none.svg)", "![R](Rig.svg)"}) {
+        const std::string message = refusal(std::string("One.\n\n") + missing + "\n");
+        EXPECT_THAT(message,
+                    AllOf(HasSubstr("report.md:3: the picture \""), HasSubstr("is not in the folder of this file"),
+                          Not(HasSubstr(folder_.path().string()))))
+            << missing;
+    }
+    EXPECT_THAT(refusal("![R](../out.svg)\n"), HasSubstr("lies outside the folder"));
+}
+
 TEST_F(slots, a_table_has_its_caption_and_numbers_to_the_right) {
     record_.tables["models"] = {{"Model", "Fit", "Printed"}, {{"P1 *", "-93.2", "−3"}, {"P2", "7", "4"}}};
     const std::string text = html("::: {.table name=models}\nTwo models. {#tbl:models}\n:::\n\nSee @tbl:models.\n");

@@ -115,7 +115,7 @@ class CellWorld {
         const std::string name = fmt::format("cell [{}]", order.count);
         try {
             take_header(order.code, name);
-            const RunRecord record = runtime_.run_statement(read_script_part(order.code, shown_calls()), name);
+            const RunRecord record = runtime_.run_statement(read_cell(order.code, shown_calls()), name);
             show_reported(record);
             for (const std::string& figure : figures_in_order(record)) {
                 throw_if_interrupted();

@@ -3,6 +3,8 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "platform/error.h"
 
 namespace dynlab::inline app {
@@ -20,10 +22,20 @@ FolderWatch::FolderWatch() : events_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) 
 }
 
 void FolderWatch::add(const fs::path& folder) {
-    constexpr std::uint32_t kChanges = IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_MODIFY;
+    constexpr std::uint32_t kChanges = IN_CREATE | IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_MODIFY;
     const int watch = ::inotify_add_watch(events_.get(), folder.c_str(), kChanges | IN_ONLYDIR);
     if (watch < 0) throw EnvironmentError("cannot watch the folder {}: {}", folder.string(), system_reason(errno));
     folders_[watch] = folder;
+}
+
+void FolderWatch::add_around(const fs::path& file) {
+    fs::path folder = fs::absolute(file).parent_path();
+    while (!fs::is_directory(folder) && folder.has_relative_path()) folder = folder.parent_path();
+    add(folder);
+}
+
+bool concerns(const fs::path& changed, const fs::path& file) {
+    return std::mismatch(changed.begin(), changed.end(), file.begin(), file.end()).first == changed.end();
 }
 
 std::set<fs::path> FolderWatch::changes() {

@@ -37,6 +37,13 @@ std::string digest_of_picture(const fs::path& file) {
     }
 }
 
+/// Also where a file appears that `load` prefers to the one that was read: NAME.mat to NAME.csv.
+bool concerns_data(const fs::path& changed, const fs::path& data) {
+    const bool is_data = changed.extension() == ".mat" || changed.extension() == ".csv";
+    return concerns(changed, data) ||
+           (is_data && changed.parent_path() == data.parent_path() && changed.stem() == data.stem());
+}
+
 /// Entries of the run before stay until this one gives its own.
 template <class Map>
 void add_older(Map& entries, const Map& older) {
@@ -157,7 +164,8 @@ bool LiveDocument::is_ours(const fs::path& changed) const {
     const bool literature = changed.extension() == ".bib" && request_ &&
                             (folder == place_of(request_->template_file).parent_path() ||
                              folder == place_of(request_->script.file).parent_path());
-    return literature || inputs_.contains(changed);
+    return literature || std::ranges::any_of(inputs_, [&](const fs::path& file) { return concerns(changed, file); }) ||
+           std::ranges::any_of(data_, [&](const fs::path& file) { return concerns_data(changed, file); });
 }
 
 /// What is wrong is said on the page.
@@ -180,8 +188,9 @@ void LiveDocument::read_again(const std::set<fs::path>& changed) {
         request_ = read_();
         page_.speak(request_->script.header.language, request_->script.header.lesson);
         std::set<fs::path> data;
-        for (const fs::path& file : changed)
-            if (data_.contains(file)) data.insert(file);
+        for (const fs::path& file : data_)
+            if (std::ranges::any_of(changed, [&file](const fs::path& one) { return concerns_data(one, file); }))
+                data.insert(file);
         watch_inputs();
         page_is_old_ = true;
         bool may_run = false;
@@ -295,8 +304,7 @@ void LiveDocument::watch_inputs() {
     if (const fs::path literature = bibliography_of(request_->script); !literature.empty())
         inputs.insert(place_of(literature));
     for (const auto& [file, digest] : pictures_) inputs.insert(file);
-    for (const fs::path& file : inputs)
-        if (!inputs_.contains(file) && fs::is_directory(file.parent_path())) watch_.add(file.parent_path());
+    for (const fs::path& file : inputs) watch_.add_around(file);
     inputs_ = std::move(inputs);
 }
 
@@ -311,8 +319,7 @@ void LiveDocument::set_page() {
         pictures_.clear();
         for (const SetChunk& chunk : document.chunks)
             for (const SetPicture& picture : chunk.pictures)
-                if (!picture.is_figure && !picture.file.empty())
-                    pictures_[place_of(picture.file)] = digest_of_picture(picture.file);
+                if (!picture.is_figure) pictures_[place_of(picture.file)] = digest_of_picture(picture.file);
         watch_inputs();
         if (!page_is_unfinished_) {
             page_.set_open_answers(missing_answers(request_->script, shown_));

@@ -172,8 +172,12 @@ void WorkbenchSession::take_file_changes() {
             } catch (const std::exception& error) {
                 unread_ = message_of(error);
             }
-        } else if (const fs::path place = place_of(file); data_.contains(place)) {
-            changed_data_.insert(place);
+            continue;
+        }
+        for (const fs::path& data : data_) {
+            if (!concerns(place_of(file), data)) continue;
+            changed_data_.insert(data);
+            watch_.add_around(data);
             old_ = true;
         }
     }
@@ -352,7 +356,8 @@ void WorkbenchSession::take_record(const RunnerNews& news) {
             if (cell != kViewCell && cell != kSlowViewCell) printed_[cell] = printed_by(news.record, cell);
     for (const fs::path& file : news.record.files_read) {
         const fs::path place = place_of(file);
-        if (data_.insert(place).second && fs::is_directory(place.parent_path())) watch_.add(place.parent_path());
+        data_.insert(place);
+        watch_.add_around(place);
     }
 }
 

@@ -71,6 +71,8 @@ AnonymousCopier anonymous_copier() {
         CopyOutcome outcome{copy.made, {}, {}};
         for (const Finding& finding : copy.findings)
             (finding.severity == Severity::kRule ? outcome.hits : outcome.hints).push_back(with_page(finding));
+        if (!copy.not_rebuilt.empty())
+            outcome.hints.push_back(Message("{}; the submitted PDF was copied instead.", copy.not_rebuilt));
         if (!copy.made && outcome.hits.empty()) outcome.hits.push_back(copy.trouble);
         return outcome;
     };

@@ -192,6 +192,12 @@ class AnonymitySearch {
         }
     }
 
+    void search_source(const PdfLayout& layout) {
+        only_beyond_ascii_ = true;
+        search_pages(layout, {});
+        only_beyond_ascii_ = false;
+    }
+
     void search_inside(const fs::path& file, const PdfLayout& layout, const PdfObjectLimits& limits) {
         try {
             const InsideOfPdf read = read_inside(file, limits);
@@ -271,6 +277,8 @@ class AnonymitySearch {
 
     /// Each person once at each place of each page.
     void add(const PlacedText& text, const NameHit& hit) {
+        const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+        if (only_beyond_ascii_ && std::ranges::all_of(hit.written, is_ascii)) return;
         if (!known_.emplace(hit.who, text.place, text.page, hit.kind).second) return;
         if (hit.ordinary) return add_word(text.page, hit);
         const PlaceText& place = text_about(text.place);
@@ -292,6 +300,7 @@ class AnonymitySearch {
     std::set<std::string> ordinary_;
     std::string words_, author_;
     int first_word_ = 0;
+    bool only_beyond_ascii_ = false;
     std::vector<int> unsearchable_;
     Message trouble_;
 };
@@ -299,9 +308,10 @@ class AnonymitySearch {
 }  // namespace
 
 Findings anonymity_findings(const fs::path& file, const PdfLayout& layout, const IdentityMatcher& matcher,
-                            const PdfObjectLimits& limits) {
+                            const PdfObjectLimits& limits, const PdfLayout* source) {
     AnonymitySearch search(matcher);
     search.search_pages(layout, text_in_content_order(file));
+    if (source) search.search_source(*source);
     search.search_inside(file, layout, limits);
     search.search_name(file);
     return search.findings();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <utility>
 
 #include "base/reader.h"
 #include "course/anonymity/anonymity_findings.h"
@@ -48,6 +49,15 @@ std::optional<fs::path> pdf_below(const fs::path& folder) {
     return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 
+/// Printing may lose which letters the signs of a script stand for; then they are read in the PDF that was printed.
+PdfLayout layout_or_nothing(const fs::path& file) {
+    try {
+        return read_pdf_layout(file);
+    } catch (const PdfRefusal&) {
+        return {};
+    }
+}
+
 /// The making of one copy.
 class CopyingAnonymously {
   public:
@@ -61,7 +71,8 @@ class CopyingAnonymously {
             const std::string bytes = distilled_pdf(*original, {setup_.isolation, {std::chrono::seconds(60)}, {}});
             const fs::path printed = work_.path() / "copy.pdf";
             write_work_file(printed, bytes);
-            result_.findings = anonymity_findings(printed, read_pdf_layout(printed), setup_.names);
+            const PdfLayout source = layout_or_nothing(*original);
+            result_.findings = anonymity_findings(printed, read_pdf_layout(printed), setup_.names, {}, &source);
             const bool clean = std::ranges::none_of(
                 result_.findings, [](const Finding& finding) { return finding.severity == Severity::kRule; });
             result_.made = clean || setup_.accept;
@@ -97,7 +108,7 @@ class CopyingAnonymously {
         }
         const std::optional<fs::path> pdf = pdf_below(staged);
         if (pdf)
-            result_.trouble = Message();
+            result_.not_rebuilt = std::exchange(result_.trouble, Message());
         else if (result_.trouble.empty())
             result_.trouble = Message("There is neither a report that can be made again nor one PDF.");
         return pdf;

@@ -155,6 +155,26 @@ std::string percent_decoded(std::string_view text) {
     return utf8;
 }
 
+/// A number that may count or measure something: "N = 123456", "with 123456 samples". Not behind "student" or "ID", in
+/// brackets, beside a name or alone in its line.
+bool may_count(const Tokens& tokens, std::size_t first, std::size_t end, std::string_view text) {
+    const auto is_number = [](const NameToken& token) { return token.digits; };
+    const bool digits = std::all_of(tokens.begin() + static_cast<std::ptrdiff_t>(first),
+                                    tokens.begin() + static_cast<std::ptrdiff_t>(end), is_number);
+    const std::size_t from = first > 0 ? tokens[first - 1].end : 0;
+    const std::string_view before = text.substr(from, tokens[first].begin - from);
+    if (!digits || is_labelled(tokens, first) || before.find('(') != std::string_view::npos) return false;
+    if (before.find_first_of("=<>") != std::string_view::npos) return true;
+    // Whether the word is one of a sentence, and a space alone is between `behind` and the token before it.
+    const auto is_beside = [&](const NameToken& word, std::size_t behind) {
+        const std::size_t begin = tokens[behind - 1].end;
+        const std::string_view between = text.substr(begin, tokens[behind].begin - begin);
+        return !word.digits && !word.capital && tokens[behind].gap == Gap::kSpace &&
+               between.find('\n') == std::string_view::npos;
+    };
+    return (first > 0 && is_beside(tokens[first - 1], first)) || (end < tokens.size() && is_beside(tokens[end], end));
+}
+
 NameHit hit_of(std::string_view text, const std::string& who, NameKind kind, std::size_t begin, std::size_t end) {
     return {who, kind, true, false, std::string(text.substr(begin, end - begin)), begin, end};
 }
@@ -266,6 +286,9 @@ void IdentityMatcher::find_patterns(const Tokens& tokens, std::string_view text,
             bool certain = pattern.given_only ? identifier && pattern.own : pattern.whole || !cited;
             if (in_small && !identifier && !(pattern.own && is_labelled(tokens, i))) certain = false;
             if (pattern.bare && !pattern.own) certain = false;
+            if (manner == TextManner::kProse && pattern.kind == NameKind::kNumber && !identifier &&
+                may_count(tokens, i, end, text))
+                certain = false;
             if (pattern.ordinary || (match->parted && alone)) certain = false;
             if (pattern.whole && cited_names_.contains(pattern.letters)) certain = false;
             hits.push_back({pattern.who, pattern.kind, certain, pattern.ordinary, std::string(written), tokens[i].begin,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/reader.h"
+#include "course/answers/formulas.h"
 #include "course/answers/hidden_names.h"
 #include "course/answers/written_answers.h"
 #include "course/intake/class_submissions.h"
@@ -224,8 +225,12 @@ class MarkSheet {
 class AnswersPage {
   public:
     AnswersPage(const AnswerCollection& collection, const std::vector<AnswerGroup>& groups, const Lesson& lesson,
-                const fs::path& marks)
-        : answers_(collection.answers()), groups_(groups), asked_(collection.asked()), marks_(marks) {
+                const fs::path& marks, Isolation isolation)
+        : answers_(collection.answers()),
+          groups_(groups),
+          asked_(collection.asked()),
+          marks_(marks),
+          formulas_(texts_of(collection), isolation) {
         const QuestionName& question = collection.question();
         title_ = question.number > 0 ? message_text(Message("{}: answers to question {}", lesson.slug, question.number))
                                      : fmt::format("{}: {}", lesson.slug, *question.titles.begin());
@@ -251,17 +256,18 @@ class AnswersPage {
         std::string rows;
         for (const AnswerGroup& group : groups_) {
             std::string list;
-            for (const std::string& note : notes(group)) list += "<li>" + escaped(note) + "</li>";
+            for (const std::string& note : notes(group)) list += "<li>" + escaped_html(note) + "</li>";
             if (!list.empty()) list = "<ul>" + list + "</ul>";
-            rows +=
-                fmt::format("<tr><th scope=\"row\">{}</th><td><div class=\"answer\">{}</div>{}</td><td></td></tr>\n",
-                            escaped(message_text(heading(group))), escaped(answers_[group.members[0]].text), list);
+            rows += fmt::format(
+                "<tr><th scope=\"row\">{}</th><td><div class=\"answer\">{}</div>{}</td><td></td></tr>\n",
+                escaped_html(message_text(heading(group))), formulas_.html(answers_[group.members[0]].text), list);
         }
         std::string intro;
-        if (!asked_.text.empty()) intro = fmt::format("<div class=\"answer\">{}</div>\n", escaped(asked_.text));
+        if (!asked_.text.empty()) intro = fmt::format("<div class=\"answer\">{}</div>\n", formulas_.html(asked_.text));
         if (!asked_.solution.empty())
-            intro += fmt::format("<details><summary>{}</summary><div class=\"answer\">{}</div></details>\n",
-                                 escaped(message_text(Message("Reference solution"))), escaped(asked_.solution));
+            intro +=
+                fmt::format("<details><summary>{}</summary><div class=\"answer\">{}</div></details>\n",
+                            escaped_html(message_text(Message("Reference solution"))), formulas_.html(asked_.solution));
         return fmt::format(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\n"
             "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n"
@@ -270,13 +276,19 @@ class AnswersPage {
             "text-align:left}}\nth[scope=row]{{width:9em}}\n.answer{{white-space:pre-wrap;overflow-wrap:anywhere}}\n"
             "</style></head>\n<body>\n<h1>{}</h1>\n<p>{}</p>\n{}<table>\n<thead><tr><th>{}</th><th>{}</th>"
             "<th>{}</th></tr></thead>\n<tbody>\n{}</tbody>\n</table>\n<p>{}</p>\n</body>\n</html>\n",
-            escaped(title_), escaped(title_), escaped(message_text(explanation())), intro,
-            escaped(message_text(Message("number"))), escaped(message_text(Message("answer"))),
-            escaped(message_text(Message("points, reason"))), rows,
-            empty_.empty() ? "" : escaped(message_text(without_answer())));
+            escaped_html(title_), escaped_html(title_), escaped_html(message_text(explanation())), intro,
+            escaped_html(message_text(Message("number"))), escaped_html(message_text(Message("answer"))),
+            escaped_html(message_text(Message("points, reason"))), rows,
+            empty_.empty() ? "" : escaped_html(message_text(without_answer())));
     }
 
   private:
+    static std::vector<std::string> texts_of(const AnswerCollection& collection) {
+        std::vector<std::string> texts = {collection.asked().text, collection.asked().solution};
+        for (const Answer& answer : collection.answers()) texts.push_back(answer.text);
+        return texts;
+    }
+
     Message explanation() const {
         return Message(
             "Submissions have numbers instead of names. Write points and reasons into {}, then copy submission (as "
@@ -318,27 +330,11 @@ class AnswersPage {
         return fmt::format("{0}text\n{1}\n{0}\n\n", fence, text);
     }
 
-    static std::string escaped(const std::string& text) {
-        std::string result;
-        for (const char c : text) {
-            if (c == '&')
-                result += "&amp;";
-            else if (c == '<')
-                result += "&lt;";
-            else if (c == '>')
-                result += "&gt;";
-            else if (c == '"')
-                result += "&quot;";
-            else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t')
-                result += c;
-        }
-        return result;
-    }
-
     const std::vector<Answer>& answers_;
     const std::vector<AnswerGroup>& groups_;
     const AskedQuestion& asked_;
     fs::path marks_;
+    TypesetFormulas formulas_;
     std::string title_;
     std::vector<std::string> empty_;  ///< numbers
 };
@@ -359,7 +355,7 @@ AnswersOutcome collect_answers(const AnswersRequest& request) {
     outcome.groups = groups.size();
     fs::create_directories(request.out);
     sheet.write(collection.answers(), groups, request.check.empty() ? slug_of(collection.question()) : request.check);
-    const AnswersPage page(collection, groups, request.lesson, outcome.marks);
+    const AnswersPage page(collection, groups, request.lesson, outcome.marks, request.isolation);
     write_file_atomically(outcome.text, page.markdown());
     write_file_atomically(outcome.page, page.html());
     return outcome;

@@ -95,6 +95,8 @@ class FolderCheck {
         if (script) {
             result_.lesson = script->header.lesson;
             check_blanks(*script);
+            check_ids(*script);
+            check_stars(*script);
             if (made) {
                 const RunRecord run = record_from_json(read_file(record()));
                 check_answers(*script, run);
@@ -257,6 +259,36 @@ class FolderCheck {
                     ? Message("Question {} is open: the lines \"{}\" and \"{}\" are still there.", asked, code, words)
                     : Message("Question {} is open: the line \"{}\" is still there.", asked, one),
                 Message("Write your own there and take the line out."));
+        }
+    }
+
+    /// 2*3*4 in a text, whose stars Markdown takes for italics.
+    void check_stars(const PercentScript& script) {
+        for (const Cell& cell : script.cells)
+            if (cell.kind == Cell::Kind::kText) check_stars("analysis.lua", cell.content, cell.first_line);
+        check_stars("report.md", read_text(copy() / "report.md"), 1);
+    }
+
+    void check_stars(const std::string& file, const std::string& text, int line_number) {
+        static const RE2 kNotProse(R"(`[^`]*`|\$[^$]*\$|\\.)", RE2::Latin1),
+            kStars(R"((\d\*[^*\s][^*]*\*\d))", RE2::Latin1);
+        for (std::string line : lines_of(text)) {
+            RE2::GlobalReplace(&line, kNotProse, " ");
+            if (std::string product; RE2::PartialMatch(line, kStars, &product))
+                add("stars-lost", Severity::kHint, fmt::format("{}:{}", file, line_number),
+                    Message("\"{}\" is printed without its stars: Markdown takes them for italics.", product),
+                    Message("Write a product as a formula, $2 \\cdot 3$, or each star as \\*."));
+            ++line_number;
+        }
+    }
+
+    /// A cell that was copied to try something, and forgotten.
+    void check_ids(const PercentScript& script) {
+        for (const Cell& cell : script.cells) {
+            if (cell.repeats.empty()) continue;
+            add("cell-copied", Severity::kHint, fmt::format("analysis.lua:{}", cell.first_line),
+                Message("Another cell has the id \"{}\" already.", cell.repeats),
+                Message("Take the copy out, or give it an id of its own."));
         }
     }
 

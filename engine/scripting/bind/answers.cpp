@@ -51,7 +51,10 @@ int answer(Call& call) {
     AnswerValue value;
     try {
         value = checked_answer(call, name);
-        if (answers.contains(name)) throw InvalidArgument("the answer \"{}\" was given already", name);
+        const auto before = answers.find(name);  // the same value again is one answer
+        if (before != answers.end() && before->second.json != value.json)
+            throw InvalidArgument("the answer \"{}\" was given already, with another value; give each answer once",
+                                  name);
     } catch (const InvalidArgument& error) {
         if (!call.context().options.graded) throw;
         value = refused_answer(error.what());

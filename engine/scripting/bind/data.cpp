@@ -149,13 +149,30 @@ void add_units_and_headers(const Call& call, const LoadedData& loaded) {
     add_hidden_fields(L);
 }
 
+/// What a call of load looked for in vain: where one of these files comes, or is repaired, the script reads it.
+void note_files_sought(const Call& call, const std::string& name) {
+    const std::filesystem::path file = call.context().options.script_folder / name;
+    Recorder& recorder = call.context().recorder;
+    recorder.note_file_read(file);
+    if (file.has_extension()) return;
+    for (const char* ending : {".csv", ".mat"}) recorder.note_file_read(file.string() + ending);
+}
+
 int load(Call& call) {
     call.at_most(2);
     const Options options(call, 2, kImportTables);
     const std::string name = call.text(1, Message("name or path"));
     const RunOptions& run = call.context().options;
     if (run.graded || run.stay_in_folder) check_stays_inside(name);
-    const LoadedData loaded = load_data(name, run.script_folder, run.graded, import_options(options));
+    const ImportOptions import = import_options(options);
+    const LoadedData loaded = [&] {
+        try {
+            return load_data(name, run.script_folder, run.graded, import);
+        } catch (...) {
+            note_files_sought(call, name);
+            throw;
+        }
+    }();
     call.context().recorder.note_file_read(loaded.file);
     for (const Message& note : loaded.notes)
         call.print(localized(call, Message("{}: {}", loaded.file.filename().string(), note)) + "\n");

@@ -52,6 +52,7 @@ std::filesystem::path file_of_module(const Call& call, const std::string& name) 
     std::string relative = name;
     std::replace(relative.begin(), relative.end(), '.', '/');
     const std::filesystem::path folder = call.context().options.script_folder, file = folder / (relative + ".lua");
+    call.context().recorder.note_file_read(file);  // also one that is not there: it may come
     if (!std::filesystem::is_regular_file(file))
         throw InvalidArgument("there is no file {}.lua in the script's folder; libraries from elsewhere are not there",
                               relative);
@@ -69,7 +70,6 @@ int require_file(Call& call) {
     if (lua_getfield(L, known, name.c_str()) != LUA_TNIL) return 1;
     lua_pop(L, 1);
     const std::filesystem::path file = file_of_module(call, name);
-    call.context().recorder.note_file_read(file);
     const std::string code = read_text(file);
     const std::string chunk = "@" + file.lexically_relative(call.context().options.script_folder).string();
     if (luaL_loadbufferx(L, code.data(), code.size(), chunk.c_str(), "t") != LUA_OK)

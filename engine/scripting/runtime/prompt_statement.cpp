@@ -113,18 +113,47 @@ void keep_locals(PromptStatement& statement, const std::string& source, const To
     statement.variables = rewritten.names();
 }
 
+/// The code with `return` before a call that is its last statement; nothing where it ends in something else.
+std::optional<std::string> with_last_call_returned(const std::string& code) {
+    const Tokens tokens = lua_tokens(code);
+    if (tokens.empty() ||
+        !(tokens.back().is(")") || tokens.back().is("}") || tokens.back().kind == LuaToken::Kind::kString))
+        return std::nullopt;
+    for (std::size_t first = tokens.size(); first-- > 0;) {
+        if (tokens[first].kind != LuaToken::Kind::kName || !begins_line(code, tokens, first)) continue;
+        const std::string before = code.substr(0, tokens[first].begin), call = code.substr(tokens[first].begin);
+        if (syntax_of("return " + call) != Syntax::kRight || syntax_of(before + "return " + call) != Syntax::kRight)
+            continue;
+        const bool shown_already = tokens[first].is("dynlab");
+        return shown_already || syntax_of(call) != Syntax::kRight ? std::nullopt
+                                                                  : std::optional(before + "return " + call);
+    }
+    return std::nullopt;
+}
+
+PromptStatement statement_of(const std::string& source, const std::string& code) {
+    PromptStatement statement;
+    statement.source = source;
+    statement.code = code;
+    statement.silent = true;
+    statement.kind = PromptStatement::Kind::kReady;
+    const Syntax syntax = syntax_of(code);
+    if (syntax == Syntax::kRight) keep_locals(statement, code, lua_tokens(code));
+    if (syntax == Syntax::kIncomplete) statement.kind = PromptStatement::Kind::kIncomplete;
+    return statement;
+}
+
 }  // namespace
 
 PromptStatement read_script_part(const std::string& source, const ShownCalls& shown) {
-    PromptStatement statement;
-    statement.source = source;
-    statement.code = with_shown_expressions(source, shown);
-    statement.silent = true;
-    statement.kind = PromptStatement::Kind::kReady;
-    const Syntax syntax = syntax_of(statement.code);
-    const std::string code = statement.code;
-    if (syntax == Syntax::kRight) keep_locals(statement, code, lua_tokens(code));
-    if (syntax == Syntax::kIncomplete) statement.kind = PromptStatement::Kind::kIncomplete;
+    return statement_of(source, with_shown_expressions(source, shown));
+}
+
+PromptStatement read_cell(const std::string& source, const ShownCalls& shown) {
+    const std::string code = with_shown_expressions(source, shown);
+    const std::optional<std::string> returned = with_last_call_returned(code);
+    PromptStatement statement = statement_of(source, returned.value_or(code));
+    statement.silent = !returned;
     return statement;
 }
 

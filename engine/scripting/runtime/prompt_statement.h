@@ -28,5 +28,8 @@ struct PromptStatement {
 PromptStatement read_statement(const std::string& source, const ShownCalls& shown);
 /// A piece of a script instead: its values are shown where with_shown_expressions says so, and no word is a habit.
 PromptStatement read_script_part(const std::string& source, const ShownCalls& shown);
+/// A cell of a notebook: a piece of a script whose last statement, where it is a call of any function, shows its
+/// values.
+PromptStatement read_cell(const std::string& source, const ShownCalls& shown);
 
 }  // namespace dynlab::inline scripting

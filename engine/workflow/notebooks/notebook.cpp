@@ -64,8 +64,33 @@ std::string first_line_of(const std::string& text) {
     return text.substr(0, text.find_first_of("\r\n"));
 }
 
+/// Whether the line would begin another cell, or stands for one that would.
+bool is_escaped_marker(std::string_view line, char sign) {
+    const std::size_t signs = std::min(line.find_first_not_of(sign), line.size());
+    const std::string_view rest = line.substr(signs);
+    return signs > 0 && (sign == '-' ? signs > 2 && is_cell_marker("--" + std::string(rest)) : rest.starts_with("%%"));
+}
+
+/// A line of a cell must not begin another cell of the script: such a line of code has a dash more there, and such a
+/// line of text a backslash.
+std::string script_line(const std::string& line, bool text) {
+    if (!text) return is_cell_marker(line) || is_escaped_marker(line, '-') ? "-" + line : line;
+    const std::string commented = line.empty() ? "--" : "-- " + line;
+    const bool is_marker = is_cell_marker(commented);
+    return is_marker || is_escaped_marker(line, '\\') ? "-- \\" + line.substr(is_marker ? line.find('%') : 0)
+                                                      : commented;
+}
+
+/// The line of a notebook that script_line made this one of.
+std::string notebook_line(const std::string& line, bool text) {
+    if (!text) return is_escaped_marker(line, '-') ? line.substr(1) : line;
+    if (!line.starts_with("--")) return line;
+    const std::string shown = line.substr(line.starts_with("-- ") ? 3 : 2);
+    return is_escaped_marker(shown, '\\') ? shown.substr(1) : shown;
+}
+
 /// What the lines of one cell say.
-CellText read_cell(const std::string& written) {
+CellText cell_of_lines(const std::string& written) {
     std::vector<std::string> lines = lines_of(written);
     CellText cell;
     cell.marked = !lines.empty() && is_cell_marker(lines.front());
@@ -75,18 +100,9 @@ CellText read_cell(const std::string& written) {
         if (cell.text) cell.options = trimmed(cell.options.substr(std::string_view("[markdown]").size()));
         lines.erase(lines.begin());
     }
-    if (cell.text)
-        for (std::string& line : lines)
-            if (line.starts_with("--")) line = line.substr(line.starts_with("-- ") ? 3 : 2);
+    for (std::string& line : lines) line = notebook_line(line, cell.text);
     cell.source = without_blank_end(std::move(lines));
     return cell;
-}
-
-/// A line of a cell must not begin another cell of the script.
-std::string script_line(const std::string& line, bool text) {
-    if (!text) return is_cell_marker(line) ? "-" + line : line;
-    const std::string commented = line.empty() ? "--" : "-- " + line;
-    return is_cell_marker(commented) ? "-- \\" + line.substr(line.find('%')) : commented;
 }
 
 /// The lines that a script has for a cell; a blank one parts it from the next.
@@ -219,9 +235,23 @@ CellText cell_of_json(const json& cell, bool first) {
 std::string remembered(const json& cell, const CellText& read) {
     const std::string written = text_at(object_at(object_at(cell, "metadata"), kOurs), "written");
     if (written.empty() || segments_of(written).size() != 1) return {};
-    const CellText before = read_cell(written);
+    const CellText before = cell_of_lines(written);
     const bool same = before.marked == read.marked && before.text == read.text && before.source == read.source;
     return same ? written : "";
+}
+
+/// Lines of code that would begin a cell of the script: in a string, a dash more is another text.
+void add_losses_of_code(const std::string& code, int cell, const std::filesystem::path& name,
+                        std::vector<Message>& losses) {
+    int number = 0;
+    for (const std::string& line : lines_of(code)) {
+        ++number;
+        if (!is_cell_marker(line)) continue;
+        losses.push_back(placed(
+            {name}, Message("cell {}, line {}: \"{}\" would begin a cell of the script, where it is \"{}\"; inside a "
+                            "string, write it in another way, such as \"--\" .. \" %%\"",
+                            cell, number, line, script_line(line, false))));
+    }
 }
 
 }  // namespace
@@ -241,7 +271,7 @@ std::string notebook_of(const PercentScript& script, const RunRecord* record,
     int runs = 0;
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const bool last = i + 1 == segments.size();
-        const CellText cell = read_cell(segments[i].written);
+        const CellText cell = cell_of_lines(segments[i].written);
         const int end = last ? std::numeric_limits<int>::max() : segments[i + 1].first_line;
         const auto parsed = std::lower_bound(script.cells.begin(), script.cells.end(), segments[i].first_line,
                                              [](const Cell& one, int line) { return one.first_line < line; });
@@ -283,7 +313,13 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
             script.losses.push_back(placed(
                 {name},
                 Message("cell {} has a picture that was pasted; save it as a file and name that in the text", number)));
-        const CellText read = cell_of_json(cell, first);
+        CellText read = cell_of_json(cell, first);
+        if (kind == "raw" && read.marked) {  // a comment in its place, by which later cells keep their numbers
+            read.source = "<!-- A raw cell of the notebook was here. -->";
+            script.losses.push_back(
+                placed({name}, Message("cell {} is a raw cell, which a script cannot hold; it is left out", number)));
+        }
+        if (!read.text) add_losses_of_code(read.source, number, name, script.losses);
         std::string written = remembered(cell, read);
         if (written.empty()) written = write_cell(read, last);
         if (!last && !written.ends_with('\n')) written += "\n";

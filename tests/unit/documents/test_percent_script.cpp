@@ -117,12 +117,27 @@ TEST(percent_script, cell_mistakes_name_the_line_and_the_mend) {
     EXPECT_THAT(refusal("-- %% ecoh=false\n"), HasSubstr("did you mean \"echo\"?"));
     EXPECT_THAT(refusal("-- %% echo=no\n"), HasSubstr("true or false"));
     EXPECT_THAT(refusal("-- %% plot\n"), HasSubstr("key=value"));
-    EXPECT_THAT(refusal("-- %% id=a\nx=1\n-- %% id=a\ny=1\n"), StartsWith("lesson.lua:3: "));
     EXPECT_THAT(refusal("-- %% [markdown]\n-- text\nlocal x = 1\n"), StartsWith("lesson.lua:3: "));
     EXPECT_THAT(refusal("-- %%\n-- BEGIN SOLUTION\nx = 1\n"), StartsWith("lesson.lua:2: "));
     EXPECT_THAT(refusal("-- %%\n-- BEGIN SOLUTION\nx = 1\n-- %%\n-- END SOLUTION\n"), StartsWith("lesson.lua:2: "));
     EXPECT_THAT(refusal("-- %%\n-- END SOLUTION\n"), StartsWith("lesson.lua:2: "));
     EXPECT_THAT(refusal("-- BEGIN SOLUTION\n-- BEGIN SOLUTION\n-- END SOLUTION\n"), StartsWith("lesson.lua:2: "));
+}
+
+// Field case 18: a cell that was copied with its marker.
+TEST(percent_script, a_copied_cell_has_an_id_of_its_own_and_says_whose_it_repeats) {
+    const PercentScript script = parse("-- %% id=a\nx=1\n-- %% id=a\ny=1\n-- %%\nz=1\n-- %% id=cell-3\nw=1\n");
+    std::vector<std::string> ids, repeated;
+    for (const Cell& cell : script.cells) ids.push_back(cell.id), repeated.push_back(cell.repeats);
+    EXPECT_EQ(ids, (std::vector<std::string>{"a", "cell-2", "cell-3", "cell-4"}));
+    EXPECT_EQ(repeated, (std::vector<std::string>{"", "a", "", "cell-3"}));
+}
+
+TEST(percent_script, the_language_may_be_written_as_in_reports) {
+    EXPECT_EQ(parse("-- ---\n-- lang: fr\n-- ---\n").header.language, "fr");
+    EXPECT_EQ(language_of_script("-- ---\n-- lang: fr\n-- ---\n"), "fr");
+    EXPECT_THAT(refusal("-- ---\n-- lang: fr\n-- language: fr\n-- ---\n"), HasSubstr("occurs twice"));
+    EXPECT_THAT(refusal("-- ---\n-- lang: de\n-- ---\n"), HasSubstr("en or fr"));
 }
 
 TEST(percent_script, a_misspelled_solution_marker_is_refused_before_it_gives_the_solution_away) {
