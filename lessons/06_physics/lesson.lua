@@ -236,7 +236,7 @@ end
 -- %% id=meaning_report echo=false
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
-local meaning = {{"$\\delta$ (mm/s)", "estimated from", "length (mm)", "dry friction (V)", "error on validation (mrad)", "on steps (mrad)"}}
+local meaning = {{"$\\delta$ (mm/s)", "from", "length (mm)", "friction (V)", "validation", "steps"}}
 local lengths, voltages, voltage_errors = {}, {}, {}
 local function tell(delta, name, G)
     local voltage, err = dry_voltage(G)
@@ -246,7 +246,7 @@ local function tell(delta, name, G)
     return 1e3*G.length, voltage, err
 end
 for k, G in ipairs(repeated) do
-    lengths[k], voltages[k], voltage_errors[k] = tell(narrow, k == 1 and "estimation" or "estimation, repetition " .. k, G)
+    lengths[k], voltages[k], voltage_errors[k] = tell(narrow, k == 1 and "estimation" or "repetition " .. k, G)
 end
 local _, pushed_voltage, pushed_error = tell(narrow, "steps", pushed)
 for k = 1, 2 do
@@ -276,7 +276,7 @@ report.value("wide_creep", wide.dry/deltas[2], "%.0f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=meaning #tbl:meaning}
--- Length and dry friction, ± standard error, by the width $\delta$ of the step and the data of the estimation; error of the angle that each model simulates
+-- Length and dry friction, ± standard error, by the width $\delta$ of the step and the data of the estimation (the repetitions are of `estimation`); last, the error of the angle (mrad) that each model simulates on `validation` and on `steps`
 -- :::
 --
 -- *The width is part of the model* (@tbl:meaning). With $\delta = 5$ mm/s the model from `estimation` simulates `validation` as well as before, and dry friction comes out as `wide_dry`{.value} ± `wide_dry_error`{.value} V, close to the truth of `true_dry`{.value} V. Nothing warns you. But on `steps` its error is `wide_left_steps`{.value} mrad, and the model from `steps` has
@@ -436,7 +436,7 @@ local off_gentle, off_steep = mean_errors(5, times), mean_errors(50, times)
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 local function signed(format, x) return (string.format(format, x):gsub("^%-", "−")) end
 local names = {"$k_1$ (√cm/s)", "$k_2$ (√cm/s)", "$k_3$ (√cm/s)", "$k_4$ (cm/(s V))", "$q$", "$y_0$ (V)"}
-local six_rows = {{"parameter", "$\\beta = 5$", "$\\beta = 50$", "truth", "mean error, $\\beta = 5$", "$\\beta = 50$"}}
+local six_rows = {{"parameter", "$\\beta = 5$", "$\\beta = 50$", "truth", "mean, 5", "mean, 50"}}
 local function with_std(G, k) return string.format("%.4f ± %.4f", six_of(G)[k], six_of(G.std)[k]) end
 for k, name in ipairs(names) do
     table.insert(six_rows, {name, with_std(gentle, k), with_std(tank_model, k), string.format("%.4f", true_six[k]),
@@ -457,7 +457,7 @@ report.value("sensor", tank_truth.noise_std, "%.3f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=six #tbl:six}
--- The six parameters ± standard error, for two steepnesses of the rims; mean over ten repetitions of the error divided by its standard error
+-- The six parameters ± standard error, for two steepnesses $\beta$ of the rims; last, for each $\beta$, the mean over ten repetitions of the error divided by its standard error
 -- :::
 --
 -- The free-run error is `physics_error`{.value} V, and the sensor alone has a noise of `sensor`{.value} V: nothing is left. The parameters that could not be told apart are found now (@tbl:six): the height of the upper rim is known in centimeters and fixes the

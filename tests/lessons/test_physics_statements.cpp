@@ -108,8 +108,8 @@ TEST(lesson_06_physics, the_width_of_a_smooth_sign_is_a_part_of_the_model) {
         double delta;
         int row, row_of_steps;
     };
-    for (const auto& [delta, row, row_of_steps] :
-         {Case{5e-3, wide, wide + 1}, {5e-4, narrow, 4}, {2.5e-4, half, half + 1}}) {
+    const std::vector<Case> cases{{5e-3, wide, wide + 1}, {5e-4, narrow, 4}, {2.5e-4, half, half + 1}};
+    for (const auto& [delta, row, row_of_steps] : cases) {
         SCOPED_TRACE(delta);
         EXPECT_NEAR(cell(record, "meaning", row, 0), 1e3 * delta, 1e-9);
         for (const bool pushed : {false, true}) {

@@ -68,10 +68,10 @@ TEST(report_statements, crane_is_judged_by_repetitions_and_by_its_equations) {
         << "the angle adds nothing";
     // Rows: position F (1,0), (2,0), (4,2); sF (1,0), (3,2), (4,3). YIC prefers the free model, BIC the last one, the
     // validation record the chosen one.
-    const int free = 2, chosen = 4, rich = 5, yic = 4, bic = 5, validation_fit = 7;
+    const int unbound = 2, chosen = 4, rich = 5, yic = 4, bic = 5, validation_fit = 7;
     for (int row = 0; row < 6; ++row) {
-        if (row != free) {
-            EXPECT_GT(cell(record, "orders", row, yic), cell(record, "orders", free, yic)) << row;
+        if (row != unbound) {
+            EXPECT_GT(cell(record, "orders", row, yic), cell(record, "orders", unbound, yic)) << row;
         }
         if (row != rich) {
             EXPECT_GT(cell(record, "orders", row, bic), cell(record, "orders", rich, bic)) << row;

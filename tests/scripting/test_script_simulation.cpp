@@ -171,4 +171,18 @@ TEST(script_simulation, habits_of_the_toolboxes) {
                 HasSubstr("an entry is a list of one value for each"));
 }
 
+// Oracle: counted by hand; a line and a gap are three values.
+TEST(figures, are_ruled_as_graph_paper) {
+    EXPECT_EQ(printed("local f = plot({0, 1}, {0, 2}, {x_range = {0, 1}, y_range = {0, 2}}):rule(0.1, 0.5)\n"
+                      "local c = f.curves\n"
+                      "local function show(...) print((string.format(...))) end\n"
+                      "show('%d %d %d %d %d', #c, #c[2].x//3, #c[3].x//3, #c[4].x//3, #c[5].x//3)\n"
+                      "show('%g %g %g %g', c[2].x[1], c[2].y[1], c[2].x[2], c[2].y[2])\n"
+                      "show('%s %g %g', c[2].y[3] ~= c[2].y[3], c[2].x[31], c[3].y[13])"),
+              "5 11 5 3 1\n0 0 0 2\ntrue 1 2\n");
+    EXPECT_THAT(error_of("plot({0, 1}, {0, 2}):rule(0.1, 0.5)"), HasSubstr("set x_range and y_range first"));
+    EXPECT_THAT(error_of("plot({0, 1}, {0, 2}, {x_range = {0, 1}, y_range = {0, 2}}):rule(0, 0.5)"),
+                HasSubstr("dx must be a positive number"));
+}
+
 }  // namespace test_script_simulation

@@ -215,6 +215,31 @@ TEST(script_validation, compare_gives_what_it_draws) {
               "2\tmeasured\t0\t0\ntrue\n0\t1\n");
 }
 
+// Oracle: an output raised by 5, whose fit without the offset is that of the errors 5 on every sample.
+TEST(script_validation, fit_compare_and_present_state_the_offset_that_they_remove) {
+    const std::string raised = kRecord +
+                               "local raised = iddata(x + 5, u, 0.05, {OutputUnit = 'V'})\n"
+                               "local G = idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3})\n";
+    const std::string noted = printed(raised +
+                                      "for k = 1, 3 do local f = fit(raised, G) end\n"
+                                      "print('plain', 100*(1 - 5*math.sqrt(#u)/norm(x - mean(x))))");
+    std::smatch found;
+    const std::regex note(
+        "^fit: an estimated offset of 5 V was removed; without it the fit is (-[0-9.]+) %\\. To choose, "
+        "set Offset to \"estimate\" or \"none\"\\.\nplain\t(-[0-9.]+)\n$");
+    ASSERT_TRUE(std::regex_match(noted, found, note)) << noted << "once a line";
+    EXPECT_NEAR(std::stod(found[1]), std::stod(found[2]), 0.1);
+    EXPECT_EQ(printed(raised + "local f, g = fit(raised, G, {Offset = 'estimate'}), fit(white, G)"), "")
+        << "asked for, and none";
+    EXPECT_EQ(printed(raised +
+                      "print(compare(raised, G).curves[2].label, compare(white, G).curves[2].label:match('offset'))"),
+              "model 1: 100.0 %, offset 5 V\tnil\n");
+    EXPECT_THAT(printed(raised + "present(srivc(raised, {1, 2, 0}))"),
+                HasSubstr("The fit is simulated from rest at zero input, with an estimated offset (5"));
+    EXPECT_THAT(printed(raised + "present(srivc(white, {1, 2, 0}, {InitialState = 'none', Offset = 'none'}))"),
+                HasSubstr("The fit is simulated from rest at zero input, without an offset.\n"));
+}
+
 TEST(script_validation, crossvalidate_ranks_structures) {
     EXPECT_THAT(
         printed(kRecord + "local function fold(kind) return function(d) return procsrivc(d:experiment(1), kind) "

@@ -173,6 +173,19 @@ TEST(percent_script, the_students_copy_differs_in_the_solutions_only) {
     EXPECT_THROW(without_solutions("-- STARTER: x = 1\n"), DocumentError);
 }
 
+TEST(percent_script, the_students_copy_is_in_one_language) {
+    const std::string function =
+        "local function say(english, french)\n    return report.language() == \"fr\" and french or english\nend\n";
+    const std::string calls =
+        "local axis = say(\"time (s)\", \"temps (s)\")\nguess(say(\"a\",\n          \"b\"), nil)\nessay(\"x\", "
+        "\"y\")\n";
+    EXPECT_EQ(without_solutions(function + calls, "a.lua", "en"),
+              "local axis = \"time (s)\"\nguess(\"a\", nil)\nessay(\"x\", \"y\")\n");
+    EXPECT_EQ(without_solutions(function + calls, "a.lua", "fr"),
+              "local axis = \"temps (s)\"\nguess(\"b\", nil)\nessay(\"x\", \"y\")\n");
+    EXPECT_EQ(without_solutions(calls), calls) << "another function of this name";
+}
+
 TEST(percent_script, a_file_that_is_not_there_is_named) {
     try {
         read_percent_script("/nowhere/lesson.lua");

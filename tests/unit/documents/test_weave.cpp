@@ -68,6 +68,19 @@ TEST(weave, figures_without_a_caption_are_numbered_and_say_what_their_axes_do) {
                 HasSubstr("voltage (V) en fonction du temps (s)]"));
 }
 
+TEST(weave, captions_of_histograms_name_what_is_counted) {
+    RunRecord record;
+    record.outputs["a"] = {{"", "a-figure-1"}};
+    const auto figure = std::make_shared<Figure>();
+    figure->panels.resize(4);
+    for (Panel& panel : figure->panels) panel.curves.emplace_back().style = CurveStyle::kBars;
+    figure->panels[0].y_label = Message("lssvf"), figure->panels[2].y_label = Message("tfsrivc");
+    figure->panels[2].x_label = Message("a_{1}"), figure->panels[3].x_label = Message("b_{0}");
+    record.figures["a-figure-1"].figure = figure;
+    EXPECT_THAT(weave("-- %% id=a\nplot(x)\n", record).text,
+                HasSubstr("![Histograms of a~1~, b~0~: lssvf, tfsrivc](figure:a-figure-1)"));
+}
+
 // Oracle: what a reader of LaTeX takes for a formula, and what CommonMark prints for the number of a character.
 TEST(weave, units_in_brackets_at_the_axes_are_no_formula) {
     RunRecord record;

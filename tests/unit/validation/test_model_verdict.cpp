@@ -52,4 +52,15 @@ TEST(model_verdict, known_causes_come_before_missing_dynamics) {
     EXPECT_THAT(verdict_text({.independent = false}), StartsWith("Dynamics are missing"));
 }
 
+// A remedy for one output, and its parameters, do not appear under another.
+TEST(model_verdict, doubts_about_one_output_keep_to_it) {
+    const ModelDoubts both{{"a1", "b0_y1", "b0_y2", "b1_y2u1", "b0_y12"}, Message("Take a pole."), "position"};
+    const ModelDoubts angle = both.about(0, "angle"), position = both.about(1, "position");
+    EXPECT_THAT(angle.undetermined, testing::ElementsAre("a1", "b0_y1"));
+    EXPECT_TRUE(angle.remedy.empty());
+    EXPECT_THAT(position.undetermined, testing::ElementsAre("a1", "b0_y2", "b1_y2u1"));
+    EXPECT_EQ(message_text(position.remedy), "Take a pole.");
+    EXPECT_EQ(message_text(ModelDoubts{{}, Message("Take a pole."), ""}.about(0, "y1").remedy), "Take a pole.");
+}
+
 }  // namespace test_model_verdict
