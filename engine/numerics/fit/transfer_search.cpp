@@ -273,7 +273,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     const auto further = [&](const FitOptions& how, Fit found) {
         return aids.start.size() > 0 ? found : or_from_further_starts(record, structure, std::move(found), how);
     };
-    /// Where errors still follow the input, a free delay may have led away from the best model without one.
+    // Where errors still follow the input, a free delay may have led away from the best model without one.
     const auto or_without_delay = [&](Fit found) {
         if (!structure.free_delays || !structure.single_channel() || aids.start.size() > 0 || !given.fixed.empty() ||
             found.termination == Termination::kCancelled || !errors_follow_input(record, found))

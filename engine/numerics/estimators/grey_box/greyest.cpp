@@ -193,8 +193,7 @@ SearchEnd search(const Problem& problem, const Beginning& from, Vector weights) 
     return end;
 }
 
-/// theta for this start, fitted to longer and longer beginnings of the data: over a short one a model does not lose the
-/// phase of the output, however far its parameters are.
+/// theta fitted to longer and longer beginnings of the data, over which a model far away does not lose the phase.
 Vector grown(const Problem& problem, const Vector& start, const Vector& weights) {
     Vector theta = problem.criterion(start, weights).start();
     const FitOptions rough = problem.search_options().rough(kFollowedIterations, kFollowedTolerance);
