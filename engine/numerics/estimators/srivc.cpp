@@ -162,8 +162,7 @@ bool leaves_dynamics(const Fit& estimate, const IdData& data) {
 Fit search_where_passes_fail(Fit estimate, const IdData& data, const FitOptions& options, const SearchAids& aids) {
     const bool settled = estimate.termination == Termination::kConverged;
     const bool poor = !(estimate.fit_percent.minCoeff() > kPoorFit);
-    if (!settled || poor || leaves_dynamics(estimate, data) ||
-        gains_nothing(estimate, data, options, aids.poorer))
+    if (!settled || poor || leaves_dynamics(estimate, data) || gains_nothing(estimate, data, options, aids.poorer))
         return better_by_search(std::move(estimate), data, options, aids);
     check_transient("srivc", data, estimate, estimate.theta.size());
     return estimate;

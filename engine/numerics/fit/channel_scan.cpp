@@ -8,6 +8,7 @@
 #include "numerics/fit/discrete/long_regression.h"
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/transfer_refinement.h"
+#include "numerics/fit/transfer_search.h"
 #include "numerics/linalg/side_by_side.h"
 
 namespace dynlab::inline numerics {
@@ -61,19 +62,31 @@ class ChannelSearch {
         return theta;
     }
 
-    /// The best model of one channel for its share of the output.
-    Fit search(Index input, const std::vector<Vector>& share) {
+    /// The best model of one channel for its share of the output: of a few steps from the lowest valleys of the loss
+    /// over the delay, or of the whole search that an only input has.
+    Fit search(Index input, const std::vector<Vector>& share, bool whole) {
         const IdData own = single_channel(data_, share, input);
         const TransferStructure structure = single(input);
-        scan_ = scan_delays(own, structure, options_);
-        largest_ = std::max(largest_, scan_.largest);
-        FitOptions how = rough();
-        how.largest_delay = scan_.largest;
-        std::vector<Fit> fits(scan_.starts.size());
+        FitOptions how = rough().from_rest();
+        if (whole) {
+            Fit fit = search_transfer("Output error", own, structure, how);
+            keep(fit.delay_grid, fit.delay_loss);
+            return fit;
+        }
+        const DelayScan scan = scan_delays(own, structure, options_);
+        keep(scan.delays, scan.losses);
+        how.largest_delay = scan.largest;
+        std::vector<Fit> fits(scan.starts.size());
         side_by_side(fits.size(), [&](std::size_t i) {
-            fits[i] = refine_output_error(own, structure, {InitialState::kZero, false}, scan_.starts[i], how);
+            fits[i] = refine_output_error(own, structure, {InitialState::kZero, false}, scan.starts[i], how);
         });
         return *std::ranges::min_element(fits, {}, &Fit::loss);
+    }
+
+    void keep(const Vector& delays, const Vector& losses) {
+        scan_.delays = delays;
+        scan_.losses = losses;
+        if (delays.size() > 0) largest_ = std::max(largest_, delays[delays.size() - 1]);
     }
 
     void begin() {
@@ -88,7 +101,7 @@ class ChannelSearch {
             theta_ = with_delays(structure_, at, start_from_rest(data_, at, options_));
         } else {
             for (Index input = 0; input < structure_.inputs; ++input)
-                theta_ = with_channel(input, search(input, shares[static_cast<std::size_t>(input)]).theta);
+                theta_ = with_channel(input, search(input, shares[static_cast<std::size_t>(input)], false).theta);
         }
         refine(theta_);
     }
@@ -108,7 +121,7 @@ class ChannelSearch {
     }
 
     void improve(Index input) {
-        const Fit own = search(input, rest(input));
+        const Fit own = search(input, rest(input), true);
         if (own.loss < loss_) refine(with_channel(input, own.theta));
     }
 

@@ -96,12 +96,14 @@ IdData beginning_of(const IdData& data, Index most_samples) {
     part.output_names = data.output_names;
     part.input_units = data.input_units;
     part.output_units = data.output_units;
+    part.time_unit = data.time_unit;
     for (const Experiment& experiment : data.experiments) {
         const Index N = std::min(most_samples, experiment.y.rows());
         Experiment beginning;
         beginning.y = experiment.y.topRows(N);
         beginning.u = experiment.u.topRows(N);
         if (experiment.t.size() > 0) beginning.t = experiment.t.head(N);
+        beginning.start_time = experiment.start_time;
         part.experiments.push_back(std::move(beginning));
     }
     return part;

@@ -304,8 +304,21 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     const auto further = [&](const FitOptions& how, Fit found) {
         return aids.start.size() > 0 ? found : or_from_further_starts(record, structure, std::move(found), how);
     };
+    // Where errors still follow the input, a free delay may have led away from the best model without one.
+    const auto or_without_delay = [&](Fit found) {
+        if (!structure.free_delays || !structure.single_channel() || aids.start.size() > 0 || !given.fixed.empty() ||
+            found.termination == Termination::kCancelled || !errors_follow_input(record, found))
+            return found;
+        TransferStructure at = with_fixed_delays(structure);
+        at.channels.front().delay = options.least_delay;
+        FitOptions how = options.started(chosen);
+        how.precision = false;
+        const Fit fixed = search_transfer(method, record, at, how);
+        Fit other = refine_from(record, structure, chosen, {with_delays(structure, at, fixed.theta)}, options);
+        return other.loss < found.loss ? other : found;
+    };
     const Vector first_end = best.theta;
-    best = further(options, std::move(best));
+    best = or_without_delay(further(options, std::move(best)));
     const bool unstable = std::any_of(best.models.begin(), best.models.end(), has_unstable_pole);
     if (!options.stable && unstable && best.termination != Termination::kCancelled) {
         FitOptions stable = options;

@@ -10,6 +10,7 @@
 #include "numerics/error.h"
 #include "numerics/estimators/grey_box/missed_initial_state.h"
 #include "numerics/fit/diagnosis.h"
+#include "numerics/fit/first_estimate.h"
 #include "numerics/fit/output_error.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/simulation/sensitivity_solver.h"
@@ -25,6 +26,9 @@ constexpr int kWeightings = 20;           // of the outputs, at most
 constexpr double kSettledWeights = 1e-4;  // of their ratios
 constexpr double kLeastError = 1e-12;     // of an output's errors beside what it varies, for its weight
 constexpr double kConfidence = 0.95;
+constexpr double kLost = 0.25;    // of the outputs' variation, left over: the search may have begun too far away
+constexpr int kStartsOfLost = 5;  // that are then followed from the beginning of the data
+constexpr double kFirstShare = 1 / 16., kGrowth = 1.5;  // of the samples
 
 /// Values between 0 and 1 that fill the space evenly (Halton 1960): the i-th, in the dimension of this prime.
 double halton(int i, int prime) {
@@ -36,10 +40,7 @@ double halton(int i, int prime) {
     return value;
 }
 
-int prime_of(std::size_t place) {
-    constexpr std::array kPrimes = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53};
-    return kPrimes[place % kPrimes.size()];
-}
+constexpr std::array kPrimes = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53};
 
 /// Between both bounds where there are two, otherwise up to three times larger or smaller than the start.
 double spread_value(const GreyParameter& p, double share) {
@@ -66,14 +67,14 @@ Vector named_start(const GreyModel& model, const std::map<std::string, double>& 
     return start;
 }
 
-std::vector<Vector> starts_of(const GreyModel& model, const GreyOptions& options) {
+std::vector<Vector> starts_of(const GreyModel& model, const GreyOptions& options, int count) {
     std::vector<Vector> starts = {model.start()};
     for (const auto& values : options.further_starts) starts.push_back(named_start(model, values));
-    for (int i = 1; i < options.starts; ++i) {
+    for (int i = 1; i < count; ++i) {
         Vector start = model.start();
         for (std::size_t k = 0; k < model.parameters.size(); ++k)
             if (const GreyParameter& p = model.parameters[k]; !p.fixed)
-                start[static_cast<Index>(k)] = spread_value(p, halton(i, prime_of(k)));
+                start[static_cast<Index>(k)] = spread_value(p, halton(i, kPrimes[k % kPrimes.size()]));
         starts.push_back(std::move(start));
     }
     return starts;
@@ -142,7 +143,7 @@ struct Beginning {
 };
 
 Beginning best_start(const Problem& problem, const Vector& weights) {
-    const std::vector<Vector> starts = starts_of(problem.model, problem.options);
+    const std::vector<Vector> starts = starts_of(problem.model, problem.options, problem.options.starts);
     const FitOptions search = problem.search_options();
     const FitOptions rough = search.rough(std::min(kFollowedIterations, search.max_iterations),
                                           std::max(kFollowedTolerance, search.tolerance));
@@ -189,6 +190,39 @@ SearchEnd search(const Problem& problem, const Beginning& from, Vector weights) 
         if (ratios.maxCoeff() <= (1 + kSettledWeights) * ratios.minCoeff()) break;
     }
     end.fit.trace = std::move(trace);
+    return end;
+}
+
+/// theta fitted to longer and longer beginnings of the data, over which a model far away does not lose the phase.
+Vector grown(const Problem& problem, const Vector& start, const Vector& weights) {
+    Vector theta = problem.criterion(start, weights).start();
+    const FitOptions rough = problem.search_options().rough(kFollowedIterations, kFollowedTolerance);
+    const auto experiments = static_cast<double>(problem.data.experiments.size());
+    const double mean_length = static_cast<double>(problem.data.sample_count()) / experiments;
+    for (double length = kFirstShare * mean_length; length < mean_length; length *= kGrowth) {
+        const IdData part = beginning_of(problem.data, static_cast<Index>(length));
+        if (part.sample_count() * part.output_count() <= 2 * theta.size()) continue;
+        const Problem beginning{part, problem.model, problem.options, problem.initial};
+        theta = minimise(beginning.criterion(start, weights), theta, rough).theta;
+    }
+    return theta;
+}
+
+/// The end, or a better one where it leaves much: from fits to beginnings, from the model's own start and others.
+SearchEnd or_grown(const Problem& problem, SearchEnd end, const Vector& weights) {
+    const GreyOutput criterion = problem.criterion(problem.model.start(), weights);
+    const double lost = kLost * output_variations(problem.data).dot(weights.cwiseAbs2());
+    const auto left = [&](const SearchEnd& of) {
+        return (criterion.measured() - criterion.output_at(of.fit.theta)).squaredNorm();
+    };
+    for (const Vector& start : starts_of(problem.model, problem.options, kStartsOfLost)) {
+        if (left(end) <= lost || end.fit.theta.size() == 0 || end.fit.termination == Termination::kCancelled) break;
+        try {
+            SearchEnd other = search(problem, {start, grown(problem, start, weights), {}}, weights);
+            if (left(other) < left(end) || !std::isfinite(left(end))) end = std::move(other);
+        } catch (const InvalidArgument&) {
+        }  // the simulation breaks down
+    }
     return end;
 }
 
@@ -367,7 +401,7 @@ GreyFit greyest(const IdData& data, const GreyModel& model, const GreyOptions& o
     check_output_weights(options.output_weights, data.output_count());
     const Vector weights = options.output_weights.size() > 0 ? options.output_weights : weights_of_spread(data);
     const Beginning from = best_start(problem, weights);
-    SearchEnd end = search(problem, from, weights);
+    SearchEnd end = or_grown(problem, search(problem, from, weights), weights);
     const GreyOutput criterion = problem.criterion(from.parameters, end.weights);
     if (end.fit.at_bound.empty()) end.fit.at_bound.resize(static_cast<std::size_t>(end.fit.theta.size()));
     result.fit = end.fit;

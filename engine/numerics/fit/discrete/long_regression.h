@@ -19,8 +19,8 @@ class LongRegression {
     /// Whether the regression predicts better, beyond chance, than a model whose errors have this variance.
     bool predicts_better_than(double variance) const;
 
-    /// What an input makes of the output of each experiment, from rest, with poles brought into the unit circle; nothing
-    /// for data that are too short.
+    /// What an input makes of the output of each experiment, from rest, with poles brought into the unit circle;
+    /// nothing for data that are too short.
     std::vector<Vector> share(Index input) const;
 
     /// The data with inputs and outputs filtered by A, in which the noise is nearly white, and differenced (1 - q^-1),
