@@ -3,39 +3,35 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <string_view>
 #include <utility>
 
-#include "data_io/reading_memory.h"
 #include "data_io/tables/cell_scanner.h"
+#include "data_io/tables/instrument_text.h"
 #include "data_io/tables/number_cell.h"
 #include "data_io/tables/table_layout.h"
+#include "data_io/tables/table_rows.h"
 #include "data_io/tables/text_decoding.h"
+#include "data_io/tables/time_text.h"
 #include "data_io/tables/unit_text.h"
-#include "data_io/variable.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 
 namespace dynlab::inline data_io {
 namespace {
 
-/// Numbers are read into the vector that is given back; a text is moved into its variable, one beside the other.
-constexpr std::size_t kBytesOfNumber = sizeof(double), kBytesOfText = sizeof(std::string) + sizeof(Variable);
-
-/// What a string takes besides itself.
-std::size_t bytes_besides(std::string_view text) {
-    constexpr std::size_t kShort = 15, kBlock = 16;
-    return text.size() > kShort ? text.size() + kBlock : 0;
-}
-
 constexpr std::size_t kMostTold = 8;
 
 class CsvReader {
   public:
-    CsvReader(const std::filesystem::path& file, std::string_view text, const ImportOptions& options)
-        : file_(file), text_(text), options_(options) {}
+    /// `facts`: what an instrument says besides the table.
+    CsvReader(const std::filesystem::path& file, std::string_view text, const ImportOptions& options,
+              const InstrumentFacts& facts)
+        : file_(file), text_(text), options_(options), facts_(facts) {
+        if (options_.names.empty()) options_.names = facts.names;
+        table_.Ts = facts.Ts;
+    }
 
     CsvTable read() {
         skip_lines();
@@ -45,17 +41,11 @@ class CsvReader {
         name_columns();
         tell_layout();
         read_rows();
+        count_instants();
         return std::move(table_);
     }
 
   private:
-    struct Column {
-        Vector numbers;   ///< with room for more, which takes no memory before it is filled
-        Index count = 0;  ///< of the numbers that have been read
-        std::vector<std::string> texts;
-        std::size_t missing = 0, first_missing_line = 0;
-    };
-
     void note(Message sentence) { table_.notes.push_back(std::move(sentence)); }
     /// The first of them, as nobody reads hundreds.
     static MessageList first_of(MessageList list) {
@@ -113,20 +103,23 @@ class CsvReader {
         if (key.substr(0, 5) == "unit ") {
             stated_units_[std::string(trimmed_cell(key.substr(5)))] = value;
         } else if (key == "Ts") {
+            const NumberAndRest measure = number_and_rest(value);
             double Ts = 0;
-            const std::string_view given = value;
-            if (value.size() > 2 && value.substr(value.size() - 2) == " s") value.remove_suffix(2);
-            if (parse_number(value, true, Ts) != NumberStatus::kNumber || Ts <= 0)
+            if (const auto seconds = seconds_of(measure.rest, true))
+                Ts = measure.number * *seconds;
+            else if (parse_number(value, Ts) != NumberStatus::kNumber)
+                Ts = 0;
+            if (!(Ts > 0))
                 throw EnvironmentError(
                     "{}, line {}: the sampling time Ts must be a positive number of seconds, given \"{}\"",
-                    file_.string(), line_, given);
+                    file_.string(), line_, value);
             table_.Ts = Ts;
         } else {
             table_.remarks[std::string(key)] = value;
         }
     }
 
-    std::size_t columns() const { return layout_.is_text.size(); }
+    std::size_t columns() const { return layout_.formats.size(); }
 
     void name_columns() {
         const std::vector<std::string> headers = headers_of_columns();
@@ -149,6 +142,8 @@ class CsvReader {
                 table_.headers.insert({headers[j], table_.names[j]});
         }
         const std::set<std::string> known(table_.names.begin(), table_.names.end());
+        for (const auto& [name, unit] : facts_.units)
+            if (known.contains(name) && !options_.units.contains(name)) table_.units[name] = unit;
         for (const auto* units_by_name : {&stated_units_, &options_.units})
             for (const auto& [name, unit] : *units_by_name) state_unit(name, unit, known);
     }
@@ -229,104 +224,60 @@ class CsvReader {
     }
 
     void read_rows() {
-        std::vector<Column> columns(this->columns());
-        const auto begin = text_.begin() + static_cast<std::ptrdiff_t>(layout_.rows_at);
-        const auto lines_left = static_cast<std::size_t>(std::count(begin, text_.end(), '\n') + 1);
-        const std::size_t rows = std::min(lines_left, (text_.size() - layout_.rows_at) / columns.size() + 1);
-        for (std::size_t j = 0; j < columns.size(); ++j)
-            layout_.is_text[j] ? columns[j].texts.reserve(rows) : columns[j].numbers.resize(static_cast<Index>(rows));
-        CellScanner scanner(file_, text_, layout_.separator, layout_.rows_at, layout_.rows_line);
-        while (scanner.next_record()) read_row(scanner, columns);
-        std::size_t rows_read = 0;
-        for (std::size_t j = 0; j < columns.size(); ++j) {
-            rows_read = std::max(rows_read, static_cast<std::size_t>(columns[j].count));
-            Vector& numbers = columns[j].numbers;
-            numbers.conservativeResize(columns[j].count);  // reallocates, without a copy of large columns
-            if (table_.names[j] == "Ts" && is_one_number(columns[j])) {
+        TableRows rows = read_table_rows(file_, text_, layout_, table_.names);
+        for (std::size_t j = 0; j < columns(); ++j) {
+            const std::string& name = table_.names[j];
+            TableColumn& column = rows.columns[j];
+            if (name == "Ts" && is_one_number(column)) {
                 note(Message("the only number in column Ts, in its first row, is the sampling time"));
-                numbers.conservativeResize(1), columns[j].missing = 0;
+                column.numbers.conservativeResize(1), column.missing = 0;
             }
-            table_.columns.push_back(std::move(numbers));
-            if (layout_.is_text[j]) table_.texts[table_.names[j]] = std::move(columns[j].texts);
+            using Kind = ColumnFormat::Kind;
+            const Kind kind = layout_.formats[j].kind;
+            if (kind == Kind::kText) table_.texts[name] = std::move(column.texts);
+            if (kind == Kind::kClock) table_.clocks[name] = column.clocks;
+            if (kind == Kind::kMeasure) table_.units.insert({name, layout_.formats[j].unit});
+            table_.columns.push_back(std::move(column.numbers));
         }
-        tell_missing(columns, rows_read);
-        if (!first_comma_.empty()) note(Message("numbers are written with a decimal comma, such as {}", first_comma_));
+        tell_missing(rows);
+        for (Message& sentence : rows.notes) note(std::move(sentence));
+    }
+
+    /// Of an instrument that numbers its samples and states when the first was taken, and the sampling time.
+    void count_instants() {
+        const auto counter = std::ranges::find(table_.names, facts_.counter);
+        if (counter == table_.names.end() || !facts_.Ts) return;
+        Vector& instants = table_.columns[static_cast<std::size_t>(counter - table_.names.begin())];
+        instants = facts_.start + instants.array() * *facts_.Ts;
+        table_.units[*counter] = "s";
     }
 
     /// Benchmark records give the sampling time as a column of one number.
-    static bool is_one_number(const Column& column) {
-        return column.count > 1 && column.missing + 1 == static_cast<std::size_t>(column.count) &&
+    static bool is_one_number(const TableColumn& column) {
+        return column.numbers.size() > 1 && column.missing + 1 == static_cast<std::size_t>(column.numbers.size()) &&
                column.numbers[0] == column.numbers[0];
     }
 
-    void read_row(CellScanner& scanner, std::vector<Column>& columns) {
-        std::size_t cells = 0;
-        bool rest_is_empty = true;
-        do {
-            const std::string_view cell = scanner.next_cell();
-            if (cells < columns.size())
-                take_cell(columns[cells], cells, cell, scanner);
-            else
-                rest_is_empty = rest_is_empty && cell.empty();
-            ++cells;
-        } while (!scanner.record_ended());
-        if (cells == columns.size() || (cells > columns.size() && rest_is_empty)) return;
-        throw EnvironmentError("{}, line {}: wanted {} as in the header line, given {}", file_.string(), scanner.line(),
-                               plural(std::ssize(columns), "{} cell", "{} cells"), cells);
-    }
-
-    /// Refuses a table before it takes more memory than a file of that size may.
-    void take_memory(std::size_t bytes, const CellScanner& scanner) {
-        if ((memory_ += bytes) <= memory_for_reading(text_.size())) return;
-        const ReadingMegabytes megabytes = megabytes_for_reading(text_.size());
-        throw EnvironmentError(
-            "{}, line {}: the table has too many cells: reading it takes more than {} MB of memory, too much for a "
-            "file of {} MB",
-            file_.string(), scanner.line(), megabytes.most, megabytes.of_file);
-    }
-
-    void take_cell(Column& column, std::size_t index, std::string_view cell, const CellScanner& scanner) {
-        const bool decimal_comma = layout_.separator != ',' || scanner.cell_was_quoted();
-        if (layout_.is_text[index]) {
-            if (column.texts.empty() && looks_grouped(cell))
-                refuse_cell({file_, scanner.line(), table_.names[index]}, cell, decimal_comma);
-            take_memory(kBytesOfText + bytes_besides(cell), scanner);
-            column.texts.emplace_back(cell);
-            return;
-        }
-        take_memory(kBytesOfNumber, scanner);
-        double number = 0;
-        const NumberStatus status = parse_number(cell, decimal_comma, number);
-        if (status == NumberStatus::kMissing) {
-            number = std::numeric_limits<double>::quiet_NaN();
-            if (column.missing++ == 0) column.first_missing_line = scanner.line();
-        } else if (status != NumberStatus::kNumber) {
-            refuse_cell({file_, scanner.line(), table_.names[index]}, cell, decimal_comma);
-        } else if (decimal_comma && first_comma_.empty() && cell.find(',') != std::string_view::npos) {
-            first_comma_ = cell;
-        }
-        if (column.count == column.numbers.size()) column.numbers.conservativeResize(2 * column.count + 1);
-        column.numbers[column.count++] = number;
-    }
-
-    void tell_missing(const std::vector<Column>& columns, std::size_t rows) {
+    void tell_missing(const TableRows& rows) {
         MessageList told;
-        for (std::size_t j = 0; j < columns.size(); ++j)
-            if (columns[j].missing > 0)
-                told.items.push_back(Message("{} of {} in {} (first in line {})", columns[j].missing, rows,
-                                             table_.names[j], columns[j].first_missing_line));
+        for (std::size_t j = 0; j < columns(); ++j)
+            if (const TableColumn& column = rows.columns[j]; column.missing > 0)
+                told.items.push_back(Message("{} of {} in {} (first in line {})", column.missing, rows.count,
+                                             table_.names[j], column.first_missing_line));
         if (!told.items.empty())
-            note(Message("numbers are missing, NaN stands for them and fillmissing fills them: {}", first_of(told)));
+            note(
+                Message("numbers are missing and become NaN: {}; fillmissing(u, {method = \"previous\"}) holds an "
+                        "input that is logged when it changes, fillmissing(y) interpolates an output",
+                        first_of(told)));
     }
 
     const std::filesystem::path& file_;
     std::string_view text_;
     ImportOptions options_;
+    const InstrumentFacts& facts_;
     std::size_t at_ = 0, line_ = 1;
     TableLayout layout_;
     std::map<std::string, std::string> stated_units_;
-    std::string first_comma_;
-    std::size_t memory_ = text_.size();  ///< of the text, and of what its rows have become so far
     CsvTable table_;
 };
 
@@ -334,8 +285,9 @@ class CsvReader {
 
 CsvTable read_csv_text(const std::filesystem::path& file, std::string bytes, const ImportOptions& options) {
     std::vector<Message> notes;
-    const std::string text = decoded_text(file, std::move(bytes), notes);
-    CsvTable table = CsvReader(file, text, options).read();
+    std::string text = decoded_text(file, std::move(bytes), notes);
+    const InstrumentFacts facts = take_instrument_text(file, text);
+    CsvTable table = CsvReader(file, text, options, facts).read();
     table.notes.insert(table.notes.begin(), notes.begin(), notes.end());
     return table;
 }

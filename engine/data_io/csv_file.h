@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/message.h"
+#include "data_io/tables/column_format.h"
 #include "data_io/tables/import_options.h"
 #include "numerics/linalg/types.h"
 
@@ -23,6 +24,7 @@ struct CsvTable {
     std::optional<double> Ts;                               ///< seconds
     std::map<std::string, std::string> remarks;             ///< the other key: value lines
     std::map<std::string, std::string> headers = {};        ///< as the file has them -> name, where they differ
+    std::map<std::string, ClockForms> clocks = {};          ///< of columns of times: seconds since midnight or 1970
     std::vector<Message> notes = {};                        ///< sentences on what was guessed and may be wrong
 };
 

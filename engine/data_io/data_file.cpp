@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
 
 #include "data_io/csv_file.h"
 #include "data_io/json_file.h"
 #include "data_io/mat_file.h"
-#include "data_io/tables/unit_text.h"
 #include "data_io/workbook.h"
 #include "platform/error.h"
 #include "platform/text/small_letters.h"
@@ -16,10 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 4> kTableEndings = {".csv", ".tsv", ".txt", ".dat"};
+constexpr std::array<std::string_view, 5> kTableEndings = {".csv", ".tsv", ".txt", ".dat", ".lvm"};
 constexpr std::string_view kMatEnding = ".mat", kJsonEnding = ".json", kWorkbookEnding = ".xlsx";
-constexpr int kInstantDigits = 15;       // of messages: neighbours may differ late
-constexpr double kStepTolerance = 1e-3;  // relative; instants are often rounded when they are written
 
 bool is_table(const std::string& ending) {
     return std::find(kTableEndings.begin(), kTableEndings.end(), ending) != kTableEndings.end();
@@ -55,6 +54,7 @@ LoadedData from_table(CsvTable table) {
     if (table.Ts) data.variables.insert({"Ts", {*table.Ts}});  // a column of that name comes first
     data.units = std::move(table.units);
     data.headers = std::move(table.headers);
+    data.clocks = std::move(table.clocks);
     data.columns = std::move(table.names);
     data.notes = std::move(table.notes);
     return data;
@@ -103,41 +103,64 @@ LoadedData from_text(const fs::path& file, const ImportOptions& options) {
     return from_table(read_csv_file(file, options));
 }
 
-void take_time(LoadedData& data, const std::string& given) {
-    const auto header = data.headers.find(given);
-    const std::string& name = header == data.headers.end() ? given : header->second;
-    const auto found = data.variables.find(name);
+bool repeats(const Variable& column, Index row) {
+    if (const Vector* numbers = std::get_if<Vector>(&column.value)) {
+        const double before = (*numbers)[row - 1], now = (*numbers)[row];
+        return before == now || (std::isnan(before) && std::isnan(now));
+    }
+    const auto* texts = std::get_if<std::shared_ptr<VariableList>>(&column.value);
+    const auto at = static_cast<std::size_t>(row);
+    return texts == nullptr ||
+           std::get<std::string>((**texts)[at - 1].value) == std::get<std::string>((**texts)[at].value);
+}
+
+void keep_rows(Variable& column, const std::vector<Index>& kept) {
+    if (Vector* numbers = std::get_if<Vector>(&column.value)) {
+        *numbers = Vector((*numbers)(kept));
+    } else if (auto* texts = std::get_if<std::shared_ptr<VariableList>>(&column.value)) {
+        auto list = std::make_shared<VariableList>();
+        for (const Index row : kept) list->push_back(std::move((**texts)[static_cast<std::size_t>(row)]));
+        *texts = std::move(list);
+    }
+}
+
+/// Rows that were written twice, time and all; returns whether there are any.
+bool drop_repeated_rows(LoadedData& data, const std::string& time) {
+    const auto found = data.variables.find(time);
     const Vector* instants = found == data.variables.end() ? nullptr : std::get_if<Vector>(&found->second.value);
-    const std::string file = data.file.string();
-    if (instants == nullptr || instants->size() < 2)
-        throw EnvironmentError("{}: the time '{}' is not a column of numbers", file, given);
-    const auto unit = data.units.find(name);
-    const double seconds = unit == data.units.end() ? 1 : seconds_of(unit->second).value_or(0);
-    if (seconds == 0)
-        throw EnvironmentError("{}: the time '{}' has the unit {}, which is none of time", file, given, unit->second);
-    const InstantSpacing spacing = spacing_of(*instants);
-    if (spacing.disorder)
-        throw EnvironmentError("{}: the time '{}' must increase, but sample {} is {} and the next {}", file, given,
-                               *spacing.disorder + 1, significant((*instants)[*spacing.disorder], kInstantDigits),
-                               significant((*instants)[*spacing.disorder + 1], kInstantDigits));
-    if (name != "t" && data.variables.count("t") > 0)
-        throw EnvironmentError("{}: the time '{}' would take the place of the column t: rename one by names", file,
-                               given);
-    const Vector t = *instants * seconds;
-    data.variables["t"] = {t};
-    data.units["t"] = "s";
-    if (spacing.even) data.variables["Ts"] = {spacing.step * seconds};
+    if (instants == nullptr || instants->size() != data.rows) return false;
+    std::vector<Index> kept;
+    for (Index row = 0; row < data.rows; ++row) {
+        const bool again = row > 0 && (*instants)[row] == (*instants)[row - 1] &&
+                           std::ranges::all_of(data.columns, [&](const std::string& name) {
+                               return repeats(data.variables.at(name), row);
+                           });
+        if (!again) kept.push_back(row);
+    }
+    const Index dropped = data.rows - std::ssize(kept);
+    if (dropped == 0) return false;
+    for (const std::string& name : data.columns) keep_rows(data.variables.at(name), kept);
+    data.rows = std::ssize(kept);
+    data.notes.insert(data.notes.begin(),
+                      plural(dropped, "{} row repeats the row before it, time and all, and is left out",
+                             "{} rows repeat the row before them, time and all, and are left out"));
+    return true;
 }
 
-/// Seconds of a name like t_ms.
-std::optional<double> seconds_of_ending(const std::string& name) {
-    const auto line = name.rfind('_');
-    return line == std::string::npos ? std::nullopt : seconds_of(name.substr(line + 1));
-}
-
-bool is_called_time(const std::string& name) {
-    const std::string begin = in_small_letters(seconds_of_ending(name) ? name.substr(0, name.rfind('_')) : name);
-    return begin == "t" || begin == "time";
+void take_time(LoadedData& data, const ImportOptions& options) {
+    const auto search = [&] { return find_clock(data, usual_length(data), options); };
+    data.time = search();
+    if (!data.time.clock && drop_repeated_rows(data, data.time.name)) data.time = search();
+    const std::optional<Clock>& clock = data.time.clock;
+    if (!clock) {
+        if (!options.time.empty()) throw EnvironmentError("{}: {}", data.file.string(), *data.time.question);
+        if (data.time.likely) data.notes.insert(data.notes.begin(), *data.time.question);
+        return;
+    }
+    data.notes.insert(data.notes.begin(), clock->notes.begin(), clock->notes.end());
+    const bool is_text = data.clocks.contains(clock->name);
+    if (is_text) data.variables[clock->name] = {clock->t}, data.units[clock->name] = "s";
+    if (!options.time.empty()) use_clock(data);
 }
 
 }  // namespace
@@ -160,45 +183,27 @@ LoadedData read_data_file(const fs::path& file, bool guarded, const ImportOption
         throw EnvironmentError("{} is of no kind that can be read: those are .mat, .xlsx, {}, .json", file.string(),
                                listed({kTableEndings.begin(), kTableEndings.end()}));
     data.file = file;
-    if (!options.time.empty()) take_time(data, options.time);
+    take_time(data, options);
     return data;
 }
 
-std::optional<TimeColumn> time_column(const LoadedData& data, Index samples) {
-    std::optional<TimeColumn> called, by_unit;
-    int timed = 0;
-    for (const auto& [name, variable] : data.variables) {
-        const Vector* values = std::get_if<Vector>(&variable.value);
-        if (values == nullptr || values->size() != samples) continue;
-        const auto unit = data.units.find(name);
-        const auto seconds = unit == data.units.end() ? seconds_of_ending(name) : seconds_of(unit->second);
-        if (is_called_time(name)) called = {name, seconds.value_or(1)};
-        if (unit != data.units.end() && seconds) by_unit = {name, *seconds}, ++timed;
-    }
-    if (called) return called;
-    return timed == 1 ? by_unit : std::nullopt;
+void use_clock(LoadedData& data) {
+    const Clock& clock = *data.time.clock;
+    std::string& name = data.time.variable;
+    if (name.empty()) name = data.variables.contains("t") ? clock.name : "t";
+    data.variables[name] = {clock.t}, data.units[name] = "s";
+    if (clock.spacing.even) data.variables["Ts"] = {clock.spacing.step};
 }
 
-InstantSpacing spacing_of(const Vector& instants) {
-    const Index count = instants.size() - 1;
-    const Vector steps = instants.tail(count) - instants.head(count);
-    InstantSpacing spacing;
-    for (Index i = 0; i < count; ++i) {
-        if (steps[i] > 0) continue;  // false for NaN, too
-        spacing.disorder = i;
-        return spacing;
-    }
-    const double mean = steps.mean();
-    spacing.even = (steps.array() - mean).abs().maxCoeff() <= kStepTolerance * mean;
-    spacing.step = mean;
-    if (spacing.even) return spacing;
-    std::vector<double> sorted(steps.begin(), steps.end());
-    std::nth_element(sorted.begin(), sorted.begin() + count / 2, sorted.end());
-    spacing.step = sorted[static_cast<std::size_t>(count / 2)];
-    constexpr double kGap = 1.5;
-    for (Index i = 0; i < count; ++i)
-        if (steps[i] > kGap * spacing.step) spacing.gaps.push_back(i);
-    return spacing;
+Index usual_length(const LoadedData& data) {
+    std::map<Index, int> times;
+    for (const auto& [name, variable] : data.variables)
+        if (const Vector* vector = std::get_if<Vector>(&variable.value)) ++times[vector->size()];
+    Index length = 0;
+    int most = 0;
+    for (const auto& [size, count] : times)
+        if (count >= most) most = count, length = size;
+    return length;
 }
 
 }  // namespace dynlab::inline data_io

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/message.h"
+#include "data_io/clock.h"
 #include "data_io/tables/import_options.h"
 #include "data_io/variable.h"
 
@@ -18,38 +19,29 @@ struct LoadedData {
     std::filesystem::path file;
     std::map<std::string, std::string> units = {};  ///< by variable
     std::map<std::string, std::string> headers =
-        {};                                 ///< of a table's file, where a column has another name -> its name
-    std::vector<std::string> columns = {};  ///< of a table, in the file's order
-    Index rows = 0;                         ///< of a table
-    std::vector<Message> notes = {};        ///< sentences that the user should see: what was left out, what was guessed
+        {};                                         ///< of a table's file, where a column has another name -> its name
+    std::vector<std::string> columns = {};          ///< of a table, in the file's order
+    Index rows = 0;                                 ///< of a table
+    std::map<std::string, ClockForms> clocks = {};  ///< of a table's columns of times: seconds since midnight or 1970
+    ClockSearch time = {};                          ///< of the usual_length()
+    std::vector<Message> notes = {};  ///< sentences that the user should see: what was left out, what was guessed
 };
 
 /// Whether the name's ending is one of those that read_data_file() knows.
 bool is_data_file(const std::filesystem::path& file);
 
-/// Reads a .mat or .json file (json_file.h), or a table in a .csv, .tsv, .txt or .dat file (csv_file.h) or a sheet of
-/// an .xlsx workbook (workbook.h). With `options.time` the variable of that name must hold increasing instants: in
-/// seconds they become the variable t, and their distance, where it is even, Ts. `guarded`: as read_mat_file(). Throws
-/// EnvironmentError as the readers do, for a file of another kind, a time that does not increase, and an option that
-/// the kind does not know.
+/// Reads a .mat or .json file (json_file.h), or a table in a .csv, .tsv, .txt, .dat or .lvm file (csv_file.h) or a
+/// sheet of an .xlsx workbook (workbook.h). find_clock() looks for the time, whose notes come first. With
+/// `options.time` the instants become the variable t in seconds (or their own column, where another is called t), and
+/// their distance, where it is even, Ts. Rows of a table that repeat the row before them, time and all, are left out.
+/// `guarded`: as read_mat_file(). Throws EnvironmentError as the readers do, for a file of another kind, an
+/// `options.time` that gives no clock, and an option that the kind does not know.
 LoadedData read_data_file(const std::filesystem::path& file, bool guarded, const ImportOptions& options = {});
 
-struct TimeColumn {
-    std::string name;
-    double seconds = 1;  ///< that its unit stands for
-};
-/// The vector of `samples` numbers that is most likely the time: called t or time (also t_ms, Time), else the only one
-/// whose unit is one of time.
-std::optional<TimeColumn> time_column(const LoadedData& data, Index samples);
+/// Makes the clock that was found the variables t and Ts, as `options.time` does.
+void use_clock(LoadedData& data);
 
-/// How instants follow each other.
-struct InstantSpacing {
-    double step = 0;               ///< mean distance where it is even, else the median; in the unit of the instants
-    bool even = false;             ///< no distance differs from the mean by more than 0.1 %
-    std::vector<Index> gaps = {};  ///< i: from instant i to the next it is more than 1.5 times the step
-    std::optional<Index> disorder = {};  ///< first i whose next instant is not later; then nothing else is told
-};
-/// Of at least two instants.
-InstantSpacing spacing_of(const Vector& instants);
+/// The length of most vectors of a file, the longer one where two are as frequent.
+Index usual_length(const LoadedData& data);
 
 }  // namespace dynlab::inline data_io

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "data_io/mat_variable.h"
 #include "data_io/reading_memory.h"
@@ -30,9 +31,6 @@ void refuse_unsupported(const matvar_t& variable, const std::string& name, int d
                 name);
         case MAT_C_FUNCTION:
             throw EnvironmentError("variable {} is a function handle, which cannot be read", name);
-        case MAT_C_SPARSE:
-            throw EnvironmentError("variable {} is a sparse matrix, which cannot be read; save full({}) instead", name,
-                                   name);
         case MAT_C_EMPTY:  // as a part it is [], on its own a class libmatio does not know
             if (depth == 0)
                 throw EnvironmentError("variable {} is of a class that cannot be read; save its parts as plain arrays",
@@ -106,7 +104,8 @@ void check_header(const matvar_t& variable, const std::string& name, std::size_t
         is_empty = is_empty || variable.dims[i] == 0;
         values *= static_cast<double>(variable.dims[i]);
     }
-    if (!is_empty && !links && values > kLargestDeflateRatio * static_cast<double>(file_bytes))
+    const bool sparse = variable.class_type == MAT_C_SPARSE;  // the file holds few of its values
+    if (!is_empty && !links && !sparse && values > kLargestDeflateRatio * static_cast<double>(file_bytes))
         throw EnvironmentError("variable {} is damaged: it claims {} values, more than a file of its size has", name,
                                significant(values, 6));
     if (!is_empty && kBytesOfValue * values > static_cast<double>(memory_for_reading(file_bytes))) {
@@ -137,6 +136,8 @@ class Converter {
                 return structs();
             case MAT_C_CELL:
                 return cells();
+            case MAT_C_SPARSE:
+                return variable_.isComplex ? full<Complex>() : full<double>();
             default:
                 return variable_.isComplex ? complex_numbers() : numbers();
         }
@@ -234,6 +235,45 @@ class Converter {
             matrix.imag() = matrix_of(parts->Im);
         }
         if (is_vector() && !is_empty_matrix()) return {Eigen::VectorXcd(matrix.reshaped())};
+        return {std::move(matrix)};
+    }
+
+    /// A sparse matrix with all its zeros.
+    template <class Scalar>
+    Variable full() const {
+        using Full = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+        Full matrix = Full::Zero(static_cast<Index>(rows_), static_cast<Index>(columns_));
+        const auto* stored = static_cast<const mat_sparse_t*>(variable_.data);
+        if (count() > 0 && (!stored || !stored->jc || static_cast<std::size_t>(stored->njc) != columns_ + 1))
+            fail_without_values();
+        const auto stored_count = count() == 0 ? 0 : static_cast<std::size_t>(stored->jc[columns_]);
+        if (stored_count > 0 && (!stored->ir || static_cast<std::size_t>(stored->nir) < stored_count ||
+                                 static_cast<std::size_t>(stored->ndata) < stored_count))
+            fail_without_values();
+        std::size_t column = 0;
+        const auto place = [&](std::size_t k, const auto& put) {
+            while (column + 1 < columns_ && k >= static_cast<std::size_t>(stored->jc[column + 1])) ++column;
+            const auto row = static_cast<std::size_t>(stored->ir[k]);
+            if (row >= rows_) fail_without_values();
+            put(matrix(static_cast<Index>(row), static_cast<Index>(column)));
+        };
+        const auto take = [&](const void* data, const auto& put) {
+            column = 0;
+            with_numbers(data, [&](const auto* numbers) {
+                for (std::size_t k = 0; k < stored_count; ++k)
+                    place(k, [&](Scalar& value) { put(value, static_cast<double>(numbers[k])); });
+            });
+        };
+        if constexpr (std::is_same_v<Scalar, double>) {
+            if (stored_count > 0) take(stored->data, [](double& value, double number) { value = number; });
+            if (matrix.size() == 1) return {matrix(0)};
+            if (is_vector() && !is_empty_matrix()) return {Vector(matrix.reshaped())};
+        } else {
+            const auto* parts = stored_count > 0 ? static_cast<const mat_complex_split_t*>(stored->data) : nullptr;
+            if (parts) take(parts->Re, [](Complex& value, double number) { value.real(number); });
+            if (parts) take(parts->Im, [](Complex& value, double number) { value.imag(number); });
+            if (is_vector() && !is_empty_matrix()) return {Eigen::VectorXcd(matrix.reshaped())};
+        }
         return {std::move(matrix)};
     }
 

@@ -8,5 +8,5 @@ set_source_files_properties(data_io/matio_library.cpp
                             SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 
 # What reads each number of a table.
-dynlab_optimized(data_io/csv_file.cpp data_io/text_table.cpp data_io/tables/cell_scanner.cpp data_io/tables/number_cell.cpp
-                 data_io/tables/text_decoding.cpp)
+dynlab_optimized(data_io/text_table.cpp data_io/tables/cell_scanner.cpp data_io/tables/number_cell.cpp
+                 data_io/tables/table_rows.cpp data_io/tables/text_decoding.cpp)

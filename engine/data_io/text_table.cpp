@@ -178,7 +178,7 @@ TextTable read_text_table(const std::filesystem::path& file) {
 
 std::optional<double> number_in_cell(const std::string& cell) {
     double number = 0;
-    if (parse_number(cell, true, number) != NumberStatus::kNumber) return {};
+    if (parse_number(cell, number) != NumberStatus::kNumber) return {};
     return number;
 }
 

@@ -1,5 +1,6 @@
 #include "data_io/variable.h"
 
+#include "data_io/values/array_descriptions.h"
 #include "data_io/values/described.h"
 
 namespace dynlab::inline data_io {

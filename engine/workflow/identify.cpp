@@ -210,10 +210,11 @@ void IdentifyRequest::validate() const {
 std::string identification_script(const IdentifyRequest& request) {
     using namespace fmt::literals;
     request.validate();
-    const Recording record(request.data, request.inputs, request.outputs, request.Ts, request.time);
+    const Recording record(request.data, request.inputs, request.outputs, request.Ts, request.time, request.time_unit);
     std::optional<Recording> unseen;
     if (!request.validation.empty())
-        unseen.emplace(request.validation, request.inputs, request.outputs, request.Ts, request.time);
+        unseen.emplace(request.validation, request.inputs, request.outputs, request.Ts, request.time,
+                       request.time_unit);
 
     std::string script =
         fmt::format(kBegin, "load"_a = record.loading("record") + (unseen ? unseen->loading("validation") : ""),

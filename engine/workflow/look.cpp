@@ -43,14 +43,15 @@ struct LookedSignal {
 
 class DataLooker {
   public:
-    DataLooker(LoadedData data, const Reader& reader) : data_(std::move(data)), reader_(reader) {
+    DataLooker(LoadedData data, const ImportOptions& options, const Reader& reader)
+        : data_(std::move(data)), reader_(reader) {
         names_ = data_.columns;
         std::set<std::string> known(names_.begin(), names_.end());
         for (const auto& [name, variable] : data_.variables)
             if (known.insert(name).second) names_.push_back(name);
         for (const std::string& name : names_) collect(name, data_.variables.at(name));
         find_length();
-        time_ = time_column(data_, samples_);
+        if (usual_length(data_) != samples_) data_.time = find_clock(data_, samples_, options);
     }
 
     DataLook look() const {
@@ -158,9 +159,9 @@ class DataLooker {
                        {short_number(least), short_number(most), short_number(sum / static_cast<double>(count))});
     }
 
-    const Vector& instants() const { return std::get<Vector>(data_.variables.at(time_->name).value); }
+    const std::optional<Clock>& clock() const { return data_.time.clock; }
 
-    std::string seconds(double value) const { return short_number(value * time_->seconds) + " s"; }
+    std::string seconds(double value) const { return short_number(value) + " s"; }
 
     std::string sampling() const {
         const auto stated = data_.variables.find("Ts");
@@ -168,7 +169,8 @@ class DataLooker {
         std::string lines;
         if (Ts != nullptr) lines = line(Message("sampling time: {} s, as the file states it", short_number(*Ts)));
         if (signals_.empty()) return lines;
-        if (time_ && samples_ >= 2) return lines + line(time()) + gaps();
+        if (clock()) return lines + line(time()) + gaps();
+        if (data_.time.question) return lines + line(*data_.time.question);
         return Ts != nullptr
                    ? lines
                    : line(Message("sampling time: unknown; no column is called t or time or has a unit of time"));
@@ -177,28 +179,23 @@ class DataLooker {
     std::string line(const Message& message) const { return "\n" + text(message) + "\n"; }
 
     Message time() const {
-        const Vector& t = instants();
-        const InstantSpacing spacing = spacing_of(t);
-        if (spacing.disorder)
-            return Message("time: column {} does not increase: sample {} is {} and the next {}", time_->name,
-                           *spacing.disorder + 1, significant(t[*spacing.disorder], kDigitsOfInstants),
-                           significant(t[*spacing.disorder + 1], kDigitsOfInstants));
+        const Vector& t = clock()->t;
+        const InstantSpacing& spacing = clock()->spacing;
         const std::string begin = seconds(t[0]), end = seconds(t[samples_ - 1]), step = seconds(spacing.step);
-        return spacing.even ? Message("time: column {}, from {} to {}, every {}", time_->name, begin, end, step)
-                            : Message("time: column {}, from {} to {}, in uneven steps, median {}", time_->name, begin,
-                                      end, step);
+        return spacing.even ? Message("time: column {}, from {} to {}, every {}", clock()->name, begin, end, step)
+                            : Message("time: column {}, from {} to {}, in uneven steps, median {}", clock()->name,
+                                      begin, end, step);
     }
 
     std::string gaps() const {
-        const Vector& t = instants();
-        const InstantSpacing spacing = spacing_of(t);
-        if (spacing.disorder || spacing.gaps.empty()) return "";
+        const Vector& t = clock()->t;
+        const InstantSpacing& spacing = clock()->spacing;
+        if (spacing.gaps.empty()) return "";
         constexpr std::size_t kMostGaps = 5;
         MessageList first{{}, Join::kSemicolon};
         for (std::size_t i = 0; i < std::min(kMostGaps, spacing.gaps.size()); ++i) {
             const Index at = spacing.gaps[i];
-            first.items.push_back(
-                Message("{} after {} s", seconds(t[at + 1] - t[at]), short_number(t[at] * time_->seconds)));
+            first.items.push_back(Message("{} after {} s", seconds(t[at + 1] - t[at]), short_number(t[at])));
         }
         if (spacing.gaps.size() > kMostGaps) first.items.push_back(Message::verbatim("..."));
         return text(Message("gaps: {}, {}", spacing.gaps.size(), first)) + "\n";
@@ -252,13 +249,12 @@ class DataLooker {
 
     std::shared_ptr<const Figure> figure() const {
         if (samples_ < 2) return nullptr;
-        const bool timed = time_ && !spacing_of(instants()).disorder;
-        const Vector x = timed ? Vector(instants() * time_->seconds)
-                               : Vector(Vector::LinSpaced(samples_, 1, static_cast<double>(samples_)));
+        const bool timed = clock().has_value();
+        const Vector x = timed ? clock()->t : Vector(Vector::LinSpaced(samples_, 1, static_cast<double>(samples_)));
         Figure figure;
         for (const LookedSignal& signal : signals_) {
             const bool drawable = signal.numbers.size() == samples_ && signal.numbers.array().isFinite().any();
-            if (!drawable || (timed && signal.name == time_->name)) continue;
+            if (!drawable || (timed && signal.name == clock()->name)) continue;
             Panel panel;
             panel.y_label = axis_label(Message::verbatim(signal.name), signal.unit);
             panel.legend = LegendPlace::kNone;
@@ -269,24 +265,22 @@ class DataLooker {
         }
         if (figure.panels.empty()) return nullptr;
         figure.rows = static_cast<int>(figure.panels.size());
-        figure.panels.back().x_label = timed ? axis_label(Message::verbatim(time_->name), "s") : Message("sample");
+        figure.panels.back().x_label = timed ? axis_label(Message::verbatim(clock()->name), "s") : Message("sample");
         return std::make_shared<const Figure>(std::move(figure));
     }
 
     static constexpr Index kMostPanels = 8;
-    static constexpr int kDigitsOfInstants = 10;  ///< instants that differ look different
     LoadedData data_;
     Reader reader_;
     std::vector<std::string> names_;  ///< in the file's order, or alphabetically
     std::vector<LookedSignal> signals_;
     Index samples_ = 0;
-    std::optional<TimeColumn> time_;
 };
 
 }  // namespace
 
 DataLook look_at_data(const std::string& name, const ImportOptions& options, const Reader& reader) {
-    return DataLooker(load_data(name, ".", false, options), reader).look();
+    return DataLooker(load_data(name, ".", false, options), options, reader).look();
 }
 
 }  // namespace dynlab::inline workflow

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "data_io/tables/unit_text.h"
 #include "documents/lua_text.h"
 #include "platform/error.h"
 #include "platform/spelling.h"
@@ -28,18 +27,14 @@ std::string field_of(const std::string& name) {
     return is_variable_name(name) ? "." + name : "[" + lua_text(name) + "]";
 }
 
-/// The even spacing of the instants as one writes it, where that leads no sample astray by a hundredth of a spacing.
-std::optional<double> short_spacing(const Vector& t) {
-    const double gaps = static_cast<double>(t.size() - 1), spacing = (t[t.size() - 1] - t[0]) / gaps;
-    const double written = std::stod(fmt::format("{:.6g}", spacing));
-    return std::abs(written - spacing) * gaps < 0.01 * spacing ? std::optional(written) : std::nullopt;
-}
-
 }  // namespace
 
 Recording::Recording(const std::string& name, const std::vector<std::string>& inputs,
-                     const std::vector<std::string>& outputs, std::optional<double> Ts, const std::string& time)
-    : name_(name), inputs_(inputs), loaded_(load_data(name, ".")) {
+                     const std::vector<std::string>& outputs, std::optional<double> Ts, const std::string& time,
+                     const std::string& time_unit)
+    : name_(name), inputs_(inputs), outputs_(outputs) {
+    options_.time_unit = time_unit;
+    loaded_ = load_data(name, ".", false, options_);
     const Index samples = signal(inputs.front()).numbers.size();
     const auto length = [this](const std::string& signal_name) {
         return plural(signal(signal_name).numbers.size(), "{} sample", "{} samples");
@@ -58,62 +53,135 @@ Recording::Recording(const std::string& name, const std::vector<std::string>& in
 void Recording::find_sampling(std::optional<double> given, const std::string& time) {
     if (given) {
         sampling_ = fmt::format("{}", *given);
+        const auto& clock = loaded_.time.clock;
+        constexpr double kClose = 0.01;
+        if (clock && clock->spacing.even && std::abs(*given - clock->spacing.step) > kClose * clock->spacing.step)
+            doubt_ =
+                message_text(Message("The sampling time {} s was given, but by the time '{}' the samples follow each "
+                                     "other every {} s.",
+                                     significant(*given, 6), clock->name, significant(clock->spacing.step, 6)));
         return;
     }
-    const Index samples = signal(inputs_.front()).numbers.size();
-    if (time.empty()) {
-        time_ = time_column(loaded_, samples);
-        if (!time_) time_ = time_of_struct();
-    } else {
-        const Signal instants = signal(time);
-        if (instants.numbers.size() != samples)
-            throw EnvironmentError("{}: the time '{}' has {}, but the input '{}' has {}", name_, time,
-                                   plural(instants.numbers.size(), "{} sample", "{} samples"), inputs_.front(),
-                                   samples);
-        const auto unit = loaded_.units.find(instants.name);
-        time_ = {instants.name, unit == loaded_.units.end() ? 1 : seconds_of(unit->second).value_or(1)};
-    }
-    if (time_) look_at_instants();
+    const std::string column = time.empty() ? "" : signal(time).name;
+    if (!time.empty() && !loaded_.variables.contains(column)) return take_struct_time(column);
+    take_clock(column);
+    if (!sampling_.empty()) return;
+    if (const std::string own = time_of_struct(); !own.empty()) return take_struct_time(own);
     const auto stated = loaded_.variables.find("Ts");
-    const bool states_Ts = stated != loaded_.variables.end() && std::holds_alternative<double>(stated->second.value);
-    if (even_ && states_Ts && time.empty()) {
-        time_.reset();
-        sampling_ = "{0}.Ts";
-    } else if (sampling_.empty()) {
+    if (stated == loaded_.variables.end() || !std::holds_alternative<double>(stated->second.value))
         throw UnknownSampling(Message(
             "{} states no sampling time and has no column t or time, nor one whose header has a unit of time", name_));
-    }
+    sampling_ = "{0}.Ts";
 }
 
-void Recording::look_at_instants() {
-    const Vector t = signal(time_->name).numbers;
+/// The column `time`, or the one that is the time.
+void Recording::take_clock(const std::string& time) {
+    expect_one_clock(time);
+    const Index samples = signal(inputs_.front()).numbers.size();
+    ClockSearch& found = loaded_.time;
+    if (!time.empty() && found.name != time) {
+        if (signal(time).numbers.size() != samples)
+            throw EnvironmentError("{}: the time '{}' has {}, but the input '{}' has {}", name_, time,
+                                   plural(signal(time).numbers.size(), "{} sample", "{} samples"), inputs_.front(),
+                                   samples);
+        options_.time = time;
+        loaded_ = load_data(name_, ".", false, options_);
+    } else if (found.clock && found.clock->t.size() != samples) {
+        found = find_clock(loaded_, samples, options_);
+    }
+    if (!found.clock) {
+        if (found.question && (found.likely || !time.empty() || !loaded_.variables.contains("Ts")))
+            throw EnvironmentError("{}: {}", name_, *found.question);
+        return;
+    }
+    options_.time = found.name;
+    use_clock(loaded_);
+    sampling_ = found.clock->spacing.even ? "{0}.Ts" : "nil";
+    if (!found.clock->spacing.even) instants_ = "{0}" + field_of(found.variable);
+}
+
+/// In a table of several clocks a signal belongs to the one before it.
+void Recording::expect_one_clock(const std::string& time) const {
+    const std::vector<std::string>& clocks = loaded_.time.rivals;
+    if (time.empty() || clocks.empty()) return;
+    for (const auto* names : {&inputs_, &outputs_})
+        for (const std::string& name : *names) {
+            std::string own = clocks.front();
+            for (const std::string& column : loaded_.columns) {
+                if (std::ranges::find(clocks, column) != clocks.end()) own = column;
+                if (column == signal(name).name) break;
+            }
+            if (own != time)
+                throw EnvironmentError("{}: '{}' belongs to the time '{}', not to '{}'. {}", name_, name, own, time,
+                                       *loaded_.time.question);
+        }
+}
+
+void Recording::take_struct_time(const std::string& time) {
+    const Vector t = signal(time).numbers;
     if (t.size() < 2) throw EnvironmentError("{} has fewer than two samples", name_);
+    if (t.size() != signal(inputs_.front()).numbers.size())
+        throw EnvironmentError("{}: the time '{}' has {}, but the input '{}' has {}", name_, time,
+                               plural(t.size(), "{} sample", "{} samples"), inputs_.front(),
+                               signal(inputs_.front()).numbers.size());
     const InstantSpacing spacing = spacing_of(t);
     if (spacing.disorder)
-        throw EnvironmentError("{}: the time '{}' must increase, but sample {} is {} and the next {}", name_,
-                               time_->name, *spacing.disorder + 1, significant(t[*spacing.disorder], kDigitsOfInstants),
+        throw EnvironmentError("{}: the time '{}' must increase, but sample {} is {} and the next {}", name_, time,
+                               *spacing.disorder + 1, significant(t[*spacing.disorder], kDigitsOfInstants),
                                significant(t[*spacing.disorder + 1], kDigitsOfInstants));
-    even_ = spacing.even;
-    sampling_ = even_ ? "({0}_t[#{0}_t] - {0}_t[1])/(#{0}_t - 1)" : "nil";
-    if (const auto written = even_ ? short_spacing(t * time_->seconds) : std::nullopt) {
-        sampling_ = fmt::format("{}", *written);
-        time_.reset();
+    if (spacing.even) {
+        sampling_ = fmt::format("{}", written_step(spacing.step, t.size()));
+        return;
     }
+    struct_time_ = time;
+    sampling_ = "nil", instants_ = "{0}_t";
 }
 
 std::string Recording::loading(const std::string& variable) const {
-    const std::string code = fmt::format("local {} = load({})\n", variable, lua_text(name_));
-    if (!time_) return code;
-    const std::string factor = time_->seconds == 1 ? "" : fmt::format("*{}", time_->seconds);
-    return code + fmt::format("local {0}_t = {0}{1}{2}\n", variable, signal(time_->name).access, factor);
+    std::vector<std::string> options;
+    if (!options_.time.empty()) options.push_back("time = " + lua_text(options_.time));
+    if (!options_.time.empty() && !options_.time_unit.empty())
+        options.push_back("time_unit = " + lua_text(options_.time_unit));
+    const std::string table = options.empty() ? "" : fmt::format(", {{{}}}", fmt::join(options, ", "));
+    std::string code = fmt::format("local {} = load({}{})\n", variable, lua_text(name_), table);
+    if (!struct_time_.empty()) code += fmt::format("local {0}_t = {0}{1}\n", variable, signal(struct_time_).access);
+    if (!doubt_.empty()) code += fmt::format("print({})\n", lua_text(doubt_));
+    return code + filled();
 }
 
-/// Missing samples are filled, as no estimator takes them.
+/// Missing samples are filled, as no estimator takes them: inputs are held, outputs interpolated. The script says so.
+std::string Recording::filled() const {
+    std::string code;
+    const auto tell = [&](const std::vector<std::string>& names, bool input) {
+        for (const std::string& name : names) {
+            const Vector numbers = signal(name).numbers;
+            const Index missing = numbers.array().isNaN().count();
+            if (missing == 0) continue;
+            code += fmt::format(
+                "print({})\n",
+                lua_text(message_text(input ? Message("{}: {} of {} samples are missing; the input holds the value "
+                                                      "before them.",
+                                                      name, missing, numbers.size())
+                                            : Message("{}: {} of {} samples are missing; the output is interpolated by "
+                                                      "straight lines.",
+                                                      name, missing, numbers.size()))));
+        }
+    };
+    tell(inputs_, true), tell(outputs_, false);
+    return code;
+}
+
 std::string Recording::samples(const std::string& variable, const std::string& name) const {
     const Signal found = signal(name);
     const std::string read = variable + found.access;
     if (!found.numbers.hasNaN()) return read;
-    return fmt::format("(fillmissing({}{}))", read, even_ ? "" : fmt::format(", {{t = {}_t}}", variable));
+    std::vector<std::string> options;
+    if (std::ranges::find(inputs_, name) != inputs_.end())
+        options.push_back("method = \"previous\"");
+    else if (!instants_.empty())
+        options.push_back("t = " + fmt::format(fmt::runtime(instants_), variable));
+    return fmt::format("(fillmissing({}{}))", read,
+                       options.empty() ? "" : fmt::format(", {{{}}}", fmt::join(options, ", ")));
 }
 
 std::string Recording::data(const std::string& variable, const std::vector<std::string>& outputs) const {
@@ -125,7 +193,8 @@ std::string Recording::data(const std::string& variable, const std::vector<std::
     };
     std::string options = fmt::format("InputName = {}, OutputName = {}{}{}", titles(inputs_), titles(outputs),
                                       units("InputUnit", inputs_), units("OutputUnit", outputs));
-    if (!even_) options = fmt::format("SamplingInstants = {}_t, {}", variable, options);
+    if (!instants_.empty())
+        options = fmt::format("SamplingInstants = {}, {}", fmt::format(fmt::runtime(instants_), variable), options);
     return fmt::format("iddata({}, {}, {},\n  {{{}}})", channels(variable, outputs), channels(variable, inputs_),
                        fmt::format(fmt::runtime(sampling_), variable), options);
 }
@@ -171,14 +240,13 @@ std::optional<Recording::Signal> Recording::struct_member(const std::string& nam
     return Signal{std::get<Vector>(member->second.value), field_of(found->first) + field_of(member->first), name};
 }
 
-/// The time that stands in the struct of the first input.
-std::optional<TimeColumn> Recording::time_of_struct() const {
+/// The time in the struct of the first input; empty where there is none.
+std::string Recording::time_of_struct() const {
     const std::size_t dot = inputs_.front().find('.');
-    if (dot == std::string::npos) return std::nullopt;
+    if (dot == std::string::npos) return "";
     for (const char* name : {".t", ".time"})
-        if (const std::string time = inputs_.front().substr(0, dot) + name; struct_member(time))
-            return TimeColumn{time};
-    return std::nullopt;
+        if (const std::string time = inputs_.front().substr(0, dot) + name; struct_member(time)) return time;
+    return "";
 }
 
 std::vector<std::string> Recording::signals() const {

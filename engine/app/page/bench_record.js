@@ -45,7 +45,7 @@ async function fillSets(list) {
 function opener() {
   const list = element("select", { ariaLabel: say("course"), onchange: async () => list.value && offer(await fetch(`columns?data=${encodeURIComponent(list.value)}`)) });
   fillSets(list);
-  const file = element("input", { type: "file", ariaLabel: say("file"), accept: ".csv,.txt,.dat,.tsv,.xlsx,.mat", onchange: () => file.files[0] && upload(file.files[0]) });
+  const file = element("input", { type: "file", ariaLabel: say("file"), accept: ".csv,.txt,.dat,.tsv,.lvm,.xlsx,.mat", onchange: () => file.files[0] && upload(file.files[0]) });
   return element("div", { className: "controls" }, element("p", { textContent: say("drop") }), file, list);
 }
 
@@ -104,7 +104,7 @@ async function take(name) {
   const of = (role) => offered.columns.filter((column) => column.role === role), named = (role) => of(role).map((column) => column.name);
   const outputs = named("output"), inputs = named("input");
   if (outputs.length === 0 || inputs.length === 0) return trouble(say("tooFew")), false;
-  const units = Object.fromEntries([...of("input"), ...of("output")].filter(({ unit }) => unit).map((column) => [column.name, column.unit]));
+  const units = Object.fromEntries([...of("input"), ...of("output"), ...of("time")].filter(({ unit }) => unit).map((column) => [column.name, column.unit]));
   try {
     await inTurn(() => post("record", { data: offered.data, inputs, outputs, time: named("time")[0] ?? "", Ts: Number(offered.Ts) || 0, name, units }));
     offered = null;

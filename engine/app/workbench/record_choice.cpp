@@ -81,12 +81,12 @@ class Columns {
         std::vector<RecordColumn> columns;
         std::string guessed = signals_.empty() ? "" : signals_.front().group;  // the struct whose signals get roles
         std::map<std::string, Index> lengths;                                  // of the groups
-        std::optional<TimeColumn> time;
+        std::string time;
         bool first_output = true;
         for (const Signal& signal : signals_) {
             const auto [known, is_new] = lengths.try_emplace(signal.group);
             if (is_new) known->second = samples_of(signal.group);
-            if (is_new && signal.group == guessed) time = time_column(loaded_, known->second);
+            if (is_new && signal.group == guessed) time = find_clock(loaded_, known->second, {}).name;
             const Index samples = known->second;
             const auto unit = loaded_.units.find(signal.name);
             columns.push_back(
@@ -94,7 +94,7 @@ class Columns {
             RecordColumn& column = columns.back();
             if (signal.group != guessed) continue;
             const std::string own = signal.group.empty() ? signal.name : signal.name.substr(signal.group.size() + 1);
-            if (signal.group.empty() ? time && time->name == own : own == "t" || own == "time")
+            if (signal.group.empty() ? time == own : own == "t" || own == "time")
                 column.role = "time";
             else if (column.usable && sounds_like(own, kInputs))
                 column.role = "input";
@@ -187,9 +187,11 @@ std::string record_lines(const RecordOrder& order) {
             "end");
     if (order.inputs.empty() || order.outputs.empty())
         throw EnvironmentError("a record needs an input and an output at least");
+    const auto time_unit = order.units.find(order.time);
     Recording recording(order.data, order.inputs, order.outputs, order.Ts > 0 ? std::optional(order.Ts) : std::nullopt,
-                        order.time);
-    for (const auto& [name, unit] : order.units) recording.set_unit(name, unit);
+                        order.time, time_unit == order.units.end() ? "" : time_unit->second);
+    for (const auto& [name, unit] : order.units)
+        if (name != order.time) recording.set_unit(name, unit);
     const std::string file = order.name + "_file";
     return recording.loading(file) + fmt::format("{} = {}\n", order.name, recording.data(file, order.outputs));
 }

@@ -58,7 +58,7 @@ void add_identify(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("identify", "A model and a report from a data file, without writing Lua");
     command
         ->add_option("DATA", request.data,
-                     "The record: a .mat file, a table (.csv, .txt, .dat, .tsv, .xlsx), or a data set's name")
+                     "The record: a .mat file, a table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or a data set's name")
         ->required();
     command
         ->add_option("--input", request.inputs,
@@ -91,6 +91,10 @@ void add_identify(CLI::App& app, Action& action) {
         ->type_name("SECONDS|auto");
     command->add_option("--Ts", request.Ts, "Sampling time, instead of what the file says")->type_name("SECONDS");
     command->add_option("--time", request.time, "Name of the column that holds the time")->type_name("NAME");
+    command
+        ->add_option("--time-unit", request.time_unit,
+                     "Unit of the time: s, ms, us, min, h, days; dd/mm/yyyy or mm/dd/yyyy")
+        ->type_name("UNIT");
     command->add_option("--validate", request.validation, "A record with the same names, to test the model on")
         ->type_name("FILE");
     auto* report = command->add_option("-o,--output-file", words->report,
@@ -99,11 +103,14 @@ void add_identify(CLI::App& app, Action& action) {
     command->add_flag("--script", words->script, "Print the Lua script that does it, and do nothing else")
         ->excludes(report);
     command->footer(
-        "The sampling time is the one a CSV file states (# Ts: 0.01), a MAT file's variable Ts, or that of the column\n"
-        "--time, t, time, or else the only one with a unit of time; its steps may differ, and ms, min and h become "
-        "seconds.\nA column of a matrix y is called y1, y2, ...; dynlab look DATA shows what there is. Missing samples "
-        "are "
-        "filled by\nstraight lines. The summary is printed; the report also shows figures.\n"
+        "The sampling time is that of the column --time, or of the one that is called a time (t, time_ms, ...) or has "
+        "a\n"
+        "unit of time; its steps may differ, and ms, min and h become seconds. Without such a column it is the one a "
+        "CSV\n"
+        "file states (# Ts: 0.01), or a MAT file's variable Ts. A column of a matrix y is called y1, y2, ...; dynlab "
+        "look\n"
+        "DATA shows what there is. Missing samples of inputs hold the value before them, those of outputs are "
+        "interpolated.\nThe summary is printed; the report also shows figures.\n"
         "A message such as identify.lua:35 speaks of line 35 of what --script prints.\n"
         "Example:  dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate second.csv");
     command->callback([words, &action] {

@@ -37,7 +37,7 @@ void add_look(CLI::App& app, Action& action) {
     auto words = std::make_shared<LookArguments>();
     CLI::App* command = app.add_subcommand("look", "What a data file holds: columns, units, sampling, gaps, a picture");
     command
-        ->add_option("DATA", words->data, "A .mat file, a table (.csv, .txt, .dat, .tsv, .xlsx), or a data set's name")
+        ->add_option("DATA", words->data, "A .mat file, a table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or a data set's name")
         ->required();
     auto* picture = command->add_option("-o,--output-file", words->picture,
                                         "The picture (.pdf, .svg or .png), DATA_look.pdf unless given");
@@ -48,6 +48,10 @@ void add_look(CLI::App& app, Action& action) {
     command->add_option("--delimiter", words->delimiter, "What stands between cells; \" \" for blanks and tabs")
         ->type_name("CHARACTER");
     command->add_option("--time", words->import.time, "Name of the column that holds the time")->type_name("NAME");
+    command
+        ->add_option("--time-unit", words->import.time_unit,
+                     "Unit of the time: s, ms, us, min, h, days; dd/mm/yyyy or mm/dd/yyyy")
+        ->type_name("UNIT");
     command->add_option("--sheet", words->import.sheet, "Name of a workbook's sheet, its first one unless given")
         ->type_name("NAME");
     command->footer(

@@ -11,7 +11,7 @@ bool is_comment(std::string_view line) {
     if (line.empty() || (line.front() != '#' && line.front() != '%')) return false;
     double number = 0;
     const std::string_view word = line.substr(0, line.find_first_of(" \t\r\n,;|"));
-    return word.size() < 2 || parse_number(word, false, number) != NumberStatus::kMissing;
+    return word.size() < 2 || parse_number(word, number) != NumberStatus::kMissing;
 }
 
 bool CellScanner::next_record() {
@@ -39,8 +39,7 @@ bool CellScanner::next_record() {
 
 std::string_view CellScanner::next_cell() {
     while (!at_end() && is_blank(text_[at_])) ++at_;
-    quoted_ = !at_end() && text_[at_] == '"';
-    if (quoted_) return next_quoted_cell();
+    if (!at_end() && text_[at_] == '"') return next_quoted_cell();
     const std::size_t begin = at_;
     while (!at_end() && !at_separator() && text_[at_] != '\n') ++at_;
     const std::string_view cell = trimmed_cell(text_.substr(begin, at_ - begin));

@@ -20,8 +20,7 @@ class CellScanner {
     bool next_record();
     /// Its next cell, without blanks around it; valid until the next call. There is at least one.
     std::string_view next_cell();
-    bool record_ended() const { return record_ended_; }  ///< after its last cell
-    bool cell_was_quoted() const { return quoted_; }
+    bool record_ended() const { return record_ended_; }              ///< after its last cell
     std::size_t line() const { return record_line_; }                ///< on which the record at hand begins
     std::size_t place() const { return record_at_; }                 ///< byte at which it begins
     std::string_view last_comment() const { return last_comment_; }  ///< without its sign; empty when there was none
@@ -38,7 +37,7 @@ class CellScanner {
     char separator_;
     std::size_t at_, line_;
     std::size_t record_at_ = 0, record_line_ = 1;
-    bool record_ended_ = false, quoted_ = false;
+    bool record_ended_ = false;
     std::string unquoted_;
     std::string_view last_comment_;
 };

@@ -14,6 +14,7 @@ struct ImportOptions {
     std::optional<char> delimiter = {};             ///< between cells; ' ' stands for any number of blanks and tabs
     std::map<std::string, std::string> units = {};  ///< by column, instead of the file's
     std::string time = {};                          ///< name of the column of instants
+    std::string time_unit = {};                     ///< of that column, or of the one that is found
     std::string sheet = {};                         ///< of a workbook; its first one unless given
 };
 

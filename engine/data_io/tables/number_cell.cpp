@@ -1,14 +1,11 @@
 #include "data_io/tables/number_cell.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 
-#include "platform/error.h"
 #include "platform/text/small_letters.h"
 
 namespace dynlab::inline data_io {
@@ -26,13 +23,6 @@ bool means_missing(std::string_view cell) {
     return std::find(kMissingWords.begin(), kMissingWords.end(), word) != kMissingWords.end();
 }
 
-std::string shown(std::string_view given) {
-    constexpr std::size_t kLongest = 40;
-    given = trimmed_cell(given);
-    return given.size() <= kLongest ? fmt::format("\"{}\"", given)
-                                    : fmt::format("\"{}...\"", given.substr(0, kLongest));
-}
-
 }  // namespace
 
 std::string_view trimmed_cell(std::string_view text) {
@@ -41,7 +31,7 @@ std::string_view trimmed_cell(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-NumberStatus parse_number(std::string_view cell, bool decimal_comma, double& number) {
+NumberStatus parse_number(std::string_view cell, double& number) {
     cell = trimmed_cell(cell);
     std::string_view digits = cell;
     char rewritten[64];
@@ -50,18 +40,21 @@ NumberStatus parse_number(std::string_view cell, bool decimal_comma, double& num
         std::replace_copy(digits.begin(), digits.end(), rewritten, from, to);
         digits = {rewritten, digits.size()};
     };
-    if (decimal_comma && digits.find(',') != std::string_view::npos && digits.find('.') == std::string_view::npos)
-        rewrite(',', '.');
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
     const auto read = [&] { return std::from_chars(digits.data(), digits.data() + digits.size(), number); };
     auto result = read();
-    if (result.ec == std::errc() && result.ptr != digits.data() + digits.size() &&
-        (*result.ptr == 'D' || *result.ptr == 'd')) {  // Fortran's double precision
-        rewrite(*result.ptr, 'e');
+    const auto is_read = [&] { return result.ptr == digits.data() + digits.size(); };
+    if (!is_read() && digits.find(',') != std::string_view::npos && digits.find('.') == std::string_view::npos) {
+        rewrite(',', '.');
         result = read();
     }
-    if (result.ec == std::errc::invalid_argument || result.ptr != digits.data() + digits.size()) {
+    if (result.ec == std::errc() && !is_read() && (*result.ptr == 'D' || *result.ptr == 'd')) {
+        rewrite(*result.ptr, 'e');  // Fortran's double precision
+        result = read();
+    }
+    if (result.ec == std::errc::invalid_argument || !is_read()) {
         number = std::numeric_limits<double>::quiet_NaN();
+        if (cell.ends_with("\u221E")) return NumberStatus::kNotFinite;  // oscilloscopes, beyond their range
         return means_missing(cell) ? NumberStatus::kMissing : NumberStatus::kNotANumber;
     }
     if (result.ec == std::errc::result_out_of_range) return NumberStatus::kOutOfRange;
@@ -69,31 +62,56 @@ NumberStatus parse_number(std::string_view cell, bool decimal_comma, double& num
     return std::isfinite(number) ? NumberStatus::kNumber : NumberStatus::kNotFinite;
 }
 
-void refuse_cell(const CellPlace& place, std::string_view cell, bool decimal_comma) {
-    const std::string file = place.file.string(), given = shown(cell);
-    double number = 0;
-    const NumberStatus status = parse_number(cell, decimal_comma, number);
-    if (status == NumberStatus::kNotFinite)
-        throw EnvironmentError(
-            "{}, line {}, column {}: wanted a finite number, given {}; where a sample is missing, write nothing or NaN",
-            file, place.line, place.column, given);
-    if (status == NumberStatus::kOutOfRange)
-        throw EnvironmentError("{}, line {}, column {}: wanted a number that fits double precision, given {}", file,
-                               place.line, place.column, given);
-    if (looks_grouped(cell))
-        throw EnvironmentError(
-            "{}, line {}, column {}: wanted a number, given {}; write it without a sign between the thousands", file,
-            place.line, place.column, given);
-    throw EnvironmentError(
-        "{}, line {}, column {}: wanted a number, given {}; where a sample is missing, write nothing or NaN", file,
-        place.line, place.column, given);
+std::optional<GroupedNumber> grouped_number(std::string_view cell) {
+    constexpr std::array<std::string_view, 8> kSigns = {",", ".", "'", " ", "\u2019", "\u00A0", "\u2009", "\u202F"};
+    cell = trimmed_cell(cell);
+    constexpr std::size_t kLongest = 60, kThousand = 3;
+    if (cell.size() > kLongest) return std::nullopt;
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    std::string plain;
+    if (!cell.empty() && (cell.front() == '-' || cell.front() == '+')) {
+        if (cell.front() == '-') plain += '-';
+        cell.remove_prefix(1);
+    }
+    std::size_t digits = 0;
+    while (digits < cell.size() && is_digit(cell[digits])) ++digits;
+    const bool begins = digits > 0 && digits <= kThousand && cell.front() != '0';
+    const std::string_view rest = cell.substr(digits);
+    const auto sign = std::ranges::find_if(kSigns, [rest](std::string_view one) { return rest.starts_with(one); });
+    if (!begins || sign == kSigns.end()) return std::nullopt;
+    plain += cell.substr(0, digits);
+    std::string_view left = rest;
+    GroupedNumber found{sign->size() == 1 ? sign->front() : *sign == "\u2019" ? '\'' : ' ', 0, 0};
+    while (left.starts_with(*sign)) {
+        const std::string_view group = left.substr(sign->size(), kThousand);
+        if (group.size() < kThousand || !std::ranges::all_of(group, is_digit)) return std::nullopt;
+        plain += group;
+        left.remove_prefix(sign->size() + kThousand);
+        ++found.groups;
+    }
+    if (!left.empty() && is_digit(left.front())) return std::nullopt;
+    const bool decimals = !left.empty() && (left.front() == '.' || left.front() == ',');
+    if (decimals) plain += '.', left.remove_prefix(1);
+    plain += left;
+    const bool whole = left.find_first_of(".,") == std::string_view::npos;
+    if (!whole || parse_number(plain, found.number) != NumberStatus::kNumber) return std::nullopt;
+    return found;
 }
 
-bool looks_grouped(std::string_view cell) {
+NumberAndRest number_and_rest(std::string_view cell) {
     cell = trimmed_cell(cell);
-    if (!cell.empty() && (cell.front() == '-' || cell.front() == '+')) cell.remove_prefix(1);
-    return cell.find_first_not_of("0123456789.,") == std::string_view::npos &&
-           cell.find('.') != std::string_view::npos && cell.find(',') != std::string_view::npos;
+    constexpr std::string_view kDigits = "0123456789";
+    if (cell.empty() || std::string_view("0123456789+-.,").find(cell.front()) == std::string_view::npos) return {};
+    for (std::size_t end = cell.find_last_of(kDigits); end != std::string_view::npos && end < cell.size();
+         end = end == 0 ? std::string_view::npos : cell.find_last_of(kDigits, end - 1)) {
+        NumberAndRest found;
+        const std::string_view number = cell.substr(0, end + 1);
+        found.rest = trimmed_cell(cell.substr(end + 1));
+        if (found.rest.empty()) continue;
+        if (parse_number(number, found.number) == NumberStatus::kNumber) return found;
+        if (const auto grouped = grouped_number(number)) return found.number = grouped->number, found;
+    }
+    return {};
 }
 
 }  // namespace dynlab::inline data_io

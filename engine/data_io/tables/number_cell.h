@@ -1,5 +1,6 @@
 #pragma once
-#include <filesystem>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,22 +11,24 @@ std::string_view trimmed_cell(std::string_view text);
 
 enum class NumberStatus { kNumber, kMissing, kNotANumber, kNotFinite, kOutOfRange };
 
-/// Reads a whole cell as a number, whatever the locale. `decimal_comma` also accepts "1,5"; an exponent may be written
-/// with D. Missing (then `number` is NaN) are an empty cell and what programs write for one: NaN, NA, N/A, null, -, ?,
-/// and the error values of spreadsheets (#N/A, #DIV/0!, ...).
-NumberStatus parse_number(std::string_view cell, bool decimal_comma, double& number);
+/// Reads a whole cell as a number, whatever the locale: also "1,5", and an exponent written with D. Missing (then
+/// `number` is NaN) are an empty cell and what programs write for one: NaN, NA, N/A, null, -, ?, and the error values
+/// of spreadsheets (#N/A, #DIV/0!, ...).
+NumberStatus parse_number(std::string_view cell, double& number);
 
-/// Where a cell stands, for messages.
-struct CellPlace {
-    const std::filesystem::path& file;
-    std::size_t line;
-    const std::string& column;  ///< its name
+/// A number with signs between its thousands: "1,234.5", "1.234,5", "1 234,5" (any blank), "1'234.5".
+struct GroupedNumber {
+    char sign;           ///< , . ' or a blank, of whatever width
+    std::size_t groups;  ///< of three digits
+    double number;
 };
+std::optional<GroupedNumber> grouped_number(std::string_view cell);
 
-/// Throws EnvironmentError for a cell that is no number: says what is wrong with it, and what to write.
-[[noreturn]] void refuse_cell(const CellPlace& place, std::string_view cell, bool decimal_comma);
-
-/// Digits with both points and commas, as in "1.234,5": a number with signs between its thousands, not a text.
-bool looks_grouped(std::string_view cell);
+/// A number and what follows it: "12.5 %" and "3.2V". `rest` is empty for other texts.
+struct NumberAndRest {
+    double number = 0;
+    std::string_view rest = {};
+};
+NumberAndRest number_and_rest(std::string_view cell);
 
 }  // namespace dynlab::inline data_io

@@ -16,15 +16,20 @@ namespace {
 constexpr std::size_t kMostRecords = 300, kMostCells = 200000;  // of the sample
 constexpr std::size_t kMostColumns = 100000;
 
+enum class CellKind { kNumber, kDisguised, kMissing, kText };
+
 struct TableRecord {
     std::size_t at = 0, line = 1;
     std::vector<std::string> cells;
-    std::vector<NumberStatus> kinds;
-};
+    std::vector<CellKind> kinds;
 
-bool is_numeric(NumberStatus kind) {
-    return kind != NumberStatus::kMissing && kind != NumberStatus::kNotANumber;
-}
+    /// Without the empty cells at its end.
+    std::size_t filled() const {
+        std::size_t count = cells.size();
+        while (count > 0 && cells[count - 1].empty()) --count;
+        return count;
+    }
+};
 
 /// The beginning of a text, cut into cells by one separator.
 struct TableSample {
@@ -37,9 +42,12 @@ struct TableSample {
     double score = 0;
 };
 
-NumberStatus kind_of(const CellScanner& scanner, std::string_view cell, char separator) {
+CellKind kind_of(std::string_view cell) {
     double number = 0;
-    return parse_number(cell, separator != ',' || scanner.cell_was_quoted(), number);
+    const NumberStatus status = parse_number(cell, number);
+    if (status == NumberStatus::kMissing) return CellKind::kMissing;
+    if (status != NumberStatus::kNotANumber) return CellKind::kNumber;
+    return is_number_in_disguise(cell) ? CellKind::kDisguised : CellKind::kText;
 }
 
 [[noreturn]] void fail_wide(const std::filesystem::path& file, const CellScanner& scanner) {
@@ -59,7 +67,7 @@ std::optional<TableSample> sample_of(const std::filesystem::path& file, std::str
         do {
             if (record.cells.size() == kMostColumns) fail_wide(file, scanner);
             const std::string_view cell = scanner.next_cell();
-            record.kinds.push_back(kind_of(scanner, cell, separator));
+            record.kinds.push_back(kind_of(cell));
             record.cells.emplace_back(cell);
         } while (!scanner.record_ended());
         cells += record.cells.size();
@@ -91,7 +99,6 @@ class LayoutFinder {
     LayoutFinder(const std::filesystem::path& file, const TableSample& sample, bool named)
         : file_(file), sample_(sample), records_(sample.records), named_(named) {
         layout_.separator = sample.separator;
-        layout_.cells = sample.cells;
         look_at_columns();
         find_names();
     }
@@ -114,72 +121,71 @@ class LayoutFinder {
         layout.rows_at = records_[rows].at, layout.rows_line = records_[rows].line;
         layout.table_line = records_[first].line, layout.passed_over = first;
         if (!header_ && first_row_ == 0) take_names_of_comment();
+        find_formats();
         return std::move(layout);
     }
 
   private:
     void look_at_columns() {
         std::vector<std::size_t> numbers(sample_.cells), texts(sample_.cells);
-        bool last_is_empty = sample_.cells > 1;
         for (const TableRecord& record : last_half(sample_)) {
             if (record.cells.size() != sample_.cells) continue;
             for (std::size_t j = 0; j < sample_.cells; ++j) {
-                numbers[j] += is_numeric(record.kinds[j]) || looks_grouped(record.cells[j]);
-                texts[j] += record.kinds[j] == NumberStatus::kNotANumber;
+                numbers[j] += record.kinds[j] == CellKind::kNumber || record.kinds[j] == CellKind::kDisguised;
+                texts[j] += record.kinds[j] == CellKind::kText;
             }
-            last_is_empty = last_is_empty && record.cells.back().empty();
         }
-        layout_.empty_end = last_is_empty;
-        for (std::size_t j = 0; j < sample_.cells; ++j) layout_.is_text.push_back(numbers[j] < texts[j]);
-        if (layout_.empty_end) layout_.is_text.pop_back();
+        for (std::size_t j = 0; j < sample_.cells; ++j) is_text_.push_back(numbers[j] < texts[j]);
+        for (const TableRecord& record : records_)
+            if (is_row(record)) columns_ = std::max(columns_, record.filled());
+        if (columns_ == 0) columns_ = sample_.cells;
     }
 
-    std::size_t columns() const { return layout_.is_text.size(); }
-
-    bool holds_number(const TableRecord& record) const { return any_numeric(record, is_numeric); }
-    bool holds_text(const TableRecord& record) const {
-        return any_numeric(record, [](NumberStatus kind) { return kind == NumberStatus::kNotANumber; });
+    bool is_row(const TableRecord& record) const {
+        return record.cells.size() == sample_.cells &&
+               (holds(record, CellKind::kNumber) || holds(record, CellKind::kDisguised)) &&
+               !holds(record, CellKind::kText);
     }
-    /// Of the columns that hold numbers.
-    template <class Predicate>
-    bool any_numeric(const TableRecord& record, Predicate holds) const {
-        for (std::size_t j = 0; j < std::min(columns(), record.cells.size()); ++j)
-            if (!layout_.is_text[j] && holds(record.kinds[j])) return true;
+    /// In a column that is not one of texts.
+    bool holds(const TableRecord& record, CellKind kind) const {
+        for (std::size_t j = 0; j < std::min(sample_.cells, record.cells.size()); ++j)
+            if (!is_text_[j] && record.kinds[j] == kind) return true;
         return false;
     }
+    bool holds_number(const TableRecord& record) const { return holds(record, CellKind::kNumber); }
+    bool holds_text(const TableRecord& record) const { return holds(record, CellKind::kText); }
 
     /// Row numbers count on from row to row, so that their column needs no name.
     bool first_column_counts() const {
         const std::span<const TableRecord> rows = last_half(sample_);
         double before = 0, number = 0;
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (parse_number(rows[i].cells.front(), false, number) != NumberStatus::kNumber) return false;
+            if (parse_number(rows[i].cells.front(), number) != NumberStatus::kNumber) return false;
             if (i > 0 && number != before + 1) return false;
             before = number;
         }
         return rows.size() > 1;
     }
 
-    /// Whether a record has a name for each column.
+    /// Whether a record has a name for each column, and perhaps for empty ones behind them.
     bool names_columns(const TableRecord& record) {
-        const std::size_t size = record.cells.size();
-        if (size == sample_.cells || (layout_.empty_end && size == columns())) return true;
+        const std::size_t size = record.cells.size(), filled = record.filled();
+        if (size == sample_.cells || (filled >= columns_ && filled <= sample_.cells)) return true;
         const bool one_decimal = size == 1 && sample_.separator == ',';  // 1,5 below a single name
-        return size + 1 == columns() && !one_decimal && first_column_counts();
+        return size + 1 == columns_ && !one_decimal && first_column_counts();
     }
 
     void find_names() {
-        const bool has_numbers = std::ranges::find(layout_.is_text, false) != layout_.is_text.end();
+        const bool has_numbers = std::ranges::find(is_text_, false) != is_text_.end();
         first_row_ = 0;
         if (!has_numbers) {  // a table of texts: the first line of that length names them
             while (first_row_ < records_.size() && !names_columns(records_[first_row_])) ++first_row_;
             if (first_row_ < records_.size()) header_ = first_row_++;
             return;
         }
-        const auto is_row = [this](const TableRecord& record) {
-            return record.cells.size() == sample_.cells && holds_number(record) && !holds_text(record);
-        };
-        first_row_ = static_cast<std::size_t>(std::ranges::find_if(records_, is_row) - records_.begin());
+        first_row_ = static_cast<std::size_t>(
+            std::ranges::find_if(records_, [this](const TableRecord& record) { return is_row(record); }) -
+            records_.begin());
         std::vector<std::size_t> wordy;  // records above that may hold names or units
         for (std::size_t i = 0; i < first_row_; ++i)
             if (!holds_number(records_[i]) && holds_text(records_[i]) && names_columns(records_[i])) wordy.push_back(i);
@@ -193,7 +199,8 @@ class LayoutFinder {
         const bool two = wordy.size() > 1 && wordy[wordy.size() - 2] + 1 == *header_;
         if ((two && holds_units(records_[*header_])) || stands_below_numbered_channels(*header_))
             units_ = *header_, header_ = *header_ - 1;
-        layout_.numbered_rows = records_[*header_].cells.size() < columns();
+        columns_ = std::max(columns_, std::min(sample_.cells, records_[*header_].filled()));
+        layout_.numbered_rows = records_[*header_].cells.size() < columns_;
     }
 
     static bool holds_units(const TableRecord& record) {
@@ -211,7 +218,14 @@ class LayoutFinder {
         const auto [units, others] = units_and_others(records_[row]);
         if (row == 0 || units < 2 || others > 0) return false;
         const TableRecord& above = records_[row - 1];
-        return above.cells.size() == records_[row].cells.size() && above.kinds.front() == NumberStatus::kNotANumber;
+        return above.cells.size() == records_[row].cells.size() && above.kinds.front() == CellKind::kText;
+    }
+
+    void find_formats() {
+        std::vector<const std::vector<std::string>*> rows;
+        for (const TableRecord& record : records_)
+            if (record.at >= layout_.rows_at && record.cells.size() == sample_.cells) rows.push_back(&record.cells);
+        layout_.formats = formats_of(rows, columns_, sample_.separator);
     }
 
     /// A comment right above the rows may hold the names.
@@ -219,7 +233,7 @@ class LayoutFinder {
         const auto sample = sample_of(file_, sample_.last_comment, 0, layout_.rows_line - 1, sample_.separator);
         if (!sample || sample->records.size() != 1 || sample_.last_comment.find(':') != std::string::npos) return;
         const TableRecord& record = sample->records.front();
-        if (!holds_number(record) && holds_text(record) && record.cells.size() == columns()) {
+        if (!holds_number(record) && holds_text(record) && record.cells.size() == columns_) {
             layout_.names = record.cells;
             layout_.named_by_comment = true;
         }
@@ -231,7 +245,7 @@ class LayoutFinder {
             "{}, line {}: {}, but the rows below have {}; where that line does not belong to the table, write "
             "load(file, {skip = {}})",
             file_.string(), above.line, plural(std::ssize(above.cells), "{} name", "{} names"),
-            plural(static_cast<std::int64_t>(columns()), "{} cell", "{} cells"), above.line);
+            plural(static_cast<std::int64_t>(columns_), "{} cell", "{} cells"), above.line);
     }
 
     const std::filesystem::path& file_;
@@ -239,6 +253,8 @@ class LayoutFinder {
     const std::vector<TableRecord>& records_;
     const bool named_;
     TableLayout layout_;
+    std::vector<bool> is_text_;  ///< by cell of a row
+    std::size_t columns_ = 0;    ///< without those at the end that have neither name nor cells
     std::size_t first_row_ = 0;
     std::optional<std::size_t> header_, units_;
     bool mismatch_ = false;
@@ -250,7 +266,7 @@ double score_of(const std::filesystem::path& file, const TableSample& sample) {
     for (const TableRecord& record : last_half(sample)) {
         if (record.cells.size() != sample.cells) continue;
         std::size_t numbers = 0;
-        for (const NumberStatus kind : record.kinds) numbers += kind != NumberStatus::kNotANumber;
+        for (const CellKind kind : record.kinds) numbers += kind != CellKind::kText;
         good += 0.5 + 0.5 * static_cast<double>(numbers) / static_cast<double>(sample.cells);
     }
     good /= static_cast<double>(last_half(sample).size());

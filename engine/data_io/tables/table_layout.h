@@ -4,20 +4,19 @@
 #include <string_view>
 #include <vector>
 
+#include "data_io/tables/column_format.h"
 #include "data_io/tables/import_options.h"
 
 namespace dynlab::inline data_io {
 
 /// How the table in a separated text is laid out.
 struct TableLayout {
-    char separator = ',';            ///< ' ' for blanks and tabs
-    std::vector<std::string> names;  ///< as the file has them, some perhaps empty; none when it has no line of names
-    std::vector<std::string> units;  ///< of the row below the names, one a column; none when there is no such row
-    std::vector<bool> is_text;       ///< by column
-    std::size_t cells = 0;           ///< in every row: as many as columns, or one more that is empty (`empty_end`)
-    bool empty_end = false;          ///< every row ends in a separator
-    bool numbered_rows = false;      ///< the first column holds the rows' numbers and has no name
-    bool named_by_comment = false;   ///< the names stand in a comment right above the rows
+    char separator = ',';               ///< ' ' for blanks and tabs
+    std::vector<std::string> names;     ///< as the file has them, some perhaps empty; none when it has no line of names
+    std::vector<std::string> units;     ///< of the row below the names, one a column; none when there is no such row
+    std::vector<ColumnFormat> formats;  ///< of the columns; rows may have more cells, which are empty
+    bool numbered_rows = false;         ///< the first column holds the rows' numbers and has no name
+    bool named_by_comment = false;      ///< the names stand in a comment right above the rows
     std::size_t rows_at = 0, rows_line = 1;       ///< where the rows begin: byte and line
     std::size_t table_line = 1;                   ///< of the names, or of the first row without such a line
     std::size_t passed_over = 0, units_line = 0;  ///< lines above the table; line of the row of units

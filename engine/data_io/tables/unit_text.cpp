@@ -4,37 +4,11 @@
 #include <array>
 
 #include "data_io/tables/number_cell.h"
+#include "data_io/tables/time_text.h"
 #include "platform/text/small_letters.h"
 
 namespace dynlab::inline data_io {
 namespace {
-
-struct TimeUnit {
-    std::string_view name;
-    double seconds;
-};
-constexpr std::array<TimeUnit, 22> kTimeUnits = {{{"s", 1},
-                                                  {"sec", 1},
-                                                  {"secs", 1},
-                                                  {"second", 1},
-                                                  {"seconds", 1},
-                                                  {"ms", 1e-3},
-                                                  {"msec", 1e-3},
-                                                  {"millisecond", 1e-3},
-                                                  {"milliseconds", 1e-3},
-                                                  {"us", 1e-6},
-                                                  {"\u00B5s", 1e-6},
-                                                  {"\u03BCs", 1e-6},
-                                                  {"ns", 1e-9},
-                                                  {"min", 60},
-                                                  {"mins", 60},
-                                                  {"minute", 60},
-                                                  {"minutes", 60},
-                                                  {"h", 3600},
-                                                  {"hr", 3600},
-                                                  {"hour", 3600},
-                                                  {"hours", 3600},
-                                                  {"day", 86400}}};
 
 /// Symbols that take SI prefixes.
 constexpr std::array<std::string_view, 27> kSymbols = {"m",  "g",  "s",  "A",   "K",   "mol", "cd", "Hz",     "N",
@@ -110,24 +84,24 @@ bool is_unit(std::string_view text) {
     return found;
 }
 
-std::optional<double> seconds_of(std::string_view unit) {
-    for (const TimeUnit& time : kTimeUnits)
-        if (time.name == unit) return time.seconds;
-    return std::nullopt;
-}
-
 NamedUnit split_unit(std::string_view header) {
     header = trimmed_cell(header);
     const auto all = [&] { return NamedUnit{std::string(header), {}}; };
-    if (header.size() < 4 || (header.back() != ')' && header.back() != ']')) return all();
-    const bool round = header.back() == ')';
-    const std::size_t begin = round ? header.rfind('(') : header.rfind('[');
+    constexpr std::string_view kIn = " in ";
+    if (const auto in = header.rfind(kIn); in != std::string_view::npos && is_unit(header.substr(in + kIn.size())))
+        return {std::string(trimmed_cell(header.substr(0, in))),
+                std::string(trimmed_cell(header.substr(in + kIn.size())))};
+    constexpr std::string_view kClosing = ")]}", kOpening = "([{";
+    const std::size_t kind = header.size() < 4 ? std::string_view::npos : kClosing.find(header.back());
+    if (kind == std::string_view::npos) return all();
+    const std::size_t begin = header.rfind(kOpening[kind]);
     if (begin == std::string_view::npos || begin == 0) return all();
     const std::string_view name = trimmed_cell(header.substr(0, begin));
     const std::string_view unit = trimmed_cell(header.substr(begin + 1, header.size() - begin - 2));
     double number = 0;
-    const bool accepted =
-        round ? is_unit(unit) : !unit.empty() && parse_number(unit, true, number) == NumberStatus::kNotANumber;
+    const bool square = kOpening[kind] == '[';
+    const bool accepted = square ? !unit.empty() && parse_number(unit, number) == NumberStatus::kNotANumber
+                                 : is_unit(unit) || (time_name_of(name).is_time && seconds_of(unit, true));
     return name.empty() || !accepted ? all() : NamedUnit{std::string(name), std::string(unit)};
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,17 +8,14 @@ namespace dynlab::inline data_io {
 /// others that records use (deg C, rpm, bar, %, ...), or such a unit's English name.
 bool is_unit(std::string_view text);
 
-/// Seconds that the unit stands for; nothing for what is no unit of time.
-std::optional<double> seconds_of(std::string_view unit);
-
 /// Without a pair of brackets around it.
 std::string_view without_brackets(std::string_view text);
 
 struct NamedUnit {
     std::string name, unit;  ///< unit empty: the header is all name
 };
-/// Takes a header as "speed (m/s)" or "u [V]" apart. In round brackets only what is_unit() is taken for a unit, in
-/// square ones all but numbers.
+/// Takes a header as "speed (m/s)", "u [V]" or "C1 in V" apart. In square brackets any text but a number is a unit;
+/// otherwise is_unit() decides, or, behind the name of a time, seconds_of().
 NamedUnit split_unit(std::string_view header);
 
 }  // namespace dynlab::inline data_io

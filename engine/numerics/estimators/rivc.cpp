@@ -25,7 +25,8 @@ void check(const IdData& data, const NoiseOrders& orders, const TransferStructur
     orders.validate();
     if (!data.regular())
         throw InvalidArgument(
-            "rivc: the noise model counts in samples, so the data must be sampled regularly: resample them, or use "
+            "rivc: the noise model counts in samples, so the data must be sampled regularly: interpolate them "
+            "(interp1), or use "
             "srivc, which takes any sampling");
     if (structure.outputs != 1 || data.output_count() != 1)
         throw InvalidArgument(

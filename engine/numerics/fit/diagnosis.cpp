@@ -89,7 +89,9 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
 
 void check_sampled_data(const std::string& method, const IdData& data) {
     if (data.input_count() > 0 && !data.regular())
-        throw InvalidArgument("{} needs regularly sampled data, and these are not: resample them first", method);
+        throw InvalidArgument(
+            "{} needs regularly sampled data, and these are not: interpolate them to even steps first (interp1)",
+            method);
     check_signals(method, data);
 }
 

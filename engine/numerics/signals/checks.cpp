@@ -18,24 +18,30 @@ Message of(SignalName name, const std::array<Message, 4>& all) {
 Message not_a_number(SignalName name, Index sample) {
     return of(
         name,
-        {{Message("sample {} of the input is not a number (NaN); fillmissing(x) mends missing samples", sample),
-          Message("sample {} of the output is not a number (NaN); fillmissing(x) mends missing samples", sample),
-          Message("sample {} of the reference is not a number (NaN); fillmissing(x) mends missing samples", sample),
-          Message("sample {} of the signal is not a number (NaN); fillmissing(x) mends missing samples", sample)}});
+        {{Message("sample {} of the input is not a number (NaN); fillmissing(u, {method = \"previous\"}) holds the "
+                  "value before",
+                  sample),
+          Message("sample {} of the output is not a number (NaN); fillmissing(y) interpolates missing samples", sample),
+          Message("sample {} of the reference is not a number (NaN); fillmissing(r, {method = \"previous\"}) holds the "
+                  "value before",
+                  sample),
+          Message("sample {} of the signal is not a number (NaN); fillmissing(x) interpolates missing samples",
+                  sample)}});
 }
 
 Message not_a_number(SignalName name, Index sample, Index channel) {
-    return of(
-        name,
-        {{Message("sample {} of channel {} of the input is not a number (NaN); fillmissing(x) mends missing samples",
-                  sample, channel),
-          Message("sample {} of channel {} of the output is not a number (NaN); fillmissing(x) mends missing samples",
-                  sample, channel),
-          Message(
-              "sample {} of channel {} of the reference is not a number (NaN); fillmissing(x) mends missing samples",
-              sample, channel),
-          Message("sample {} of channel {} of the signal is not a number (NaN); fillmissing(x) mends missing samples",
-                  sample, channel)}});
+    return of(name, {{Message("sample {} of channel {} of the input is not a number (NaN); fillmissing(u, {method = "
+                              "\"previous\"}) holds the value before",
+                              sample, channel),
+                      Message("sample {} of channel {} of the output is not a number (NaN); fillmissing(y) "
+                              "interpolates missing samples",
+                              sample, channel),
+                      Message("sample {} of channel {} of the reference is not a number (NaN); fillmissing(r, {method "
+                              "= \"previous\"}) holds the value before",
+                              sample, channel),
+                      Message("sample {} of channel {} of the signal is not a number (NaN); fillmissing(x) "
+                              "interpolates missing samples",
+                              sample, channel)}});
 }
 
 Message infinite(SignalName name, Index sample) {

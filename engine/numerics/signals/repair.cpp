@@ -20,8 +20,8 @@ std::vector<Segment> stretches_of(const std::vector<Index>& places) {
     return joined(std::move(single));
 }
 
-/// Straight lines over the samples that are not good, between their good neighbours; `t` may be empty for regular ones.
-RepairedSignal bridged(const VectorView& x, const VectorView& t, const std::vector<bool>& good) {
+/// The samples that are not good are filled from their good neighbours; `t` may be empty for regular ones.
+RepairedSignal bridged(const VectorView& x, const VectorView& t, const std::vector<bool>& good, FillMethod method) {
     RepairedSignal result{x, {}, {}};
     const Index N = x.size();
     const auto is_good = [&good](Index k) { return good[static_cast<std::size_t>(k)]; };
@@ -36,7 +36,7 @@ RepairedSignal bridged(const VectorView& x, const VectorView& t, const std::vect
             double& value = result.signal[k];
             if (before < 0)
                 value = x[after];
-            else if (after == N)
+            else if (after == N || method == FillMethod::kPrevious)
                 value = x[before];
             else
                 value = x[before] +
@@ -84,7 +84,7 @@ class MovingMedian {
 
 }  // namespace
 
-RepairedSignal fill_missing(const VectorView& x, const VectorView& t, Index longest) {
+RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optional<Index> longest, FillMethod method) {
     if (t.size() > 0 && t.size() != x.size())
         throw InvalidArgument("fillmissing: the signal has {} but the time has {}",
                               plural(x.size(), "{} sample", "{} samples"),
@@ -94,13 +94,18 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, Index long
     for (Index k = 0; k < x.size(); ++k) good[static_cast<std::size_t>(k)] = std::isfinite(x[k]);
     if (std::find(good.begin(), good.end(), true) == good.end())
         throw InvalidArgument("fillmissing: the signal has no sample that is a number");
-    RepairedSignal result = bridged(x, t, good);
+    RepairedSignal result = bridged(x, t, good, method);
+    constexpr Index kLongestLine = 10;
+    const Index most = longest.value_or(method == FillMethod::kLinear ? kLongestLine : x.size());
     for (const auto& [first, last] : result.stretches)
-        if (last - first + 1 > longest)
+        if (last - first + 1 > most)
             throw InvalidArgument(
-                "fillmissing: samples {} to {} are missing, and a straight line over more than {} would be invention; "
-                "use the parts before and after the gap as two experiments, or allow it with {longest = {}}",
-                first, last, plural(longest, "{} sample", "{} samples"), last - first + 1);
+                "fillmissing: samples {} to {} are missing, more than {}. An input that is logged when it changes is "
+                "held: {method = \"previous\"}. For an output, use the parts before and after the gap as two "
+                "experiments, or the measured samples alone with their SamplingInstants; {longest = {}} allows a "
+                "straight "
+                "line over the gap",
+                first, last, plural(most, "{} sample", "{} samples"), last - first + 1);
     return result;
 }
 
@@ -123,7 +128,7 @@ RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& optio
     MovingMedian around(x, options.window / 2);
     for (Index k = 0; k < x.size(); ++k)
         good[static_cast<std::size_t>(k)] = around.accepts(k, allowed, options.threshold, rounding);
-    return bridged(x, Vector(), good);
+    return bridged(x, Vector(), good, FillMethod::kLinear);
 }
 
 }  // namespace dynlab::inline numerics

@@ -13,11 +13,15 @@ struct RepairedSignal {
     std::vector<Segment> stretches;  ///< the same, neighbours joined
 };
 
+enum class FillMethod { kLinear, kPrevious };
+
 /// Samples that are not finite numbers (NaN marks a missing one) become points of the straight line between their
-/// neighbours, at the ends the nearest neighbour. `t` holds increasing instants, or nothing for regular sampling.
+/// neighbours (kLinear, for a sampled output), or hold the sample before them (kPrevious, for an input that is logged
+/// when it changes); at the ends the nearest sample. `t` holds increasing instants, or nothing for regular sampling.
 /// Throws InvalidArgument when there is no finite sample, for instants of another number or order, and for a gap of
-/// more than `longest` samples: a straight line over a long gap is invention.
-RepairedSignal fill_missing(const VectorView& x, const VectorView& t = Vector(), Index longest = 10);
+/// more than `longest` samples, 10 for kLinear by default: a straight line over a long gap is invention.
+RepairedSignal fill_missing(const VectorView& x, const VectorView& t = Vector(), std::optional<Index> longest = {},
+                            FillMethod method = FillMethod::kLinear);
 
 struct OutlierOptions {
     Index window = 7;      ///< samples of the moving median, odd, at least 3; groups of up to (window - 1)/2 are found

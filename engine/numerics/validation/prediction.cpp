@@ -197,7 +197,8 @@ Predictions predict_from_simulation(const IdData& data, const NoisyModel& model,
     if (noisy) {
         if (!data.regular())
             throw InvalidArgument(
-                "The noise model counts samples, and the data are sampled irregularly: resample them first");
+                "The noise model counts samples, and the data are sampled irregularly: interpolate them to even steps "
+                "first (interp1)");
         check_sampling(data, model.noise_Ts);
         check_invertible(model.C, model.D);
         if (data.output_count() != 1)

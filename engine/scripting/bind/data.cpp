@@ -6,6 +6,7 @@
 
 #include "base/reader.h"
 #include "data_io/dataset_index.h"
+#include "data_io/tables/time_text.h"
 #include "figures/plots/id_plot.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
@@ -25,6 +26,8 @@ constexpr OptionEntry kImportOptions[] = {
     {"delimiter", ValueKind::kText, about("character between cells; \" \" for any number of blanks and tabs")},
     {"units", ValueKind::kTable, about("units by column, {u = \"V\"}, instead of those in the file")},
     option<&ImportOptions::time>("time", about("name of the column of instants")),
+    option<&ImportOptions::time_unit>(
+        "time_unit", about("unit of that column; \"dd/mm/yyyy\" or \"mm/dd/yyyy\" where it holds days")),
     option<&ImportOptions::sheet>("sheet", about("name of a workbook's sheet; by default the first one"))};
 constexpr OptionEntry kIddataOptions[] = {
     option<&IdData::hold>("InterSample", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
@@ -128,8 +131,8 @@ ImportOptions import_options(const Options& options) {
     return import;
 }
 
-/// Each column knows its unit, which iddata takes over; the table on top of the stack has them all as `units`, and
-/// gives its columns by the names that the file has for them, too.
+/// Each column knows its unit, which iddata takes over, and its time; the table on top of the stack has them all as
+/// `units`, and gives its columns by the names that the file has for them, too.
 void add_units_and_headers(const Call& call, const LoadedData& loaded) {
     lua_State* L = call.state();
     const int table = lua_gettop(L);
@@ -139,10 +142,18 @@ void add_units_and_headers(const Call& call, const LoadedData& loaded) {
         lua_setfield(L, -2, header.c_str());
     }
     lua_createtable(L, 0, static_cast<int>(loaded.units.size()));
-    for (const auto& [name, unit] : loaded.units) {
-        set_field(call, name.c_str(), unit);
+    for (const auto& [name, unit] : loaded.units) set_field(call, name.c_str(), unit);
+    const std::optional<Clock>& clock = loaded.time.clock;
+    for (const auto& [name, variable] : loaded.variables) {
+        const auto unit = loaded.units.find(name);
+        ColumnOrigin origin;
+        if (unit != loaded.units.end()) origin.unit = unit->second;
+        const Vector* column = std::get_if<Vector>(&variable.value);
+        if (clock && clock->spacing.even && column != nullptr && column->size() == clock->t.size())
+            origin.Ts = clock->spacing.step, origin.clock = clock->name;
+        if (origin.unit.empty() && origin.Ts == 0) continue;
         lua_getfield(L, table, name.c_str());
-        remember_unit(L, -1, unit);
+        remember_origin(L, -1, origin);
         lua_pop(L, 1);
     }
     lua_setfield(L, -2, "units");
@@ -201,7 +212,8 @@ void set_units(const Options& options, const char* name, int argument, std::vect
                Index channels) {
     set_texts(options, name, units, channels);
     if (options.has(name) || channels != 1 || !options.call().given(argument)) return;
-    if (const auto unit = remembered_unit(options.call().state(), argument)) units = {*unit};
+    if (const std::string unit = remembered_origin(options.call().state(), argument).unit; !unit.empty())
+        units = {unit};
 }
 
 /// Figures, tables and choices of channels speak of them by name.
@@ -222,6 +234,22 @@ void tell_sampling_time(const Call& call) {
                "\n");
 }
 
+/// A sampling time that is not that of the columns.
+void tell_other_clock(const Call& call, const IdData& data) {
+    const auto unit = seconds_of(data.time_unit, true);
+    for (const int argument : {1, 2}) {
+        const ColumnOrigin origin = remembered_origin(call.state(), argument);
+        constexpr double kClose = 0.01;
+        if (!unit || origin.Ts == 0 || std::abs(data.Ts * *unit - origin.Ts) <= kClose * origin.Ts) continue;
+        call.print(
+            localized(call, Message("iddata: the sampling time {} {} is taken, but by the time '{}' of their file "
+                                    "the samples follow each other every {} s",
+                                    significant(data.Ts, 6), data.time_unit, origin.clock, significant(origin.Ts, 6))) +
+            "\n");
+        return;
+    }
+}
+
 /// Once in a run: models do not know the unit of their data's time.
 void tell_time_unit(const Call& call, const std::string& unit) {
     if (unit == "s" || std::exchange(call.context().told_time_unit, true)) return;
@@ -229,6 +257,16 @@ void tell_time_unit(const Call& call, const std::string& unit) {
                                        "their texts and axes say s, read {}",
                                        unit, unit)) +
                "\n");
+}
+
+/// Instants at even distances, within rounding, make data that are sampled regularly.
+void make_regular(IdData& data) {
+    Experiment& experiment = data.experiments.front();
+    if (experiment.t.size() < 2) return;
+    const InstantSpacing spacing = spacing_of(experiment.t);
+    if (!spacing.even) return;
+    data.Ts = written_step(spacing.step, experiment.t.size());
+    experiment.t.resize(0);
 }
 
 /// One column for each reference.
@@ -250,10 +288,13 @@ int make_iddata(Call& call) {
     const bool inputs_only = !call.given(1) && call.given(2);
     const Matrix y = inputs_only ? Matrix(call.matrix(2, "u").rows(), 0) : Matrix(call.matrix(1, "y"));
     const Matrix u = signals(call, 2, "u", y.rows());
-    IdData data = options.has("SamplingInstants") ? IdData(y, u, options.vector("SamplingInstants"))
-                                                  : IdData(y, u, call.number_or(3, "Ts", 1));
-    if (!options.has("SamplingInstants") && !call.given(3)) tell_sampling_time(call);
+    const bool has_instants = options.has("SamplingInstants");
+    IdData data =
+        has_instants ? IdData(y, u, options.vector("SamplingInstants")) : IdData(y, u, call.number_or(3, "Ts", 1));
+    if (!has_instants && !call.given(3)) tell_sampling_time(call);
+    if (has_instants) make_regular(data);
     options.read(data);
+    if (!has_instants && call.given(3)) tell_other_clock(call, data);
     set_texts(options, "InputName", data.input_names, u.cols());
     set_texts(options, "OutputName", data.output_names, y.cols());
     set_units(options, "InputUnit", 2, data.input_units, u.cols());

@@ -30,9 +30,18 @@ constexpr OptionEntry kButterworthOptions[] = {
     option<&FilterOptions::stop>("stop", about("removal of the band, instead of passing it")),
     kFilterStart,
     {"Ts", ValueKind::kNumber, about("sampling time of a vector"), {.initial = "1", .unit = "s"}}};
+constexpr std::array kFillMethods = {"linear", "previous"};
+constexpr OptionEntry kFillMethod = {
+    "method",
+    ValueKind::kChoice,
+    about(
+        "straight lines between the neighbours (\"linear\", for outputs), or the sample before the gap (\"previous\", "
+        "for inputs that are logged when they change)"),
+    {.initial = "\"linear\"", .choices = kFillMethods}};
 constexpr OptionEntry kGapOptions[] = {
+    kFillMethod,
     {"t", ValueKind::kVector, about("increasing instants of irregular sampling")},
-    {"longest", ValueKind::kCount, about("longest gap in samples that is filled"), {.initial = "10"}}};
+    {"longest", ValueKind::kCount, about("longest gap in samples that is filled; by default 10 for straight lines")}};
 constexpr std::array kOutlierOptions = {
     option<&OutlierOptions::window>("window", about("odd number of samples of the moving median")),
     option<&OutlierOptions::threshold>("threshold", about("distance from the median in robust standard deviations"))};
@@ -116,7 +125,10 @@ int fill_gaps(Call& call) {
     call.at_most(2);
     const Options options(call, 2, kGapsTables);
     const Vector t = options.has("t") ? Vector(options.vector("t")) : Vector();
-    return give_repaired(call, fill_missing(call.vector(1, "x"), t, options.size("longest", 10)));
+    const auto longest = options.has("longest") ? std::optional(options.size("longest", 0)) : std::nullopt;
+    const auto method =
+        options.has("method") ? static_cast<FillMethod>(options.choice(kFillMethod)) : FillMethod::kLinear;
+    return give_repaired(call, fill_missing(call.vector(1, "x"), t, longest, method));
 }
 
 int remove_outliers(Call& call) {
@@ -151,7 +163,8 @@ constexpr FunctionEntry kPreprocessFunctions[] = {
     {"merge", "data", "merge(data1, data2, ...) -> data", "several experiments in one data object", guarded<merge_data>,
      kNoOptions, kMergeArguments},
     {"fillmissing", "data", "fillmissing(x, {options}) -> filled, places",
-     "straight lines over samples that are not numbers", guarded<fill_gaps>, kGapsTables, kGapArguments},
+     "fills samples that are not numbers, by straight lines or by holding", guarded<fill_gaps>, kGapsTables,
+     kGapArguments},
     {"filloutliers", "data", "filloutliers(x | data, {options}) -> cleaned, places",
      "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>, kOutliersTables,
      kOutlierArguments},

@@ -3,11 +3,11 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr char kUnitsKey = 0;  // its address is the key in the registry
+constexpr char kOriginsKey = 0;  // its address is the key in the registry
 
-/// Pushes the table of units by vector, whose keys do not keep the vectors alive.
-void push_remembered_units(lua_State* L) {
-    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &kUnitsKey) == LUA_TTABLE) return;
+/// Pushes the table of origins by vector, whose keys do not keep the vectors alive.
+void push_origins(lua_State* L) {
+    if (lua_rawgetp(L, LUA_REGISTRYINDEX, &kOriginsKey) == LUA_TTABLE) return;
     lua_pop(L, 1);
     lua_newtable(L);
     lua_createtable(L, 0, 1);
@@ -15,30 +15,42 @@ void push_remembered_units(lua_State* L) {
     lua_setfield(L, -2, "__mode");
     lua_setmetatable(L, -2);
     lua_pushvalue(L, -1);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, &kUnitsKey);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &kOriginsKey);
 }
 
 }  // namespace
 
-void remember_unit(lua_State* L, int index, const std::string& unit) {
+void remember_origin(lua_State* L, int index, const ColumnOrigin& origin) {
     index = lua_absindex(L, index);
     if (lua_type(L, index) != LUA_TUSERDATA) return;
-    push_remembered_units(L);
+    push_origins(L);
     lua_pushvalue(L, index);
-    lua_pushlstring(L, unit.data(), unit.size());
+    lua_createtable(L, 3, 0);
+    lua_pushlstring(L, origin.unit.data(), origin.unit.size());
+    lua_rawseti(L, -2, 1);
+    lua_pushnumber(L, origin.Ts);
+    lua_rawseti(L, -2, 2);
+    lua_pushlstring(L, origin.clock.data(), origin.clock.size());
+    lua_rawseti(L, -2, 3);
     lua_rawset(L, -3);
     lua_pop(L, 1);
 }
 
-std::optional<std::string> remembered_unit(lua_State* L, int index) {
+ColumnOrigin remembered_origin(lua_State* L, int index) {
     index = lua_absindex(L, index);
-    if (lua_type(L, index) != LUA_TUSERDATA) return std::nullopt;
-    push_remembered_units(L);
+    ColumnOrigin origin;
+    if (lua_type(L, index) != LUA_TUSERDATA) return origin;
+    push_origins(L);
     lua_pushvalue(L, index);
-    std::optional<std::string> unit;
-    if (lua_rawget(L, -2) == LUA_TSTRING) unit = lua_tostring(L, -1);
+    if (lua_rawget(L, -2) == LUA_TTABLE) {
+        lua_rawgeti(L, -1, 1);
+        lua_rawgeti(L, -2, 2);
+        lua_rawgeti(L, -3, 3);
+        origin = {lua_tostring(L, -3), lua_tonumber(L, -2), lua_tostring(L, -1)};
+        lua_pop(L, 3);
+    }
     lua_pop(L, 2);
-    return unit;
+    return origin;
 }
 
 }  // namespace dynlab::inline scripting

@@ -5,9 +5,16 @@
 
 namespace dynlab::inline scripting {
 
-/// Notes the unit of the vector at `index`, for as long as it lives; what is computed from it has none.
-void remember_unit(lua_State* L, int index, const std::string& unit);
-/// The unit noted for the value at `index`.
-std::optional<std::string> remembered_unit(lua_State* L, int index);
+/// What load() knows of a column; what is computed from the column knows nothing.
+struct ColumnOrigin {
+    std::string unit = {};   ///< empty when unknown
+    double Ts = 0;           ///< s, by the time of its file; 0 when unknown or uneven
+    std::string clock = {};  ///< column of that time
+};
+
+/// Notes the origin of the vector at `index`, for as long as the vector lives.
+void remember_origin(lua_State* L, int index, const ColumnOrigin& origin);
+/// The one noted for the value at `index`.
+ColumnOrigin remembered_origin(lua_State* L, int index);
 
 }  // namespace dynlab::inline scripting

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <clocale>
+#include <cmath>
 #include <limits>
 #include <random>
+#include <sstream>
 
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
@@ -96,14 +98,17 @@ TEST_F(csv_file, names_line_and_column_of_what_is_wrong) {
               "load(file, {skip = 1})");
     EXPECT_EQ(complaint("t,y\n0,1.5.2\n1,2\n2,3\n"), ", line 2, column y: wanted a number, given \"1.5.2\"" + remedy);
     EXPECT_EQ(complaint("t,y\n0,1\n1,1 2\n"), ", line 3, column y: wanted a number, given \"1 2\"" + remedy);
-    const std::string grouped = "wanted a number, given \"1.234,5\"; write it without a sign between the thousands";
-    EXPECT_EQ(complaint("t;y\n0;1\n1;1.234,5\n"), ", line 3, column y: " + grouped);
-    EXPECT_EQ(complaint("t;y\n0;1.234,5\n1;1.234,5\n"), ", line 2, column y: " + grouped);
+    EXPECT_EQ(complaint("t;y\n0;1.5\n1;1.234,5\n"),
+              ", line 3, column y: wanted a number, given \"1.234,5\"; write it without a sign between the thousands");
+    EXPECT_EQ(complaint("t,y\n0,1\n1,3.2 V\n2,3\n3,4\n"),
+              ", line 3, column y: wanted a number, given \"3.2 V\"; write the unit in the header, not in the cell");
+    EXPECT_EQ(complaint("t,y\n0,3.2 V\n1,3.2 V\n2,150 mV\n3,4 V\n"),
+              ", line 4, column y: wanted a number with the unit V as in the other rows, given \"150 mV\"");
     EXPECT_EQ(complaint("a,b\n\"two\nlines\",1\nx,y\n"), ", line 4, column b: wanted a number, given \"y\"" + remedy);
     EXPECT_EQ(complaint("a,b\nx,1\n\"never closed,2\ny,3\n"), ", line 3: a quotation mark is opened and never closed");
     EXPECT_EQ(complaint("t,y\n0,\"1\n1,2\n"), ", line 2: a quotation mark is opened and never closed");
     EXPECT_EQ(complaint("a,b\n\"x\"y,1\n"), ", line 2: there is text after a closing quotation mark");
-    EXPECT_EQ(complaint("y\n1\n" + std::string(60, 'z') + "\n"),
+    EXPECT_EQ(complaint("y\n1\n" + std::string(60, 'z') + "\n2\n3\n4\n"),
               ", line 3, column y: wanted a number, given \"" + std::string(40, 'z') + "...\"" + remedy);
 }
 
@@ -193,9 +198,11 @@ TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
     for (const char* missing : {"", "NaN", "nan", "NA", "N/A", "#N/A", "null", "-", "\"\"", " "}) {
         const CsvTable table = read(fmt::format("t,y\n0,{0}\n1,2\n2,{0}\n3,4\n", missing));
         EXPECT_EQ(shown_table(table), wanted) << missing;
-        EXPECT_THAT(texts_of(table.notes),
-                    ElementsAre("numbers are missing, NaN stands for them and fillmissing fills them: 2 of "
-                                "4 in y (first in line 2)"));
+        EXPECT_THAT(
+            texts_of(table.notes),
+            ElementsAre("numbers are missing and become NaN: 2 of 4 in y (first in line 2); fillmissing(u, {method = "
+                        "\"previous\"}) holds an input that is logged when it changes, fillmissing(y) "
+                        "interpolates an output"));
     }
     const CsvTable benchmark = read("u,y,Ts,\n0,1,4,\n1,2,,\n2,3,,\n");
     EXPECT_EQ(benchmark.columns[2], (Vector{{4}}));
@@ -236,6 +243,150 @@ TEST_F(csv_file, finds_units) {
     EXPECT_THAT(texts_of(header.notes), ElementsAre("units from the headers: time in s, u in V"));
     EXPECT_THAT(read("y (V),y (m)\n0,1\n").names, ElementsAre("y (V)", "y (m)"));
     EXPECT_EQ(read("# unit u (V): mV\nt,u (V)\n0,1\n").units.at("u"), "mV");
+}
+
+// Families of cells that programs write; the same numbers in each.
+TEST_F(csv_file, switches_are_ones_and_zeros) {
+    for (const auto& [on, off] : {std::pair{"ON", "OFF"},
+                                  {"On", "Off"},
+                                  {"TRUE", "FALSE"},
+                                  {"true", "false"},
+                                  {"high", "low"},
+                                  {"HIGH", "LOW"},
+                                  {"yes", "no"},
+                                  {"open", "closed"},
+                                  {"EIN", "AUS"},
+                                  {"wahr", "falsch"},
+                                  {"vrai", "faux"},
+                                  {"VRAI", "FAUX"},
+                                  {"oui", "non"},
+                                  {"ja", "nein"},
+                                  {"marche", "arr\u00EAt"},
+                                  {"enabled", "disabled"}}) {
+        const CsvTable table = read(fmt::format("t,heater\n0,{0}\n1,{0}\n2,{1}\n3,\n4,{0}\n", on, off));
+        ASSERT_EQ(table.columns[1].size(), 5) << on;
+        EXPECT_EQ(table.columns[1].head(3), (Vector{{1, 1, 0}})) << on;
+        EXPECT_TRUE(std::isnan(table.columns[1][3])) << on;
+        EXPECT_THAT(texts_of(table.notes), testing::Contains(HasSubstr("read as 1 and 0"))) << on;
+    }
+    EXPECT_THAT(read("t,name\n0,on\n1,left\n").texts.at("name"), ElementsAre("on", "left"));
+    std::string late = "t,h\n";
+    for (int i = 0; i < 400; ++i) late += fmt::format("{},{}\n", i, i == 350 ? "broken" : i % 2 == 0 ? "ON" : "OFF");
+    EXPECT_EQ(complaint(late), ", line 352, column h: wanted on or off as in the other rows, given \"broken\"");
+}
+
+TEST_F(csv_file, units_in_cells_become_the_columns_units) {
+    for (const auto& [cells, unit] : {std::pair{"50%|12.5%|-3%", "%"},
+                                      {"50 %|12.5 %|-3 %", "%"},
+                                      {"50 V|12.5 V|-3 V", "V"},
+                                      {"50V|12.5V|-3V", "V"},
+                                      {"50 \u00B0C|12.5 \u00B0C|-3 \u00B0C", "\u00B0C"},
+                                      {"50 rpm|12.5 rpm|-3 rpm", "rpm"},
+                                      {"50 m/s|12.5 m/s|-3 m/s", "m/s"},
+                                      {"50 kPa|12.5 kPa|-3 kPa", "kPa"},
+                                      {"50 l/min|12.5 l/min|-3 l/min", "l/min"},
+                                      {"50,0 mA|12,5 mA|-3 mA", "mA"}}) {
+        std::string text = "t;y\n";
+        int row = 0;
+        std::istringstream list(cells);
+        for (std::string cell; std::getline(list, cell, '|');) text += fmt::format("{};{}\n", row++, cell);
+        const CsvTable table = read(text);
+        EXPECT_EQ(table.columns[1], (Vector{{50, 12.5, -3}})) << cells;
+        EXPECT_EQ(table.units.at("y"), unit) << cells;
+    }
+    EXPECT_EQ(read("t (ms),y\n0 ms,1\n20 ms,2\n").columns[0], (Vector{{0, 20}}));
+    EXPECT_THAT(texts_of(read("t,y\n0,5 pieces\n1,6 pieces\n").notes),
+                testing::Contains(HasSubstr("holds texts, not numbers")));
+}
+
+TEST_F(csv_file, signs_between_thousands_are_read_where_they_are_certain) {
+    const Vector wanted{{1234.5, 12345.25, 1234567}};
+    for (const char* text :
+         {"t;y\n0;1.234,5\n1;12.345,25\n2;1.234.567\n", "t\ty\n0\t1,234.5\n1\t12,345.25\n2\t1,234,567\n",
+          "t,y\n0,\"1,234.5\"\n1,\"12,345.25\"\n2,\"1,234,567\"\n", "t;y\n0;1 234,5\n1;12 345,25\n2;1 234 567\n",
+          "t;y\n0;1\u202F234,5\n1;12\u202F345,25\n2;1\u202F234\u202F567\n",
+          "t;y\n0;1\u00A0234,5\n1;12\u00A0345,25\n2;1\u00A0234\u00A0567\n",
+          "t;y\n0;1\u2009234.5\n1;12\u2009345.25\n2;1\u2009234\u2009567\n",
+          "t;y\n0;1'234.5\n1;12'345.25\n2;1'234'567\n",
+          "t;y\n0;1\u2019234.5\n1;12\u2019345.25\n2;1\u2019234\u2019567\n"}) {
+        const CsvTable table = read(text);
+        EXPECT_EQ(table.columns[1], wanted) << text;
+        EXPECT_THAT(texts_of(table.notes), testing::Contains(HasSubstr("between the thousands"))) << text;
+    }
+    // One sign before three digits is what the other numbers leave.
+    EXPECT_EQ(read("t;y\n0,5;1.234\n1,0;2.500\n").columns[1], (Vector{{1234, 2500}}));
+    EXPECT_EQ(read("t\ty\n0.5\t1,234\n1.0\t2,500\n").columns[1], (Vector{{1234, 2500}}));
+    EXPECT_EQ(read("t,y\n0,\"1,234\"\n1,\"2,500\"\n").columns[1], (Vector{{1234, 2500}}));
+    EXPECT_EQ(read("t;y\n0,5;1,234\n1,0;2,5\n").columns[1], (Vector{{1.234, 2.5}}));
+    EXPECT_EQ(read("t;y\n0.5;1.234\n1.0;2.5\n").columns[1], (Vector{{1.234, 2.5}}));
+    EXPECT_EQ(read("t;y\n0;0,125\n1;0,250\n").columns[1], (Vector{{0.125, 0.25}}));
+}
+
+TEST_F(csv_file, lines_below_a_table_are_left_out) {
+    std::string rows = "t;u;y\n", wanted = "t|u|y";
+    for (int i = 0; i < 12; ++i)
+        rows += fmt::format("{};{};{}\n", i, i + 1, i + 2), wanted += fmt::format("\n{}|{}|{}", i, i + 1, i + 2);
+    for (const char* footer : {"END\n", "\nEND", "END;;\n", "Mean;2;3\nMax;3;4\n", "\nStatistics\nMean;2;3\n",
+                               "Samples: 3\n", ";;\n;;\n", ";;\nTotal;6;9\n", "# end\n", "--- end of file ---\n",
+                               "Comment;made by hand;\n", ";;Mean 3\n", "*** 3 samples ***\nDuration;2 s\n"}) {
+        EXPECT_EQ(shown_table(read(rows + footer)), wanted) << footer;
+    }
+    EXPECT_THAT(texts_of(read(rows + "END\n").notes),
+                ElementsAre("line 14 and what follows it are below the table and are left out: \"END\""));
+    EXPECT_THAT(complaint(rows + "broken;1;2\n4;5;6\n"), HasSubstr("line 14, column t: wanted a number"));
+    EXPECT_THAT(complaint(rows + "3;4\n"), HasSubstr("line 14: wanted 3 cells")) << "a file that was cut off";
+}
+
+TEST_F(csv_file, empty_columns_at_the_end_are_columns_where_they_have_a_name) {
+    EXPECT_EQ(shown_table(read("a,b,c,d\n0,1,2,3\n1,2,,\n2,3,,\n3,4,,\n")),
+              "a|b|c|d\n0|1|2|3\n1|2|nan|nan\n2|3|nan|nan\n3|4|nan|nan");
+    for (const char* text : {"a,b,,\n0,1,,\n1,2,,\n", "a,b\n0,1,,\n1,2,,\n", "a,b,,,\n0,1,,,\n1,2,,,\n",
+                             "a;b;;\n0;1;;\n1;2;;\n", "a\tb\t\t\n0\t1\t\t\n1\t2\t\t\n"})
+        EXPECT_EQ(shown_table(read(text)), "a|b\n0|1\n1|2") << text;
+    EXPECT_EQ(shown_table(read("a,b,note\n0,1,\n1,2,\n")), "a|b|note\n0|1|nan\n1|2|nan");
+}
+
+TEST_F(csv_file, instruments_exports_are_read) {
+    const CsvTable labview = read(
+        "LabVIEW "
+        "Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t,\nX_Columns\tOne\nDate\t2025/03/11\n"
+        "***End_of_Header***\t\n\t\nChannels\t2\t\t\nSamples\t2\t2\t\nY_Unit_Label\tV\trpm\nX_Dimension\tTime\tTime\n"
+        "X0\t0,0E+0\t0,0E+0\nDelta_X\t0,01\t0,01\n***End_of_Header***\t\t\t\nX_Value\tvalve\ttacho\tComment\n"
+        "0,00\t1,5\t2,5\n0,01\t-1,0\t3,5\n");
+    EXPECT_EQ(shown_table(labview), "X_Value|valve|tacho\n0|1.5|2.5\n0.01|-1|3.5");
+    EXPECT_EQ(labview.units, (std::map<std::string, std::string>{{"X_Value", "s"}, {"valve", "V"}, {"tacho", "rpm"}}));
+    const std::string again =
+        "LabVIEW Measurement\nX_Columns\tOne\n***End_of_Header***\nX_Dimension\tTime\n***End_of_Header***\n"
+        "X_Value\ty\tComment\n0\t1\n1\t2\nX_Dimension\tTime\n***End_of_Header***\n0\t1\n";
+    EXPECT_THAT(complaint(again), HasSubstr(", line 10: another record begins here"));
+    const CsvTable rigol =
+        read("X,CH1,CH2,Start,Increment,\nSequence,Volt,Volt,-5.0e-03,4.0e-06\n0,1.00,0.5,,\n1,1.25,0.6,,\n");
+    EXPECT_THAT(rigol.names, ElementsAre("X", "CH1", "CH2"));
+    EXPECT_NEAR(rigol.columns[0][1], -0.004996, 1e-15);
+    EXPECT_EQ(rigol.columns[1], (Vector{{1, 1.25}}));
+    EXPECT_EQ(rigol.units.at("X"), "s");
+    const CsvTable newer = read("CH1,CH2,t0 = -5.0e-03, tInc = 4e-06,\n1.00,0.5,,,\n1.25,0.6,,,\n");
+    EXPECT_EQ(shown_table(newer), "CH1|CH2\n1|0.5\n1.25|0.6");
+    EXPECT_EQ(newer.Ts, 4e-6);
+    const CsvTable tektronix = read(
+        "Record Length,2.500e+03,,-0.0050,0.25,\nSample Interval,4.0e-06,,-0.0048,0.5,\nVertical "
+        "Units,V,,-0.0046,0.75,\n"
+        ",,,-0.0044,1.00,\n,,,-0.0042,1.25,\n");
+    EXPECT_EQ(shown_table(tektronix), "time|CH1\n-0.005|0.25\n-0.0048|0.5\n-0.0046|0.75\n-0.0044|1\n-0.0042|1.25");
+    EXPECT_EQ(tektronix.units.at("CH1"), "V");
+    EXPECT_EQ(shown_table(read("Model,MSO2024\nSample Interval,1e-06,,\nHorizontal "
+                               "Units,s,,\n\nTIME,CH1,CH2\n-2e-3,0.1,0.2\n-1e-3,0.2,0.3\n")),
+              "TIME|CH1|CH2\n-0.002|0.1|0.2\n-0.001|0.2|0.3");
+    const CsvTable pico = read("Time,Channel A,Channel B\n(ms),(V),(mV)\n\n-0.02,0.1,5\n0.00,0.2,6\n0.02,0.3,7\n");
+    EXPECT_EQ(shown_table(pico), "Time|Channel A|Channel B\n-0.02|0.1|5\n0|0.2|6\n0.02|0.3|7");
+    EXPECT_EQ(pico.units.at("Time"), "ms");
+    EXPECT_THAT(complaint("Time,A\n(ms),(V)\n0,1\n1,\u221E\n2,3\n"),
+                HasSubstr("line 4, column A: wanted a finite number"));
+    const CsvTable monitor = read("10:12:05.000 -> 100,83.33\n10:12:05.500 -> 100,95.87\n10:12:06.000 -> 50,96\n");
+    EXPECT_THAT(numbers(monitor.columns[0]), ElementsAre(36725, 36725.5, 36726));
+    EXPECT_THAT(numbers(monitor.columns[1]), ElementsAre(100, 100, 50));
+    EXPECT_EQ(shown_table(read("10:12:04.9 -> pwm,speed\n10:12:05.0 -> 100,83.33\n10:12:05.5 -> 100,95.87\n")),
+              "time|pwm|speed\n36725|100|83.33\n36725.5|100|95.87");
 }
 
 TEST_F(csv_file, reads_other_alphabets) {

@@ -32,26 +32,26 @@ TEST(data_file, knows_how_instants_follow_each_other) {
 }
 
 TEST(data_file, finds_the_column_of_the_time) {
-    const Vector three{{1, 2, 3}};
+    const Vector three{{0.1, 0.2, 0.3}};
     const auto found = [&](const std::vector<std::pair<std::string, std::string>>& columns) -> std::string {
         LoadedData data;
         for (const auto& [name, unit] : columns) {
             data.variables[name] = {three};
             if (!unit.empty()) data.units[name] = unit;
         }
-        const auto time = time_column(data, 3);
-        return time ? fmt::format("{} {}", time->name, time->seconds) : "none";
+        const auto clock = find_clock(data, 3, {}).clock;
+        return clock ? fmt::format("{} {:.3g}", clock->name, clock->spacing.step) : "none";
     };
-    EXPECT_EQ(found({{"t", ""}, {"u", ""}}), "t 1");
-    EXPECT_EQ(found({{"Time", "ms"}, {"u", "V"}}), "Time 0.001");
-    EXPECT_EQ(found({{"t_ms", ""}, {"u", "V"}}), "t_ms 0.001");
-    EXPECT_EQ(found({{"clock", "min"}, {"u", "V"}}), "clock 60");
-    EXPECT_EQ(found({{"t", "s"}, {"t_val", "s"}}), "t 1");
-    EXPECT_EQ(found({{"start", "s"}, {"end", "s"}}), "none");
-    EXPECT_EQ(found({{"u", "V"}}), "none");
+    EXPECT_EQ(found({{"t", ""}, {"u", ""}}), "t 0.1");
+    EXPECT_EQ(found({{"Time", "ms"}, {"u", "V"}}), "Time 0.0001");
+    EXPECT_EQ(found({{"t_ms", ""}, {"u", "V"}}), "t_ms 0.0001");
+    EXPECT_EQ(found({{"clock", "min"}, {"u", "V"}}), "clock 6");
+    EXPECT_EQ(found({{"t", "s"}, {"t_val", "s"}}), "t 0.1");
+    EXPECT_EQ(found({{"start", "s"}, {"u", "V"}}), "start 0.1");
+    EXPECT_EQ(found({{"u", "V"}, {"T", ""}}), "none");
     LoadedData short_one;
     short_one.variables["t"] = {three};
-    EXPECT_FALSE(time_column(short_one, 4));
+    EXPECT_FALSE(find_clock(short_one, 4, {}).clock);
 }
 
 TEST(data_file, takes_the_column_that_is_named_for_the_time) {
@@ -71,8 +71,7 @@ TEST(data_file, takes_the_column_that_is_named_for_the_time) {
     for (const auto& [text, wanted] :
          {std::pair{"clock\ty\n1\t5\n1\t6\n", "must increase, but sample 1 is 1 and the next 1"},
           {"clock\ty\na\t5\nb\t6\n", "is not a column of numbers"},
-          {"clock (V)\ty\n1\t5\n2\t6\n", "has the unit V, which is none of time"},
-          {"clock\tt\n1\t5\n2\t6\n", "would take the place of the column t"}}) {
+          {"clock (V)\ty\n1\t5\n2\t6\n", "has the unit V, which is none of time"}}) {
         try {
             read(text);
             ADD_FAILURE() << text;
@@ -80,7 +79,9 @@ TEST(data_file, takes_the_column_that_is_named_for_the_time) {
             EXPECT_THAT(error.what(), HasSubstr(wanted));
         }
     }
-    EXPECT_TRUE(is_data_file("A.XLSX") && is_data_file("a.dat"));
+    const LoadedData beside_t = read("clock (min)\tt\n1\t20\n1.5\t21\n");
+    EXPECT_EQ(std::get<Vector>(beside_t.variables.at("clock").value), (Vector{{60, 90}})) << "t is a temperature";
+    EXPECT_TRUE(is_data_file("a.lvm") && is_data_file("A.XLSX") && is_data_file("a.dat"));
     EXPECT_FALSE(is_data_file("a.doc"));
 }
 

@@ -186,19 +186,27 @@ TEST_F(mat_file, reads_arrays_of_structs_as_a_list) {
     }
 }
 
-TEST_F(mat_file, names_what_cannot_be_represented) {
-    write_array<double>(MAT_FT_MAT5, MAT_C_DOUBLE, MAT_T_DOUBLE, {1, 2, 2}, {1, 2, 3, 4});
-    EXPECT_THAT(complaint(), HasSubstr("variable x has 3 dimensions"));
-    std::uint32_t rows[] = {0, 1}, starts[] = {0, 1, 2};
-    double values[] = {1, 2};
-    mat_sparse_t sparse = {2, rows, 2, starts, 3, 2, values};
-    std::size_t size[2] = {2, 2};
-    {
+// oracle: the three numbers that are stored, and zeros
+TEST_F(mat_file, sparse_matrices_are_read_with_their_zeros) {
+    std::uint32_t rows[] = {1, 0, 2}, starts[] = {0, 1, 1, 3};
+    double values[] = {5, -2, 7};
+    mat_sparse_t sparse = {3, rows, 3, starts, 4, 3, values};
+    const auto write = [&](std::size_t row_count) {
+        std::size_t size[2] = {row_count, 3};
         const MatFile mat(Mat_CreateVer(file_.c_str(), nullptr, MAT_FT_MAT5));
         const MatVariable x(Mat_VarCreate("x", MAT_C_SPARSE, MAT_T_DOUBLE, 2, size, &sparse, 0));
         ASSERT_EQ(Mat_VarWrite(mat.get(), x.get(), MAT_COMPRESSION_NONE), 0);
-    }
-    EXPECT_THAT(complaint(), HasSubstr("variable x is a sparse matrix"));
+    };
+    write(3);
+    const VariableTable read = read_mat_file(file_, true);
+    EXPECT_EQ(std::get<Matrix>(read.at("x").value), (Matrix{{0, 0, -2}, {5, 0, 0}, {0, 0, 7}}));
+    write(100'000'000);
+    EXPECT_THAT(complaint(), HasSubstr("MB of memory"));
+}
+
+TEST_F(mat_file, names_what_cannot_be_represented) {
+    write_array<double>(MAT_FT_MAT5, MAT_C_DOUBLE, MAT_T_DOUBLE, {1, 2, 2}, {1, 2, 3, 4});
+    EXPECT_THAT(complaint(), HasSubstr("variable x has 3 dimensions"));
     // Byte 144 holds the class (MAT-File Format, array flags): 3 object, 16 function handle, 17 opaque.
     write_array<double>(MAT_FT_MAT5, MAT_C_DOUBLE, MAT_T_DOUBLE, {1, 2}, {1, 2});
     const std::string bytes = read_file(file_);

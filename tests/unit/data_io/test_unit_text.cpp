@@ -1,3 +1,4 @@
+#include "data_io/tables/time_text.h"
 #include "data_io/tables/unit_text.h"
 
 #include <gtest/gtest.h>
@@ -33,6 +34,11 @@ TEST(unit_text, takes_headers_apart) {
     check("x[1]", "x[1]", "");
     check("(s)", "(s)", "");
     check("plain", "plain", "");
+    check("C1 in V", "C1", "V");
+    check("t in ms", "t", "ms");
+    check("time (10 ms)", "time", "10 ms");
+    check("Time (Millisecond)", "Time", "Millisecond");
+    check("made in Japan", "made in Japan", "");
 }
 
 TEST(unit_text, knows_seconds) {
@@ -40,6 +46,9 @@ TEST(unit_text, knows_seconds) {
     EXPECT_EQ(seconds_of("min"), 60);
     EXPECT_EQ(seconds_of("h"), 3600);
     EXPECT_EQ(seconds_of("V"), std::nullopt);
+    EXPECT_EQ(seconds_of("mS"), std::nullopt) << "millisiemens";
+    EXPECT_EQ(seconds_of("mS", true), 1e-3);
+    EXPECT_EQ(seconds_of("1/100 s", true), 0.01);
 }
 
 }  // namespace test_unit_text

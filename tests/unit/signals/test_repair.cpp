@@ -36,6 +36,12 @@ TEST(repair, gaps_become_straight_lines) {  // oracle: by hand
     const Vector timed = fill_missing(Vector{{0, kNan, 10}}, Vector{{0, 1, 10}}).signal;
     EXPECT_DOUBLE_EQ(timed[1], 1);
     const Vector whole{{1, 2, 3}};
+    EXPECT_EQ(fill_missing(Vector{{kNan, 2, kNan, kNan, 8, kNan}}, Vector(), {}, FillMethod::kPrevious).signal,
+              (Vector{{2, 2, 2, 2, 8, 8}}));
+    Vector long_gap = Vector::Constant(100, kNan);
+    long_gap[0] = 3;
+    EXPECT_EQ(fill_missing(long_gap, Vector(), {}, FillMethod::kPrevious).signal, Vector(Vector::Constant(100, 3)));
+    EXPECT_THROW(fill_missing(long_gap, Vector(), 50, FillMethod::kPrevious), InvalidArgument);
     EXPECT_EQ(fill_missing(whole).signal, whole);
 }
 

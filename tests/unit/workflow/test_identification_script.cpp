@@ -2,6 +2,7 @@
 // defect in a file.
 #include "workflow/identify.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -114,8 +115,69 @@ TEST_F(identification_script, takes_several_inputs) {
 
 TEST_F(identification_script, fills_missing_samples_and_reports_doubts_about_the_data) {
     EXPECT_THAT(printed(of("holes.csv")),
-                AllOf(HasSubstr("holes.csv: numbers are missing"), HasSubstr("fit to the estimation data: 9")));
+                AllOf(HasSubstr("holes.csv: numbers are missing"), HasSubstr("the output is interpolated"),
+                      HasSubstr("fit to the estimation data: 9")));
     EXPECT_THAT(printed(of("cut.csv")), HasSubstr("! The output x is cut off"));  // as advice() marks a warning
+}
+
+/// A record of 2/(s^2 + 4s + 3), whose cells are left out where `keeps_u` or `keeps_y` says no, every `step` s.
+std::string logged(const std::function<bool(int, bool)>& keeps_u, const std::function<bool(int)>& keeps_y,
+                   const char* missing = "", bool two_inputs = false) {
+    constexpr double kStep = 0.02;
+    std::string text = two_inputs ? "t,u,v,x\n" : "t,u,x\n";
+    double u = 1, v = -1, x = 0, rate = 0;
+    unsigned state = 7;
+    for (int i = 0; i < 2000; ++i) {
+        bool changes = false, v_changes = false;
+        if (i % 40 == 0) {
+            state = state * 1103515245u + 12345u;
+            const double next = state >> 16 & 1 ? 1 : -1, v_next = state >> 17 & 1 ? 1 : -1;
+            changes = next != u || i == 0, v_changes = v_next != v || i == 0;
+            u = next, v = v_next;
+        }
+        const auto cell = [&](bool kept, double value) {
+            return kept ? fmt::format("{:.9g}", value) : std::string(missing);
+        };
+        text += fmt::format("{:.2f},{}", i * kStep, cell(keeps_u(i, changes), u));
+        if (two_inputs) text += "," + cell(keeps_u(i, v_changes), v);
+        text += "," + cell(keeps_y(i), x) + "\n";
+        const double drive = u + (two_inputs ? v : 0);
+        for (int k = 0; k < 100; ++k) {  // small Euler steps
+            const double h = kStep / 100, slope = 2 * drive - 4 * rate - 3 * x;
+            x += h * rate, rate += h * slope;
+        }
+    }
+    return text;
+}
+
+// oracle: the system that made the record; a straight line between two changes of the input would be another one
+TEST_F(identification_script, inputs_with_missing_samples_are_held_and_outputs_interpolated) {
+    const auto always = [](int) { return true; };
+    const auto on_change = [](int, bool changes) { return changes; };
+    const auto a1_of = [&](const std::string& text, std::vector<std::string> inputs = {"u"}) {
+        files_->write("logged.csv", text);
+        IdentifyRequest request = of("logged.csv");
+        request.inputs = std::move(inputs);
+        const ScriptRun made = files_->run(dynlab::identification_script(request) +
+                                           "\nreport.value(\"a\", (G.channels or {G})[1].den[2])\n");
+        EXPECT_FALSE(made.record.error) << made.record.error->text();
+        EXPECT_THAT(made.printed, HasSubstr("samples are missing"));
+        return made.record.error ? 0 : made.record.values.at("a").number;
+    };
+    for (const char* missing : {"", "NaN", "NA", "-", "null"})
+        EXPECT_NEAR(a1_of(logged(on_change, always, missing)), 4, 0.04) << missing;
+    EXPECT_NEAR(a1_of(logged([](int i, bool) { return i % 10 == 0; }, always)), 4, 0.04) << "a tenth of the rate";
+    EXPECT_NEAR(a1_of(logged([](int i, bool changes) { return changes || i % 7 == 0; }, always)), 4, 0.04);
+    EXPECT_NEAR(a1_of(logged([](int i, bool) { return i % 4 == 0; }, [](int i) { return i % 5 == 0; })), 4, 0.1);
+    EXPECT_NEAR(a1_of(logged([](int, bool) { return true; }, [](int i) { return i % 3 != 1; })), 4, 0.05)
+        << "output alone";
+    EXPECT_NEAR(a1_of(logged(on_change, [](int i) { return i % 3 != 1; })), 4, 0.05);
+    EXPECT_NEAR(a1_of(logged(on_change, always, "", true), {"u", "v"}), 4, 0.05) << "two inputs";
+    EXPECT_NEAR(a1_of(logged([](int i, bool) { return i % 8 == 0; }, always, "", true), {"u", "v"}), 4, 0.05);
+    files_->write("logged.csv", logged(on_change, [](int i) { return i % 50 == 0; }));
+    const auto stopped = files_->run(dynlab::identification_script(of("logged.csv"))).record.error;
+    ASSERT_TRUE(stopped);
+    EXPECT_THAT(stopped->text(), AllOf(HasSubstr("fillmissing"), HasSubstr("previous"), HasSubstr("SamplingInstants")));
 }
 
 // oracle: the defect put in
@@ -132,7 +194,7 @@ TEST_F(identification_script, doubts_about_the_data_are_printed_and_no_part_of_t
 
 TEST_F(identification_script, takes_uneven_instants_as_they_are) {
     const std::string script = dynlab::identification_script(of("uneven.csv"));
-    EXPECT_THAT(script, HasSubstr("SamplingInstants = record_t"));
+    EXPECT_THAT(script, HasSubstr("SamplingInstants = record.t"));
     EXPECT_THAT(files_->run(script).printed, HasSubstr("fit to the estimation data: 100.00 %"));
 }
 

@@ -115,7 +115,9 @@ void check_loop_data(const std::string& method, const IdData& data, const Transf
             "{} is for loops of one input, one output and one reference, and the data have {}, {} and {}", method,
             data.input_count(), data.output_count(), data.reference_count());
     if (!data.regular())
-        throw InvalidArgument("{} needs regularly sampled data, and these are not: resample them first", method);
+        throw InvalidArgument(
+            "{} needs regularly sampled data, and these are not: interpolate them to even steps first (interp1)",
+            method);
     if (structure.free_delays)
         throw InvalidArgument(
             "{}: delays are fixed here, in samples; search them in an experiment without feedback, or by trying "

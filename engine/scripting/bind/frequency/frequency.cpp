@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "figures/plots/levels_plot.h"
@@ -14,6 +15,7 @@
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/frequency_object.h"
 #include "scripting/objects/model.h"
+#include "scripting/objects/units.h"
 
 namespace dynlab::inline scripting {
 namespace {
@@ -25,7 +27,16 @@ constexpr OptionEntry kInterSample = {"InterSample",
                                             "(\"bl\"), held (\"zoh\") or on straight "
                                             "lines (\"foh\")"),
                                       {.choices = kInterSamples}};
+constexpr std::array kResponseForms = {"complex", "polar", "dB"};
+constexpr OptionEntry kResponseForm = {
+    "form",
+    ValueKind::kChoice,
+    about(
+        "what two vectors hold: real and imaginary part (\"complex\"), magnitude and phase in degrees (\"polar\"), or "
+        "decibels and degrees (\"dB\"); by default what the units of columns of `load` say, else \"complex\""),
+    {.choices = kResponseForms}};
 constexpr std::array kResponseOptions = {
+    kResponseForm,
     OptionEntry{
         "variance", ValueKind::kVector,
         about("mean of |error|^2 of each value, half of it in the real and half in the imaginary part, one for all "
@@ -58,7 +69,8 @@ constexpr std::array kResponseArguments = {
         "H", ValueKind::kAny,
         about("the response: a complex vector, {re, im} of two vectors, or a list of pairs {{re, im}, ...}; a "
               "model stands for its own response")},
-    ArgumentEntry{"w", ValueKind::kVector, about("frequencies in rad/s, all different and above zero")}};
+    ArgumentEntry{"w", ValueKind::kVector,
+                  about("frequencies in rad/s, all different and above zero; a column of `load` in Hz is converted")}};
 constexpr std::array kBlaArguments = {
     ArgumentEntry{"data", ValueKind::kData,
                   about("data object with one input and one output, regularly sampled; each experiment holds one "
@@ -69,8 +81,36 @@ std::optional<InterSample> inter_sample_option(const Options& options) {
     return static_cast<InterSample>(options.choice(kInterSample));
 }
 
+enum class ResponseForm { kComplex, kPolar, kDecibels };
+
+/// Of two vectors in a list: the option's, or as their units say.
+ResponseForm form_of(const Call& call, int index, const Options& options) {
+    if (options.has(kResponseForm.name)) return static_cast<ResponseForm>(options.choice(kResponseForm));
+    lua_State* L = call.state();
+    if (call.type(index) != LUA_TTABLE || lua_rawlen(L, index) != 2) return ResponseForm::kComplex;
+    std::array<std::string, 2> units;
+    for (const int part : {1, 2}) {
+        lua_geti(L, index, part);
+        units[static_cast<std::size_t>(part - 1)] = remembered_origin(L, -1).unit;
+        lua_pop(L, 1);
+    }
+    const auto& [size, angle] = units;
+    const bool decibels = size == "dB" || size == "db";
+    const bool degrees = angle == "deg" || angle == "\u00B0" || angle == "degree" || angle == "degrees";
+    if (!decibels && !degrees) return ResponseForm::kComplex;
+    if (!degrees)
+        throw InvalidArgument(
+            "{}: the first vector is in dB, but the second has the unit \"{}\"; give the phase in degrees and option "
+            "form = \"dB\"",
+            argument_label(index, "H"), angle);
+    call.print(localized(call, decibels ? Message("idfrd: by their units the columns are decibels and degrees")
+                                        : Message("idfrd: by their units the columns are magnitude and degrees")) +
+               "\n");
+    return decibels ? ResponseForm::kDecibels : ResponseForm::kPolar;
+}
+
 /// A complex vector; {re, im} of two vectors, {{re, im}, ...} of pairs, or a matrix of two columns.
-ComplexVector complex_argument(const Call& call, int index, ArgumentName what) {
+ComplexVector complex_argument(const Call& call, int index, ArgumentName what, const Options& options) {
     if (const ComplexVector* values = to_object<ComplexVector>(call.state(), index)) return *values;
     if (call.type(index) != LUA_TTABLE && to_matrix(call.state(), index) == nullptr)
         wrong_argument(call.state(), index, what,
@@ -80,8 +120,26 @@ ComplexVector complex_argument(const Call& call, int index, ArgumentName what) {
         throw InvalidArgument("{} needs a real and an imaginary part: {re, im} of two vectors, not {}",
                               argument_label(index, what), plural(parts.cols(), "{} column", "{} columns"));
     ComplexVector values(parts.rows());
-    values.real() = parts.col(0), values.imag() = parts.col(1);
+    const ResponseForm form = form_of(call, index, options);
+    if (form == ResponseForm::kComplex) {
+        values.real() = parts.col(0), values.imag() = parts.col(1);
+        return values;
+    }
+    constexpr double kDegree = std::numbers::pi / 180, kDecibels = 20;
+    for (Index i = 0; i < parts.rows(); ++i) {
+        const double part = parts(i, 0);
+        const double magnitude = form == ResponseForm::kPolar ? part : std::pow(10, part / kDecibels);
+        values[i] = magnitude * std::exp(Complex(0, parts(i, 1) * kDegree));
+    }
     return values;
+}
+
+/// In rad/s.
+Vector frequencies_argument(const Call& call) {
+    const VectorMap w = call.vector(2, "w");
+    if (remembered_origin(call.state(), 2).unit != "Hz") return w;
+    call.print(localized(call, Message("idfrd: the frequencies are in Hz and are converted to rad/s")) + "\n");
+    return 2 * std::numbers::pi * w;
 }
 
 /// Where a response comes from: an analyser, unless the options say samples; the samples of a discrete-time model.
@@ -107,8 +165,9 @@ int make_response(Call& call) {
     std::optional<TransferFunction> G;
     if (holds_model(call, 1)) G = model_argument(call, 1, "G").G;
     const auto [Ts, inter_sample] = sampling_options(options, G);
-    const VectorMap w = call.vector(2, "w");
-    const ComplexVector H = G ? response_between_samples(*G, w, Ts, inter_sample) : complex_argument(call, 1, "H");
+    const Vector w = frequencies_argument(call);
+    const ComplexVector H =
+        G ? response_between_samples(*G, w, Ts, inter_sample) : complex_argument(call, 1, "H", options);
     Vector variance;
     if (options.has("variance")) {
         const bool one = lua_type(call.state(), options.push("variance")) == LUA_TNUMBER;
