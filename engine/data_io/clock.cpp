@@ -169,8 +169,9 @@ class Column {
     }
 
     Message disorder(Index i) const {
-        const Message place("the time '{}' must increase, but sample {} is {} and the next {}", name_, i + 1,
-                            significant(original(i), kInstantDigits), significant(original(i + 1), kInstantDigits));
+        const Message place =
+            Message("the time '{}' must increase, but sample {} is {} and the next {}", name_, i + 1,
+                    significant(original(i), kInstantDigits), significant(original(i + 1), kInstantDigits));
         Index equal = 0, back = 0;
         for (Index k = 0; k + 1 < clock_.t.size(); ++k) {
             equal += clock_.t[k + 1] == clock_.t[k];

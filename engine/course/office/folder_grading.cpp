@@ -184,13 +184,10 @@ void FolderGrading::prepare(Course& course) {
     tried_.emplace(options_);
     if (!request_.roster.empty() && import_roster(course, request_.roster, true).converted)
         complaints_.push_back(Message("{} is not UTF-8; it was read as Latin-1 (Windows-1252)", request_.roster));
-    if (assignments_of(course).empty())
-        add_assignment(course, assignment_);
-    else
-        change_assignment(course, assignment_, "dynlab grade");
+    set_assignment(course, assignment_, assignments_of(course).empty() ? "" : "dynlab grade");
     assignment_ = assignment_named(course, assignment_.name);
     if (!request_.owners.empty()) set_owners(course, assignment_, request_.owners);
-    if (zone != course.clock().zone()) remember(course, "zone", CourseClock(zone).zone());
+    if (zone != course.clock().zone()) course.remember("zone", CourseClock(zone).zone());
     memory_ = json_of(now);
 }
 

@@ -35,7 +35,7 @@ constexpr OptionEntry kFillMethod = {
     "method",
     ValueKind::kChoice,
     about(
-        "straight lines between the neighbours (\"linear\", for outputs), or the sample before the gap (\"previous\", "
+        "straight lines between the neighbors (\"linear\", for outputs), or the sample before the gap (\"previous\", "
         "for inputs that are logged when they change)"),
     {.initial = "\"linear\"", .choices = kFillMethods}};
 constexpr OptionEntry kGapOptions[] = {

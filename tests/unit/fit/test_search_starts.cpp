@@ -115,16 +115,18 @@ TEST(search_starts, exchanged_poles_lead_to_the_system) {
         found.theta.resize(n + 1);
         found.theta << wrong.tail(n), 1;
         found.loss = with_linear_part(data, found.structure, found.start, wrong, 0).loss;
-        const std::vector<Vector> starts = exchanged_poles(data, found.structure, found);
-        EXPECT_LE(starts.size(), 4u);
+        const std::vector<Vector> starts = exchanged_poles(data, found.structure, found, FitOptions());
+        EXPECT_LE(starts.size(), 8u);
         double least = kInfinity, before = 0;
+        int better_than_before = 0;
         for (const Vector& start : starts) {
             const Vector A = monic(start.head(n));
             const double loss = with_linear_part(data, found.structure, found.start, A, 0).loss;
-            EXPECT_GE(loss, before) << "best first";
+            if (loss < before) ++better_than_before;
             before = loss;
             least = std::min(least, refine_output_error(data, found.structure, found.start, start, {}).loss);
         }
+        EXPECT_LE(better_than_before, 1) << "valleys, then peaks, the best of each first";
         return least;
     };
     const Vector swing = values({1, 0.1, 1.2});
