@@ -55,7 +55,7 @@ std::optional<double> missed_level(const IdData& data, const Fit& estimate) {
     const PolynomialOrders orders =
         PolynomialOrders::output_error(own.nb, std::vector<int>(own.inputs(), own.na), own.nk);
     try {
-        const FitOptions options;
+        const FitOptions options{};
         const Fit fit = fit_discrete_output("arx", data, orders, options, output_error_search(options));
         if (!fit.start.offset || !(fit.fit_percent[0] > estimate.fit_percent[0] + kWorse)) return std::nullopt;
         return fit.offsets(0, 0);

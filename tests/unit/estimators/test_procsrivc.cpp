@@ -495,7 +495,7 @@ TEST(procsrivc, a_beginning_that_tells_nothing_is_no_start) {  // oracle: the si
 
 TEST(procsrivc, zero_and_delay_of_p1dz_have_no_standard_errors) {  // oracle: n + 1 weights for n + 2 values; the truth
     const Vector u = rough_input(2000, 12);
-    const Vector x = lsim(model_of("P1DZ", values({1.7, 2, -0.9, 0.43})), u, 0.05);
+    const Vector x = lsim(model_of("P1DZ", Vector{{1.7, 2.0, -0.9, 0.43}}), u, 0.05);
     const Fit found = fit(siso(x + 0.08 * RandomStream(8).normal(2000), u, 0.05), "P1DZ");
     const std::string message = message_text(found.full_message());
     EXPECT_THAT(message, HasSubstr("Tz and Td cannot be told apart"));
