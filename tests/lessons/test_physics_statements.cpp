@@ -186,7 +186,8 @@ TEST(lesson_06_physics, finds_the_errors_of_the_linear_models) {
     EXPECT_GT(number(record, "narx_noiseless"), 0.95 * number(record, "narx_error")) << "nor would less noise";
     // SINDy's equation for the slope of the reading, from the simulator's parameters.
     const auto coefficient = [&record](int row, int column) {
-        return std::stod(replaced(record.at("tables").at("sindy").at("rows").at(row).at(column), "−", "-"));
+        return std::stod(
+            replaced(record.at("tables").at("sindy").at("rows").at(row).at(column).get<std::string>(), "−", "-"));
     };
     const double k23 = tanks.k1 * tanks.k2 / tanks.k3;
     const double torricelli[] = {-tanks.k1 * tanks.k2 / 4,
