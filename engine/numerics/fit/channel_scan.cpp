@@ -16,7 +16,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kChannelSamples = 20'000;
-constexpr int kRounds = 3;
+constexpr int kChannelRounds = 3;
 constexpr int kChannelIterations = 15;
 constexpr double kChannelTolerance = 1e-3;
 constexpr double kGain = 1e-4;  // of the loss: less is no reason for another round
@@ -30,7 +30,7 @@ class ChannelSearch {
 
     DelayScan run() {
         begin();
-        for (int round = 0; round < kRounds && !cancelled(); ++round) {
+        for (int round = 0; round < kChannelRounds && !cancelled(); ++round) {
             const double before = loss_;
             for (Index input = 0; input < structure_.inputs && !cancelled(); ++input) improve(input);
             if (!(loss_ < (1 - kGain) * before)) break;

@@ -11,14 +11,14 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kSegments = 4;  // of the shortest record
-constexpr Index kShortest = 64, kLongest = 8192;
+constexpr Index kShortestSegment = 64, kLongestSegment = 8192;
 constexpr Index kNeighbours = 2;  // on each side, below a peak
 
 Index segment_length(const IdData& data) {
     Index shortest = data.sample_count();
     for (const Experiment& experiment : data.experiments) shortest = std::min(shortest, experiment.y.rows());
-    Index length = kShortest;
-    while (length < kLongest && kSegments * length < shortest) length *= 2;
+    Index length = kShortestSegment;
+    while (length < kLongestSegment && kSegments * length < shortest) length *= 2;
     return length;
 }
 

@@ -12,14 +12,14 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kMostCoefficients = 100;  // of a polynomial
-constexpr double kSamplesPerValue = 10;   // at least
-constexpr double kBeyondChance = 5;       // standard deviations of the excess of one variance over the other
-constexpr double kLeastVariance = 1e-20;  // of the output's power: smaller errors are rounding
+constexpr Index kMostCoefficients = 100;       // of a polynomial
+constexpr double kSamplesPerCoefficient = 10;  // at least
+constexpr double kBeyondChance = 5;            // standard deviations of the excess of one variance over the other
+constexpr double kLeastVariance = 1e-20;       // of the output's power: smaller errors are rounding
 
 Index coefficient_count(const IdData& data) {
     const double N = static_cast<double>(data.sample_count());
-    const double most = N / (kSamplesPerValue * static_cast<double>(1 + data.input_count()));
+    const double most = N / (kSamplesPerCoefficient * static_cast<double>(1 + data.input_count()));
     return static_cast<Index>(std::min(10 * std::log10(N), most));
 }
 
@@ -32,7 +32,7 @@ Vector filtered_signal(const Vector& L, const VectorView& x, double before) {
     return result;
 }
 
-IdData filtered(const IdData& data, const Vector& L, bool from_rest) {
+IdData filtered_by(const IdData& data, const Vector& L, bool from_rest) {
     IdData result = data;
     for (Experiment& experiment : result.experiments) {
         experiment.y.col(0) = filtered_signal(L, experiment.y.col(0), experiment.y(0, 0));
@@ -87,7 +87,8 @@ bool LongRegression::predicts_better_than(double variance) const {
 }
 
 std::vector<IdData> LongRegression::filtered_data(bool from_rest) const {
-    return {filtered(data_, monic(theta_.head(orders_.na)), from_rest), filtered(data_, Vector{{1, -1}}, from_rest)};
+    return {filtered_by(data_, monic(theta_.head(orders_.na)), from_rest),
+            filtered_by(data_, Vector{{1, -1}}, from_rest)};
 }
 
 }  // namespace dynlab::inline numerics
