@@ -242,6 +242,13 @@ class ClassReceiver {
             "corrected', ?2 FROM arrived WHERE id = ?1 AND withdrawn OR assignment = ?3 AND name = ?4 AND hash = ?5 "
             "AND group_id <> ?6 AND NOT withdrawn",
             one.version, now_, assignment_.id, file_name(one.submission), one.content, one.group_id);
+        // A group that was made for this submission alone is left without work.
+        course_.database().run(
+            "UPDATE groups SET left_at = CASE id WHEN ?1 THEN NULL ELSE ?2 END, left_reason = 'whose it is was "
+            "corrected' WHERE (id = ?1 AND left_reason = 'whose it is was corrected' OR id <> ?1 AND NOT EXISTS "
+            "(SELECT 1 FROM memberships m WHERE m.group_id = groups.id)) AND id IN (SELECT group_id FROM versions "
+            "WHERE assignment = ?3 AND name = ?4 AND hash = ?5)",
+            one.group_id, now_, assignment_.id, file_name(one.submission), one.content);
     }
 
     /// Of nobody's work that of its earlier versions, or a new one.
