@@ -96,8 +96,13 @@ void Firefox::visit(const std::string& address) {
 }
 
 std::string Firefox::evaluate(const std::string& script) {
-    const json result = work_->command("WebDriver:ExecuteScript", {{"script", script}, {"args", json::array()}});
-    return result.at("value").dump();
+    for (int i = 0;; ++i, std::this_thread::sleep_for(50ms)) try {
+            const json asked = {{"script", script}, {"args", json::array()}};
+            return work_->command("WebDriver:ExecuteScript", asked).at("value").dump();
+        } catch (const EnvironmentError& error) {
+            // Of Firefox itself, not of the script: the page is being left.
+            if (i == 100 || !std::string(error.what()).starts_with("[Exception...")) throw;
+        }
 }
 
 }  // namespace dynlab::test
