@@ -14,8 +14,29 @@ bool digits_are_possible(const Number& number) {
 
 }  // namespace
 
-bool MessageList::operator==(const MessageList&) const = default;
+/// Not defaulted: clang 14 to 16 crashes on defaulted comparisons of types that hold each other.
+bool MessageList::operator==(const MessageList& other) const {
+    return join == other.join && items == other.items;
+}
 
+MessageArgument message_argument(double value) {
+    return Number{value};
+}
+MessageArgument message_argument(Number number) {
+    return number;
+}
+MessageArgument message_argument(std::string text) {
+    return text;
+}
+MessageArgument message_argument(std::string_view text) {
+    return std::string(text);
+}
+MessageArgument message_argument(const char* text) {
+    return std::string(text);
+}
+MessageArgument message_argument(OptionName option) {
+    return option;
+}
 MessageArgument message_argument(const Message& message) {
     return MessageList{{message}};
 }

@@ -49,28 +49,15 @@ struct MessageList {
 /// option, or other messages.
 using MessageArgument = std::variant<std::int64_t, Number, std::string, OptionName, MessageList>;
 
+/// Defined where Message is complete.
 MessageArgument message_argument(std::integral auto value) requires(!std::same_as<decltype(value), bool> &&
-                                                                    !std::same_as<decltype(value), char>) {
-    return static_cast<std::int64_t>(value);
-}
-inline MessageArgument message_argument(double value) {
-    return Number{value};
-}
-inline MessageArgument message_argument(Number number) {
-    return number;
-}
-inline MessageArgument message_argument(std::string text) {
-    return text;
-}
-inline MessageArgument message_argument(std::string_view text) {
-    return std::string(text);
-}
-inline MessageArgument message_argument(const char* text) {
-    return std::string(text);
-}
-inline MessageArgument message_argument(OptionName option) {
-    return option;
-}
+                                                                    !std::same_as<decltype(value), char>);
+MessageArgument message_argument(double value);
+MessageArgument message_argument(Number number);
+MessageArgument message_argument(std::string text);
+MessageArgument message_argument(std::string_view text);
+MessageArgument message_argument(const char* text);
+MessageArgument message_argument(OptionName option);
 MessageArgument message_argument(const Message& message);
 MessageArgument message_argument(MessageList list);
 
@@ -132,6 +119,11 @@ class Message {
     std::string id_, many_;
     std::vector<MessageArgument> arguments_;
 };
+
+MessageArgument message_argument(std::integral auto value) requires(!std::same_as<decltype(value), bool> &&
+                                                                    !std::same_as<decltype(value), char>) {
+    return static_cast<std::int64_t>(value);
+}
 
 /// "3 samples", as an argument or by itself: `plural(n, "{} sample", "{} samples")`.
 template <class... T>

@@ -13,7 +13,6 @@
 #include "app/server/web_server.h"
 #include "platform/system_call.h"
 #include "support/browser.h"
-#include "support/firefox.h"
 #include "support/page_client.h"
 
 namespace test_web_attacks {
@@ -88,8 +87,6 @@ class web_attacks : public testing::Test {
         EXPECT_FALSE(replies.starts_with("HTTP/1.1 2")) << name << ":\n" << replies;
         EXPECT_EQ(orders, 0) << name;
     }
-
-    void expect_pages_of_other_sites_achieve_nothing(BrowserWindow& browser);
 
     WebServer server;
     std::unique_ptr<PageClient> page;
@@ -256,7 +253,7 @@ class OtherSite {
     std::thread thread_;
 };
 
-void web_attacks::expect_pages_of_other_sites_achieve_nothing(BrowserWindow& browser) {
+TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_a_browser) {
     const std::string own = "http://" + page->host(), orders_at = own + "/order";
     // The body is the request that is to be smuggled: the next one of the user's own page would end it.
     const std::string smuggled = fmt::format(
@@ -288,6 +285,7 @@ void web_attacks::expect_pages_of_other_sites_achieve_nothing(BrowserWindow& bro
     attacks.push_back("new EventSource('" + own + "/events', {withCredentials: true})");
     attacks.push_back("document.body.innerHTML = '<img src=" + orders_at + "><script src=" + orders_at + ">'");
     attacks.push_back("window.open('" + own + "/').postMessage('x', '*')");
+    Browser browser;
     const std::string address = server.address();
     browser.open(address);
     ASSERT_TRUE(browser.comes("document.title === 'ours'"));
@@ -308,16 +306,6 @@ void web_attacks::expect_pages_of_other_sites_achieve_nothing(BrowserWindow& bro
     browser.evaluate("fetch('order', {method: 'POST', headers: {'X-Dynlab': '1'}})");
     for (int i = 0; i < 1000 && orders == 0; ++i) std::this_thread::sleep_for(10ms);
     EXPECT_EQ(orders, 1) << "the page itself may";
-}
-
-TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_chromium) {
-    Browser browser;
-    expect_pages_of_other_sites_achieve_nothing(browser);
-}
-TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_firefox) {
-    if (!Firefox::is_installed()) GTEST_SKIP() << "firefox-esr is not installed";
-    Firefox browser;
-    expect_pages_of_other_sites_achieve_nothing(browser);
 }
 
 /// What another user's server leaves in the browser at a port that is ours later.

@@ -136,6 +136,7 @@ class Browser::Work {
         }
     }
     Chromium& chromium() { return *chromium_; }
+    std::map<std::string, std::string> opened;  ///< addresses with a token, and where they led to
 
   private:
     Kind kind_;
@@ -150,24 +151,20 @@ void Browser::end_idle() {
 Browser::Browser(int width, int height, Kind kind) : work_(std::make_unique<Work>(width, height, kind)) {}
 Browser::~Browser() = default;
 
-void BrowserWindow::open(const std::string& address) {
+void Browser::open(const std::string& address) {
     // An address with a token works once; the browser has the page's cookie then.
-    const auto opened = opened_.find(address);
-    visit(opened == opened_.end() ? address : opened->second);
-    if (opened != opened_.end() || address.find("/?token=") == std::string::npos) return;
+    const auto opened = work_->opened.find(address);
+    work_->chromium().command("/url", {{"url", opened == work_->opened.end() ? address : opened->second}});
+    if (opened != work_->opened.end() || address.find("/?token=") == std::string::npos) return;
     if (comes("location.search === '' && document.readyState === 'complete'", 10))
-        opened_[address] = json::parse(evaluate("return location.href"));
-}
-
-void Browser::visit(const std::string& address) {
-    work_->chromium().command("/url", {{"url", address}});
+        work_->opened[address] = json::parse(evaluate("return location.href"));
 }
 
 std::string Browser::evaluate(const std::string& script) {
     return work_->chromium().command("/execute/sync", {{"script", script}, {"args", json::array()}}).dump();
 }
 
-bool BrowserWindow::comes(const std::string& expression, double seconds) {
+bool Browser::comes(const std::string& expression, double seconds) {
     const auto begin = std::chrono::steady_clock::now();
     std::chrono::duration<double> waited{0};
     do {

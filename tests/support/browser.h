@@ -1,35 +1,23 @@
 #pragma once
-#include <map>
 #include <memory>
 #include <string>
 
 namespace dynlab::test {
 
-/// What tests do in the window of any browser.
-class BrowserWindow {
-  public:
-    virtual ~BrowserWindow() = default;
-    void open(const std::string& address);
-    /// The JSON of what a script returns ("return ..."); throws EnvironmentError with its exception.
-    virtual std::string evaluate(const std::string& script) = 0;
-    /// Whether the expression becomes true within so many seconds.
-    bool comes(const std::string& expression, double seconds = 30);
-
-  private:
-    virtual void visit(const std::string& address) = 0;
-    std::map<std::string, std::string> opened_;  ///< addresses with a token, and where they led to
-};
-
 /// A window of a Chromium that nobody sees, driven by chromedriver over HTTP (W3C WebDriver). A Chromium serves one
 /// Browser after another: each begins with a new window and without cookies, stored data and cached responses. Two
 /// that live at the same time have a Chromium each.
-class Browser : public BrowserWindow {
+class Browser {
   public:
     enum class Kind { kWithoutDesktop, kWhole };  ///< what pages do is the same in both
     /// Width and height of the window in pixels. Throws EnvironmentError.
     explicit Browser(int width = 1280, int height = 900, Kind kind = Kind::kWithoutDesktop);
-    ~Browser() override;
-    std::string evaluate(const std::string& script) override;
+    ~Browser();
+    void open(const std::string& address);
+    /// The JSON of what a script returns ("return ..."); throws EnvironmentError with its exception.
+    std::string evaluate(const std::string& script);
+    /// Whether the expression becomes true within so many seconds.
+    bool comes(const std::string& expression, double seconds = 30);
     void click(const std::string& selector);
     void new_tab();
     void prefer_dark();  ///< as a system with a dark desktop does
@@ -45,7 +33,6 @@ class Browser : public BrowserWindow {
     static void end_idle();
 
   private:
-    void visit(const std::string& address) override;
     class Work;
     std::unique_ptr<Work> work_;
 };
