@@ -81,8 +81,8 @@ void add_self_check(const Lesson& lesson, ReportRequest& request, bool with_answ
     const fs::path file = lesson.self_check(request.script.header.language);
     if (!fs::is_regular_file(file)) return;
     const std::string text = read_text(file);
-    request.last_section.append(
-        with_answers ? text : replaced(text, "::: choice\n", "::: {.choice .unanswered}\n"), file, 1);
+    request.last_section.append(with_answers ? text : replaced(text, "::: choice\n", "::: {.choice .unanswered}\n"),
+                                file, 1);
 }
 
 /// The report that stands beside a lesson's script, or the lesson itself woven.

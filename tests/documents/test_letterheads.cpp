@@ -77,8 +77,10 @@ TEST_F(letterheads, of_a_course_are_above_all_its_documents_but_those_with_their
     EXPECT_THAT(inspect_pdf(make("---\nheader: Nancy\n---\nText\n", "out.pdf")).pages.at(0),
                 AllOf(HasSubstr("Nancy"), Not(HasSubstr("Lorraine"))));
     write("course/report_templates/settings.yaml", "logo: other.png\n");
-    EXPECT_THAT(refusal("Text\n", "other.pdf"),
-                HasSubstr("course/report_templates/settings.yaml: the picture \"other.png\" is not in the folder of this file"));
+    EXPECT_THAT(
+        refusal("Text\n", "other.pdf"),
+        HasSubstr(
+            "course/report_templates/settings.yaml: the picture \"other.png\" is not in the folder of this file"));
     write("course/report_templates/settings.yaml", "header: Nancy\ntitle: Mine\n");
     EXPECT_THAT(refusal("Text\n", "other.pdf"), HasSubstr("\"title\" is set in templates; settings are logo, header"));
 }

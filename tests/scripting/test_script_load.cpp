@@ -27,13 +27,12 @@ class script_load : public testing::Test {
 
 TEST_F(script_load, tells_what_was_guessed_and_feeds_fillmissing) {
     write("a.txt", "time (ms);u [V]\n0;1\n10;\n20;3,5\n");
-    EXPECT_EQ(
-        says("local d = load(\"a.txt\") print(fillmissing(d.u)[2], d[\"u [V]\"][3], d.units.u)"),
-        "a.txt: units from the headers: time in ms, u in V\n"
-        "a.txt: numbers are missing and become NaN: 1 of 3 in u (first in line 3); fillmissing(u, {method = "
-        "\"previous\"}) holds an input that is logged when it changes, fillmissing(y) interpolates an output\n"
-        "a.txt: numbers are written with a decimal comma, such as 3,5\n"
-        "2.25\t3.5\tV\n");
+    EXPECT_EQ(says("local d = load(\"a.txt\") print(fillmissing(d.u)[2], d[\"u [V]\"][3], d.units.u)"),
+              "a.txt: units from the headers: time in ms, u in V\n"
+              "a.txt: numbers are missing and become NaN: 1 of 3 in u (first in line 3); fillmissing(u, {method = "
+              "\"previous\"}) holds an input that is logged when it changes, fillmissing(y) interpolates an output\n"
+              "a.txt: numbers are written with a decimal comma, such as 3,5\n"
+              "2.25\t3.5\tV\n");
     EXPECT_THAT(complains("print(load(\"a.txt\").y)"), HasSubstr("have no variable 'y'; they have time, u"));
 }
 

@@ -37,7 +37,8 @@ void add_look(CLI::App& app, Action& action) {
     auto words = std::make_shared<LookArguments>();
     CLI::App* command = app.add_subcommand("look", "What a data file holds: columns, units, sampling, gaps, a picture");
     command
-        ->add_option("DATA", words->data, "A .mat file, a table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or a data set's name")
+        ->add_option("DATA", words->data,
+                     "A .mat file, a table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or a data set's name")
         ->required();
     auto* picture = command->add_option("-o,--output-file", words->picture,
                                         "The picture (.pdf, .svg or .png), DATA_look.pdf unless given");

@@ -34,9 +34,8 @@ constexpr std::array kFillMethods = {"linear", "previous"};
 constexpr OptionEntry kFillMethod = {
     "method",
     ValueKind::kChoice,
-    about(
-        "straight lines between the neighbors (\"linear\", for outputs), or the sample before the gap (\"previous\", "
-        "for inputs that are logged when they change)"),
+    about("straight lines between the neighbors (\"linear\", for outputs), or the sample before the gap (\"previous\", "
+          "for inputs that are logged when they change)"),
     {.initial = "\"linear\"", .choices = kFillMethods}};
 constexpr OptionEntry kGapOptions[] = {
     kFillMethod,

@@ -5,6 +5,7 @@
 
 #include "documents/error.h"
 #include "documents/percent_script.h"
+#include "documents/script_header.h"
 #include "documents/solutions.h"
 #include "documents/text_lines.h"
 #include "platform/temporary_folder.h"

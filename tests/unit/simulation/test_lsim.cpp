@@ -149,7 +149,8 @@ TEST(lsim, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1, NAN}), 0.1);
               }),
-              "lsim: sample 2 of the input is not a number (NaN); fillmissing(u, {method = \"previous\"}) holds the value before");
+              "lsim: sample 2 of the input is not a number (NaN); fillmissing(u, {method = \"previous\"}) holds the "
+              "value before");
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1, 2}), 0);
               }),
