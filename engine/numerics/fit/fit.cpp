@@ -18,9 +18,9 @@ Message Fit::full_message() const {
     std::vector<Message> all;
     if (!message.empty()) all.push_back(message);
     all.insert(all.end(), warnings.begin(), warnings.end());
-    for (Index output = 0; output < fit_percent.size(); ++output) {
-        if (!(fit_percent[output] < 0) || !std::isfinite(fit_percent[output])) continue;
-        const Number percent = significant(fit_percent[output], 3);
+    for (Index i = 0; i < fit_percent.size(); ++i) {
+        if (!(fit_percent[i] < 0) || !std::isfinite(fit_percent[i])) continue;
+        const Number percent = significant(fit_percent[i], 3);
         all.push_back(
             fit_percent.size() == 1
                 ? Message("The model fits worse than the mean of the output (fit {} %): do not use it. Check "
@@ -28,7 +28,7 @@ Message Fit::full_message() const {
                           percent)
                 : Message("The model fits output {} worse than the mean of that output (fit {} %): do not use "
                           "it. Check the data and the structure, or begin with other start values.",
-                          output + 1, percent));
+                          i + 1, percent));
     }
     return sentences(std::move(all));
 }
