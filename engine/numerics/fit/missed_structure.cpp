@@ -12,9 +12,9 @@
 #include "numerics/fit/simulation_error.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/fit/transfer_search.h"
-#include "numerics/fit/wandering.h"
 #include "numerics/linalg/decompositions.h"
 #include "numerics/signals/preprocess.h"
+#include "numerics/statistics/wandering.h"
 
 namespace dynlab::inline numerics {
 

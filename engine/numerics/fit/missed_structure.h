@@ -28,9 +28,9 @@ struct MissedStructure {
 /// The structure that an output-error fit in continuous time misses, or nothing: a direct feedthrough where it has
 /// fewer zeros than poles; with one input, one more pole, or a delay where the fit has a fixed one.
 ///
-/// Where the errors wander (fit/wandering.h), a straight line comes first: the structure is fitted to the data without
-/// their lines, and nothing else is looked for where that gains. A feedthrough is fitted where a LOOK AHEAD on the
-/// first 3000 samples at most promises it: J'J and J'e of the sensitivities at the fit, extended by the further
+/// Where the errors wander (statistics/wandering.h), a straight line comes first: the structure is fitted to the data
+/// without their lines, and nothing else is looked for where that gains. A feedthrough is fitted where a LOOK AHEAD on
+/// the first 3000 samples at most promises it: J'J and J'e of the sensitivities at the fit, extended by the further
 /// coefficients of B, tell what one Gauss-Newton step gains. A pole and a delay are fitted where the errors follow the
 /// input. Each is fitted by the options of the fit, which choose its start again where they leave it open (of records
 /// above 100,000 samples, to their beginning). A gain counts when it lowers BIC by more than 10, very strong evidence

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/message.h"
-#include "numerics/fit/wandering.h"
+#include "numerics/statistics/wandering.h"
 #include "numerics/validation/advice.h"
 #include "numerics/validation/compare.h"
 #include "numerics/validation/delay_search.h"

@@ -1,4 +1,4 @@
-#include "numerics/fit/wandering.h"
+#include "numerics/statistics/wandering.h"
 
 namespace dynlab::inline numerics {
 
