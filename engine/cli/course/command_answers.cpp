@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/course/course_commands.h"
 #include "course/answers/answers_page.h"
+#include "course/intake/submission.h"
 #include "course/store/assignments.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"

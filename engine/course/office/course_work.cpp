@@ -50,8 +50,6 @@ CourseWork::CourseWork(Course& course, const Assignment& assignment, const Recei
         const auto version = versions.find(item.version);
         if (version != versions.end()) {
             date(item, version->second, assignment);
-            if (needs_confirmation(item.lateness) && !version->second.confirmed)
-                item.lateness = unconfirmed(item.lateness);
         } else if (item.version != 0) {
             work_.notes.push_back(Message("\"{}\" is withdrawn, and left out", item.submission.name));
             continue;
@@ -68,6 +66,7 @@ void CourseWork::date(WorkItem& item, const Stored& version, const Assignment& a
     item.received = version.received;
     const Costs& costs = assignment.costs;
     item.lateness = lateness_of({version.due, assignment.grace, costs.late_day, costs.late_most}, version.first);
+    if (needs_confirmation(item.lateness) && !version.confirmed) item.lateness = unconfirmed(item.lateness);
 }
 
 /// The file under a name that tells what it is.

@@ -13,10 +13,10 @@ namespace dynlab::inline course {
 /// The work of one lab as the course knows it, for the grading pipeline. It lives without the course.
 class CourseWork {
   public:
-    /// Every version that is not withdrawn, under its group's name ("group-07 v2").
+    /// Every version that is not withdrawn, under its group's name ("group-07 v2"). Penalties of half the points or
+    /// more wait until the time of receipt was corrected or confirmed.
     CourseWork(Course& course, const Assignment& assignment);
-    /// Only what a folder holds now, under the names there; what was withdrawn is left out. Penalties of half the
-    /// points or more wait until the time of receipt was corrected or confirmed.
+    /// The same of what a folder holds now only, under the names there.
     CourseWork(Course& course, const Assignment& assignment, const ReceivedClass& received);
 
     /// Of these groups, students or submissions; of all where there are none. Throws EnvironmentError for a name that
