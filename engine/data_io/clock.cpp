@@ -91,7 +91,7 @@ class Column {
         } else {
             const Counted counted = counted_unit(clock_.t, stated_Ts(), name.is_time || !given_);
             const double step = median_step(clock_.t);
-            if (counted.rival)
+            if (counted.rival && step > 0)  // else its order is wrong in any unit
                 return asks(
                     Message("the time '{}' has no unit, and {} (a sample every {}) is as likely as {} (every {}); {}",
                             name_, counted.unit.name, shown_step(step * counted.unit.seconds), counted.rival->name,

@@ -96,18 +96,19 @@ TEST(check_command, what_a_script_that_stands_alone_names_goes_with_it) {
 // Field case 17: a pasted picture is a gap of the report, not the end of it.
 TEST(check_command, a_picture_that_was_pasted_into_a_notebook_is_told_with_the_remedy) {
     const Workbench bench;
-    bench.write("pasted.ipynb",
-                R"({"cells": [{"cell_type": "markdown", "id": "a", "metadata": {}, "source": ["# Rig\n", "![image.png](attachment:image.png)"],
+    bench.write(
+        "pasted.ipynb",
+        R"json({"cells": [{"cell_type": "markdown", "id": "a", "metadata": {}, "source": ["# Rig\n", "![image.png](attachment:image.png)"],
  "attachments": {
         "image.png" : {
             "image/png" : "iVBORw0KGgo="
         }}
 }, {"cell_type": "code", "id": "c", "metadata": {}, "outputs": [],
  "execution_count": null, "source": ["print(1)"]}], "metadata": {}, "nbformat": 4, "nbformat_minor": 5
-})");
+})json");
     const std::string told = bench.dynlab({"check", "pasted.ipynb"}).output;
-EXPECT_THAT(told,
-            AllOf(HasSubstr("was pasted into the notebook"), HasSubstr("save it as a file"), Not(HasSubstr("/box/"))));
+    EXPECT_THAT(told, AllOf(HasSubstr("was pasted into the notebook"), HasSubstr("save it as a file"),
+                            Not(HasSubstr("/box/"))));
 }
 
 TEST(check_command, a_copied_cell_and_lost_stars_are_hints) {

@@ -190,7 +190,7 @@ TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
     import_roster(course, work.path("roster.csv"), true);
     Assignment lab;
     lab.name = lab.lesson = "99_small", lab.kind = "lab";
-    add_assignment(course, lab);
+    set_assignment(course, lab);
     lab = assignment_named(course, "");
     const ClassSubmissions submissions(work.path("in"), Isolation::kProcess, DYNLAB_PROGRAM);
     const ReceivedClass received = receive_class(course, lab, submissions, {}, 0);

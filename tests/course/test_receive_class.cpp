@@ -33,7 +33,7 @@ class received_class : public testing::Test {
         course_.emplace(folder_.path() / "k");
         Assignment lab;
         lab.name = lab.lesson = "04", lab.kind = "lab", lab.costs.late_day = 10;
-        add_assignment(*course_, lab);
+        set_assignment(*course_, lab);
     }
     void write(const std::string& name, const std::string& text) {
         fs::create_directories((folder_.path() / name).parent_path());

@@ -79,8 +79,8 @@ TEST(self_check, of_reports_with_solutions_has_the_answers) {
     const Workbench bench(Workbench::Memory::kShared);
     const std::string text =
         bench
-            .shell("pdftotext -layout '" + shared_document({"report", "02_least_squares"}, "02_least_squares.en.pdf") +
-                   "' -")
+            .shell("pdftotext -layout '" +
+                   shared_document({"report", "02_least_squares"}, "02_least_squares.en.pdf").string() + "' -")
             .output;
     EXPECT_LT(text.find("Five questions to check yourself"), text.find("Answers to the questions"));
     EXPECT_LT(text.find("Answers to the questions"), text.find("All three minimise the same sum."));

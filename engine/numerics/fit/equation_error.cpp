@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "numerics/error.h"
-#include "numerics/fit/discrete/discrete_fit.h"
+#include "numerics/fit/operating_points.h"
 #include "numerics/linalg/least_squares.h"
 
 namespace dynlab::inline numerics {
@@ -45,23 +45,18 @@ Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const Fi
     return sums;
 }
 
-/// The level at which the output stands at zero inputs, where the simulation is much worse than the prediction and an
-/// output-error model with an offset simulates much better.
-std::optional<double> missed_level(const IdData& data, const Fit& estimate) {
+/// Simulation fit of the same equations about the operating point, where it is much better than that of the data as
+/// they are: a difference equation goes through the origin.
+std::optional<double> better_without_means(const IdData& data, const Fit& estimate) {
     constexpr double kWorse = 5;  // per cent of fit
     if (!(estimate.fit_percent[0] < estimate.prediction_fit_percent - kWorse) || data.input_count() == 0)
         return std::nullopt;
-    const PolynomialOrders& own = *estimate.orders;
-    const PolynomialOrders orders =
-        PolynomialOrders::output_error(own.nb, std::vector<int>(own.inputs(), own.na), own.nk);
-    try {
-        const FitOptions options{};
-        const Fit fit = fit_discrete_output("arx", data, orders, options, output_error_search(options));
-        if (!fit.start.offset || !(fit.fit_percent[0] > estimate.fit_percent[0] + kWorse)) return std::nullopt;
-        return fit.offsets(0, 0);
-    } catch (const InvalidArgument&) {
-        return std::nullopt;
-    }
+    const IdData centred = without_operating_points(data).data;
+    const ArxEquations equations(centred, *estimate.orders);
+    const Fit about = polynomial_fit(*estimate.orders, solve_arx(equations).theta, data.Ts);
+    const Sums sums = sums_of_squares(centred, equations, about);
+    const double fit = fit_percent_of_sums(sums.simulation_error, sums.variation);
+    return fit > estimate.fit_percent[0] + kWorse ? std::optional(fit) : std::nullopt;
 }
 
 }  // namespace
@@ -98,11 +93,11 @@ void report_equation_error(Fit& estimate, const IdData& data) {
     estimate.prediction_fit_percent = fit_percent_of_sums(sums.prediction_error, sums.variation);
     estimate.start = {InitialState::kEstimate, false};
     estimate.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), 1);
-    if (const std::optional<double> level = missed_level(data, estimate))
+    if (const std::optional<double> better = better_without_means(data, estimate))
         estimate.warnings.push_back(Message(
-            "{} stands at about {} when {} is zero, and a difference equation goes through the origin: take the "
-            "means off (data:remove_mean()).",
-            data.output_names.front(), significant(*level, 3), listed(data.input_names)));
+            "Without the means the simulation fits {} % instead of {} %: a difference equation goes through the "
+            "origin, and these data do not. Take the means off (data:remove_mean()).",
+            significant(*better, 4), significant(estimate.fit_percent[0], 4)));
 }
 
 void describe_equation_error(Fit& estimate) {

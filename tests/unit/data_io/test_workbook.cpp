@@ -111,9 +111,9 @@ TEST_F(workbook, is_read_as_a_table) {
     ImportOptions second;
     second.sheet = "Run 2";
     EXPECT_EQ(std::get<Vector>(read_data_file(file_, true, second).variables.at("c1").value), (Vector{{5}}));
-    write(
-        parts_of("<row r=\"1\"><c r=\"A1\" t=\"s\"><v>0</v></c></row><row r=\"2\"><c r=\"A2\"><v>1</v></c></row>"
-                 "<row r=\"3\"><c r=\"A3\" t=\"str\"><v>five</v></c></row>"));
+    write(parts_of(
+        "<row r=\"1\"><c r=\"A1\" t=\"s\"><v>0</v></c></row><row r=\"2\"><c r=\"A2\"><v>1</v></c></row>"
+        "<row r=\"3\"><c r=\"A3\" t=\"str\"><v>five</v></c></row><row r=\"4\"><c r=\"A4\"><v>2</v></c></row>"));
     try {
         read_data_file(file_, true);
         ADD_FAILURE() << "no error";

@@ -217,7 +217,7 @@ TEST(procsrivc, a_held_input_cannot_place_the_delay_of_a_jump) {  // oracle: two
     const Vector y = lsim(model_of("P1DZ", Vector{{1.3, 1.7, -0.45, 0.373}}), u, 0.05);
     const auto result = fit(siso(y, u, 0.05), "P1DZ", tight());
     EXPECT_GT(result.fit_percent[0], 100 - 1e-6);
-    EXPECT_TRUE(warned(result, "do not determine all parameters separately")) << message_text(result.full_message());
+    EXPECT_TRUE(warned(result, "cannot be told apart within one sampling time")) << message_text(result.full_message());
 }
 
 TEST(procsrivc, integrating_process_cut_from_a_running_experiment) {  // oracle: the simulated system

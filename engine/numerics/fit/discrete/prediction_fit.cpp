@@ -78,9 +78,10 @@ ArmaNoise start_noise(const std::vector<Vector>& errors, int nc, int nd, double 
 
 namespace {
 
-/// Estimates of a root that lies within a few of 1/N of the unit circle pile up on it: their scatter is no normal one.
+/// Estimates of a root r within four standard errors sqrt(2 (1 - r)/N) of the unit circle pile up on it: their scatter
+/// is no normal one.
 void warn_of_noise_roots(Fit& fit, Index samples) {
-    constexpr double kFew = 20;
+    constexpr double kFew = 32;
     for (const auto& [letter, p] : {std::pair{"C", fit.polynomial->C}, std::pair{"D", fit.polynomial->D}}) {
         const double largest = p.tail(p.size() - 1).any() ? roots(p).cwiseAbs().maxCoeff() : 0;
         if (!((1 - largest) * static_cast<double>(samples) < kFew)) continue;
