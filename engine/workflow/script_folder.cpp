@@ -61,7 +61,8 @@ class FilesNamed {
     void add_picture(std::string address) {
         address = trimmed(address);
         if (address.starts_with('<')) address = address.substr(1, address.find('>') - 1);
-        static const RE2 kTitle(R"(\s+["'(].*$)", RE2::Latin1), kEscape(R"(\\(.))", RE2::Latin1);
+        static const RE2 kTitle(R"re(\s+("[^"]*"|'[^']*'|\([^)]*\))$)re", RE2::Latin1),
+            kEscape(R"(\\(.))", RE2::Latin1);
         RE2::Replace(&address, kTitle, "");
         add(path_of_picture(address));
         RE2::GlobalReplace(&address, kEscape, R"(\1)");

@@ -287,7 +287,7 @@ TEST(course_migration, of_a_first_version_keeps_its_students) {
     EXPECT_EQ(rows.text(0), "Ada King");
 }
 
-// oracle: what the third version told of the same rows, but for content that had come in time
+// oracle: what came in time, came again or came late, by hand
 TEST(course_migration, of_a_third_version_keeps_what_stands) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "course.db";
@@ -312,7 +312,6 @@ TEST(course_migration, of_a_third_version_keeps_what_stands) {
             all.push_back(rows.integer(0));
         return all;
     };
-    EXPECT_EQ(late(), (std::vector<std::int64_t>{0, 0, 30, 40, 50}));
     migrate_course(database, Database::Opening::kExisting, "k");
     EXPECT_EQ(late(), (std::vector<std::int64_t>{0, 0, 0, 0, 50}));
 }

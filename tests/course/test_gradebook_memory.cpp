@@ -48,7 +48,7 @@ TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
                    "your own checks (own then, none now), the secret");
     expect_refused(
         bench.grade({"--checks", "own", "--secret", "secret.txt", "--deadlines", "deadlines.csv", "--keep", "newest"}),
-        "which hand-in counts (best then, newest now)");
+        "which submission counts (best then, newest now)");
     EXPECT_EQ(work.read("out/gradebook.csv"), whole);
     EXPECT_THAT(bench.grade(all).output, HasSubstr("0 graded now, 2 unchanged"));
     // Deadlines that moved are wanted, or refused.

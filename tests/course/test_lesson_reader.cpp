@@ -188,7 +188,7 @@ TEST(feedback_in_french, has_the_authors_sentences_of_the_lesson) {
                 AllOf(HasSubstr("La pulsation de la charge quand le moteur est au repos** – 0 sur 2"),
                       HasSubstr("L'écart à ce qui était attendu est de 3,25\u202F; on demandait 0,1 au plus. "
                                 "C'est en Hz\u202F; on demande des rad/s."),
-                      HasSubstr("Comptez les balancements")));
+                      HasSubstr("Comptez les oscillations")));
 }
 
 }  // namespace test_lesson_reader

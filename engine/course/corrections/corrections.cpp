@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "course/review/review_pairs.h"
+#include "course/store/inspection.h"
 #include "course/store/receipts.h"
 #include "numerics/error.h"
 
@@ -34,7 +35,8 @@ class WantedFiles {
 
     /// Those that are withdrawn, or those that are not.
     std::vector<Found> all(bool withdrawn) const {
-        const std::vector<std::string> parts = parts_of(assignment_, wanted_.stage);
+        std::vector<std::string> parts = parts_of(assignment_, wanted_.stage);
+        parts.emplace_back(kUnreadable);
         if (!wanted_.part.empty()) {
             if (std::ranges::find(parts, wanted_.part) == parts.end())
                 throw InvalidArgument("{} has no {}: its parts are {}", assignment_.name, wanted_.part, listed(parts));

@@ -180,8 +180,8 @@ void FolderGrading::prepare(Course& course) {
     now.inputs["keep"] = {assignment_.keep, assignment_.keep};
     const std::string zone = request_.timezone.empty() ? course.clock().zone() : request_.timezone;
     now.inputs["timezone"] = {zone, zone};
+    tried_.emplace(options_);  // what is wrong with the checks is said first
     if (!request_.again) refuse_differences(then, now, request_);
-    tried_.emplace(options_);
     if (!request_.roster.empty() && import_roster(course, request_.roster, true).converted)
         complaints_.push_back(Message("{} is not UTF-8; it was read as Latin-1 (Windows-1252)", request_.roster));
     set_assignment(course, assignment_, assignments_of(course).empty() ? "" : "dynlab grade");

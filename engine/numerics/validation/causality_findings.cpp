@@ -124,7 +124,8 @@ bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
 bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, RecordFindings& findings) {
     const bool disturbed = wanders(fit.error);
     const double forward = std::max(fit.simulation.fit_percent, disturbed ? 100 * (1 - fit.movement_error) : 0.0);
-    if (forward > kExplainsMost || !fit.model().stable() || !follows_later_inputs(fit)) return false;
+    if (forward > kExplainsMost) return false;
+    if (!fit.runs_away() && (!fit.model().stable() || !follows_later_inputs(fit))) return false;
     const IdData turned = exchanged(fit.data);
     if (!may_be_exchanged(exchanged(fit.window.data), forward)) return false;
     const std::optional<FittedRecord> backward = fitted_record(turned, cancel);

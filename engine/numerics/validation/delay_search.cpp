@@ -103,7 +103,8 @@ Message result_of(const DelaySearch& search, const IdData& data) {
 Message explanation_of(const DelaySearch& search, const IdData& data) {
     std::vector<Message> all{result_of(search, data)};
     if (search.delay <= 2 * search.std) all.push_back(Message("It does not differ significantly from no delay."));
-    if (search.rival)
+    const Vector& errors = search.candidate.estimate.std;
+    if (search.rival && !std::isinf(errors[errors.size() - 1]))  // else a warning of the estimate says so
         all.push_back(
             Message("A delay of {} s explains them nearly as well: look at the curve, and decide by what you "
                     "know of the plant.",
@@ -133,7 +134,10 @@ DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) 
     if (search.cancelled) return search;
     losses = losses.cwiseMin(loss_without_model(data));
     search.delay = search.candidate.delay;
-    search.std = search.candidate.estimate.std[search.candidate.estimate.std.size() - 1];
+    const Fit& estimate = search.candidate.estimate;
+    search.std = estimate.std[estimate.std.size() - 1];
+    if (const Index last = estimate.covariance.rows(); std::isinf(search.std) && last > 0)  // in its own valley
+        search.std = std::sqrt(estimate.covariance(last - 1, last - 1));
     search.rival = rival_of(search, data.sample_count());
     search.explanation = explanation_of(search, data);
     return search;

@@ -43,11 +43,13 @@ ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel
     IdData first = data;
     first.experiments.resize(1);
     std::optional<FittedRecord> fit = fitted_record(first, cancel);
-    if (!fit || find_exchange(*fit, cancel, findings)) return advice;
+    if (!fit) return advice;
+    const bool answered_backwards = find_exchange(*fit, cancel, findings);
+    if (answered_backwards && !fit->runs_away()) return advice;
     const bool judged_one_by_one = fit->error.size() <= kMostSamplesToJudge;
     if (judged_one_by_one) find_error_outliers(*fit, cancel, findings);
     advice.judges_outliers = fit->trusted() && judged_one_by_one;
-    if (find_load(*fit, findings)) return advice;
+    if (!answered_backwards && find_load(*fit, findings)) return advice;
     if (find_runaway(*fit, findings)) {
         find_feedback(*fit, findings);
         return advice;

@@ -64,7 +64,7 @@ bool find_late_input(const FittedRecord& fit, RecordFindings& findings);
 
 /// "causality": the model from output to input leaves less than two thirds of what the one from input to output
 /// leaves, and explains more than half; and what the latter leaves goes with later inputs (F-test at level 1e-6 after
-/// whitening): columns exchanged. Searches a second model, if the first is poor.
+/// whitening), or its simulation runs away: columns exchanged. Searches a second model, if the first is poor.
 bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, RecordFindings& findings);
 
 }  // namespace dynlab::inline numerics

@@ -115,12 +115,12 @@ ComplexVector complex_argument(const Call& call, int index, ArgumentName what, c
     if (call.type(index) != LUA_TTABLE && to_matrix(call.state(), index) == nullptr)
         wrong_argument(call.state(), index, what,
                        Message("a complex vector, as freqresp gives it, or {re, im} of two vectors"));
+    const ResponseForm form = form_of(call, index, options);  // of the list, which becomes a matrix
     const MatrixMap parts = call.matrix(index, what);
     if (parts.cols() != 2)
         throw InvalidArgument("{} needs a real and an imaginary part: {re, im} of two vectors, not {}",
                               argument_label(index, what), plural(parts.cols(), "{} column", "{} columns"));
     ComplexVector values(parts.rows());
-    const ResponseForm form = form_of(call, index, options);
     if (form == ResponseForm::kComplex) {
         values.real() = parts.col(0), values.imag() = parts.col(1);
         return values;
