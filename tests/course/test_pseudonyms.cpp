@@ -141,7 +141,9 @@ TEST(pseudonyms, of_a_store_with_a_seed_stay_as_they_were_drawn) {
     CourseBench::expect_done(bench.bench().shell(
         "for table in assignments allocations; do\n"
         "sqlite3 k/course.db \"ALTER TABLE $table ADD COLUMN seed INTEGER NOT NULL DEFAULT 4711\"; done\n"
-        "sqlite3 k/course.db 'DROP TABLE marks; DROP TABLE results; DROP TABLE refusals; DROP TABLE stops; ALTER TABLE "
+        "sqlite3 k/course.db 'DROP TABLE marks; DROP TABLE results; DROP TABLE stops; " +
+        std::string(CourseBench::kTablesOfScores) + CourseBench::kTablesOfOralMarks +
+        "ALTER TABLE "
         "students DROP "
         "COLUMN "
         "own_data; ALTER TABLE students DROP COLUMN language; PRAGMA user_version = 4'"));

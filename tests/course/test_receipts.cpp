@@ -147,9 +147,9 @@ TEST_F(receipts, of_courses_of_before_are_still_known_to_the_course) {
         "echo \"signature: $code\" >> old.txt && cp old.txt k/receipts/crane/*-group-01-first-report.txt && "
         "sqlite3 k/course.db \"UPDATE versions SET signature = '$code'; DROP VIEW standing; DROP "
         "VIEW arrived; DROP TABLE arrivals; DROP TABLE extensions; DROP TABLE withdrawals; DROP TABLE holds; DROP "
-        "TABLE pair_wishes; DROP TABLE instructor_scores; DROP TABLE returns; DROP TABLE seals; "
-        "DROP TABLE student_scores; DROP TABLE oral_comments; DROP TABLE marks; DROP TABLE results; DROP TABLE "
-        "refusals; DROP TABLE stops; "
+        "TABLE pair_wishes; DROP TABLE returns; DROP TABLE seals; DROP TABLE marks; DROP TABLE results; DROP TABLE "
+        "stops; " +
+        std::string(CourseBench::kTablesOfScores) +
         "ALTER TABLE students DROP COLUMN own_data; ALTER TABLE students DROP COLUMN language; DROP INDEX "
         "versions_of_pair; DROP INDEX versions_of_hash; DROP INDEX sendings_of_pair; ALTER TABLE assignments DROP "
         "COLUMN costs; ALTER TABLE assignments DROP COLUMN final_weight; ALTER TABLE assignments ADD COLUMN seed "

@@ -216,7 +216,8 @@ TEST(unfair_submissions, the_instructor_is_told_of_slips_and_of_scripts_without_
     const ChildResult graded =
         bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv", "--timeout", "2", "--accept-late"});
     EXPECT_EQ(graded.exit_code, 1);
-    for (const char* words : {"no submission \"g9\"", "no check \"nosuch\"", "\"g8\": there is no such submission"})
+    for (const char* words :
+         {"no submission \"g9\"", "no check \"nosuch\"", "the row of \"g8\": there is no group \"g8\""})
         EXPECT_THAT(graded.error_output, HasSubstr(words));
     const std::string summary = work.read("out/summary.md");
     EXPECT_THAT(summary, HasSubstr("did not run to its end"));

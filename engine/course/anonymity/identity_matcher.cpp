@@ -164,6 +164,7 @@ bool may_count(const Tokens& tokens, std::size_t first, std::size_t end, std::st
     const std::size_t from = first > 0 ? tokens[first - 1].end : 0;
     const std::string_view before = text.substr(from, tokens[first].begin - from);
     if (!digits || is_labelled(tokens, first) || before.find('(') != std::string_view::npos) return false;
+    if (first > 0 && before.empty()) return false;  // "s20214711", an account
     if (before.find_first_of("=<>") != std::string_view::npos) return true;
     // Whether the word is one of a sentence, and a space alone is between `behind` and the token before it.
     const auto is_beside = [&](const NameToken& word, std::size_t behind) {
