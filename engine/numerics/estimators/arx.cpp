@@ -12,6 +12,7 @@ Fit arx(const IdData& data, const PolynomialOrders& orders) {
     estimate.covariance = estimate.noise_variance[0] * solution.inverse_gram;
     estimate.condition_number = solution.condition_number;
     describe_equation_error(estimate);
+    warn_of_operating_point(estimate, data);
     estimate.message = Message(
         "Least squares over {} equations: fit {} % predicting one step, {} % simulating from the recorded past.",
         ArxEquations(data, orders).count(), significant(estimate.prediction_fit_percent, 4),

@@ -106,6 +106,7 @@ Fit iv4(const IdData& data, const PolynomialOrders& orders) {
     estimate.covariance = mean_square(last.errors(solution.theta), last.parameters()) * solution.unscaled_covariance;
     estimate.condition_number = solution.condition_number;
     describe_equation_error(estimate);
+    warn_of_operating_point(estimate, data);
     estimate.message = Message(
         "Instrumental variables over {} equations: fit {} % predicting one step, {} % simulating from the recorded "
         "past.",

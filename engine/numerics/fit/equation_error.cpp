@@ -48,8 +48,10 @@ Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const Fi
 /// Simulation fit of the same equations about the operating point, where it is much better than that of the data as
 /// they are: a difference equation goes through the origin.
 std::optional<double> better_without_means(const IdData& data, const Fit& estimate) {
-    constexpr double kWorse = 5;  // per cent of fit
-    if (!(estimate.fit_percent[0] < estimate.prediction_fit_percent - kWorse) || data.input_count() == 0)
+    constexpr double kWorse = 5;               // per cent of fit
+    constexpr Index kSamplesPerParameter = 5;  // fewer fit about any point
+    if (!(estimate.fit_percent[0] < estimate.prediction_fit_percent - kWorse) || data.input_count() == 0 ||
+        data.sample_count() < kSamplesPerParameter * estimate.theta.size())
         return std::nullopt;
     const IdData centred = without_operating_points(data).data;
     const ArxEquations equations(centred, *estimate.orders);
@@ -93,6 +95,9 @@ void report_equation_error(Fit& estimate, const IdData& data) {
     estimate.prediction_fit_percent = fit_percent_of_sums(sums.prediction_error, sums.variation);
     estimate.start = {InitialState::kEstimate, false};
     estimate.offsets = Matrix::Zero(static_cast<Index>(data.experiments.size()), 1);
+}
+
+void warn_of_operating_point(Fit& estimate, const IdData& data) {
     if (const std::optional<double> better = better_without_means(data, estimate))
         estimate.warnings.push_back(Message(
             "Without the means the simulation fits {} % instead of {} %: a difference equation goes through the "

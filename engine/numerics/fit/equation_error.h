@@ -22,4 +22,7 @@ void report_equation_error(Fit& estimate, const IdData& data);
 /// Standard errors from the covariance, and warnings.
 void describe_equation_error(Fit& estimate);
 
+/// A warning where the same equations about the operating point simulate much better.
+void warn_of_operating_point(Fit& estimate, const IdData& data);
+
 }  // namespace dynlab::inline numerics
