@@ -97,7 +97,8 @@ class Column {
                             name_, counted.unit.name, shown_step(step * counted.unit.seconds), counted.rival->name,
                             shown_step(step * counted.rival->seconds), remedy(counted.unit.name)));
             seconds = counted.unit.seconds, calendar_ = counted.calendar;
-            if (counted.assumed)
+            const bool convention = name_ == "t" && seconds == 1;
+            if (counted.assumed && !convention)
                 clock_.notes.push_back(Message("the time '{}' has no unit and is taken for {}, a sample every {}; {}",
                                                name_, counted.unit.name, shown_step(step * seconds), remedy("ms")));
         }

@@ -83,7 +83,7 @@ TEST(function_forms, options_are_found_by_their_names) {
     EXPECT_EQ(find_option(options, "Lamda"), nullptr);
     EXPECT_THAT(option_names(options), testing::Not(testing::Contains("data")));
     EXPECT_THAT(option_names(find_function("load")->options),
-                testing::UnorderedElementsAre("skip", "names", "delimiter", "units", "time", "sheet"));
+                testing::UnorderedElementsAre("skip", "names", "delimiter", "units", "time", "time_unit", "sheet"));
 }
 
 }  // namespace test_type_stubs
