@@ -319,7 +319,8 @@ void LiveDocument::set_page() {
         pictures_.clear();
         for (const SetChunk& chunk : document.chunks)
             for (const SetPicture& picture : chunk.pictures)
-                if (!picture.is_figure) pictures_[place_of(picture.file)] = digest_of_picture(picture.file);
+                if (!picture.is_figure && !picture.file.empty())
+                    pictures_[place_of(picture.file)] = digest_of_picture(picture.file);
         watch_inputs();
         if (!page_is_unfinished_) {
             page_.set_open_answers(missing_answers(request_->script, shown_));
