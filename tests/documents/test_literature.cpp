@@ -110,7 +110,7 @@ TEST_F(literature, titles_with_signs_of_tex_print_in_full) {
     }
     EXPECT_THAT(inspect_pdf(make(header_ + "As in [@x].\n", "out.pdf")).pages.at(0), HasSubstr("Joined 5% of It"));
     write("books.bib", "@book{m, author={A, B}, title={On $x^2$ and $\\alpha$ in 5%}, year={2000}}\n");
-    EXPECT_THAT(html(header_ + "As in [@m].\n"), AllOf(HasSubstr("5%"), Not(HasSubstr("$"))));
+    EXPECT_THAT(html(header_ + "As in [@m].\n"), AllOf(HasSubstr("5%"), Not(HasSubstr("$x^2$"))));
 }
 
 TEST_F(literature, a_missing_citation_names_its_own_line_and_how_to_declare_a_bibliography) {
@@ -129,7 +129,7 @@ TEST_F(literature, a_missing_citation_names_its_own_line_and_how_to_declare_a_bi
 TEST_F(literature, keys_with_colons_are_literature_where_the_bibliography_has_them) {
     write("books.bib", "@book{DBLP:conf/x, author={Colon, C.}, title={Keys}, year={2003}}\n");
     EXPECT_THAT(html(header_ + "As in [@DBLP:conf/x].\n"), HasSubstr("Colon 2003"));
-    EXPECT_THAT(refusal(header_ + "As in @DBLP:other.\n"), HasSubstr("must be in the bibliography"));
+    EXPECT_THAT(refusal(header_ + "As in @DBLP:other.\n", "other.html"), HasSubstr("must be in the bibliography"));
 }
 
 TEST_F(literature, a_link_to_a_file_outside_the_folder_is_refused) {
