@@ -86,15 +86,18 @@ Message UnplacedEntries::message() const {
 std::string with_texts_of_script(const RunRecord& record, const std::string& markdown) {
     const auto shows = [&](const std::string& name) { return markdown.find(name) != std::string::npos; };
     std::string text = markdown;
+    const auto add = [&text](const std::string& more) {
+        if (more.find("{.") != std::string::npos) text += more + "\n";  // others show nothing of the record
+    };
     for (const auto& [name, shown] : record.texts)
-        if (shows(name)) text += shown.markdown + "\n";
+        if (shows(name)) add(shown.markdown);
     for (const auto& [name, figure] : record.figures)
-        if (shows(name)) text += figure.caption + "\n";
+        if (shows(name)) add(figure.caption);
     for (const auto& [name, table] : record.tables) {
         if (!shows(name)) continue;
-        for (const std::string& title : table.header) text += title + "\n";
+        for (const std::string& title : table.header) add(title);
         for (const auto& row : table.rows)
-            for (const std::string& cell : row) text += cell + "\n";
+            for (const std::string& cell : row) add(cell);
     }
     return text;
 }

@@ -118,11 +118,11 @@ TEST_F(script_runner, goes_on_behind_a_failure) {
 }
 
 TEST_F(script_runner, a_file_that_has_changed_is_read_again) {
-    std::ofstream(folder.path() / "d.csv") << "t (s),u,y\n0,1,1\n1,1,2\n";
+    std::ofstream(folder.path() / "d.csv") << "t,u,y\n0,1,1\n1,1,2\n";
     const std::string source = kA + "-- %% id=b\nlocal d = load(\"d.csv\")\nprint(d.y[2])\n" + kC;
     run(source);
     EXPECT_EQ(printed("b"), "2\n");
-    std::ofstream(folder.path() / "d.csv") << "t (s),u,y\n0,1,1\n1,1,3\n";
+    std::ofstream(folder.path() / "d.csv") << "t,u,y\n0,1,1\n1,1,3\n";
     ASSERT_FALSE(record.files_read.empty());
     EXPECT_THAT(run(source, {place_of(record.files_read.front())}), ElementsAre(1, 2));
     EXPECT_EQ(printed("b"), "3\n");
