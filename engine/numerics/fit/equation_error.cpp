@@ -48,8 +48,8 @@ Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const Fi
 /// The level at which the output stands at zero inputs, where the simulation is much worse than the prediction and an
 /// output-error model with an offset simulates much better.
 std::optional<double> missed_level(const IdData& data, const Fit& estimate) {
-    constexpr double kWorse = 5;  // per cent of fit
-    if (!(estimate.fit_percent[0] < estimate.prediction_fit_percent - kWorse) || data.input_count() == 0)
+    constexpr double kMuchWorse = 5;  // per cent of fit
+    if (!(estimate.fit_percent[0] < estimate.prediction_fit_percent - kMuchWorse) || data.input_count() == 0)
         return std::nullopt;
     const PolynomialOrders& own = *estimate.orders;
     const PolynomialOrders orders =
@@ -57,7 +57,7 @@ std::optional<double> missed_level(const IdData& data, const Fit& estimate) {
     try {
         const FitOptions options{};
         const Fit fit = fit_discrete_output("arx", data, orders, options, output_error_search(options));
-        if (!fit.start.offset || !(fit.fit_percent[0] > estimate.fit_percent[0] + kWorse)) return std::nullopt;
+        if (!fit.start.offset || !(fit.fit_percent[0] > estimate.fit_percent[0] + kMuchWorse)) return std::nullopt;
         return fit.offsets(0, 0);
     } catch (const InvalidArgument&) {
         return std::nullopt;
