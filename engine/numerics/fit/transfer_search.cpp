@@ -207,15 +207,15 @@ Fit settled(const IdData& record, const TransferStructure& structure, Fit fit, c
 /// Another valley of the delay far from the estimate, whose loss chance does not tell from the smallest: what differs
 /// between the two is not determined, and standard errors about one of them mean nothing.
 void withdraw_errors_of_rivals(Fit& fit, const IdData& record, const DelayScan& scan) {
-    constexpr Index kScannedSamples = 50'000;  // of a longer record
-    constexpr double kChance = 6.635;          // 99 % quantile of chi-square with one degree of freedom
-    constexpr double kFarSteps = 2, kFarErrors = 3, kSameScale = 1.05, kDiffers = 2;
+    constexpr Index kCurveSamples = 50'000;  // of a longer record
+    constexpr double kRivalChance = 6.635;   // 99 % quantile of chi-square with one degree of freedom
+    constexpr double kRivalSteps = 2, kRivalErrors = 3, kSameScale = 1.05, kDiffers = 2;
     const Vector& losses = scan.losses;
     if (!fit.structure.single_channel() || losses.size() < 3 || losses.minCoeff() > kSameScale * fit.loss) return;
     const Index place = fit.structure.delay_index(0, 0);
-    const Index scanned = std::min(record.sample_count(), kScannedSamples);
-    const double limit = losses.minCoeff() * std::exp(kChance / static_cast<double>(scanned));
-    const double far = std::max(kFarSteps * (scan.delays[1] - scan.delays[0]), kFarErrors * fit.std[place]);
+    const Index scanned = std::min(record.sample_count(), kCurveSamples);
+    const double limit = losses.minCoeff() * std::exp(kRivalChance / static_cast<double>(scanned));
+    const double far = std::max(kRivalSteps * (scan.delays[1] - scan.delays[0]), kRivalErrors * fit.std[place]);
     for (Index i = 1; i + 1 < losses.size(); ++i) {
         const bool valley = losses[i] <= losses[i - 1] && losses[i] < losses[i + 1];
         if (!valley || losses[i] > limit || !(std::abs(scan.delays[i] - fit.theta[place]) > far)) continue;

@@ -18,9 +18,9 @@ double smallest_step(double step, double period) {
 }
 
 bool is_wrapped(const VectorView& x, double period) {
-    constexpr double kRounding = 0.01, kFilled = 0.9, kNearEnd = 0.3, kMostJumps = 0.9;  // of the period
-    constexpr double kUsual = 3;                                                         // times the largest other step
-    const double low = x.minCoeff(), high = x.maxCoeff(), slack = kRounding * period;
+    constexpr double kAngleSlack = 0.01, kFilled = 0.9, kNearEnd = 0.3, kMostJumps = 0.9;  // of the period
+    constexpr double kUsual = 3;  // times the largest other step
+    const double low = x.minCoeff(), high = x.maxCoeff(), slack = kAngleSlack * period;
     const bool centered = low >= -period / 2 - slack && high <= period / 2 + slack;
     const bool positive = low >= -slack && high <= period + slack;
     if (!(centered || positive) || high - low < kFilled * period) return false;

@@ -223,19 +223,21 @@ void find_outliers(const Channel& channel, const Quantisation& grid, std::vector
 
 /// An angle that jumps by a turn. Without a unit it may be either.
 bool find_wrap(const Channel& channel, std::vector<RecordFinding>& findings) {
-    constexpr double kTurn = 360, kRadians = 2 * std::numbers::pi;
+    constexpr double kDegreesPerTurn = 360, kRadians = 2 * std::numbers::pi;
     const std::string unit = small_letters(channel.unit);
     const bool radians = unit.starts_with("rad"), degrees = unit.starts_with("deg") || unit == "°";
-    const Vector periods = radians ? Vector{{kRadians}} : degrees ? Vector{{kTurn}} : Vector{{kTurn, kRadians}};
+    const Vector periods = radians   ? Vector{{kRadians}}
+                           : degrees ? Vector{{kDegreesPerTurn}}
+                                     : Vector{{kDegreesPerTurn, kRadians}};
     if (!unit.empty() && !radians && !degrees) return false;
     const std::optional<double> period = wrapped_period(channel.x, periods);
     if (!period) return false;
-    findings.push_back(
-        about(channel, "wrapped", Weight::kWarning,
-              Message("{} is an angle that jumps by a whole turn ({}) where it leaves its range, which "
-                      "no linear model can follow: take the jumps out with {}.",
-                      subject(channel), value_of(channel, *period), *period == kTurn ? "unwrap(x, 360)" : "unwrap(x)"),
-              *period));
+    findings.push_back(about(channel, "wrapped", Weight::kWarning,
+                             Message("{} is an angle that jumps by a whole turn ({}) where it leaves its range, which "
+                                     "no linear model can follow: take the jumps out with {}.",
+                                     subject(channel), value_of(channel, *period),
+                                     *period == kDegreesPerTurn ? "unwrap(x, 360)" : "unwrap(x)"),
+                             *period));
     return true;
 }
 
