@@ -99,6 +99,7 @@ class DocumentTest : public testing::Test {
 
     /// The message with which making the document fails, the test folder's path taken out; "" when it is made.
     std::string refusal(const std::string& text, const std::string& output = "out.html") {
+        std::filesystem::remove(file(output));  // of a call before
         try {
             make(text, output);
         } catch (const DocumentError& error) {

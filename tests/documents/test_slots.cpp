@@ -136,7 +136,7 @@ TEST_F(slots, a_value_in_a_formula_keeps_the_formulas_meaning) {
     EXPECT_EQ(tex("x^`b`{.value}, x_`g`{.value}, \\sqrt`b`{.value}"), "x^{-2.5}, x_{2.5}, \\sqrt{-2.5}");
     EXPECT_EQ(tex("\\frac{`b`{.value}}{`g`{.value}}"), "\\frac{-2.5}{2.5}");
     EXPECT_EQ(tex("\\text{if `b`{.value} s}"), "\\text{if $-2.5$ s}");
-    EXPECT_EQ(tex("\\text{the `quoted\' part}"), "\\text{the `quoted\' part}");
+    EXPECT_EQ(tex("\\text{the `quoted\' part}"), "\\text{the `quoted&#39; part}");  // as HTML writes it
 }
 
 // Oracle: the text that poppler reads, in PDFs of pages and slides.
