@@ -17,7 +17,7 @@ struct InstantSpacing {
     double step = 0;               ///< mean distance where it is even, else the median; in the unit of the instants
     bool even = false;             ///< no distance differs from the mean by more than 0.1 %
     std::vector<Index> gaps = {};  ///< i: from instant i to the next it is more than 1.5 times the step
-    std::optional<Index> disorder = {};  ///< first i whose next instant is not later; then nothing else is told
+    std::optional<Index> disorder = {};  ///< first i whose next instant is not later; then the other fields are empty
 };
 /// Of at least two instants.
 InstantSpacing spacing_of(const Vector& instants);

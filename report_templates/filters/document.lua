@@ -54,7 +54,7 @@ local function entry(kind, name, needle)
   report_gap("no-entry", needle, kind, name)
 end
 
--- The text of a value; where it is not there, nothing, and what stands in its place in a formula.
+-- The text of a value; for a missing value nothing, and the sign that a formula shows for it.
 local function value_text(name)
   local found = entry("value", name, "`" .. name .. "`")
   if found then return found end

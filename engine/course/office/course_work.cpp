@@ -121,7 +121,7 @@ void CourseWork::choose(Course& course, const std::vector<std::string>& names) {
         });
         try {
             if (!found) take([id = group_named(course, name).id](const WorkItem& item) { return item.group_id == id; });
-        } catch (const InvalidArgument&) {  // is told below
+        } catch (const InvalidArgument&) {  // the error below says so
         }
         if (!found)
             throw EnvironmentError("there is no submission \"{}\", nor one of a group or student of that name", name);

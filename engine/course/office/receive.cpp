@@ -70,6 +70,8 @@ class HandInReceiver {
         mark_what_lies_beside();
         settle_doubles();
         open_packs();
+        // Traces are numbered behind the files that their senders read of.
+        std::ranges::stable_partition(candidates_, [](const Candidate& c) { return !c.silent; });
         keep_all();
         write();
         outcome_.receipts = course_.folder() / "receipts" / outcome_.assignment.name;

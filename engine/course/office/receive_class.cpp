@@ -39,7 +39,7 @@ Instant written(const fs::path& path) {
     if (!fs::is_directory(path)) return seconds(path);
     Instant newest = 0;
     for (auto entry = fs::recursive_directory_iterator(path); entry != fs::recursive_directory_iterator(); ++entry) {
-        const bool hidden = entry->path().filename().string().starts_with('.');  // written by whoever looked at it
+        const bool hidden = entry->path().filename().string().starts_with('.');  // a desktop program wrote it
         if (hidden) entry.disable_recursion_pending();
         if (!hidden && entry->symlink_status().type() == fs::file_type::regular)
             newest = std::max<Instant>(newest, seconds(entry->path()));
@@ -199,7 +199,7 @@ class ClassReceiver {
     }
 
     bool is_known(WorkItem& one, std::set<Instant>& received) {
-        const Group* const owner = group_of_owner(one);  // of nobody's work the group is one without members
+        const Group* const owner = group_of_owner(one);  // work without an owner has a group without members
         Rows rows = course_.database().query(
             "SELECT id, group_id, received_at, (SELECT w.received_at FROM arrived w WHERE w.id = v.id) FROM versions v "
             "WHERE assignment = ?1 AND name = ?2 AND hash = ?3 AND stage = ?4 AND part = ?5 AND CASE ?6 WHEN 0 THEN "
@@ -251,7 +251,7 @@ class ClassReceiver {
             one.group_id, now_, assignment_.id, file_name(one.submission), one.content);
     }
 
-    /// Of nobody's work that of its earlier versions, or a new one.
+    /// Of work without an owner: the group of its earlier versions, or a new one.
     Group group_for(const WorkItem& one, const std::string& name) {
         Database& db = course_.database();
         if (const Group* const owner = group_of_owner(one)) return *owner;

@@ -84,7 +84,7 @@ namespace {
 
 constexpr Index kComparedSamples = 10'000;  // on which poorer structures are compared
 constexpr int kComparedPasses = 4;
-constexpr Index kFewestToCompare = 4;  // parameters: poorer models of smaller ones are told by their errors
+constexpr Index kFewestToCompare = 4;  // parameters: of smaller models the errors show a poor end
 constexpr double kComparedTolerance = 1e-3, kNoGain = 1e-3;
 constexpr double kPoorFit = 20;    // per cent: where little is explained, the passes easily miss the best
 constexpr double kFineFit = 99.9;  // per cent: nothing is missing that would be worth a search
