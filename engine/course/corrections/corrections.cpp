@@ -35,10 +35,9 @@ class WantedFiles {
 
     /// Those that are withdrawn, or those that are not.
     std::vector<Found> all(bool withdrawn) const {
-        std::vector<std::string> parts = parts_of(assignment_, wanted_.stage);
-        parts.emplace_back(kUnreadable);
+        const std::vector<std::string> parts = parts_of(assignment_, wanted_.stage);
         if (!wanted_.part.empty()) {
-            if (std::ranges::find(parts, wanted_.part) == parts.end())
+            if (wanted_.part != kUnreadable && std::ranges::find(parts, wanted_.part) == parts.end())
                 throw InvalidArgument("{} has no {}: its parts are {}", assignment_.name, wanted_.part, listed(parts));
             return {one(wanted_.part, withdrawn)};
         }
