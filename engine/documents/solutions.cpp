@@ -14,6 +14,8 @@
 namespace dynlab::inline documents {
 namespace {
 
+constexpr std::string_view kNarrowSpace = "\u202F";
+
 const std::string_view kStarterSign = "STARTER:";
 
 /// The text of a line that is nothing but a comment.
@@ -68,8 +70,10 @@ SolutionLine solution_line(std::string_view line, const std::filesystem::path& f
 
 AnswerMarks answer_marks(std::string_view language) {
     const Reader reader{catalog_of(language)};
-    return {"-- " + message_text(Message("YOUR CODE HERE"), reader),
-            "-- *" + message_text(Message("Your answer:"), reader) + "*"};
+    std::string text = message_text(Message("Your answer:"), reader);
+    for (std::size_t i; (i = text.find(kNarrowSpace)) != std::string::npos;)
+        text.replace(i, kNarrowSpace.size(), " ");  // as an editor's space bar types it
+    return {"-- " + message_text(Message("YOUR CODE HERE"), reader), "-- *" + text + "*"};
 }
 
 std::string without_solutions(const std::string& source, const std::filesystem::path& name, std::string_view language) {

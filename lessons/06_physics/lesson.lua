@@ -54,7 +54,8 @@ print(from)
 
 -- %% id=left_guess
 -- BEGIN SOLUTION
--- STARTER: guess(say("error of the angle, in sigmas", "erreur, en écarts types"), nil)
+-- STARTER: guess(say("error of the angle, in sigmas",
+-- STARTER:           "erreur, en écarts types"), nil)
 guess(say("error of the angle, in sigmas", "erreur, en écarts types"), 1.5)
 -- END SOLUTION
 
@@ -302,8 +303,9 @@ report.value("wide_creep", wide.dry/deltas[2], "%.0f")
 
 -- %% id=tanks
 local tanks = load("two_tanks")
-local labels = {InputName = say("pump voltage", "tension de pompe"), InputUnit = "V",
-                OutputName = say("reading", "lecture"), OutputUnit = "V"}
+local labels = {InputUnit = "V", OutputUnit = "V",
+                InputName = say("pump voltage", "tension de pompe"),
+                OutputName = say("reading", "lecture")}
 local estimation = iddata(tanks.y, tanks.u, 4, labels)
 local validation = iddata(tanks.y_val, tanks.u_val, 4, labels)
 report.figure("tanks", idplot(estimation):set{height = 6},

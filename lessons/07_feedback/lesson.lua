@@ -545,7 +545,8 @@ report.value("poor_rivc_a2_t", math.abs(select(3, summary(4, 2))), "%.0f")
 -- %% id=heater
 local heater = load("drifting_process")
 local names = {InputName = say("power", "puissance"), InputUnit = "%",
-               OutputName = say("temperature rise", "échauffement"), OutputUnit = "K"}
+               OutputName = say("temperature rise", "échauffement"),
+               OutputUnit = "K"}
 local slow = iddata(heater.y, heater.u, 1, names)
 report.figure("heater", idplot(slow),
               say("The record of the heater", "L'enregistrement du chauffe-eau"))

@@ -212,6 +212,7 @@ local function table_slot(division)
     report("table-width", "name=" .. name, name, #found.header)
     return {}
   end
+  element = element:walk { Str = function(text) return pandoc.Str((text.text:gsub(values.dollar, "$"))) end }
   return tables:place(element, label, size, lines), false
 end
 

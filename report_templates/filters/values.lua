@@ -115,13 +115,16 @@ function values.in_formula(formula, layout, text_of, refuse)
   return filled(with_texts, false)
 end
 
+-- Stands for a dollar sign of a value in a cell, which begins no formula.
+values.dollar = "\u{E024}"
+
 --- A cell of a script's table with its slots filled, plainly; `gap` stands in the place of what is not there.
 function values.in_cell(text, layout, text_of, gap)
   local alone = text:match("^`([^`\n]+)`{%.value}$")
   if alone then return text_of(alone) or gap end
   return (text:gsub("`([^`\n]+)`{%.value}", function(name)
     local value = text_of(name)
-    return value and layout:number(value) or gap
+    return value and layout:number(value):gsub("%$", values.dollar) or gap
   end))
 end
 

@@ -247,7 +247,8 @@ TEST_F(hostile_documents, pictures_stay_inside_the_folder) {
     write("inside/picture.svg", small_svg());
     write("secret.svg", small_svg());
     std::filesystem::create_symlink("/etc/hostname", file("link.svg"));
-    EXPECT_THAT(refusal("![a](missing.png)\n"), HasSubstr("report.md:1: the picture \"missing.png\" is not in the folder of this file"));
+    EXPECT_THAT(refusal("![a](missing.png)\n"),
+                HasSubstr("report.md:1: the picture \"missing.png\" is not in the folder of this file"));
     EXPECT_THAT(refusal("![a](../secret.svg)\n"), HasSubstr("outside the folder"));
     EXPECT_THAT(refusal("![a](/etc/passwd)\n"), HasSubstr("outside the folder"));
     EXPECT_THAT(refusal("![a](https://example.org/x.png)\n"), HasSubstr("not an address"));

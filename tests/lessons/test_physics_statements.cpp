@@ -40,9 +40,9 @@ Eigen::Vector4d crane_rates(const Vector& p, const Eigen::Vector4d& s, double u,
     return {s[1], a, w, torque - cosine * a / p[4]};
 }
 
-/// Position and angle (N x 2) by Runge-Kutta steps of 20 ms/substeps.
+/// Position and angle (N x 2) by Runge-Kutta steps of 20 ms/substeps, at most a quarter of friction's time constant.
 Matrix crane_run(const Vector& p, const Vector& u, double delta) {
-    const int substeps = std::max(8, static_cast<int>(std::ceil(0.02 * p[2] / delta)));
+    const int substeps = std::max(16, static_cast<int>(std::ceil(0.08 * p[2] / delta)));
     const double h = 0.02 / substeps;
     Matrix out(u.size(), 2);
     Eigen::Vector4d s = Eigen::Vector4d::Zero();

@@ -115,6 +115,13 @@ void remember(Course& course, const char* key, const std::string& value) {
     transaction.commit();
 }
 
+/// What find_lesson finds it by from every folder: its name, or its path where it is not one of those that are listed.
+std::string name_anywhere(const Lesson& lesson) {
+    const std::vector<Lesson> listed = lessons();
+    const bool known = std::ranges::any_of(listed, [&](const Lesson& one) { return one.folder == lesson.folder; });
+    return known ? lesson.slug : lesson.folder.string();
+}
+
 /// The lab, as it is or as it is new, with what the options say of it.
 Assignment wanted_assignment(Course& course, const FolderRequest& request) {
     Assignment a;
@@ -122,11 +129,11 @@ Assignment wanted_assignment(Course& course, const FolderRequest& request) {
     a.costs.late_day = 10;
     if (const std::vector<Assignment> all = assignments_of(course); !all.empty()) a = all.front();
     if (!request.lesson.empty()) {
-        const std::string slug = find_lesson(request.lesson).slug;
-        if (!a.lesson.empty() && a.lesson != slug)
+        const Lesson lesson = find_lesson(request.lesson);
+        if (!a.lesson.empty() && a.name != lesson.slug)
             throw EnvironmentError("{} holds the results of lesson {}; name another folder with --out",
-                                   request.out.string(), a.lesson);
-        a.name = a.lesson = slug;
+                                   request.out.string(), a.name);
+        a.name = lesson.slug, a.lesson = name_anywhere(lesson);
     }
     if (a.lesson.empty())
         throw EnvironmentError("{} has no results yet: name the lesson with --lesson NN", request.out.string());
@@ -169,7 +176,7 @@ void FolderGrading::prepare(Course& course) {
     request_.grading.setup.time.processor = std::chrono::seconds(now.timeout);
     options_ = grading_options(assignment_, request_.grading, request_.out);
     const auto shown_path = [](const std::string& path) { return path.empty() ? path : fs::proximate(path).string(); };
-    now.inputs["lesson checks"] = {assignment_.lesson + "/checks.lua",  // wherever it is installed
+    now.inputs["lesson checks"] = {assignment_.name + "/checks.lua",  // wherever it is installed
                                    sha256_of_file(options_.setup.lesson.folder / "checks.lua")};
     now.inputs["checks"] = {shown_path(assignment_.checks),
                             fs::is_directory(assignment_.checks) ? digest_of_folder(assignment_.checks).hex() : ""};
