@@ -368,8 +368,10 @@ inline IdData wrapped_record(std::uint32_t seed) {
 }
 
 /// The input is logged one sample late.
+/// Sampled so that one sample is more than what a zero more or less makes up for.
 inline IdData late_input_record(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
+    chance.Ts = 2 * std::numbers::pi / chance.between(8, 12);
     chance.G = chance.G.with_delay(0);
     chance.noise = 0.02;
     const Vector u = chance.coin() ? prbs_input(chance) : staircase_input(chance);

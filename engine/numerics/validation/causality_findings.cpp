@@ -14,7 +14,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kMostCausalSamples = 4000;
-constexpr Index kPastInputs = 10, kLaterInputs = 3;
+constexpr Index kPastInputs = 10, kLaterInputs = 20;
 constexpr double kCausalLevel = 1e-6;
 constexpr double kExplainsHalf = 50, kExplainsMost = 85;  // per cent of fit
 constexpr double kPromises = 30, kQuickMisses = 10;       // per cent of fit
@@ -46,25 +46,39 @@ bool may_be_exchanged(const IdData& turned, double forward) {
 bool follows_later_inputs(const FittedRecord& fit, Index first = 1) {
     const IdData& window = fit.window.data;
     const Index count = std::min(window.sample_count(), kMostCausalSamples);
-    const Index past = kPastInputs + first, rows = count - past - kLaterInputs;
-    if (rows < 5 * (past + kLaterInputs)) return false;
+    if (count < 6 * (kPastInputs + kLaterInputs)) return false;
     const VectorView u = window.experiments.front().u.col(0);
     const Vector error = fit.error(Eigen::seqN(fit.window.first, count, fit.window.step));
     if (!error.allFinite()) return false;
     const Autoregression memory = fit_autoregression(error, {count}, kPastInputs, AutoregressiveOrder::kBic);
-    const Index order = memory.order();
+    const Index order = memory.order(), past = kPastInputs + first;
+    const Index rows = count - past - order - kLaterInputs - first;
     const auto white = [&](Index lead) -> Vector {
-        return filtered_past(memory, u.segment(past - order + lead, rows + order));
+        return filtered_past(memory, u.segment(past + lead, rows + order));
     };
     Matrix columns(rows, past + kLaterInputs + 1);
     columns.col(0).setOnes();
     for (Index i = 1; i <= past; ++i) columns.col(i) = white(first - i);
     for (Index i = 0; i < kLaterInputs; ++i) columns.col(past + 1 + i) = white(first + i);
-    const Vector e = filtered_past(memory, error.segment(past - order, rows + order));
+    const Vector e = filtered_past(memory, error.segment(past, rows + order));
     const double before = solve_least_squares(columns.leftCols(past + 1), e).residuals.squaredNorm();
     const double after = solve_least_squares(columns, e).residuals.squaredNorm();
     const double statistic = static_cast<double>(rows - past - kLaterInputs - 1) * (before - after) / after;
     return chi_squared_upper_tail(std::max(0.0, statistic), static_cast<double>(kLaterInputs)) < kCausalLevel;
+}
+
+/// What a signal's past does not tell of it, of its variance.
+double unpredictable_part(const VectorView& x) {
+    const Vector centred = x.array() - x.mean();
+    const Autoregression memory = fit_autoregression(centred, {centred.size()}, kPastInputs, AutoregressiveOrder::kBic);
+    return filtered_past(memory, centred).squaredNorm() / centred.squaredNorm();
+}
+
+/// Whether noise is in the input and none in the output, as in a smooth signal that was put in and its measured
+/// response.
+bool output_is_smoother(const IdData& window) {
+    const Experiment& record = window.experiments.front();
+    return unpredictable_part(record.y.col(0)) < unpredictable_part(record.u.col(0));
 }
 
 /// As many white errors of the same power at low frequencies as the model leaves.
@@ -75,19 +89,15 @@ double independent_errors(const IdData& data, const TransferFunction& G) {
     return static_cast<double>(N) * (1 - r) / (1 + r);
 }
 
-/// The model of the window's structure to its input so many samples earlier.
+/// The model of one pole more than the window's, without a delay, to its input so many samples earlier.
 std::optional<Fit> fit_to_earlier_input(const FittedRecord& fit, Index samples, int zeros) {
-    const TransferStructure& found = fit.search.candidate.estimate.structure;
-    const IdData data = samples > 0 ? fit.window.data.shifted(-samples) : fit.window.data;
     FitOptions options;
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
     options.tolerance = kQuickTolerance;
-    options.largest_delay = static_cast<double>(2 * samples) * data.Ts;
-    TransferStructure structure = TransferStructure::single(found.poles.front(), zeros);
-    structure.free_delays = samples > 0;
     try {
-        return srivc(data, structure, options);
+        return srivc(samples > 0 ? fit.window.data.shifted(-samples) : fit.window.data,
+                     TransferStructure::single(fit.search.candidate.poles + 1, zeros), options);
     } catch (const InvalidArgument&) {
         return std::nullopt;
     }
@@ -96,28 +106,31 @@ std::optional<Fit> fit_to_earlier_input(const FittedRecord& fit, Index samples, 
 }  // namespace
 
 bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
-    constexpr Index kShift = 3;                      // samples
-    constexpr double kEvidence = 30, kNoWorse = 10;  // of N log of losses
-    constexpr double kLeastLead = 0.5;               // samples
+    constexpr Index kMostLate = 3;                   // samples
+    constexpr double kEvidence = 30, kNoWorse = 10;  // of N log of losses, from where on it is a feedthrough
     const Fit& found = fit.search.candidate.estimate;
     const bool at_zero = !found.at_bound.empty() && found.at_bound[static_cast<std::size_t>(found.theta.size() - 1)];
-    if (!fit.trusted() || fit.window.step > 1 || !(at_zero || follows_later_inputs(fit, 0))) return false;
-    const int poles = fit.search.candidate.poles, zeros = fit.search.candidate.zeros;
-    const std::optional<Fit> earlier = fit_to_earlier_input(fit, kShift, std::min(zeros, poles - 1));
-    if (!earlier) return false;
-    const double N = independent_errors(fit.window.data.shifted(-kShift), earlier->models.front());
-    if (!(N * std::log(fit.search.loss() / earlier->loss) > kEvidence)) return false;
-    const double lead = static_cast<double>(kShift) - earlier->models.front().delay() / fit.data.Ts;
-    if (lead < kLeastLead) return false;
-    const std::optional<Fit> direct = fit_to_earlier_input(fit, 0, poles);
-    if (direct && N * std::log(earlier->loss / direct->loss) > kNoWorse) return false;  // a feedthrough
-    const auto samples = static_cast<Index>(std::max(1.0, std::round(lead)));
+    if (fit.window.step > 1 || !(fit.trusted() && at_zero || follows_later_inputs(fit, 0))) return false;
+    const int zeros = fit.search.candidate.poles;  // and one pole more: the search chose without knowing
+    const std::optional<Fit> in_time = fit_to_earlier_input(fit, 0, zeros);
+    std::optional<Fit> best = in_time;
+    Index late = 0;
+    for (Index samples = 1; samples <= kMostLate; ++samples)
+        if (std::optional<Fit> earlier = fit_to_earlier_input(fit, samples, zeros);
+            earlier && best && earlier->loss < best->loss)
+            best = std::move(earlier), late = samples;
+    if (late == 0) return false;
+    const double N = independent_errors(fit.window.data.shifted(-late), best->models.front());
+    const double evidence = N * std::log(std::min(fit.search.loss(), in_time->loss) / best->loss);
+    if (!(evidence > kEvidence)) return false;
+    const std::optional<Fit> direct = fit_to_earlier_input(fit, 0, zeros + 1);
+    if (direct && N * std::log(best->loss / direct->loss) > kNoWorse) return false;
     findings.push_back(
         about(fit, "late_input", Weight::kWarning,
               Message("{} answers before {} changes, by about {}: the input was logged late. Shift it with "
                       "data:shift({}).",
-                      fit.output(), fit.input(), plural(samples, "{} sample", "{} samples"), -samples),
-              static_cast<double>(samples)));
+                      fit.output(), fit.input(), plural(late, "{} sample", "{} samples"), -late),
+              static_cast<double>(late)));
     return true;
 }
 
@@ -125,7 +138,9 @@ bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel,
     const bool disturbed = wanders(fit.error);
     const double forward = std::max(fit.simulation.fit_percent, disturbed ? 100 * (1 - fit.movement_error) : 0.0);
     if (forward > kExplainsMost) return false;
-    if (!fit.runs_away() && (!fit.model().stable() || !follows_later_inputs(fit))) return false;
+    if (!fit.runs_away() &&
+        !(fit.model().stable() && (follows_later_inputs(fit) || output_is_smoother(fit.window.data))))
+        return false;
     const IdData turned = exchanged(fit.data);
     if (!may_be_exchanged(exchanged(fit.window.data), forward)) return false;
     const std::optional<FittedRecord> backward = fitted_record(turned, cancel);

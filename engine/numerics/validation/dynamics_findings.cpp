@@ -101,12 +101,15 @@ bool may_be_a_lag(const FittedRecord& fit) {
     }
 }
 
-/// rad/s, root mean square: a chirp or a slow multisine does not show what the plant does far beyond.
+/// rad/s, root mean square: a chirp or a slow multisine does not show what the plant does far beyond. One that jumps
+/// has all frequencies.
 double input_frequency(const FittedRecord& fit) {
     const VectorView u = fit.u();
-    const Index steps = u.size() - 1;
-    const double step = std::sqrt((u.tail(steps) - u.head(steps)).squaredNorm() / static_cast<double>(steps));
-    return step / (standard_deviation(u) * fit.data.Ts);
+    const Index count = u.size() - 1;
+    const Vector steps = u.tail(count) - u.head(count);
+    const double deviation = standard_deviation(u);
+    if (steps.cwiseAbs().maxCoeff() > deviation) return kInfinity;
+    return std::sqrt(steps.squaredNorm() / static_cast<double>(count)) / (deviation * fit.data.Ts);
 }
 
 /// Correlation of neighbors, between 0 and 1.
