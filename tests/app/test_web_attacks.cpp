@@ -11,7 +11,9 @@
 #include <chrono>
 
 #include "app/server/web_server.h"
+#include "platform/child_process.h"
 #include "platform/system_call.h"
+#include "platform/temporary_folder.h"
 #include "support/browser.h"
 #include "support/page_client.h"
 
@@ -23,8 +25,8 @@ using namespace std::chrono_literals;
 class web_attacks : public testing::Test {
   protected:
     web_attacks() : server({.port = 0, .largest_body = 1000}) {
-        server.on_get("/", [](const PageRequest&) {
-            return PageReply{"<!DOCTYPE html><title>ours</title><link rel=stylesheet href=page.css><p>ours"};
+        server.on_get("/", [this](const PageRequest&) {
+            return PageReply{"<!DOCTYPE html><title>ours</title><link rel=stylesheet href=page.css><p>ours" + script};
         });
         server.on_get("/page.css", [](const PageRequest&) { return PageReply{"p {}", "text/css"}; });
         server.on_post("/order", [this](const PageRequest&) { return ++orders, PageReply{"done"}; });
@@ -88,8 +90,12 @@ class web_attacks : public testing::Test {
         EXPECT_EQ(orders, 0) << name;
     }
 
+    /// What pages of other sites try, as scripts.
+    std::vector<std::string> attacks_of_pages() const;
+
     WebServer server;
     std::unique_ptr<PageClient> page;
+    std::string script;  ///< of our page
     std::atomic<int> orders = 0;
 };
 
@@ -253,7 +259,7 @@ class OtherSite {
     std::thread thread_;
 };
 
-TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_a_browser) {
+std::vector<std::string> web_attacks::attacks_of_pages() const {
     const std::string own = "http://" + page->host(), orders_at = own + "/order";
     // The body is the request that is to be smuggled: the next one of the user's own page would end it.
     const std::string smuggled = fmt::format(
@@ -285,11 +291,15 @@ TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_a_browser) {
     attacks.push_back("new EventSource('" + own + "/events', {withCredentials: true})");
     attacks.push_back("document.body.innerHTML = '<img src=" + orders_at + "><script src=" + orders_at + ">'");
     attacks.push_back("window.open('" + own + "/').postMessage('x', '*')");
+    return attacks;
+}
+
+TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_a_browser) {
     Browser browser;
     const std::string address = server.address();
     browser.open(address);
     ASSERT_TRUE(browser.comes("document.title === 'ours'"));
-    for (const std::string& attack : attacks) {
+    for (const std::string& attack : attacks_of_pages()) {
         const OtherSite site("window.onload = () => { try { " + attack +
                              " } finally { setTimeout(() => window.tried = 1, 50) } }");
         for (const char* name : {"127.0.0.1", "localhost"}) {
@@ -306,6 +316,59 @@ TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_a_browser) {
     browser.evaluate("fetch('order', {method: 'POST', headers: {'X-Dynlab': '1'}})");
     for (int i = 0; i < 1000 && orders == 0; ++i) std::this_thread::sleep_for(10ms);
     EXPECT_EQ(orders, 1) << "the page itself may";
+}
+
+/// The user's Firefox, led on by the pages that it opens: ours gives an order and goes to the other site, which tries
+/// each attack in a frame, by both of its names, and last in the whole window.
+TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_firefox) {
+    const std::vector<std::string> attacks = attacks_of_pages();
+    std::atomic<std::size_t> tried = 0;
+    std::atomic<bool> ended = false;
+    httplib::Server site;
+    const int port = site.bind_to_any_port("127.0.0.1");
+    site.Get("/", [&](const httplib::Request& request, httplib::Response& reply) {
+        const std::size_t number = std::stoul("0" + request.get_param_value("attack"));
+        const bool last = number >= attacks.size();
+        const std::string next = fmt::format("/?attack={}", number + 1);
+        const std::string other = fmt::format("http://localhost:{}/", port);
+        const std::string way = !last ? fmt::format("setTimeout(() => location = '{}', 100)", next)
+                                : request.get_header_value("Host").starts_with("localhost")
+                                    ? fmt::format("fetch('/end').then(() => {{ {} }})", attacks.front())
+                                    : fmt::format("location = '{}'", other);
+        const std::string frame = last ? "" : fmt::format("<iframe src=/frame?attack={}></iframe>", number);
+        reply.set_content(fmt::format("<!DOCTYPE html><title>evil</title>{}<script>window.onload = () => {{ {} }}"
+                                      "</script>",
+                                      frame, way),
+                          "text/html");
+    });
+    site.Get("/frame", [&](const httplib::Request& request, httplib::Response& reply) {
+        ++tried;
+        reply.set_content("<!DOCTYPE html><iframe name=hole></iframe><script>window.onload = () => { " +
+                              attacks.at(std::stoul(request.get_param_value("attack"))) + " }</script>",
+                          "text/html");
+    });
+    site.Get("/end", [&](const httplib::Request&, httplib::Response&) { ended = true; });
+    site.set_keep_alive_max_count(1);
+    std::thread thread([&] { site.listen_after_bind(); });
+    script = fmt::format(
+        "<script>fetch('order', {{method: 'POST', headers: {{'X-Dynlab': '1'}}}}).then(() => "
+        "location = 'http://127.0.0.1:{}/')</script>",
+        port);
+    const TemporaryFolder profile;
+    ChildOptions options;
+    options.command = {"firefox-esr",           "--headless",    "--no-remote", "--profile",
+                       profile.path().string(), server.address()};
+    options.environment = {{"HOME", profile.path().string()}};
+    {
+        const ChildProcess firefox(options, "firefox-esr");
+        for (int i = 0; i < 6000 && !ended; ++i) std::this_thread::sleep_for(20ms);
+        std::this_thread::sleep_for(500ms);  // for the attack in the whole window
+    }
+    site.stop();
+    thread.join();
+    EXPECT_TRUE(ended);
+    EXPECT_EQ(tried, 2 * attacks.size());
+    EXPECT_EQ(orders, 1) << "the page itself may, the others may not";
 }
 
 /// What another user's server leaves in the browser at a port that is ours later.
