@@ -124,7 +124,7 @@ TEST(search_statistics, a_pendulum_that_turns_over_is_found_from_far_away) {
     const Matrix states = grey_response(unfitted_grey_box(truth), {Matrix(u), t, Hold::kZoh});
     ASSERT_GT(states.col(0).cwiseAbs().maxCoeff(), 4);
     const IdData data(Matrix(states.col(0) + 0.01 * chance.normal(N)), Matrix(u), Ts);
-    for (const double a : {5.0, 6.0, 16.0}) {
+    for (const double a : {5.0, 6.0, 7.0, 9.0, 16.0}) {
         const GreyFit fit = greyest(data, pendulum(a, 8, 0.3));
         EXPECT_NEAR(fit.fit.theta[0], 10, 0.05) << a;
         EXPECT_GT(fit.fit.fit_percent[0], 95) << a;

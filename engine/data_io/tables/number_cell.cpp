@@ -11,9 +11,9 @@
 namespace dynlab::inline data_io {
 namespace {
 
-constexpr std::array<std::string_view, 19> kMissingWords = {
-    "nan",  "na",  "n/a",     "null",    "none",  "missing", "-",      "--",     "---", "?",
-    "#n/a", "#na", "#div/0!", "#value!", "#num!", "#ref!",   "#null!", "#name?", "-nan"};
+constexpr std::array<std::string_view, 20> kMissingWords = {
+    "nan", "na",   "n/a", "null",    "none",    "missing", "-",     "--",     "---",    "?",
+    ".",   "#n/a", "#na", "#div/0!", "#value!", "#num!",   "#ref!", "#null!", "#name?", "-nan"};
 
 bool means_missing(std::string_view cell) {
     if (cell.empty()) return true;

@@ -102,10 +102,11 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optio
             throw InvalidArgument(
                 "fillmissing: samples {} to {} are missing, more than {}. An input that is logged when it changes is "
                 "held: {method = \"previous\"}. For an output, use the parts before and after the gap as two "
-                "experiments, or give iddata the measured samples alone with their times as SamplingInstants; {longest "
+                "experiments, or give iddata the measured samples alone with their times as {}; {longest "
                 "= {}} "
                 "allows a straight line over the gap",
-                first, last, plural(most, "{} sample", "{} samples"), last - first + 1);
+                first, last, plural(most, "{} sample", "{} samples"), OptionName{"sampling_instants"},
+                last - first + 1);
     return result;
 }
 

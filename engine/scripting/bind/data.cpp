@@ -39,7 +39,10 @@ constexpr OptionEntry kIddataOptions[] = {
      about("unit of the output, or a list of units; by default that of a column of `load`")},
     option<&IdData::time_unit>("TimeUnit", about("unit of `Ts`, `Tstart` and all instants"), {.initial = "\"s\""}),
     {"Tstart", ValueKind::kNumber, about("time of the first sample"), {.initial = "0"}},
-    {"SamplingInstants", ValueKind::kVector, about("increasing instants of irregular sampling, instead of `Ts`")},
+    {"SamplingInstants",
+     ValueKind::kVector,
+     about("increasing instants of irregular sampling, instead of `Ts`"),
+     {.member = "sampling_instants"}},
     {"Reference", ValueKind::kAny,
      about("N samples of the reference of the loop in which the data were recorded: a vector or a matrix")}};
 constexpr std::array kIdplotOptions = {kLabelsOption};

@@ -26,8 +26,8 @@ constexpr int kWeightings = 20;           // of the outputs, at most
 constexpr double kSettledWeights = 1e-4;  // of their ratios
 constexpr double kLeastError = 1e-12;     // of an output's errors beside what it varies, for its weight
 constexpr double kConfidence = 0.95;
-constexpr double kLost = 0.25;    // of the outputs' variation, left over: the search may have begun too far away
-constexpr int kStartsOfLost = 5;  // that are then followed from the beginning of the data
+constexpr double kLost = 0.1, kSame = 1e-3;  // of the variation, left: begun too far away; of that, two ends agree
+constexpr int kStartsOfLost = 5;             // that are then followed from the beginning of the data
 constexpr double kFirstShare = 1 / 16., kGrowth = 1.5;  // of the samples
 
 /// Values between 0 and 1 that fill the space evenly (Halton 1960): the i-th, in the dimension of this prime.
@@ -48,8 +48,7 @@ double spread_value(const GreyParameter& p, double share) {
         if (p.lower > 0 && p.upper > 10 * p.lower) return p.lower * std::pow(p.upper / p.lower, share);
         return p.lower + share * (p.upper - p.lower);
     }
-    const double value = p.start == 0 ? 2 * share - 1 : p.start * std::pow(9, share - 0.5);
-    return std::clamp(value, p.lower, p.upper);
+    return std::clamp(p.start == 0 ? 2 * share - 1 : p.start * std::pow(9, share - 0.5), p.lower, p.upper);
 }
 
 Vector named_start(const GreyModel& model, const std::map<std::string, double>& values) {
@@ -122,8 +121,8 @@ Vector squares_of_outputs(const GreyOutput& criterion, const Vector& theta, cons
 /// Of each output's errors: its share of the values that were searched.
 double residual_degrees(const Fit& end, const IdData& data) {
     const double held = static_cast<double>(std::ranges::count(end.at_bound, true));
-    const double searched = static_cast<double>(end.theta.size()) - held;
-    return static_cast<double>(data.sample_count()) - searched / static_cast<double>(data.output_count());
+    return static_cast<double>(data.sample_count()) -
+           (static_cast<double>(end.theta.size()) - held) / static_cast<double>(data.output_count());
 }
 
 Fit minimise(const GreyOutput& criterion, const Vector& start, const FitOptions& search) {
@@ -132,7 +131,6 @@ Fit minimise(const GreyOutput& criterion, const Vector& start, const FitOptions&
     fit.theta = start;
     fit.loss = (criterion.measured() - criterion.output_at(start)).squaredNorm() /
                static_cast<double>(criterion.measured().size());
-    fit.covariance.resize(0, 0);
     return fit;
 }
 
@@ -197,8 +195,8 @@ SearchEnd search(const Problem& problem, const Beginning& from, Vector weights) 
 Vector grown(const Problem& problem, const Vector& start, const Vector& weights) {
     Vector theta = problem.criterion(start, weights).start();
     const FitOptions rough = problem.search_options().rough(kFollowedIterations, kFollowedTolerance);
-    const auto experiments = static_cast<double>(problem.data.experiments.size());
-    const double mean_length = static_cast<double>(problem.data.sample_count()) / experiments;
+    const double mean_length =
+        static_cast<double>(problem.data.sample_count()) / static_cast<double>(problem.data.experiments.size());
     for (double length = kFirstShare * mean_length; length < mean_length; length *= kGrowth) {
         const IdData part = beginning_of(problem.data, static_cast<Index>(length));
         if (part.sample_count() * part.output_count() <= 2 * theta.size()) continue;
@@ -208,7 +206,7 @@ Vector grown(const Problem& problem, const Vector& start, const Vector& weights)
     return theta;
 }
 
-/// The end, or a better one where it leaves much: from fits to beginnings, from the model's own start and others.
+/// The end, or where it leaves much a better one from fits to beginnings, from several starts until two ends agree.
 SearchEnd or_grown(const Problem& problem, SearchEnd end, const Vector& weights) {
     const GreyOutput criterion = problem.criterion(problem.model.start(), weights);
     const double lost = kLost * output_variations(problem.data).dot(weights.cwiseAbs2());
@@ -219,7 +217,9 @@ SearchEnd or_grown(const Problem& problem, SearchEnd end, const Vector& weights)
         if (left(end) <= lost || end.fit.theta.size() == 0 || end.fit.termination == Termination::kCancelled) break;
         try {
             SearchEnd other = search(problem, {start, grown(problem, start, weights), {}}, weights);
-            if (left(other) < left(end) || !std::isfinite(left(end))) end = std::move(other);
+            const double before = left(end), after = left(other);
+            if (!(after >= before)) end = std::move(other);
+            if (std::abs(after - before) < kSame * before) break;
         } catch (const InvalidArgument&) {
         }  // the simulation breaks down
     }
