@@ -25,9 +25,12 @@ using namespace std::chrono_literals;
 class web_attacks : public testing::Test {
   protected:
     web_attacks() : server({.port = 0, .largest_body = 1000}) {
-        server.on_get("/", [this](const PageRequest&) {
-            return PageReply{"<!DOCTYPE html><title>ours</title><link rel=stylesheet href=page.css><p>ours" + script};
+        server.on_get("/", [](const PageRequest&) {
+            return PageReply{
+                "<!DOCTYPE html><title>ours</title><link rel=stylesheet href=page.css><p>ours<script "
+                "src=page.js></script>"};
         });
+        server.on_get("/page.js", [this](const PageRequest&) { return PageReply{script, "text/javascript"}; });
         server.on_get("/page.css", [](const PageRequest&) { return PageReply{"p {}", "text/css"}; });
         server.on_post("/order", [this](const PageRequest&) { return ++orders, PageReply{"done"}; });
         server.start();
@@ -351,8 +354,8 @@ TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_firefox) {
     site.set_keep_alive_max_count(1);
     std::thread thread([&] { site.listen_after_bind(); });
     script = fmt::format(
-        "<script>fetch('order', {{method: 'POST', headers: {{'X-Dynlab': '1'}}}}).then(() => "
-        "location = 'http://127.0.0.1:{}/')</script>",
+        "fetch('order', {{method: 'POST', headers: {{'X-Dynlab': '1'}}}}).then(() => "
+        "location = 'http://127.0.0.1:{}/')",
         port);
     const TemporaryFolder profile;
     ChildOptions options;

@@ -110,7 +110,7 @@ bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
     constexpr double kEvidence = 30, kNoWorse = 10;  // of N log of losses, from where on it is a feedthrough
     const Fit& found = fit.search.candidate.estimate;
     const bool at_zero = !found.at_bound.empty() && found.at_bound[static_cast<std::size_t>(found.theta.size() - 1)];
-    if (fit.window.step > 1 || !(fit.trusted() && at_zero || follows_later_inputs(fit, 0))) return false;
+    if (fit.window.step > 1 || !((fit.trusted() && at_zero) || follows_later_inputs(fit, 0))) return false;
     const int zeros = fit.search.candidate.poles;  // and one pole more: the search chose without knowing
     const std::optional<Fit> in_time = fit_to_earlier_input(fit, 0, zeros);
     std::optional<Fit> best = in_time;

@@ -20,15 +20,14 @@
 namespace dynlab::inline numerics {
 namespace {
 
-constexpr int kFollowedIterations = 15;
+constexpr int kFollowedIterations = 15, kStartsOfLost = 5;  // the latter are followed from the beginning of the data
 constexpr double kFollowedTolerance = 1e-3;
 constexpr int kWeightings = 20;           // of the outputs, at most
 constexpr double kSettledWeights = 1e-4;  // of their ratios
 constexpr double kLeastError = 1e-12;     // of an output's errors beside what it varies, for its weight
 constexpr double kConfidence = 0.95;
-constexpr double kLost = 0.1, kSame = 1e-3;  // of the variation, left: begun too far away; of that, two ends agree
-constexpr int kStartsOfLost = 5;             // that are then followed from the beginning of the data
-constexpr double kFirstShare = 1 / 16., kGrowth = 1.5;  // of the samples
+constexpr double kLost = 0.01, kFollows = 0.5;  // of the variation, left over, and its lag-one correlation: far away
+constexpr double kFirstShare = 1 / 16., kGrowth = 1.5, kSame = 1e-3;  // of the samples; of what is left: ends agree
 
 /// Values between 0 and 1 that fill the space evenly (Halton 1960): the i-th, in the dimension of this prime.
 double halton(int i, int prime) {
@@ -210,14 +209,15 @@ Vector grown(const Problem& problem, const Vector& start, const Vector& weights)
 SearchEnd or_grown(const Problem& problem, SearchEnd end, const Vector& weights) {
     const GreyOutput criterion = problem.criterion(problem.model.start(), weights);
     const double lost = kLost * output_variations(problem.data).dot(weights.cwiseAbs2());
-    const auto left = [&](const SearchEnd& of) {
-        return (criterion.measured() - criterion.output_at(of.fit.theta)).squaredNorm();
-    };
+    const auto errors = [&](const Fit& of) -> Vector { return criterion.measured() - criterion.output_at(of.theta); };
     for (const Vector& start : starts_of(problem.model, problem.options, kStartsOfLost)) {
-        if (left(end) <= lost || end.fit.theta.size() == 0 || end.fit.termination == Termination::kCancelled) break;
+        const Vector e = errors(end.fit);
+        const double before = e.squaredNorm();
+        if (before <= lost || e.head(e.size() - 1).dot(e.tail(e.size() - 1)) <= kFollows * before) break;
+        if (end.fit.theta.size() == 0 || end.fit.termination == Termination::kCancelled) break;
         try {
             SearchEnd other = search(problem, {start, grown(problem, start, weights), {}}, weights);
-            const double before = left(end), after = left(other);
+            const double after = errors(other.fit).squaredNorm();
             if (!(after >= before)) end = std::move(other);
             if (std::abs(after - before) < kSame * before) break;
         } catch (const InvalidArgument&) {
