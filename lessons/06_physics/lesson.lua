@@ -466,7 +466,7 @@ report.value("sensor", tank_truth.noise_std, "%.3f")
 -- unit of the hidden level. But the repetitions show a bias. Without one, the mean error of `times`{.value} repetitions is within about twice `mean_scatter`{.value} of zero; with $\beta = 5$ the part $q$ is `gentle_q`{.value} standard errors too low on average. Water over a rim stands almost at the rim, but this flow lets it rise and run down later. With $\beta = 50$ the
 -- bias of $q$ is `steep_q`{.value}. The free run does not show the difference (`gentle_error`{.value} V with $\beta = 5$): again a convenient term is part of the model.
 --
--- The start values need a thought: at the mean voltage of 2.6 V the tanks are somewhat over half full, so $k_4 \approx k_1\sqrt{13}/2.6$. From a start at which the upper tank never overflows, as with 0.05 for $k_4$ too, nothing leads to the rim; `starts = 20` tries others.
+-- The start values need a thought: at the mean voltage of 2.6 V the tanks are somewhat over half full, so $k_4 \approx k_1\sqrt{13}/2.6$. From a start at which the upper tank never overflows, as with 0.05 for $k_4$ too, a search from there alone does not find the rim. `greyest` sees that the errors which are left follow each other, and goes on from other starts; `starts = 20` tries more.
 -- END SOLUTION
 --
 -- ## Learning without equations
