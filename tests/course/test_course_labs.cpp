@@ -6,9 +6,12 @@
 #include "base/reader.h"
 #include "course/corrections/corrections.h"
 #include "course/course_bench.h"
+#include "course/export/reminders.h"
 #include "course/office/course_totals.h"
+#include "course/office/course_work.h"
 #include "course/office/deadline_import.h"
 #include "course/office/receive.h"
+#include "course/office/recognised_file.h"
 #include "course/office/who.h"
 #include "course/store/inspection.h"
 #include "course/store/marks.h"
@@ -127,6 +130,12 @@ TEST(course_labs, marks_by_hand_replace_points_and_can_be_taken_back) {
     course.mark({group, "s1", "*", 10, "did it alone"});
     EXPECT_EQ(course.earned(1), 9) << "of the group";
     EXPECT_EQ(lab_marks(course.course(), course.lab(), "s1").front().earned, 10);
+    // What cannot be read was given no points, which says nothing of the checks.
+    const std::int64_t unreadable = course.submit(2, "2026-02-01 12:00");
+    Transaction transaction(course.course().database());
+    record_result(course.course(), {unreadable, {}, "f"}, course.at("2026-03-02 13:00"));
+    transaction.commit();
+    EXPECT_EQ(most_points(course.course(), course.lab(), "*"), 10);
     // A work that only its author could show has no version.
     course.mark({course.group(3), "", "*", 5, "shown at the desk"});
     EXPECT_EQ(course.earned(3), 5);
@@ -218,12 +227,122 @@ TEST(course_labs, every_file_of_a_folder_leaves_a_trace) {
     std::set<std::string> traces;
     for (Rows rows = course.course().database().query("SELECT part, name FROM versions"); rows.next();)
         traces.insert(rows.text(0) + " " + rows.text(1));
-    EXPECT_THAT(traces,
-                ::testing::UnorderedElementsAre("script analysis.lua", "unreadable notes.txt", "unreadable report.pdf",
-                                                "unreadable empty.csv", "unreadable analysis.lua"));
+    EXPECT_THAT(traces, ::testing::UnorderedElementsAre("pack group-01.zip", "unreadable analysis.lua"));
+    Rows pack = course.course().database().query("SELECT hash FROM versions WHERE part = 'pack'");
+    ASSERT_TRUE(pack.next());
+    const TemporaryFolder folder;
+    unpack_submission(course.course().file(pack.text(0)), folder.path() / "p", Isolation::kProcess, DYNLAB_PROGRAM);
+    for (const char* name : {"analysis.lua", "notes.txt", "report.pdf", "empty.csv"})
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / "p" / name)) << name;
     const HandedInParts parts = newest_versions(course.course(), course.lab())[course.group(1)]["first"];
     EXPECT_EQ(parts.size(), 1u) << "what lies beside the script needs nobody";
     EXPECT_TRUE(check_store(course.course()).troubles.empty());
+}
+
+// oracle: the files that came: each is a version, in the order of their times; the same files again add none
+TEST(course_labs, scripts_of_both_partners_are_versions) {
+    LabCourse course;
+    for (const bool known : {false, true}) {
+        const ReceiveOutcome taken =
+            course.take({{"in/group-01.lua", "print(1)"}, {"in/Student 1.lua", "print(2)"}}, "2026-02-28 12:00");
+        EXPECT_TRUE(taken.refused.empty());
+        ASSERT_EQ(taken.received.size(), 2u);
+        for (const Received& one : taken.received) {
+            EXPECT_EQ(one.part, "script");
+            EXPECT_EQ(one.known, known) << one.version;
+        }
+        EXPECT_NE(taken.received[0].version, taken.received[1].version);
+    }
+}
+
+// oracle: the names that dynlab grade takes as analysis.lua (test_odd_hand_ins.cpp)
+TEST(course_labs, script_under_a_changed_name_is_taken) {
+    LabCourse course;
+    for (const char* name : {"Analysis.lua", "analysis.lua.txt", "my%20analysis.lua", "analysis (1).LUA"}) {
+        const ReceiveOutcome taken = course.take(
+            {{std::string("in/group-01/") + name, std::string("print('") + name + "')"}}, "2026-02-28 12:00");
+        ASSERT_EQ(taken.received.size(), 1u) << name;
+        EXPECT_EQ(taken.received[0].part, "script") << name;
+    }
+}
+
+// oracle: the first bytes of the file; what can be read replaces it
+TEST(course_labs, unreadable_file_is_graded_as_unreadable_until_another_comes) {
+    LabCourse course;
+    course.take({{"in/group-01/lab4.zip", "Rar!\x1A\x07"}}, "2026-02-28 12:00");
+    const CourseWork before(course.course(), course.lab());
+    ASSERT_EQ(before.work().items.size(), 1u);
+    EXPECT_EQ(before.work().items[0].submission.name, "group-01 unreadable");
+    EXPECT_EQ(before.work().items[0].students.size(), 1u);
+    EXPECT_THAT(message_text(before.work().items[0].unreadable), HasSubstr("RAR archive"));
+    const auto reminders = reminders_of(course.course(), course.lab(), course.at("2026-03-02 12:00"), false);
+    ASSERT_EQ(reminders.size(), 3u);
+    EXPECT_THAT(message_text(reminders[0].missing.at(0)), HasSubstr("cannot be read"));
+    EXPECT_THAT(message_text(reminders[1].missing.at(0)), Not(HasSubstr("cannot be read")));
+    course.take({{"in/group-01/analysis.lua", "print(1)"}}, "2026-02-28 13:00");
+    const CourseWork after(course.course(), course.lab());
+    ASSERT_EQ(after.work().items.size(), 1u);
+    EXPECT_EQ(after.work().items[0].submission.name, "group-01");
+    EXPECT_EQ(after.work().items[0].unreadable, Message());
+}
+
+// oracle: the roster: both students of group 1 are called Petit, and each of two groups has a Moser
+TEST(course_labs, surname_of_one_group_s_members_is_enough) {
+    CourseBench bench(3);
+    bench.bench().write("roster.csv",
+                        "id,name,group\np1,Luc Petit,group-01\np2,Lea Petit,group-01\nm1,Hans Moser,group-02\nm2,Julia "
+                        "Moser,group-03\n");
+    CourseBench::expect_done(bench.course({"import", "roster.csv"}));
+    const ChildResult taken = bench.hand_in("Petit.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
+    CourseBench::expect_done(taken);
+    EXPECT_THAT(taken.output, HasSubstr("group-01"));
+    const ChildResult asked = bench.hand_in("Moser.pdf", small_pdf("two"), "2026-03-01 10:00", {"--no-checks"});
+    EXPECT_EQ(asked.exit_code, 1);
+    EXPECT_THAT(asked.error_output, AllOf(HasSubstr("group-02"), HasSubstr("group-03")));
+}
+
+// oracle: a talk consists of slides and a script: a script beside them does not replace slides that cannot be read
+TEST(course_labs, unreadable_slides_beside_a_script_are_asked_for_again) {
+    CourseBench bench(2);
+    CourseBench::expect_done(bench.course({"assignment", "talk", "--kind", "talk", "--first", "2026-06-01 12:00"}));
+    bench.bench().write("in/group-01/slides.pptx", "PK\x03\x04 slides");
+    bench.bench().write("in/group-01/script.lua", "print(1)\n");
+    const ChildResult taken = bench.course({"submit", "in", "--assignment", "talk", "--at", "2026-06-01 10:00"});
+    EXPECT_THAT(taken.output, HasSubstr("ask for a readable file"));
+    EXPECT_THAT(bench.course({"status", "talk"}).output, HasSubstr("ask for a readable file"));
+}
+
+// oracle: the format of zip: a file may be stored in it as it is
+TEST(course_labs, zip_that_stores_pdfs_as_they_are_is_a_pack) {
+    const TemporaryFolder folder;
+    const auto zip = folder.path() / "report.zip";
+    write_file_atomically(zip, "PK\x03\x04" + std::string(26, '\0') + "a.pdf" + small_pdf("one"));
+    EXPECT_EQ(kind_of_file_at("report.zip", zip), "pack");
+    EXPECT_EQ(kind_of_file_at("report.pdf", zip), "");
+    const auto pdf = folder.path() / "report.pdf";
+    write_file_atomically(pdf, "\n\n" + small_pdf("one"));
+    EXPECT_EQ(kind_of_file_at("report.zip", pdf), "pdf");
+}
+
+// oracle: the bytes that came: six groups submit the same ones
+TEST(course_labs, many_groups_with_the_same_file_are_counted) {
+    CourseBench bench(6);
+    for (int i = 1; i <= 6; ++i) bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("one"));
+    CourseBench::expect_done(bench.course({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
+    EXPECT_THAT(
+        bench.course({"status", "crane"}).output,
+        AllOf(HasSubstr("the same file as group-02 and group-03 and 3 others"), Not(HasSubstr("group-04 and"))));
+}
+
+// oracle: hidden records drawn from nothing are no secret
+TEST(course_labs, empty_secret_is_refused_at_once) {
+    CourseBench bench(2);
+    bench.bench().write("empty.txt", "");
+    const ChildResult refused = bench.course({"assignment", "lab9", "--kind", "lab", "--lesson", "04", "--first",
+                                              "2026-03-01 12:00", "--secret", "empty.txt"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.error_output, HasSubstr("is empty"));
+    EXPECT_THAT(bench.course({"status"}).output, Not(HasSubstr("lab9")));
 }
 
 // oracle: what a lab consists of

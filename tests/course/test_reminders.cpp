@@ -55,7 +55,7 @@ TEST_F(reminders, are_messages_with_address_subject_and_text) {
     ASSERT_EQ(mails.rows.size(), 3u);
     EXPECT_EQ(mails.rows[1][1], "k, crane: please submit what is missing");
     EXPECT_EQ(mails.rows[1][2],
-              "Hello Student 2,\n\nthis is missing of group-02 for crane (k):\n\n- the first version, due 2026-03-01 "
+              "Hello Student 2,\n\nthis is missing of group-02 for crane (k):\n\n* the first version, due 2026-03-01 "
               "12:00\n\nPlease submit it now, or answer this message.\n");
     EXPECT_EQ(mails.rows[1][3], "s2");
 }

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/course/course_commands.h"
 #include "course/office/course_export.h"
+#include "course/office/course_grading.h"
 #include "course/office/course_status.h"
 #include "course/office/deadline_import.h"
 #include "course/office/who.h"
@@ -178,6 +179,7 @@ void apply(const AssignmentArguments& words, const CourseClock& clock, Assignmen
     if (words.reviews_weight) a.reviews_weight = *words.reviews_weight;
     if (!words.checks.empty()) a.checks = lasting_path(words.checks);
     if (!words.secret.empty()) a.secret = lasting_path(words.secret);
+    if (!a.secret.empty() && !words.secret.empty()) secret_in(a.secret);
     if (!words.keep.empty()) a.keep = words.keep;
 }
 
@@ -332,7 +334,8 @@ void add_status(CLI::App& course, CourseArguments& where, Action& action) {
 
 void add_time_option(CLI::App& command, std::string& text) {
     command.add_option("--at", text, "As if it were this time, in the course's zone; now unless given")
-        ->type_name("TIME");
+        ->type_name("TIME")
+        ->group("");  // the help of all commands says it once
 }
 
 Instant time_of(const Course& course, const std::string& text) {
@@ -370,6 +373,7 @@ void add_course(CLI::App& app, Action& action) {
         "  dynlab course grade lab4                                   marks and feedback\n"
         "  dynlab course export -o term.csv                           all marks, and the total\n"
         "A term in 20 commands: dynlab help guide-instructor\n"
+        "Commands that depend on the date take --at TIME, too: they work as if it were that time.\n"
         "More: dynlab help review_marks (how marks come out of scores), dynlab help names (what is searched for)\n"
         "Exit codes: 0 done, 1 something failed or was not taken, 2 wrong usage.");
 }

@@ -40,7 +40,6 @@ int grade(const CourseArguments& where, const GradeWords& words) {
     request.only = words.only;
     request.regrade = words.regrade, request.pdf = !words.no_pdf, request.above_maximum = words.force;
     const GradingOutcome outcome = grade_assignment(course, assignment, request);
-    show_complaints(outcome);
     return show_grading(outcome, request.setup.isolation, results_folder(course, assignment), request.pdf);
 }
 

@@ -156,6 +156,7 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
             ->type_name("report-NN")
             ->allow_extra_args(false);
     add_time_option(*command, words->at);
+    command->get_option("--at")->group("Options");
     command
         ->add_option(
             "--times", words->times,

@@ -81,8 +81,9 @@ std::vector<Reminder> reminders_of(Course& course, const Assignment& assignment,
             gaps.reviews(pairs);
             if (assignment.final_due) gaps.document("final", stages["final"], Message("the final version"));
         } else {
-            if (assignment.kind != "lab") gaps.document("first", stages["first"], Message("the slides"));
-            gaps.script(stages["first"]);
+            gaps.document("first", stages["first"],
+                          assignment.is_lab() ? Message("the script") : Message("the slides"));
+            if (!assignment.is_lab()) gaps.script(stages["first"]);
         }
         if (std::vector<Message> missing = gaps.found(); !missing.empty())
             reminders.push_back({group, std::move(missing)});
@@ -98,7 +99,7 @@ Mail mail_of(const Reminder& reminder, const Student& student, const Assignment&
     text += message_text(Message("this is missing of {} for {} ({}):", reminder.group.name, assignment.name, course),
                          reader) +
             "\n\n";
-    for (const Message& one : reminder.missing) text += "- " + message_text(one, reader) + "\n";
+    for (const Message& one : reminder.missing) text += "* " + message_text(one, reader) + "\n";
     text += "\n" + message_text(Message("Please submit it now, or answer this message."), reader) + "\n";
     return {message_text(Message("{}, {}: please submit what is missing", course, assignment.name), reader), text};
 }

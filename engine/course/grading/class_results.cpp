@@ -282,6 +282,7 @@ Attention what_needs_attention(const ClassResults& results) {
     const bool some_whole =
         std::ranges::any_of(results.entries, [&](const Entry& entry) { return entry.grade && whole(*entry.grade); });
     std::map<std::string, std::vector<const Entry*>> by_content;
+    std::vector<std::string> by_hand;
     for (const Entry& entry : results.entries) {
         const std::string name = shown_name(entry.item->submission);
         if (results.work->roster && !entry.item->unmatched.empty()) {
@@ -296,7 +297,7 @@ Attention what_needs_attention(const ClassResults& results) {
             ++attention.unreadable;
         } else {
             if (waits_for_a_hand(grade))
-                add(Message("\"{}\" needs a mark by hand: marks.csv", name));
+                by_hand.push_back(fmt::format("\"{}\"", name));
             else if (!whole(grade) && some_whole)
                 add(Message("\"{}\" is not graded completely", name));
             if (grade.trouble.empty() && grade.silent) add(Message("\"{}\" ran to its end but gave no answer", name));
@@ -311,6 +312,7 @@ Attention what_needs_attention(const ClassResults& results) {
         if (entry.item->version == 0) continue;
         by_content[entry.item->content].push_back(&entry);
     }
+    if (!by_hand.empty()) add(Message("marks by hand are missing in marks.csv: {}", listed(by_hand, Join::kAnd)));
     for (const auto& [content, entries] : by_content) {
         const auto of_others = [&](const Entry* entry) {
             return entry->item->students != entries.front()->item->students;

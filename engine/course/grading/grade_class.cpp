@@ -112,6 +112,7 @@ class ClassGrader {
             return {};
         }
         try {
+            if (!item.unreadable.empty()) throw SubmissionError(item.unreadable);
             return GradingPipeline::ToCheck{&item, key, pipeline_.run(item)};
         } catch (const SubmissionError& error) {
             finish(place, pipeline_.unreadable(item, key, error.message()), outcome_.made);

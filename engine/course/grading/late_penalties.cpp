@@ -70,7 +70,7 @@ void conclude_lateness(ClassWork& work) {
         ++work.unconfirmed;
         work.attention.push_back(
             Message("\"{}\" came {} after its deadline, and a penalty of {} % is not applied yet: accept it with "
-                    "--accept-late, or write the true time into the column received of the deadlines",
+                    "--accept-late, or correct the time of receipt",
                     item->submission.name, duration_message(lateness.late), significant(lateness.waiting_percent, 4)));
     }
     if (Message question = doubt_about_zone(std::move(late), work.items.size()); !question.empty())

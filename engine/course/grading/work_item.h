@@ -20,6 +20,7 @@ struct Lateness {
 /// A submission to grade, with what a course knows of it.
 struct WorkItem {
     Submission submission;              ///< its name, which no other in the class has, and its files
+    Message unreadable;                 ///< why it cannot be graded, a sentence; as a rule empty
     std::string content;                ///< SHA-256 of all that was submitted; empty where that is not known
     std::int64_t version = 0;           ///< its id in the store of the course; 0: it could not be kept
     std::int64_t group_id = 0;          ///< of that version

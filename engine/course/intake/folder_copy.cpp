@@ -1,7 +1,8 @@
 #include "course/intake/folder_copy.h"
 
-#include "platform/atomic_file.h"
+#include <algorithm>
 
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 
@@ -64,6 +65,20 @@ FolderCopy copy_folder(const fs::path& from, const fs::path& to, std::uint64_t m
         throw EnvironmentError("cannot copy {}: {} ({})", from.string(), error.code().message(),
                                error.path1().string());
     }
+}
+
+std::vector<fs::path> files_below(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
+        const std::string name = entry->path().filename();
+        if (name.starts_with('.') || name == "__MACOSX") {
+            entry.disable_recursion_pending();
+        } else if (entry->symlink_status().type() == fs::file_type::regular) {
+            files.push_back(entry->path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
 }
 
 std::map<std::string, std::string> contents_of(const fs::path& folder) {

@@ -20,6 +20,9 @@ struct FolderCopy {
 FolderCopy copy_folder(const std::filesystem::path& from, const std::filesystem::path& to, std::uint64_t most_bytes,
                        int most_files);
 
+/// All plain files below, sorted; without links, hidden ones and what systems add (__MACOSX).
+std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder);
+
 /// The content of all files below, without links, by their path there.
 std::map<std::string, std::string> contents_of(const std::filesystem::path& folder);
 

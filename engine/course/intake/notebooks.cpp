@@ -1,5 +1,6 @@
 #include "course/intake/notebooks.h"
 
+#include "course/intake/folder_copy.h"
 #include "documents/error.h"
 #include "platform/atomic_file.h"
 #include "platform/guarded_call.h"
@@ -14,14 +15,8 @@ constexpr char kNotebookName[] = "analysis.ipynb", kScriptName[] = "analysis.lua
 constexpr auto kStepOfTimes = std::chrono::seconds(2);  // the step of times in a zip
 
 std::vector<fs::path> notebooks_in(const fs::path& folder) {
-    std::vector<fs::path> found;
-    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
-        const std::string name = entry->path().filename();
-        if (name.starts_with('.') || name == "__MACOSX")
-            entry.disable_recursion_pending();  // .ipynb_checkpoints among them
-        else if (name == kNotebookName && entry->symlink_status().type() == fs::file_type::regular)
-            found.push_back(entry->path());
-    }
+    std::vector<fs::path> found = files_below(folder);
+    std::erase_if(found, [](const fs::path& file) { return file.filename() != kNotebookName; });
     return found;
 }
 

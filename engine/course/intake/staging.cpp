@@ -9,12 +9,14 @@
 #include <map>
 #include <set>
 
+#include "course/boxes/zip_file.h"
 #include "course/intake/folder_copy.h"
 #include "course/intake/notebooks.h"
 #include "course/intake/owners.h"
 #include "data_io/tables/text_decoding.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/temporary_folder.h"
 #include "platform/text/foreign_text.h"
 #include "platform/text/small_letters.h"
 #include "workflow/given_script.h"
@@ -34,25 +36,6 @@ struct FoundScript {
     std::string shown;  ///< "work_v2.zip", "lab4/final"
     fs::file_time_type written;
 };
-
-bool is_of_systems(const fs::path& path) {
-    const std::string name = path.filename().string();
-    return name.starts_with('.') || name == "__MACOSX";
-}
-
-/// All plain files below, but those that systems add, sorted.
-std::vector<fs::path> files_below(const fs::path& folder) {
-    std::vector<fs::path> files;
-    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
-        if (is_of_systems(entry->path())) {
-            entry.disable_recursion_pending();
-        } else if (entry->symlink_status().type() == fs::file_type::regular) {
-            files.push_back(entry->path());
-        }
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
 
 std::string shown_place(const fs::path& file, const fs::path& from) {
     return utf8_of_name(file.lexically_relative(from).string());
@@ -122,16 +105,6 @@ std::string without_percent_signs(const std::string& name) {
         if (encoded) i += 2;
     }
     return plain;
-}
-
-/// "analysis.lua" or "analysis.ipynb" for what browsers, systems and platforms make of these names: another case, .txt
-/// at the end, "my%20analysis.lua", "analysis (1).lua", "analysis-1.lua", "ada_4711_analysis.lua"; else empty.
-std::string name_meant_by(const std::string& name) {
-    static const RE2 kForm(R"((?:.*[ _-])?analysis(?:[ _-]?\(?\d+\)?|[ _-]copy)?(\.lua|\.ipynb)(?:\.txt)?)",
-                           RE2::Latin1);
-    std::string ending;
-    if (!RE2::FullMatch(in_small_letters(without_percent_signs(name)), kForm, &ending)) return "";
-    return "analysis" + ending;
 }
 
 /// A PDF or another file of bytes under a script's name would be graded as a script without answers.
@@ -208,10 +181,10 @@ class Stager {
     bool take_other_names() {
         std::map<fs::path, std::vector<fs::path>> meant;
         for (const fs::path& file : files_below(root_))
-            if (!name_meant_by(file.filename().string()).empty()) meant[file.parent_path()].push_back(file);
+            if (!script_name_meant_by(file.filename().string()).empty()) meant[file.parent_path()].push_back(file);
         for (const auto& [folder, files] : meant) {
             if (files.size() > 1) continue;
-            const std::string name = name_meant_by(files.front().filename().string());
+            const std::string name = script_name_meant_by(files.front().filename().string());
             renamed_ = Message("\"{}\" was taken as {}", shown_place(files.front(), root_), name);
             fs::rename(files.front(), folder / name);
         }
@@ -331,6 +304,14 @@ class Stager {
 
 }  // namespace
 
+std::string script_name_meant_by(const std::string& name) {
+    static const RE2 kForm(R"((?:.*[ _-])?analysis(?:[ _-]?\(?\d+\)?|[ _-]copy)?(\.lua|\.ipynb)(?:\.txt)?)",
+                           RE2::Latin1);
+    std::string ending;
+    if (!RE2::FullMatch(in_small_letters(without_percent_signs(name)), kForm, &ending)) return "";
+    return "analysis" + ending;
+}
+
 std::vector<std::string> copy_submission(const Submission& submission, const fs::path& to,
                                          const SubmissionLimits& limits) {
     for (const LooseFile& file : submission.loose) copy_loose(file, to, limits);
@@ -338,6 +319,12 @@ std::vector<std::string> copy_submission(const Submission& submission, const fs:
     FolderCopy copy = copy_folder(submission.path, to, limits.bytes, limits.files);
     if (copy.too_large) refuse_size(limits);
     return std::move(copy.left_out);
+}
+
+void zip_submission(const Submission& submission, const fs::path& zip, const SubmissionLimits& limits) {
+    const TemporaryFolder copy;
+    copy_submission(submission, copy.path(), limits);
+    write_zip(zip, contents_of(copy.path()));
 }
 
 StagedWork stage_submission(const Submission& submission, const fs::path& to, Isolation level, const fs::path& program,

@@ -20,6 +20,14 @@ struct StagedWork {
 std::vector<std::string> copy_submission(const Submission& submission, const std::filesystem::path& to,
                                          const SubmissionLimits& limits = {});
 
+/// The same as a zip: of equal bytes for equal files.
+void zip_submission(const Submission& submission, const std::filesystem::path& zip,
+                    const SubmissionLimits& limits = {});
+
+/// "analysis.lua" or "analysis.ipynb" for what browsers, systems and platforms make of these names: another case, .txt
+/// at the end, "my%20analysis.lua", "analysis (1).lua", "analysis-1.lua", "ada_4711_analysis.lua"; else empty.
+std::string script_name_meant_by(const std::string& name);
+
 /// Brings a submission's files into `to`, an empty folder, and finds analysis.lua: at any depth, in archives within
 /// archives as well where there is none outside of them; a notebook analysis.ipynb becomes one (notebooks.h). Of
 /// several the newest is taken: by the numbers in their names

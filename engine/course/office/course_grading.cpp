@@ -125,6 +125,12 @@ fs::path results_folder(const Course& course, const Assignment& assignment) {
     return course.folder() / "marks" / assignment.name;
 }
 
+std::string secret_in(const std::string& file) {
+    std::string secret = read_file(file);
+    if (secret.empty()) throw EnvironmentError("{} is empty: hidden records drawn from it would be no secret", file);
+    return secret;
+}
+
 GradingOptions grading_options(const Assignment& assignment, const CourseGradingRequest& request, const fs::path& out) {
     if (!assignment.is_lab())
         throw InvalidArgument("{} is not a lab: only labs are graded by checks; see dynlab course scores",
@@ -133,11 +139,7 @@ GradingOptions grading_options(const Assignment& assignment, const CourseGrading
     options.setup = request.setup;
     options.setup.lesson = find_lesson(assignment.lesson);
     if (!assignment.checks.empty()) options.setup.more_checks = assignment.checks;
-    if (!assignment.secret.empty()) {
-        options.setup.secret = read_file(assignment.secret);
-        if (options.setup.secret.empty())
-            throw EnvironmentError("{} is empty: hidden records drawn from it would be no secret", assignment.secret);
-    }
+    if (!assignment.secret.empty()) options.setup.secret = secret_in(assignment.secret);
     options.out = out;
     options.regrade = request.regrade, options.pdf = request.pdf, options.above_maximum = request.above_maximum;
     return options;

@@ -24,6 +24,8 @@ GradingOutcome grade_assignment(Course& course, const Assignment& assignment, co
 
 // Its steps, which folder_grading.h takes too.
 
+/// What hidden records are drawn from. Throws EnvironmentError where the file is missing or empty.
+std::string secret_in(const std::string& file);
 /// Throws InvalidArgument for an assignment that is no lab, EnvironmentError for an empty secret.
 GradingOptions grading_options(const Assignment& assignment, const CourseGradingRequest& request,
                                const std::filesystem::path& out);

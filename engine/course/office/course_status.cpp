@@ -43,19 +43,28 @@ std::string cell_of(const HandedInParts& parts, const std::string& main) {
 }
 
 /// By group: others who handed in the very same bytes.
-std::map<std::int64_t, std::string> groups_with_the_same_file(Course& course, const Assignment& assignment) {
-    std::map<std::int64_t, std::string> twins;
+std::map<std::int64_t, std::vector<std::string>> groups_with_the_same_file(Course& course,
+                                                                           const Assignment& assignment) {
+    std::map<std::int64_t, std::vector<std::string>> twins;
     for (Rows rows = course.database().query(
              "SELECT DISTINCT v.group_id, g.name FROM versions v JOIN versions w ON w.hash = v.hash AND w.assignment = "
              "v.assignment AND w.group_id <> v.group_id JOIN groups g ON g.id = w.group_id WHERE v.assignment = ? AND "
              "v.stage <> 'review' AND w.stage <> 'review' AND EXISTS (SELECT 1 FROM standing s WHERE s.id = v.id) AND "
              "EXISTS (SELECT 1 FROM standing s WHERE s.id = w.id) ORDER BY 1, 2",
              assignment.id);
-         rows.next();) {
-        std::string& names = twins[rows.integer(0)];
-        names += (names.empty() ? "" : " and ") + rows.text(1);
-    }
+         rows.next();)
+        twins[rows.integer(0)].push_back(rows.text(1));
     return twins;
+}
+
+/// "group-01 and group-02"; of many the first two and how many others.
+std::string shortened(std::vector<std::string> names) {
+    constexpr std::size_t kMost = 3;
+    if (names.size() > kMost) {
+        names[2] = fmt::format("{} others", names.size() - 2);
+        names.resize(kMost);
+    }
+    return fmt::format("{}", fmt::join(names, " and "));
 }
 
 class Status {
@@ -237,7 +246,7 @@ class Status {
         readable(last, "final version");
         const auto id = group.id;
         if (const auto twin = twins_.find(id); twin != twins_.end())
-            things.push_back(fmt::format("handed in the same file as {}", twin->second));
+            things.push_back(fmt::format("handed in the same file as {}", shortened(twin->second)));
         if (any_pair([&](const ReviewPair& p) {
                 return p.reviewer == id &&
                        kindred_.contains(std::pair(std::min(p.reviewer, p.author), std::max(p.reviewer, p.author)));
@@ -330,7 +339,7 @@ class Status {
     std::string main_;
     std::map<std::int64_t, std::map<std::string, HandedInParts>> versions_;
     std::vector<ReviewPair> pairs_;
-    std::map<std::int64_t, std::string> twins_;
+    std::map<std::int64_t, std::vector<std::string>> twins_;
     std::vector<LabMark> labs_;
     std::set<std::pair<std::int64_t, std::int64_t>> kindred_;  ///< groups with a common member, now or before
     std::vector<std::vector<std::string>> rows_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "course/grading/late_penalties.h"
+#include "course/store/inspection.h"
 #include "numerics/error.h"
 #include "platform/error.h"
 
@@ -13,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "group-07", "group-07 v2", "group-07 pack".
+/// "group-07", "group-07 v2", "group-07 pack", "group-07 unreadable".
 std::string name_of(const Group& group, const std::string& part, std::int64_t number) {
-    return group.name + (part == "pack" ? " pack" : "") + (number > 1 ? fmt::format(" v{}", number) : "");
+    return group.name + (part == "script" ? "" : " " + part) + (number > 1 ? fmt::format(" v{}", number) : "");
 }
 
 }  // namespace
@@ -28,12 +29,17 @@ std::vector<CourseWork::Stored> CourseWork::read(Course& course, const Assignmen
     std::vector<Stored> versions;
     for (Rows rows = course.database().query(
              "SELECT id, group_id, number, part, hash, name, received_at, first_at, due_at, EXISTS (SELECT 1 FROM "
-             "arrivals a WHERE a.version = s.id) FROM standing s WHERE assignment = ? AND stage = 'first' AND part IN "
-             "('script', 'pack') ORDER BY group_id, number, part",
-             assignment.id);
-         rows.next();)
+             "arrivals a WHERE a.version = s.id), findings FROM standing s WHERE assignment = ?1 AND stage = 'first' "
+             "AND group_id IS NOT NULL AND (part <> ?2 OR NOT EXISTS (SELECT 1 FROM standing r WHERE r.assignment = ?1 "
+             "AND r.group_id = s.group_id AND r.part <> ?2 AND r.received_at >= s.received_at)) ORDER BY group_id, "
+             "number, part",
+             assignment.id, kUnreadable);
+         rows.next();) {
+        const Inspection seen = inspection_from(rows.text(10));
+        if (seen.trouble == kBeside) continue;
         versions.push_back({rows.integer(0), rows.integer(1), rows.integer(2), rows.text(3), rows.text(4), rows.text(5),
-                            rows.integer(6), rows.integer(7), rows.integer(8), rows.integer(9) != 0});
+                            rows.integer(6), rows.integer(7), rows.integer(8), rows.integer(9) != 0, seen.reason});
+    }
     work_.deadlines = assignment.first_due != kNoDeadline ||
                       std::ranges::any_of(versions, [](const Stored& v) { return v.due != kNoDeadline; });
     return versions;
@@ -41,6 +47,7 @@ std::vector<CourseWork::Stored> CourseWork::read(Course& course, const Assignmen
 
 CourseWork::CourseWork(Course& course, const Assignment& assignment) {
     for (const Stored& version : read(course, assignment)) add(course, version, assignment);
+    conclude_lateness(work_);
 }
 
 CourseWork::CourseWork(Course& course, const Assignment& assignment, const ReceivedClass& received) {
@@ -84,6 +91,9 @@ void CourseWork::add(Course& course, const Stored& version, const Assignment& as
     date(item, version, assignment);
     item.submission.name = name_of(group, version.part, version.number);
     item.submission.path = copy;
+    if (version.part == kUnreadable)
+        item.unreadable =
+            version.reason.empty() ? Message("The file that was submitted cannot be read.") : version.reason;
     item.submission.archive = pack;
     if (!pack) item.submission.loose = {{copy, "analysis.lua"}};
     const std::vector<std::string> members = members_at(course, group.id, item.received);

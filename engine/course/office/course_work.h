@@ -45,6 +45,7 @@ class CourseWork {
         std::string part, hash, name;
         Instant received = 0, first = 0, due = 0;  ///< first: when its content came
         bool confirmed = false;                    ///< the time of receipt was corrected or confirmed
+        Message reason;                            ///< why it cannot be read
     };
     std::vector<Stored> read(Course& course, const Assignment& assignment);
     static void date(WorkItem& item, const Stored& version, const Assignment& assignment);

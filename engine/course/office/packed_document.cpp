@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "course/intake/folder_copy.h"
 #include "course/intake/notebooks.h"
 #include "course/intake/submission.h"
 #include "course/office/recognised_file.h"
@@ -15,20 +16,6 @@ namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// All files below, without what systems hide or add.
-std::vector<fs::path> files_in(const fs::path& folder) {
-    std::vector<fs::path> files;
-    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
-        const std::string name = entry->path().filename();
-        if (name.starts_with('.') || name == "__MACOSX") {
-            entry.disable_recursion_pending();
-        } else if (entry->is_regular_file() && !entry->is_symlink()) {
-            files.push_back(entry->path());
-        }
-    }
-    return files;
-}
 
 std::vector<fs::path> highest(const std::vector<fs::path>& paths) {
     std::vector<fs::path> best;
@@ -101,7 +88,7 @@ OpenedPack open_pack(const fs::path& pack, const std::string& part, const fs::pa
     const fs::path unpacked = to / "pack";
     unpack_submission(pack, unpacked, level, program);
     take_notebooks(unpacked);
-    const std::vector<fs::path> files = files_in(unpacked);
+    const std::vector<fs::path> files = files_below(unpacked);
     std::vector<fs::path> pdfs, named;
     for (const fs::path& file : files) {
         const std::string name = file.filename();
@@ -132,7 +119,7 @@ std::map<std::string, double> scores_in_script(std::string_view script) {
 }
 
 std::map<std::string, double> scores_in_pack(const fs::path& folder) {
-    std::vector<fs::path> scripts = files_in(folder);
+    std::vector<fs::path> scripts = files_below(folder);
     std::erase_if(scripts, [](const fs::path& file) {
         return file.filename() != "analysis.lua" || fs::file_size(file) > kLargestScript;
     });

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "base/error.h"
@@ -85,6 +86,7 @@ class HandInReceiver {
   private:
     IncomingFiles::Way way() {
         return {request_.level, request_.program, !request_.from.empty(),
+                assignment_named(course_, request_.assignment).is_lab(),
                 [this](const Submission& submission) { return senders_.knows(submission); }};
     }
 
@@ -98,7 +100,11 @@ class HandInReceiver {
         } catch (const std::runtime_error& error) {
             if (!incoming_.batch()) throw EnvironmentError("{}: {}", file.source, message_of(error));
             outcome_.refused.push_back(Message("{}: {}", file.source, message_of(error)));
-            make_trace(candidate, kNotTaken, message_of(error));
+            const bool too_large = static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes;
+            const bool senders_doing = candidate.group.id != 0 && (too_large || !file.left_out.empty());
+            make_trace(candidate, senders_doing ? (too_large ? "too-large" : "other-kind") : kNotTaken,
+                       message_of(error));
+            candidate.silent = !senders_doing;
         }
         return candidate;
     }
@@ -183,12 +189,13 @@ class HandInReceiver {
         for (Candidate& c : candidates_)
             if (!c.silent && ((c.unreadable && readable.contains(slot_of(c, c.part))) ||
                               (c.part == kUnreadable && anything.contains(slot_of(c, ""))) ||
-                              ((c.unreadable || c.part == kUnreadable) && folders.contains(c.file->folder))))
+                              (c.part == kUnreadable && folders.contains(c.file->folder))))
                 make_trace(c, kBeside, Message("It came beside the file that counts."));
     }
 
     /// Of several files of a group for the same thing nobody can say which holds: they are kept as unreadable, unless
-    /// they are the same, as platforms give a team's file once for each member.
+    /// they are the same, as platforms give a team's file once for each member. Of a lab each is a version: the best
+    /// one or the newest counts, as where both partners submit.
     void settle_doubles() {
         std::map<std::string, std::map<std::string, const IncomingFile*>> contents;  // by slot and hash, the first one
         std::map<std::string, int> files;
@@ -202,6 +209,7 @@ class HandInReceiver {
         std::erase_if(candidates_, [&](const Candidate& c) {
             return !c.hash.empty() && contents[slot_of(c, c.part)][c.hash] != c.file;
         });
+        if (outcome_.assignment.is_lab()) return;
         for (Candidate& c : candidates_) {
             if (c.hash.empty() || contents[slot_of(c, c.part)].size() == 1) continue;
             outcome_.refused.push_back(
@@ -289,7 +297,9 @@ class HandInReceiver {
 
     void write() {
         std::stable_sort(candidates_.begin(), candidates_.end(),  // a pack stays before what it held
-                         [](const Candidate& a, const Candidate& b) { return a.group.name < b.group.name; });
+                         [](const Candidate& a, const Candidate& b) {
+                             return std::tie(a.group.name, a.at) < std::tie(b.group.name, b.at);
+                         });
         Transaction transaction(course_.database());
         int fresh = 0;
         std::set<std::string> known_packs;
@@ -325,6 +335,9 @@ class HandInReceiver {
         const bool confirmed = course_.database().query("SELECT 1 FROM arrivals WHERE version = ?", received.id).next();
         return waits_for_confirmation(costs, received.late, confirmed) ? late_percent(costs, received.late) : 0;
     }
+
+    /// Whether an earlier version may count as well as the newest one.
+    bool each_counts() const { return outcome_.assignment.is_lab() && outcome_.assignment.keep != "newest"; }
 
     bool has_any(const Candidate& c, const std::string& part) const {
         return course_.database()
@@ -373,8 +386,9 @@ class HandInReceiver {
             "= v.id "
             "WHERE v.assignment = ? AND v.group_id IS nullif(?, 0) AND v.stage = ? AND ifnull(v.pair, 0) = ? AND "
             "v.part "
-            "= ? ORDER BY v.part = ? AND v.hash = ? AND v.name = ? DESC, v.number DESC LIMIT 1",
-            outcome_.assignment.id, c.group.id, request_.stage, pair.value_or(0), c.part, kUnreadable, c.hash, c.name);
+            "= ? ORDER BY v.hash = ? AND ((v.part = ? AND v.name = ?) OR ?) DESC, v.number DESC LIMIT 1",
+            outcome_.assignment.id, c.group.id, request_.stage, pair.value_or(0), c.part, c.hash, kUnreadable, c.name,
+            each_counts());
         const bool any = before.next();
         if (any && before.text(2) == c.hash && (c.part != kUnreadable || before.text(5) == c.name)) {
             received.known = true, received.id = before.integer(0), received.version = before.integer(1);

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "base/error.h"
-#include "course/boxes/zip_file.h"
 #include "course/corrections/corrections.h"
 #include "course/intake/folder_copy.h"
 #include "course/intake/owners.h"
@@ -38,12 +37,7 @@ Instant written(const fs::path& path) {
     };
     if (!fs::is_directory(path)) return seconds(path);
     Instant newest = 0;
-    for (auto entry = fs::recursive_directory_iterator(path); entry != fs::recursive_directory_iterator(); ++entry) {
-        const bool hidden = entry->path().filename().string().starts_with('.');  // a desktop program wrote it
-        if (hidden) entry.disable_recursion_pending();
-        if (!hidden && entry->symlink_status().type() == fs::file_type::regular)
-            newest = std::max<Instant>(newest, seconds(entry->path()));
-    }
+    for (const fs::path& file : files_below(path)) newest = std::max<Instant>(newest, seconds(file));
     return newest;
 }
 
@@ -115,10 +109,8 @@ class ClassReceiver {
             if (is_one_archive(one.submission)) {
                 file.path = one.submission.path;
             } else {
-                const TemporaryFolder copy;
-                copy_submission(one.submission, copy.path(), limits);
                 file.path = packed_.path() / fmt::format("{}.zip", i);
-                write_zip(file.path, contents_of(copy.path()));
+                zip_submission(one.submission, file.path, limits);
             }
             if (fs::file_size(file.path) > limits.bytes) throw SubmissionError("It is too large.");
             file.bytes = static_cast<std::int64_t>(fs::file_size(file.path));

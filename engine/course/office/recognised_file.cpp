@@ -5,7 +5,7 @@
 #include <set>
 
 #include "course/findings/findings_report.h"
-#include "course/intake/submission.h"
+#include "course/intake/staging.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/small_letters.h"
@@ -30,14 +30,15 @@ std::string start_of(const std::string& name, const fs::path& file) {
 
 std::string kind_of_file(const std::string& name, std::string_view content) {
     const auto begins = [&](std::string_view magic) { return content.substr(0, magic.size()) == magic; };
-    if (content.substr(0, 1024).find("%PDF-") != std::string_view::npos) return "pdf";
     const bool archive = begins("PK\x03\x04") || begins("\x1F\x8B") ||
                          begins(std::string_view("\xFD"
                                                  "7zXZ\0",
                                                  6)) ||
                          begins("BZh") || content.substr(0, 262).ends_with("ustar");
     if (archive && archive_stem(name)) return "pack";
-    if (name.ends_with(".lua") && content.find('\0') == std::string_view::npos) return "script";
+    if (!archive && content.substr(0, 1024).find("%PDF-") != std::string_view::npos) return "pdf";
+    const bool lua = name.ends_with(".lua") || script_name_meant_by(name).ends_with(".lua");
+    if (lua && content.find('\0') == std::string_view::npos) return "script";
     static const std::set<std::string> written = {".docx", ".doc", ".odt", ".rtf", ".pages", ".pptx", ".ppt", ".odp"};
     return written.contains(ending_of(name)) ? "text" : "";
 }

@@ -6,6 +6,7 @@
 
 #include "course/intake/folder_copy.h"
 #include "course/intake/notebooks.h"
+#include "course/intake/staging.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "workflow/notebooks/notebook.h"
@@ -116,10 +117,27 @@ void IncomingFiles::add_batch(const fs::path& folder, const std::string& source)
             Submission sender;
             sender.name = name;
             read_lms_name(sender);
-            add_folder_of(sender, entry, shown_source, shown_source);
+            const std::vector<fs::path> own = entries_of_one_person(entry);
+            if (way_.whole_folders && (own.size() > 1 || (own.size() == 1 && names_the_folder_itself(own.front()))))
+                add_pack_of(sender, entry, shown_source);
+            else
+                add_folder_of(sender, entry, shown_source, shown_source);
         } else {
             add_found(entry, shown_source);
         }
+    }
+}
+
+void IncomingFiles::add_pack_of(const Submission& sender, const fs::path& folder, const std::string& source) {
+    const std::string name = sender.name + ".zip";
+    Submission submission = sender;
+    submission.path = folder;
+    try {
+        const fs::path zip = scratch_.path() / fmt::format("pack-{}.zip", ++unpacked_);
+        zip_submission(submission, zip);
+        files_.push_back({zip, name, source, sender, source, given_ - 1});
+    } catch (const SubmissionError& error) {
+        leave_out(name, source, sender, error.message());
     }
 }
 

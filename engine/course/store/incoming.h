@@ -27,7 +27,8 @@ class IncomingFiles {
     struct Way {
         Isolation level = Isolation::kFull;
         std::filesystem::path program;
-        bool one_sender = false;  ///< the instructor names the sender: an archive is that group's pack
+        bool one_sender = false;     ///< the instructor names the sender: an archive is that group's pack
+        bool whole_folders = false;  ///< a sender's folder with several files is one pack: the work of a lab
         std::function<bool(const Submission&)> knows;  ///< whether a name is a group's or student's of the course
     };
     explicit IncomingFiles(Way way) : way_(std::move(way)) {}
@@ -45,6 +46,7 @@ class IncomingFiles {
     void add_folder_of(const Submission& sender, const std::filesystem::path& folder, const std::string& source,
                        const std::string& own);
 
+    void add_pack_of(const Submission& sender, const std::filesystem::path& folder, const std::string& source);
     void leave_out(const std::string& name, const std::string& source, const Submission& sender, const Message& reason);
 
     Way way_;

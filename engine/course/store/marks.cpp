@@ -165,8 +165,8 @@ std::optional<double> most_points(Course& course, const Assignment& assignment, 
         throw InvalidArgument("{} has marks of work and reviews, but \"{}\" was given", assignment.name, item);
     }
     Rows rows = course.database().query(
-        "SELECT r.checks, r.possible FROM results r JOIN versions v ON v.id = r.version WHERE v.assignment = ? ORDER "
-        "BY r.id DESC LIMIT 1",
+        "SELECT r.checks, r.possible FROM results r JOIN versions v ON v.id = r.version WHERE v.assignment = ? AND "
+        "r.possible > 0 ORDER BY r.id DESC LIMIT 1",
         assignment.id);
     if (!rows.next()) return {};
     if (item == kWholeItem) return rows.number(1);

@@ -30,8 +30,15 @@ bool Senders::knows(const Submission& submission) const {
     return found.anybody() && found.by_beginning;
 }
 
-std::optional<Group> Senders::find(const Submission& submission) const {
+/// A part of a name will do where only one group has it: "Petit.pdf" is that of the Petits, who work together.
+Owners::Found Senders::owner_of(const Submission& submission) const {
     const Owners::Found found = owners_.find(submission);
+    if (found.anybody() || found.doubtful) return found;
+    return owners_.called(submission.person.empty() ? submission.name : submission.person);
+}
+
+std::optional<Group> Senders::find(const Submission& submission) const {
+    const Owners::Found found = owner_of(submission);
     if (!found.anybody()) return {};
     const auto group = std::ranges::find(groups_, found.group, &Group::name);
     return group == groups_.end() ? std::nullopt : std::optional(*group);
@@ -39,7 +46,7 @@ std::optional<Group> Senders::find(const Submission& submission) const {
 
 Message Senders::complaint(const Submission& submission) const {
     const std::string& own = submission.person.empty() ? submission.name : submission.person;
-    const Owners::Found found = owners_.find(submission);
+    const Owners::Found found = owner_of(submission);
     if (found.doubtful) return Message("whose \"{}\" is cannot be told: {}; say it: --from GROUP", own, found.trouble);
     const auto near = nearest_word(own, owners_.names());
     if (!near)

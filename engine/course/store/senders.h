@@ -21,6 +21,8 @@ class Senders {
     Message complaint(const Submission& submission) const;  ///< why find gave nothing, and what to do
 
   private:
+    Owners::Found owner_of(const Submission& submission) const;
+
     std::vector<Group> groups_;
     std::vector<Student> students_;
     Owners owners_;
