@@ -508,7 +508,8 @@ local function with_slope(data)
     end
     local inner = {m + 1, #y - m}
     return iddata(matrix{y:range(inner[1], inner[2]), vector(slopes)},
-                  data.u:range(inner[1], inner[2]), 4)
+                  data.u:range(inner[1], inner[2]), 4,
+                  {InputName = "u", OutputName = {"y", "v"}})
 end
 local sloped, sloped_val = with_slope(estimation), with_slope(validation)
 local function torricelli(x, u)
@@ -543,7 +544,7 @@ report.value("sindy_factor", found_equations.roots.report.coefficients[{4, 1}], 
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- With polynomials the free-run error is `sindy_polynomial`{.value} V, with the roots of Torricelli's law `sindy_roots`{.value} V. These equations can be read, which those of NARX cannot. Let $v = \dot y = \tfrac12 (k_2\sqrt{h_1} - k_3\sqrt{h_2})$. Differentiate it, eliminate $\sqrt{h_1} = (2v + k_3\sqrt{h_2})/k_2$, and keep what is linear in $v$ about the equilibrium, where
+-- With polynomials the free-run error is `sindy_polynomial`{.value} V, with the roots of Torricelli's law `sindy_roots`{.value} V. The remark printed under both is right: in free run they follow the slope only in part, and a higher degree knows no rims either. These equations can be read, which those of NARX cannot. Let $v = \dot y = \tfrac12 (k_2\sqrt{h_1} - k_3\sqrt{h_2})$. Differentiate it, eliminate $\sqrt{h_1} = (2v + k_3\sqrt{h_2})/k_2$, and keep what is linear in $v$ about the equilibrium, where
 -- $k_4 u = k_1\sqrt{h_1}$. With $\sqrt{h_2} \approx \sqrt{2y}$ this is
 --
 -- $$ \dot v \approx -\frac{k_1 k_2}{4} + \frac{k_2^2 k_4}{4\sqrt2\,k_3}\,\frac{u}{\sqrt y} - \frac{k_3 + k_1 k_2/k_3}{2\sqrt2}\,\frac{v}{\sqrt y} . $$ {#eq:solution-sindy}

@@ -18,7 +18,9 @@ Message Fit::full_message() const {
     std::vector<Message> all;
     if (!message.empty()) all.push_back(message);
     all.insert(all.end(), warnings.begin(), warnings.end());
-    for (Index i = 0; i < fit_percent.size(); ++i) {
+    // An unstable model of a loop runs away when it is simulated by itself, and may be right.
+    const bool stable = std::ranges::all_of(models, [](const TransferFunction& G) { return G.stable(); });
+    for (Index i = 0; stable && i < fit_percent.size(); ++i) {
         if (!(fit_percent[i] < 0) || !std::isfinite(fit_percent[i])) continue;
         const Number percent = significant(fit_percent[i], 3);
         all.push_back(

@@ -90,14 +90,16 @@ double independent_errors(const IdData& data, const TransferFunction& G) {
 }
 
 /// The model of one pole more than the window's, without a delay, to its input so many samples earlier.
-std::optional<Fit> fit_to_earlier_input(const FittedRecord& fit, Index samples, int zeros) {
+std::optional<Fit> fit_to_earlier_input(const FittedRecord& fit, Index samples, int zeros,
+                                        std::optional<Hold> hold = std::nullopt) {
+    IdData data = samples > 0 ? fit.window.data.shifted(-samples) : fit.window.data;
+    data.hold = hold.value_or(data.hold);
     FitOptions options;
     options.initial_state = InitialState::kEstimate;
     options.offset = Offset::kEstimate;
     options.tolerance = kQuickTolerance;
     try {
-        return srivc(samples > 0 ? fit.window.data.shifted(-samples) : fit.window.data,
-                     TransferStructure::single(fit.search.candidate.poles + 1, zeros), options);
+        return srivc(data, TransferStructure::single(fit.search.candidate.poles + 1, zeros), options);
     } catch (const InvalidArgument&) {
         return std::nullopt;
     }
@@ -107,7 +109,7 @@ std::optional<Fit> fit_to_earlier_input(const FittedRecord& fit, Index samples, 
 
 bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
     constexpr Index kMostLate = 3;                   // samples
-    constexpr double kEvidence = 30, kNoWorse = 10;  // of N log of losses, from where on it is a feedthrough
+    constexpr double kEvidence = 30, kNoWorse = 10;  // of N log of losses: a feedthrough; straight between samples
     const Fit& found = fit.search.candidate.estimate;
     const bool at_zero = !found.at_bound.empty() && found.at_bound[static_cast<std::size_t>(found.theta.size() - 1)];
     if (fit.window.step > 1 || !((fit.trusted() && at_zero) || follows_later_inputs(fit, 0))) return false;
@@ -125,6 +127,8 @@ bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
     if (!(evidence > kEvidence)) return false;
     const std::optional<Fit> direct = fit_to_earlier_input(fit, 0, zeros + 1);
     if (direct && N * std::log(best->loss / direct->loss) > kNoWorse) return false;
+    const std::optional<Fit> straight = fit_to_earlier_input(fit, 0, zeros, Hold::kFoh);
+    if (straight && N * std::log(straight->loss / best->loss) < kNoWorse) return false;
     findings.push_back(
         about(fit, "late_input", Weight::kWarning,
               Message("{} answers before {} changes, by about {}: the input was logged late. Shift it with "
