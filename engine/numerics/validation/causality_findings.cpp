@@ -127,7 +127,8 @@ bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
     if (!(evidence > kEvidence)) return false;
     const std::optional<Fit> direct = fit_to_earlier_input(fit, 0, zeros + 1);
     if (direct && N * std::log(best->loss / direct->loss) > kNoWorse) return false;
-    const std::optional<Fit> straight = fit_to_earlier_input(fit, 0, zeros, Hold::kFoh);
+    std::optional<Fit> straight;
+    if (!fit.has_jumping_input()) straight = fit_to_earlier_input(fit, 0, zeros, Hold::kFoh);
     if (straight && N * std::log(straight->loss / best->loss) < kNoWorse) return false;
     findings.push_back(
         about(fit, "late_input", Weight::kWarning,
