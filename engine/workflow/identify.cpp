@@ -210,11 +210,13 @@ void IdentifyRequest::validate() const {
 std::string identification_script(const IdentifyRequest& request) {
     using namespace fmt::literals;
     request.validate();
-    const Recording record(request.data, request.inputs, request.outputs, request.Ts, request.time, request.time_unit);
+    Recording record(request.data, request.inputs, request.outputs, request.Ts, request.time, request.time_unit);
+    record.set_inter_sample(request.moving_input);
     std::optional<Recording> unseen;
     if (!request.validation.empty())
         unseen.emplace(request.validation, request.inputs, request.outputs, request.Ts, request.time,
                        request.time_unit);
+    if (unseen) unseen->set_inter_sample(request.moving_input);
 
     std::string script =
         fmt::format(kBegin, "load"_a = record.loading("record") + (unseen ? unseen->loading("validation") : ""),

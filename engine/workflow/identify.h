@@ -16,6 +16,7 @@ struct IdentifyRequest {
     std::optional<double> Ts;          ///< s; else as the file states it, or from its column of time
     std::string time = {};             ///< name of that column; the most likely one when empty
     std::string time_unit = {};        ///< of that column, where the file does not say it
+    bool moving_input = false;         ///< the inputs move in straight lines between the samples; else they are held
     std::string validation = {};       ///< file with the same names; none when empty
 
     /// Throws InvalidArgument for names given twice and for orders, delay or Ts that make no sense.

@@ -191,8 +191,8 @@ std::string Recording::data(const std::string& variable, const std::vector<std::
             shown.push_back(struct_member(name) ? name.substr(name.find('.') + 1) : name);
         return lua_texts(shown);
     };
-    std::string options = fmt::format("InputName = {}, OutputName = {}{}{}", titles(inputs_), titles(outputs),
-                                      units("InputUnit", inputs_), units("OutputUnit", outputs));
+    std::string options = fmt::format("{}InputName = {}, OutputName = {}{}{}", inter_sample_, titles(inputs_),
+                                      titles(outputs), units("InputUnit", inputs_), units("OutputUnit", outputs));
     if (!instants_.empty())
         options = fmt::format("SamplingInstants = {}, {}", fmt::format(fmt::runtime(instants_), variable), options);
     return fmt::format("iddata({}, {}, {},\n  {{{}}})", channels(variable, outputs), channels(variable, inputs_),

@@ -32,6 +32,7 @@ class Recording {
     std::string data(const std::string& variable, const std::vector<std::string>& outputs) const;
     /// A unit instead of the one that the file gives to the signal.
     void set_unit(const std::string& name, const std::string& unit) { loaded_.units[signal(name).name] = unit; }
+    void set_inter_sample(bool foh) { inter_sample_ = foh ? "InterSample = \"foh\", " : ""; }
 
   private:
     /// A signal's numbers, and what Lua reads it by behind the variable of the file: .y:col(2).
@@ -57,10 +58,11 @@ class Recording {
     std::vector<std::string> inputs_, outputs_;
     ImportOptions options_;  ///< of the call of load
     LoadedData loaded_;
-    std::string struct_time_;  ///< member that holds the instants; empty when no struct does
-    std::string sampling_;     ///< third argument of iddata, in which {0} stands for the variable
-    std::string instants_;     ///< of uneven sampling, alike; empty when it is even
-    std::string doubt_;        ///< a line that the script prints
+    std::string struct_time_;   ///< member that holds the instants; empty when no struct does
+    std::string sampling_;      ///< third argument of iddata, in which {0} stands for the variable
+    std::string instants_;      ///< of uneven sampling, alike; empty when it is even
+    std::string inter_sample_;  ///< option of iddata; empty for held inputs
+    std::string doubt_;         ///< a line that the script prints
 };
 
 }  // namespace dynlab::inline workflow

@@ -8,6 +8,7 @@
 #include "numerics/estimators/bj.h"
 #include "numerics/estimators/coe.h"
 #include "numerics/estimators/grey_box/greyest.h"
+#include "numerics/estimators/procsrivc.h"
 #include "numerics/estimators/rivc.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/transfer_refinement.h"
@@ -64,6 +65,32 @@ TEST(search_statistics, drifting_noise_is_modelled_down_to_its_innovations) {
     }
 }
 
+// Oracle: the prediction error of the true system and noise on the same data, which a minimum does not exceed beyond
+// what the choice of a start costs. Their simulation error, which follows the drift, lets other starts seem better.
+TEST(search_statistics, drifting_noise_does_not_choose_the_start) {
+    const double q = 0.05 * 0.05, r = 0.1 * 0.1, P = (q + std::sqrt(q * q + 4 * q * r)) / 2, gain = P / (P + r);
+    const Vector u = prbs(8, 6), x = lsim(TransferFunction(values({2}), values({1, 1.4, 2})), u, 0.1);
+    TransferStructure structure = TransferStructure::single(2, 0), delayed = structure;
+    delayed.free_delays = true;
+    PolynomialOrders orders = PolynomialOrders::output_error({2}, {2}, {1});
+    orders.nc = orders.nd = 1;
+    const auto N = static_cast<double>(u.size());
+    for (const std::uint32_t seed : {203, 208, 209, 228, 254, 260}) {
+        RandomStream random(seed);
+        const Vector walk = 0.05 * summed(random.normal(u.size())), white = 0.1 * random.normal(u.size());
+        double level = 0, squares = 0;
+        for (const double noise : Vector(walk + white)) {
+            const double e = noise - level;
+            squares += e * e, level += gain * e;
+        }
+        const double most = squares / N * (1 + 12 / N);
+        const IdData data(Matrix(x + walk + white), Matrix(u), 0.1);
+        EXPECT_LT(rivc(data, structure, {1, 1}).noise_variance[0], most) << seed;
+        EXPECT_LT(rivc(data, delayed, {1, 1}).noise_variance[0], most) << seed;
+        EXPECT_LT(bj(data, orders).noise_variance[0], most) << seed;
+    }
+}
+
 // Oracle: refinements that begin at each of the true modes.
 TEST(search_statistics, two_poles_find_the_better_of_two_modes) {
     const TransferStructure structure = TransferStructure::single(2, 0);
@@ -89,6 +116,7 @@ TEST(search_statistics, two_poles_find_the_better_of_two_modes) {
         EXPECT_LT(srivc(data, structure).loss, 1.005 * best) << seed;
         EXPECT_LT(coe(data, structure).loss, 1.005 * best) << seed;
         EXPECT_LT(srivc(data, delayed).loss, 1.005 * best) << seed;
+        EXPECT_LT(procsrivc(data, ProcessStructure::parse("P2U")).loss, 1.005 * best) << seed;
     }
 }
 

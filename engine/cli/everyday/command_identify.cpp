@@ -95,6 +95,12 @@ void add_identify(CLI::App& app, Action& action) {
         ->add_option("--time-unit", request.time_unit,
                      "Unit of the time: s, ms, us, min, h, days; dd/mm/yyyy or mm/dd/yyyy")
         ->type_name("UNIT");
+    command
+        ->add_option_function<std::string>(
+            "--inter-sample", [&request](const std::string& text) { request.moving_input = text == "foh"; },
+            "Inputs between the samples: zoh (held) or foh (straight lines). Default: zoh")
+        ->type_name("zoh|foh")
+        ->check(CLI::IsMember({"zoh", "foh"}));
     command->add_option("--validate", request.validation, "A record with the same names, to test the model on")
         ->type_name("FILE");
     auto* report = command->add_option("-o,--output-file", words->report,

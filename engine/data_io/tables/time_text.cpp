@@ -69,7 +69,9 @@ std::optional<double> seconds_of(std::string_view unit, bool any_case) {
     if (const auto seconds = seconds_of_word(in_small_letters(std::string(unit)), true)) return seconds;
     const std::size_t end = unit.find_last_of("0123456789");  // of the number of units
     if (end == std::string_view::npos) return std::nullopt;
-    const std::string_view count = unit.substr(0, end + 1);
+    std::string_view count = unit.substr(0, end + 1);
+    for (const std::string_view times : {"x", "X", "*", "\u00D7"})
+        if (count.starts_with(times)) count = trimmed_cell(count.substr(times.size()));
     const auto one = seconds_of(unit.substr(end + 1), true);
     const std::size_t slash = count.find('/');
     double number = 0, divisor = 1;

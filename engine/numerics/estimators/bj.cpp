@@ -8,6 +8,7 @@
 #include "numerics/fit/discrete/prediction_fit.h"
 #include "numerics/fit/finished_fit.h"
 #include "numerics/fit/operating_points.h"
+#include "numerics/fit/start_choice.h"
 
 namespace dynlab::inline numerics {
 
@@ -114,8 +115,10 @@ Fit bj_fit(const IdData& data, const PolynomialOrders& orders, const FitOptions&
 Fit bj(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
     orders.validate();
     if (orders.na > 0) throw InvalidArgument("bj has the orders nb, nc, nd, nf and nk only: na must be zero");
-    return finished_discrete_fit(
-        data, options, [&](const IdData& seen, const FitOptions& wanted) { return bj_fit(seen, orders, wanted); });
+    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+        const auto fit_with = [&](const FitOptions& how) { return bj_fit(seen, orders, how); };
+        return best_predicting_start(fit_with(wanted), wanted, fit_with);
+    });
 }
 
 }  // namespace dynlab::inline numerics

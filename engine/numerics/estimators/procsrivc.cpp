@@ -13,6 +13,7 @@
 #include "numerics/fit/output_error.h"
 #include "numerics/fit/process_start.h"
 #include "numerics/fit/transfer_refinement.h"
+#include "numerics/signals/response_peaks.h"
 
 namespace dynlab::inline numerics {
 
@@ -42,6 +43,13 @@ struct ProcessProblem {
             condition.state == InitialState::kEstimate ? structure.poles + (structure.integrator ? 1 : 0) : 0;
         return static_cast<Index>(structure.parameter_names().size()) +
                (initial + (condition.offset ? 1 : 0)) * static_cast<Index>(data.experiments.size());
+    }
+    /// rad/s, where the model may have one.
+    Vector resonances(const IdData& data) const {
+        constexpr std::size_t kMostResonances = 4;
+        const std::vector<double> peaks =
+            structure.underdamped ? response_peaks(data, kMostResonances) : std::vector<double>();
+        return Vector::Map(peaks.data(), static_cast<Index>(peaks.size()));
     }
     Fit fit(const IdData& data, const StartCondition& condition, const Fit* start = nullptr, double unheard = 0) const;
     Fit best_fit(const IdData& data, const std::vector<StartCondition>& conditions,
@@ -93,7 +101,8 @@ Fit ProcessProblem::fit(const IdData& data, const StartCondition& condition, con
     if (start != nullptr)
         scan = {{search_point(*start, model, seconds)}, start->delay_grid / model.time_unit(), start->delay_loss};
     else
-        scan = scan_process_grid(structure, model, options.delay_count, likely_delays / model.time_unit());
+        scan = scan_process_grid(structure, model, options.delay_count, likely_delays / model.time_unit(),
+                                 resonances(data) * model.time_unit());
     Fit fit = minimise_output_error(process_output(structure, model), y, scan.starts, options);
     keep_parameters(fit, model, condition, seconds);
     const double squares = fit.loss * static_cast<double>(model.sample_count());

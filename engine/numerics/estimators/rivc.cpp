@@ -8,18 +8,18 @@
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/fit/discrete/long_regression.h"
+#include "numerics/fit/discrete/prediction_fit.h"
 #include "numerics/fit/finished_fit.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/fit/output_error.h"
+#include "numerics/fit/start_choice.h"
 #include "numerics/fit/transfer_refinement.h"
-#include "numerics/linalg/polynomial.h"
 
 namespace dynlab::inline numerics {
 
 namespace {
 
 constexpr double kNoiseRounding = 1e-10;  // of the output's variation: a smaller simulation error holds no noise
-constexpr double kNearUnitCircle = 0.995;
 
 void check(const IdData& data, const NoiseOrders& orders, const TransferStructure& structure) {
     orders.validate();
@@ -203,21 +203,23 @@ class Passes {
     std::vector<FitIteration> trace_;
 };
 
-void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders, double Ts) {
+void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders, const IdData& data) {
     result.noise_covariance = passes.noise_.covariance;
     const Vector std = result.noise_covariance.diagonal().cwiseMax(0).cwiseSqrt();
-    NoiseModel& noise = result.noise.emplace(
-        NoiseModel{passes.noise_.C, passes.noise_.D, Vector::Zero(orders.nc + 1), Vector::Zero(orders.nd + 1), Ts});
+    NoiseModel& noise = result.noise.emplace(NoiseModel{passes.noise_.C, passes.noise_.D, Vector::Zero(orders.nc + 1),
+                                                        Vector::Zero(orders.nd + 1), data.Ts});
     noise.C_std.tail(orders.nc) = std.head(orders.nc);
     noise.D_std.tail(orders.nd) = std.tail(orders.nd);
     const bool asked = orders.nc + orders.nd > 0;
     if (asked && passes.without_noise_)
         result.warnings.push_back(
             Message("Nothing but rounding is left of the output, so there is no noise to model."));
-    for (const auto& [name, p] : {std::pair{"C", noise.C}, std::pair{"D", noise.D}})
-        if (p.tail(p.size() - 1).any() && roots(p).cwiseAbs().maxCoeff() > kNearUnitCircle)
-            result.warnings.push_back(Message(
-                "A root of {} lies nearly on the unit circle: the noise drifts, or its orders do not suit.", name));
+    for (const char letter : {'C', 'D'})
+        if (const auto root = undetermined_root(letter, letter == 'C' ? noise.C : noise.D, data.sample_count())) {
+            Vector& errors = letter == 'C' ? noise.C_std : noise.D_std;
+            errors.tail(errors.size() - 1).setConstant(kInfinity);
+            result.warnings.push_back(root->warning);
+        }
 }
 
 /// Samples that an input may be late.
@@ -275,7 +277,7 @@ Fit rivc_fit(const IdData& data, const TransferStructure& structure, const Noise
     if (options.offset == Offset::kRemove) add_operating_points(result, centred.removed);
     result.delay_grid = start.delay_grid;
     result.delay_loss = start.delay_loss;
-    fill_noise(result, passes, orders, data.Ts);
+    fill_noise(result, passes, orders, data);
     describe_search(result, data, wanted, range);
     result.message = has_settled(result)
                          ? Message("RIVC converged after {}, simulated {}: {}.", iteration_count(result),
@@ -297,7 +299,8 @@ Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrde
     options.validate();
     check(data, orders, structure);
     return finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
-        return rivc_fit(seen, structure, orders, wanted);
+        const auto fit_with = [&](const FitOptions& how) { return rivc_fit(seen, structure, orders, how); };
+        return best_predicting_start(fit_with(wanted), wanted, fit_with);
     });
 }
 

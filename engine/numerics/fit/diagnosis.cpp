@@ -21,9 +21,10 @@ bool in_all_experiments(const IdData& data, const Holds& holds) {
     return std::ranges::all_of(data.experiments, holds);
 }
 
-/// A constant input is a step from zero at the first sample, when the output begins there as well.
-bool starts_from_rest(const Eigen::Ref<const Vector>& y) {
-    return std::abs(y[0]) < 0.5 * y.cwiseAbs().maxCoeff();
+/// A constant input is a step from zero at the first sample, when the output begins there as well: less clearly where
+/// another input moves the output on.
+bool starts_from_rest(const Eigen::Ref<const Vector>& y, bool alone) {
+    return std::abs(y[0]) < (alone ? 0.5 : 0.2) * y.cwiseAbs().maxCoeff();
 }
 
 void check_inputs(const std::string& method, const IdData& data) {
@@ -72,8 +73,9 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
                                       channel.delay, data.duration(e));
     for (Index input = 0; input < data.input_count(); ++input) {
         const bool alone = data.input_count() == 1;
-        const bool rests = in_all_experiments(
-            data, [&](const Experiment& e) { return is_constant(e.u.col(input)) && !starts_from_rest(e.y.col(0)); });
+        const bool rests = in_all_experiments(data, [&](const Experiment& e) {
+            return is_constant(e.u.col(input)) && !starts_from_rest(e.y.col(0), alone);
+        });
         if (!rests || (alone && offset != Offset::kNone)) continue;
         throw InvalidArgument(
             alone

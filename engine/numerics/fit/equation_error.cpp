@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "numerics/error.h"
+#include "numerics/fit/discrete/discrete_fit.h"
+#include "numerics/fit/first_estimate.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/linalg/least_squares.h"
 
@@ -13,6 +15,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kPoorCondition = 1e8;  // beyond it a poor input may be the reason
+constexpr double kWorse = 5;            // per cent of fit
 
 void require_rich_inputs(const std::string& method, const MatrixView& R, const PolynomialOrders& orders,
                          const IdData& data) {
@@ -48,17 +51,31 @@ Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const Fi
 /// Simulation fit of the same equations about the operating point, where it is much better than that of the data as
 /// they are: a difference equation goes through the origin.
 std::optional<double> better_without_means(const IdData& data, const Fit& estimate) {
-    constexpr double kWorse = 5;               // per cent of fit
-    constexpr Index kSamplesPerParameter = 5;  // fewer fit about any point
-    if (!(estimate.fit_percent[0] < estimate.prediction_fit_percent - kWorse) || data.input_count() == 0 ||
-        data.sample_count() < kSamplesPerParameter * estimate.theta.size())
-        return std::nullopt;
     const IdData centred = without_operating_points(data).data;
     const ArxEquations equations(centred, *estimate.orders);
     const Fit about = polynomial_fit(*estimate.orders, solve_arx(equations).theta, data.Ts);
     const Sums sums = sums_of_squares(centred, equations, about);
     const double fit = fit_percent_of_sums(sums.simulation_error, sums.variation);
     return fit > estimate.fit_percent[0] + kWorse ? std::optional(fit) : std::nullopt;
+}
+
+/// The smallest output error of the same orders, where an offset of the output is part of it and it simulates much
+/// better: noise biases the equations, so that they do not show the offset themselves.
+std::optional<Fit> better_with_offset(const IdData& data, const Fit& estimate) {
+    constexpr Index kEnough = 3000;  // samples
+    const PolynomialOrders& own = *estimate.orders;
+    if (data.experiments.size() > 1 || own.na == 0) return std::nullopt;
+    const std::vector<int> poles(own.inputs(), own.na);
+    const FitOptions options;
+    try {
+        Fit fit = fit_discrete_output("arx", beginning_of(data, kEnough),
+                                      PolynomialOrders::output_error(own.nb, poles, own.nk), options,
+                                      output_error_search(options));
+        if (fit.start.offset && fit.fit_percent[0] > estimate.fit_percent[0] + kWorse) return fit;
+    } catch (const InvalidArgument&) {
+        return std::nullopt;  // too little happens there
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -98,7 +115,17 @@ void report_equation_error(Fit& estimate, const IdData& data) {
 }
 
 void warn_of_operating_point(Fit& estimate, const IdData& data) {
-    if (const std::optional<double> better = better_without_means(data, estimate))
+    constexpr Index kSamplesPerParameter = 5;  // fewer fit about any point
+    if (!(estimate.fit_percent[0] < estimate.prediction_fit_percent - kWorse) || data.input_count() == 0 ||
+        data.sample_count() < kSamplesPerParameter * estimate.theta.size())
+        return;
+    if (const std::optional<Fit> other = better_with_offset(data, estimate))
+        estimate.warnings.push_back(
+            Message("With an offset of {} in {} a simulation by sriv or oe fits {} % instead of {} %: a difference "
+                    "equation goes through the origin, and noise biases it. Take the offset off and prefer them.",
+                    significant(other->offsets(0, 0), 3), data.output_names.front(),
+                    significant(other->fit_percent[0], 4), significant(estimate.fit_percent[0], 4)));
+    else if (const std::optional<double> better = better_without_means(data, estimate))
         estimate.warnings.push_back(Message(
             "Without the means the simulation fits {} % instead of {} %: a difference equation goes through the "
             "origin, and these data do not. Take the means off (data:remove_mean()).",

@@ -214,6 +214,25 @@ bool is_direct(const Question& asked, const Explanation& direct) {
     return fastest * asked.record.mean_step() > kFastestPole;
 }
 
+/// What the structure explains when an input that moves at nearly every sample is not held between them; nothing where
+/// a direct term does better.
+std::optional<Explanation> without_hold(const Question& asked, const Explanation& direct) {
+    constexpr double kNearlyAll = 0.9;
+    if (asked.record.hold != Hold::kZoh) return std::nullopt;
+    for (const Experiment& experiment : asked.record.experiments) {
+        const Index steps = experiment.u.rows() - 1;
+        const auto moves = experiment.u.topRows(steps).array() != experiment.u.bottomRows(steps).array();
+        if (static_cast<double>(moves.count()) < kNearlyAll * static_cast<double>(moves.size())) return std::nullopt;
+    }
+    IdData lines = asked.record;
+    lines.hold = Hold::kFoh;
+    const Question other{lines, asked.given, asked.options};
+    const std::optional<Fit> fit = other.fit_of(asked.given.structure);
+    if (!fit) return std::nullopt;
+    const Explanation found = other.explanation(*fit);
+    return gains(found, direct) ? std::nullopt : std::optional(found);
+}
+
 /// A structure to try.
 struct Candidate {
     MissedCode code;
@@ -294,14 +313,17 @@ std::optional<MissedStructure> missed_by_output(const IdData& data, const Fit& g
         const Explanation found = asked.explanation(*fit);
         const double evidence = evidence_for(present, found);
         if (!gains(present, found) || !(evidence > most)) continue;
-        if (code == MissedCode::kFeedthrough && !is_direct(asked, found)) continue;
+        const bool feedthrough = code == MissedCode::kFeedthrough;
+        const std::optional<Explanation> moving = feedthrough ? without_hold(asked, found) : std::nullopt;
+        const bool moves = moving && gains(present, *moving);
+        if (feedthrough && !moves && !is_direct(asked, found)) continue;
         most = evidence;
-        best = MissedStructure{.code = code,
-                               .option = option_of(code),
+        best = MissedStructure{.code = moves ? MissedCode::kHold : code,
+                               .option = moves ? "InterSample" : option_of(code),
                                .value = value_of(code, *fit),
                                .samples = shorter ? record.sample_count() : 0,
                                .fit_percent = present.fit(),
-                               .better_fit_percent = found.fit()};
+                               .better_fit_percent = moves ? moving->fit() : found.fit()};
     }
     return best;
 }
@@ -325,6 +347,8 @@ Message option_text(const MissedStructure& missed) {
             return Message("one more pole");
         case MissedCode::kLine:
             return Message("the straight lines taken off (data:detrend(\"linear\"))");
+        case MissedCode::kHold:
+            return Message("straight lines between the samples of the input (InterSample = \"foh\")");
         default:
             return Message("as many zeros as poles");
     }
@@ -338,6 +362,8 @@ Message reason_text(const MissedStructure& missed) {
             return Message("the errors still follow the input");
         case MissedCode::kLine:
             return Message("the output drifts, or a constant load acts on an integrator");
+        case MissedCode::kHold:
+            return Message("the input moves between its samples");
         default:
             return Message("the output follows the input at once (a direct feedthrough)");
     }

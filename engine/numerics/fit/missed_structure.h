@@ -11,13 +11,14 @@ enum class MissedCode {
     kDelay,        ///< a delay, where the structure fixes it
     kPole,         ///< one more pole
     kFeedthrough,  ///< a direct term: as many zeros as poles
+    kHold,         ///< straight lines between the samples of an input that is held in the fit
     kLine,         ///< none of these: a straight line lies in the output, a drift or the ramp of a loaded integrator
 };
 
 /// A better structure, and the fit that it leads to.
 struct MissedStructure {
     MissedCode code = MissedCode::kPole;
-    std::string option;       ///< of the structure: "delay" (s), "poles" or "zeros"; "detrend" for a line
+    std::string option;       ///< of the structure: "delay" (s), "poles" or "zeros"; "InterSample", "detrend"
     double value = 0;         ///< to ask for
     std::string output = {};  ///< name of the output whose fit rises, where there are several
     Index samples = 0;        ///< of a long record: of its beginning, which both fits are of; 0 for all
@@ -36,7 +37,8 @@ struct MissedStructure {
 /// above 100,000 samples, to their beginning). A gain counts when it lowers BIC by more than 10, very strong evidence
 /// (Kass and Raftery 1995), with as many samples as white errors of the same power at low frequencies would have: N (1
 /// - r)/(1 + r), r the errors' correlation from one sample to the next; and when it is half a point of fit, or a fifth
-/// of what the fit lacks. A feedthrough must gain over n - 1 zeros, and one more pole must not do as well.
+/// of what the fit lacks. A feedthrough must gain over n - 1 zeros, and one more pole must not do as well; where an
+/// input that moves at nearly every sample does as well when it is not held, kHold takes its place.
 ///
 /// `data` and `options`: as the search was given them, with integrated inputs where it had an integrator
 /// (options.integration; no feedthrough is looked for then). Nothing for cancelled fits, those with an operating point

@@ -41,17 +41,18 @@ std::vector<Vector> real_lags(int count, const std::vector<double>& times) {
     return all;
 }
 
-// Everything between gain and zero: {T1, T2, T3} in falling order, or {T3, Tw, Zeta}.
-std::vector<Vector> shapes(const ProcessStructure& structure, Index N) {
+// Everything between gain and zero: {T1, T2, T3} in falling order, or {T3, Tw, Zeta}, these at the peaks, too.
+std::vector<Vector> shapes(const ProcessStructure& structure, Index N, const Vector& peaks) {
     constexpr double kFastest = 1.0 / 3;
     const double slowest = 3 * static_cast<double>(N);
     constexpr double kRatios[] = {1.5, 2, 2.5};  // the more time constants, the fewer of each
     const double ratio = kRatios[structure.poles - 1];
     if (!structure.underdamped) return real_lags(structure.poles, logarithmic_grid(kFastest, slowest, ratio));
     std::vector<Vector> all;
-    const bool alone = structure.poles == 2;
+    std::vector<double> times = logarithmic_grid(kFastest, slowest, structure.poles == 2 ? 1.25 : 1.5);
+    for (const double w : peaks) times.push_back(1 / w);
     for (const Vector& lag : real_lags(structure.poles - 2, logarithmic_grid(kFastest, slowest, 4)))
-        for (const double T : logarithmic_grid(kFastest, slowest, alone ? 1.25 : 1.5))
+        for (const double T : times)
             for (const double zeta : {0.05, 0.2, 0.5, 1.0}) {
                 all.push_back(Vector(lag.size() + 2));
                 all.back() << lag, T, zeta;
@@ -285,21 +286,27 @@ class LinearPart {
     double power_ = 0;
 };
 
-bool alike(const Vector& a, const Vector& b) {
+bool alike(const ProcessStructure& structure, const Vector& a, const Vector& b) {
+    constexpr double kAlike = 2.5, kSamePeak = 1.3, kResonant = 0.3;
+    const Index last = a.size() - 1;
+    if (structure.underdamped && std::max(a[last], b[last]) < kResonant &&
+        std::abs(std::log(a[last - 1] / b[last - 1])) > std::log(kSamePeak))
+        return false;
     for (Index i = 0; i < a.size(); ++i)
-        if (std::abs(std::log(a[i] / b[i])) > std::log(2.5)) return false;
+        if (std::abs(std::log(a[i] / b[i])) > std::log(kAlike)) return false;
     return true;
 }
 
 // The best points that differ in their shape or by more than two steps of the delay's grid.
-std::vector<GridPoint> best_that_differ(std::vector<GridPoint> points, const std::vector<Vector>& shapes) {
+std::vector<GridPoint> best_that_differ(const ProcessStructure& structure, std::vector<GridPoint> points,
+                                        const std::vector<Vector>& shapes) {
     std::sort(points.begin(), points.end(), [](const GridPoint& a, const GridPoint& b) { return a.loss < b.loss; });
     std::vector<GridPoint> chosen;
     for (const GridPoint& point : points) {
         if (chosen.size() == kStarts) break;
         const auto close = [&](const GridPoint& other) {
             const std::size_t apart = std::max(point.shift, other.shift) - std::min(point.shift, other.shift);
-            return apart <= 2 && alike(shapes[point.shape], shapes[other.shape]);
+            return apart <= 2 && alike(structure, shapes[point.shape], shapes[other.shape]);
         };
         if (std::none_of(chosen.begin(), chosen.end(), close)) chosen.push_back(point);
     }
@@ -309,10 +316,10 @@ std::vector<GridPoint> best_that_differ(std::vector<GridPoint> points, const std
 }  // namespace
 
 ProcessScan scan_process_grid(const ProcessStructure& structure, const TransferOutput& output, int delay_count,
-                              const Vector& likely_delays) {
+                              const Vector& likely_delays, const Vector& peaks) {
     const GridProblem problem(structure, output);
     const Vector y = output.target();
-    const std::vector<Vector> all_shapes = shapes(structure, problem.longest);
+    const std::vector<Vector> all_shapes = shapes(structure, problem.longest, peaks);
     const std::vector<Index> shifts = delay_shifts(problem, delay_count, likely_delays);
     Vector losses = Vector::Constant(static_cast<Index>(shifts.size()), std::numeric_limits<double>::infinity());
     std::vector<GridPoint> points;
@@ -328,7 +335,7 @@ ProcessScan scan_process_grid(const ProcessStructure& structure, const TransferO
         }
     }
     ProcessScan scan;
-    for (const GridPoint& point : best_that_differ(std::move(points), all_shapes)) {
+    for (const GridPoint& point : best_that_differ(structure, std::move(points), all_shapes)) {
         LinearPart linear(problem, y, all_shapes[point.shape]);
         linear.solve(shifts[point.shift]);
         scan.starts.push_back(linear.theta(shifts[point.shift]));

@@ -14,6 +14,7 @@
 #include "numerics/fit/first_estimate.h"
 #include "numerics/fit/transfer_refinement.h"
 #include "numerics/linalg/decompositions.h"
+#include "numerics/linalg/polynomial.h"
 #include "numerics/linalg/tall_gram.h"
 
 namespace dynlab::inline numerics {
@@ -251,6 +252,23 @@ Fit with_chosen_start(const IdData& data, const FitOptions& options, const Start
     if (cancelled(other) || (!is_from_rest(other) && convinces(data, rest, other))) return other;
     finish();
     return is_from_rest(other) && other.loss < (1 - kLowerStart) * rest.loss ? other : rest;
+}
+
+Fit best_predicting_start(Fit fit, const FitOptions& options, const std::function<Fit(const FitOptions&)>& fit_with) {
+    constexpr double kDrifts = 0.95;  // largest root of D
+    const Vector& D = fit.noise ? fit.noise->D : fit.polynomial->D;
+    if (!may_start(options) || !may_offset(options) || !D.tail(D.size() - 1).any() ||
+        roots(D).cwiseAbs().maxCoeff() < kDrifts)
+        return fit;
+    const StartCondition first = fit.start;
+    for (const StartCondition& other :
+         {StartCondition{InitialState::kZero, false}, StartCondition{InitialState::kEstimate, true}}) {
+        if (fit.termination == Termination::kCancelled) break;
+        if (other.state == first.state && other.offset == first.offset) continue;
+        Fit next = fit_with(options.started(other));
+        if (next.noise_variance[0] < fit.noise_variance[0]) fit = std::move(next);
+    }
+    return fit;
 }
 
 bool other_discrete_start_promises(const IdData& data, const Fit& from_rest, const FitOptions& options) {

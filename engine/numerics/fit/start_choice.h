@@ -35,6 +35,11 @@ struct StartTrials {
 /// or where a fit from rest is refused (InvalidArgument).
 Fit with_chosen_start(const IdData& data, const FitOptions& options, const StartTrials& trials);
 
+/// Noise that drifts imitates constants and movements of the simulation, by whose error the start was chosen. With such
+/// a noise model, where the options are open, the fit of smallest prediction error among this one, one from rest and
+/// one from an estimated state with an offset.
+Fit best_predicting_start(Fit fit, const FitOptions& options, const std::function<Fit(const FitOptions&)>& fit_with);
+
 /// The look ahead from a fit of a difference equation to its simulation, from rest.
 bool other_discrete_start_promises(const IdData& data, const Fit& from_rest, const FitOptions& options);
 

@@ -325,9 +325,10 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         stable.stable = true;
         starts.insert(starts.end(), {first_end, best.theta});
         if (Fit other = further(stable, search(stable, {})); other.loss <= kClearly * best.loss) {
-            other.warnings.push_back(
-                Message("An unstable model has a loss {} % smaller, which is no evidence for it: {} = false gives it.",
-                        significant(100 * (1 - best.loss / other.loss), 2), OptionName{"stable"}));
+            if (best.loss < other.loss)
+                other.warnings.push_back(Message(
+                    "An unstable model has a loss {} % smaller, which is no evidence for it: {} = false gives it.",
+                    significant(100 * (1 - best.loss / other.loss), 2), OptionName{"stable"}));
             best = std::move(other);
         }
     }

@@ -232,8 +232,10 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
                                   plural(part.reference_count(), "{} reference", "{} references"),
                                   merged.reference_count());
         if (part.Ts != merged.Ts)
-            throw InvalidArgument("merge: part {} has the sampling time {} {} but the first has {} {}", i + 1, part.Ts,
-                                  part.time_unit, merged.Ts, merged.time_unit);
+            throw InvalidArgument(
+                "merge: part {} has the sampling time {} {} but the first has {} {}: bring them to the same one with "
+                "resample or interp1 first",
+                i + 1, part.Ts, part.time_unit, merged.Ts, merged.time_unit);
         if (part.time_unit != merged.time_unit)
             throw InvalidArgument("merge: part {} counts time in {} but the first in {}", i + 1, part.time_unit,
                                   merged.time_unit);

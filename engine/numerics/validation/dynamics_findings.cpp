@@ -325,6 +325,7 @@ struct LoadedIntegrator {
 
 /// y = G(s) v + c + m t with v the integral of u, G stable: m = G(0) load. Straight lines are taken off y and v for G.
 std::optional<LoadedIntegrator> loaded_integrator(const IdData& data) {
+    if (data.hold != Hold::kZoh) return std::nullopt;  // the integral of its input is known for held ones only
     const IdData integrated = integrated_inputs(data);
     const IdData bent = detrend(integrated, TrendKind::kLinear);
     FitOptions options;

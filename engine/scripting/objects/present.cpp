@@ -149,8 +149,8 @@ std::string Presentation::noise_lines(const NoiseModel& noise) const {
         "\n";
     const auto add = [&](const char* name, const Vector& p, const Vector& std) {
         for (Index i = 1; i < p.size(); ++i)
-            lines += fmt::format("  {:<5} {:>12}  ± {}\n", fmt::format("{}{}", name, i),
-                                 to_the_error(p[i], std[i], 3, 6), text(std[i], 3));
+            lines += fmt::format("  {:<5} {:>12}{}\n", fmt::format("{}{}", name, i), to_the_error(p[i], std[i], 3, 6),
+                                 error_of(std, i));
     };
     add("c", noise.C, noise.C_std);
     add("d", noise.D, noise.D_std);

@@ -109,6 +109,7 @@ TEST_F(time_column, unit_in_a_header_or_name_is_that_of_the_numbers) {
     }
     EXPECT_EQ(found("time (10 ms)", steps(2)), "0.02");
     EXPECT_EQ(found("Time (1/100 s)", steps(2)), "0.02");
+    EXPECT_EQ(found("time (x 10 ms)", steps(2)), "0.02");
     EXPECT_THAT(read("t_ms", steps(20)).notes, IsEmpty()) << "nothing was guessed";
 }
 

@@ -76,27 +76,19 @@ ArmaNoise start_noise(const std::vector<Vector>& errors, int nc, int nd, double 
     return estimate_arma(beginnings, nc, nd, 1e-3);
 }
 
-namespace {
-
-/// Estimates of a root r within four standard errors sqrt(2 (1 - r)/N) of the unit circle pile up on it: their scatter
-/// is no normal one.
-void warn_of_noise_roots(Fit& fit, Index samples) {
-    constexpr double kFew = 32;
-    for (const auto& [letter, p] : {std::pair{"C", fit.polynomial->C}, std::pair{"D", fit.polynomial->D}}) {
-        const double largest = p.tail(p.size() - 1).any() ? roots(p).cwiseAbs().maxCoeff() : 0;
-        if (!((1 - largest) * static_cast<double>(samples) < kFew)) continue;
-        std::vector<std::string> names;
-        for (const std::string& name : fit.names)
-            if (name.front() == (letter[0] == 'C' ? 'c' : 'd')) names.push_back(name);
-        withdraw_errors(fit, names);
-        fit.warnings.push_back(Message(
-            "A root of {} lies so near the unit circle ({}) that {} samples do not determine how near: {} have no "
-            "standard errors.",
-            letter, significant(largest, 4), samples, listed(names)));
-    }
+std::optional<UndeterminedRoot> undetermined_root(char letter, const Vector& p, Index samples) {
+    const double few = letter == 'C' ? 64 : 32;  // a zero near the circle also forgets the unknown past slowly
+    const double largest = p.tail(p.size() - 1).any() ? roots(p).cwiseAbs().maxCoeff() : 0;
+    if (!((1 - largest) * static_cast<double>(samples) < few)) return std::nullopt;
+    UndeterminedRoot found;
+    for (Index i = 1; i < p.size(); ++i)
+        found.names.push_back(std::string(1, letter == 'C' ? 'c' : 'd') + std::to_string(i));
+    found.warning = Message(
+        "A root of {} lies so near the unit circle ({}) that {} samples do not determine how near: {} have no "
+        "standard errors.",
+        std::string(1, letter), significant(largest, 4), samples, listed(found.names));
+    return found;
 }
-
-}  // namespace
 
 Fit fit_prediction(const std::string& method, const PredictionModel& model, const StartCondition& start, double Ts,
                    const std::vector<Vector>& starts, const FitOptions& options) {
@@ -121,7 +113,13 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
     for (std::size_t e = 0; e < lengths.size() && start.offset; ++e)
         fit.offsets(static_cast<Index>(e), 0) = theta[model.offset_index(e)];
     warn_of_search(fit, options);
-    warn_of_noise_roots(fit, y.size());
+    for (const char letter : {'C', 'D'}) {
+        const Vector& p = letter == 'C' ? fit.polynomial->C : fit.polynomial->D;
+        if (const auto root = undetermined_root(letter, p, y.size())) {
+            withdraw_errors(fit, root->names);
+            fit.warnings.push_back(root->warning);
+        }
+    }
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);
     const Number predicting = significant(fit.prediction_fit_percent, 4),

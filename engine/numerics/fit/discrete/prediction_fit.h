@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,15 @@ namespace dynlab::inline numerics {
 /// when there are no more samples than values to estimate.
 Fit fit_prediction(const std::string& method, const PredictionModel& model, const StartCondition& start, double Ts,
                    const std::vector<Vector>& starts, const FitOptions& options);
+
+/// The coefficients of C or D that have no standard errors, and a sentence that says so.
+struct UndeterminedRoot {
+    std::vector<std::string> names;
+    Message warning;
+};
+/// Where a root r of the polynomial C or D lies within four standard errors sqrt(2 (1 - r)/N) of the unit circle: there
+/// estimates pile up on it, and their scatter is no normal one.
+std::optional<UndeterminedRoot> undetermined_root(char letter, const Vector& p, Index samples);
 
 /// The noise model of the errors of a first model, for a start; white when they are nothing but rounding against
 /// outputs of mean square `output_power`.
