@@ -1,4 +1,4 @@
-#include "platform/files/whole_folder.h"
+#include "platform/locks/whole_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

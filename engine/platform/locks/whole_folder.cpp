@@ -1,4 +1,4 @@
-#include "platform/files/whole_folder.h"
+#include "platform/locks/whole_folder.h"
 
 #include <cerrno>
 #include <system_error>
