@@ -9,7 +9,7 @@
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/files/whole_folder.h"
+#include "platform/locks/whole_folder.h"
 #include "platform/program_lookup.h"
 #include "workflow/lesson_data.h"
 #include "workflow/specimen_record.h"

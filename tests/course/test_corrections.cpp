@@ -72,6 +72,23 @@ TEST_F(corrections, a_time_of_receipt_is_corrected_by_a_further_receipt) {
     EXPECT_THAT(done({"verify"}), HasSubstr("all there and unaltered"));
 }
 
+// Oracle: the whole store. Who repeats a command after it was killed does not know whether it was done.
+TEST_F(corrections, a_repeated_command_is_recorded_once) {
+    course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 19:00", {"--no-checks"});
+    using Words = std::vector<std::string>;
+    for (const Words& words : {Words{"extend", "crane", "group-01", "2026-03-01 15:00", "--reason", "illness"},
+                               Words{"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "by mail"},
+                               Words{"extend", "crane", "group-01", "--end", "--reason", "no paper came"},
+                               Words{"mark", "crane", "group-01", "work", "60", "--reason", "on paper"}}) {
+        const std::string before = course_.dump();
+        done(words);
+        const std::string once = course_.dump();
+        EXPECT_NE(once, before) << words[0];
+        done(words);
+        EXPECT_EQ(course_.dump(), once) << words[0];
+    }
+}
+
 TEST_F(corrections, times_come_from_the_platform_s_worksheet) {
     course_.bench().write("sheet.csv",
                           "Identifier,Full name,Status,\"Last modified (submission)\",Grade\n"

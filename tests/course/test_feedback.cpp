@@ -74,6 +74,24 @@ TEST(feedback, is_titled_after_the_group_and_not_after_the_folder_of_a_platform)
                 HasSubstr("roster.csv, line 2: the language must be en or fr, but \"français\" was given"));
 }
 
+// oracle: the names as the roster has them, in poppler's text
+TEST(feedback, names_are_text_whatever_is_in_them) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    Workbench& work = bench.bench();
+    const std::string link = "[x](javascript:alert(1))", tag = "<img src=x>", formula = "$x_2$ *y*";
+    for (const std::string& group : {link, tag, formula}) bench.hand_in(group, kSolution);
+    work.write("roster.csv", "id,name,group\n1,A\tB," + link + "\n2,C\x1B[31mD," + tag + "\n3,\"E\nF\"," + formula +
+                                 "\n4,G\u0085H,\n");
+    const ChildResult run = work.dynlab(
+        {"grade", "in", "--lesson", "99", "--out", "out", "--isolation", bench.level(), "--roster", "roster.csv"});
+    EXPECT_EQ(run.exit_code, 0) << run.error_output;
+    const auto text = [&](const std::string& file) { return work.shell("pdftotext -layout '" + file + "' -").output; };
+    for (const std::string& group : {link, tag, formula})
+        EXPECT_THAT(text("out/results/" + group + "/feedback.pdf"), HasSubstr("Feedback for " + group));
+    EXPECT_THAT(text("out/summary.pdf"), AllOf(HasSubstr("A?B"), HasSubstr("C?[31mD"), HasSubstr("E?F"),
+                                               HasSubstr("G?H"), HasSubstr(link), HasSubstr(tag)));
+}
+
 TEST(feedback, of_late_work_tells_the_reason_in_its_language) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();

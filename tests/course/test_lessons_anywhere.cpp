@@ -57,6 +57,20 @@ TEST_F(lessons_anywhere, are_used_by_the_path_of_their_folder) {
     EXPECT_EQ(score("typed"), 5);
 }
 
+// oracle: the path as it was given, seen from another folder
+TEST_F(lessons_anywhere, of_an_assignment_are_found_from_every_folder) {
+    bench_.write("r.csv", "id,name,group\n1,Ada Byron,g1\n");
+    bench_.write("in/g1/analysis.lua", kHeader + kStart + kGain);
+    const ChildResult graded = bench_.shell(
+        "set -e; $DYNLAB course init k; $DYNLAB course --course k import r.csv; $DYNLAB course --course k assignment "
+        "lab "
+        "--kind lab --lesson mine/08_rc --first '2026-03-01 12:00'; $DYNLAB course --course k submit in --at "
+        "'2026-03-01 10:00' --isolation " +
+        level() + "; cd k; $DYNLAB course grade lab --no-pdf --isolation " + level());
+    EXPECT_EQ(graded.exit_code, 0) << graded.error_output;
+    EXPECT_THAT(graded.output, HasSubstr("1 graded now"));
+}
+
 TEST_F(lessons_anywhere, are_listed_in_folders_that_a_variable_names) {
     bench_.write("others/08_rc/lesson.lua", "-- ---\n-- title: In the second folder\n-- ---\n");
     bench_.write("others/09_more/lesson.lua", "-- ---\n-- title: More\n-- ---\n");

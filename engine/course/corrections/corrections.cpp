@@ -119,6 +119,14 @@ std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& a, c
     Transaction transaction(course.database());
     const WantedFiles files(course, a, wanted);
     const std::vector<Found> all = files.all(false);
+    const auto is_recorded = [&, due = due_for(course, a, files.group().id, wanted.stage)](const Found& one) {
+        Rows newest = course.database().query(
+            "SELECT received_at = ? AND due_at = ? AND reason = ? FROM arrivals WHERE version = ? ORDER BY id DESC "
+            "LIMIT 1",
+            received, due, reason, one.id);
+        return newest.next() && newest.integer(0) != 0;
+    };
+    if (std::ranges::all_of(all, is_recorded)) return ids_of(all);  // the command is repeated
     for (const Found& one : all) record_arrival(course, a, one.id, received, reason, now);
     course.note(fmt::format("{}: {} (v{}) was received at {}; reason: {}", a.name, files.what(), all.front().number,
                             course.clock().show_exactly(received), reason),
@@ -151,6 +159,11 @@ void extend(Course& course, const Assignment& a, const std::string& group, const
     refuse_without_reason(reason);
     Transaction transaction(course.database());
     const Group whose = group_named(course, group);
+    Rows newest = course.database().query(
+        "SELECT due_at IS ? AND reason = ? FROM extensions WHERE assignment = ? AND group_id = ? AND stage = ? "
+        "ORDER BY id DESC LIMIT 1",
+        due, reason, a.id, whose.id, stage);
+    if (newest.next() && newest.integer(0) != 0) return;  // the command is repeated
     const Instant before = due_for(course, a, whose.id, stage);
     course.database().run(
         "INSERT INTO extensions (assignment, group_id, stage, due_at, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)", a.id,

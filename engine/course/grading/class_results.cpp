@@ -16,6 +16,7 @@
 #include "numerics/signals/robust_statistics.h"
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
+#include "platform/text/plain_words.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::inline course {
@@ -178,21 +179,14 @@ RecordedTable success_of(const std::vector<CheckStatistics>& checks) {
     return table;
 }
 
-/// Long names without a space would run over the margin.
-std::string short_name(const std::string& name) {
-    constexpr int kMost = 42;
-    int letters = 0;
-    for (std::size_t at = 0; at < name.size(); ++at)
-        if ((static_cast<unsigned char>(name[at]) & 0xC0) != 0x80 && ++letters > kMost) return name.substr(0, at) + "…";
-    return name;
-}
-
 /// A row for each student of the roster, or each submission where there is none.
 RecordedTable marks_of(const ClassResults& results) {
     RecordedTable table{{"name", "group", "state", "points", "penalty"}, {}};
+    constexpr std::size_t kMaxNameCharacters = 42;  // longer ones without a space would run over the margin
     const auto add = [&](const std::string& name, const std::string& group, const Entry* entry) {
         const Grade* grade = entry && entry->grade ? &*entry->grade : nullptr;
-        table.rows.push_back({short_name(name), short_name(group), entry ? state_of(*entry) : "nothing handed in",
+        table.rows.push_back({printable(name, kMaxNameCharacters), printable(group, kMaxNameCharacters),
+                              entry ? state_of(*entry) : "nothing handed in",
                               grade && grade->whole() ? points_text(grade->earned()) : "–",
                               grade && grade->penalty > 0 ? points_text(grade->penalty) : "–"});
     };

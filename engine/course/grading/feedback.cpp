@@ -16,6 +16,7 @@
 #include "platform/hash.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
+#include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -33,8 +34,7 @@ class FeedbackText {
         : grade_(grade), reader_(grade.language, grade.lesson), escape_(escape) {}
 
     std::string heading() const { return words(Message("Feedback for {}", escape_(title()))); }
-    std::string title() const { return grade_.title.empty() ? grade_.submission : grade_.title; }
-    std::string plain_title() const { return words(Message("Feedback for {}", title())); }
+    std::string title() const { return printable(grade_.title.empty() ? grade_.submission : grade_.title); }
     std::string checks_heading() const { return words(Message("Checks")); }
 
     std::string result() const {
@@ -197,7 +197,7 @@ void set_feedback(const Grade& grade, const fs::path& pdf, const fs::path& made,
     const FeedbackText text(grade, escaped_markdown);
     documents->make(
         kTemplate, feedback_record(text), pdf,
-        {{"title", text.plain_title()}, {"lang", catalog_of(grade.language) == nullptr ? "en" : grade.language}});
+        {{"title", text.heading()}, {"lang", catalog_of(grade.language) == nullptr ? "en" : grade.language}});
     fs::create_directories(made.parent_path());
     write_file_atomically(made, text_and_document(markdown, pdf));
 }

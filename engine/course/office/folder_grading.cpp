@@ -15,9 +15,9 @@
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/files/whole_folder.h"
 #include "platform/hash.h"
 #include "platform/interrupt.h"
+#include "platform/locks/whole_folder.h"
 
 namespace dynlab::inline course {
 namespace {

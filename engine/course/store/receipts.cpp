@@ -65,6 +65,23 @@ ReceiptVerdict verify_signature(const ReceiptFile& file, std::string_view public
     return !other_key && is_signature(file.signature, file.content, public_key) ? kGenuine : kNotGenuine;
 }
 
+/// A genuine receipt that is shown again although the store knows better.
+ReceiptVerdict genuine_until_now(const ReceiptFile& file, Course& course) {
+    Rows rows = course.database().query(
+        "WITH shown AS (SELECT id AS version, 0 AS arrival FROM versions WHERE signature = ?1 UNION ALL SELECT "
+        "version, "
+        "id FROM arrivals WHERE signature = ?1) SELECT v.withdrawn, "
+        "EXISTS (SELECT 1 FROM arrivals c WHERE c.version = v.id AND c.id > shown.arrival), "
+        "EXISTS (SELECT 1 FROM arrived n WHERE NOT n.withdrawn AND n.number > v.number AND n.assignment = v.assignment "
+        "AND n.group_id IS v.group_id AND n.stage = v.stage AND n.pair IS v.pair AND n.part = v.part) "
+        "FROM shown JOIN arrived v ON v.id = shown.version",
+        file.signature);
+    if (!rows.next()) return kGenuine;
+    if (rows.integer(0)) return {true, "genuine, but the file was withdrawn"};
+    if (rows.integer(1)) return {true, "genuine, but the time was corrected; a newer receipt is valid"};
+    return rows.integer(2) ? ReceiptVerdict{true, "genuine, but a newer version was submitted"} : kGenuine;
+}
+
 }  // namespace
 
 std::string receipt_text(const Receipt& receipt, ReceiptKind kind) {
@@ -88,11 +105,13 @@ ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key
     return file->kind == ReceiptKind::kCoded ? kNeedsCourse : verify_signature(*file, public_key);
 }
 
-ReceiptVerdict verify_receipt(std::string_view text, const Course& course) {
+ReceiptVerdict verify_receipt(std::string_view text, Course& course) {
     const auto file = read_receipt(text);
     if (!file) return kNoReceipt;
-    if (file->kind == ReceiptKind::kSigned) return verify_signature(*file, course.signing_key().public_key());
-    return equal_in_constant_time(file->signature, hmac_sha256(course.key(), {file->content})) ? kGenuine : kNotGenuine;
+    const bool genuine = file->kind == ReceiptKind::kSigned
+                             ? verify_signature(*file, course.signing_key().public_key()).genuine
+                             : equal_in_constant_time(file->signature, hmac_sha256(course.key(), {file->content}));
+    return genuine ? genuine_until_now(*file, course) : kNotGenuine;
 }
 
 std::string signed_part(std::string_view text) {

@@ -37,8 +37,9 @@ struct ReceiptVerdict {
 /// Whether this text is a receipt that the owner of this public key signed, not a letter changed (line ends and blank
 /// lines aside). Coded receipts are recognised: they need the course.
 ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key);
-/// The same by the course itself, coded receipts too.
-ReceiptVerdict verify_receipt(std::string_view text, const Course& course);
+/// The same by the course itself, coded receipts too. Of a genuine receipt that is not valid any more the reason says
+/// so: its file was withdrawn, its time corrected, or a newer version submitted.
+ReceiptVerdict verify_receipt(std::string_view text, Course& course);
 /// The lines that are signed; empty for what is no receipt.
 std::string signed_part(std::string_view text);
 /// The public key that a receipt names itself: who trusts it needs to know it from elsewhere. Empty where there is

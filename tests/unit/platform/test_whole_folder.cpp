@@ -1,4 +1,4 @@
-#include "platform/files/whole_folder.h"
+#include "platform/locks/whole_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <csignal>
 #include <fstream>
 
+#include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/temporary_folder.h"
 
@@ -48,6 +49,41 @@ TEST(whole_folder, is_there_with_all_its_files_or_not_at_all) {
     EXPECT_EQ(entries_in(folder), 2u);
     EXPECT_THROW(make_whole_folder(folder, fill), EnvironmentError);
     EXPECT_EQ(entries_in(folder), 2u);
+}
+
+// Oracle: the folder around it. Each call fills while the other does, as two commands at once would.
+TEST(whole_folder, of_two_calls_at_once_is_the_work_of_the_first_to_end) {
+    const TemporaryFolder around;
+    const fs::path folder = around.path() / "mine";
+    EXPECT_THROW(make_whole_folder(folder,
+                                   [&](const fs::path& slow) {
+                                       std::ofstream(slow / "a") << "slow" << std::flush;
+                                       make_whole_folder(folder, [](const fs::path& quick) {
+                                           for (const char* name : {"a", "b"}) std::ofstream(quick / name) << "quick";
+                                       });
+                                       std::ofstream(slow / "c") << "slow";
+                                   }),
+                 EnvironmentError);
+    EXPECT_EQ(entries_in(around.path()), 1u);
+    EXPECT_EQ(entries_in(folder), 2u);
+    EXPECT_EQ(read_file(folder / "a"), "quick");
+}
+
+TEST(whole_folder, of_a_killed_call_leaves_nothing_behind_the_next_call_for_any_folder) {
+    const TemporaryFolder around;
+    const pid_t killed = ::fork();
+    if (killed == 0)
+        make_whole_folder(around.path() / "mine", [](const fs::path& growing) {
+            std::ofstream(growing / "a") << "a" << std::flush;
+            ::raise(SIGKILL);
+        });
+    ::waitpid(killed, nullptr, 0);
+    make_whole_folder(around.path() / "other", [](const fs::path&) {});
+    EXPECT_EQ(entries_in(around.path()), 1u);
+    EXPECT_EQ(fs::status(around.path() / "other").permissions(), [&] {
+        fs::create_directory(around.path() / "ordinary");
+        return fs::status(around.path() / "ordinary").permissions();
+    }());
 }
 
 }  // namespace test_whole_folder
