@@ -71,7 +71,7 @@ TEST(checks_of_ones_own, marked_by_hand_wait_for_their_points) {
     EXPECT_EQ(bench.bench().read("out/marks.csv"),
               "who,check,points,reason,of,about,rubric\r\na,text,,,4,Question 3,two reasons\r\n");
     EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr(",a,partly ungraded,,5,"));
-    EXPECT_THAT(bench.bench().read("out/summary.md"), HasSubstr("marks by hand are missing in marks.csv: \"a\""));
+    EXPECT_THAT(bench.bench().read("out/summary.md"), HasSubstr("marks by hand are missing in marks.csv"));
     bench.bench().write("out/marks.csv",
                         "submission;check;points;comment;of\na;text;2,5;one reason of two;4\na;x;;not looked at;2\n");
     const ChildResult marked = bench.grade({"--checks", "own"});

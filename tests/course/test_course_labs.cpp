@@ -67,6 +67,16 @@ class LabCourse {
         request.assignment = "lab4", request.at = at(time), request.from = from, request.checks = false;
         return receive(course_, request);
     }
+    /// A folder of a group with nothing but a link in it.
+    void take_link(int i, const std::string& time) {
+        const auto folder = bench_.bench().path(CourseBench::group(i));
+        std::filesystem::create_directories(folder);
+        std::filesystem::create_symlink("/etc/passwd", folder / "analysis.lua");
+        ReceiveRequest request;
+        request.files = {folder};  // called after its sender
+        request.assignment = "lab4", request.at = at(time), request.checks = false;
+        receive(course_, request);
+    }
     /// Of checks x and y with 4 and 6 points.
     void grade(std::int64_t version, double x, double y, bool y_graded = true) {
         Transaction transaction(course_.database());
@@ -260,7 +270,7 @@ TEST(course_labs, script_under_a_changed_name_is_taken) {
     LabCourse course;
     for (const char* name : {"Analysis.lua", "analysis.lua.txt", "my%20analysis.lua", "analysis (1).LUA"}) {
         const ReceiveOutcome taken = course.take(
-            {{std::string("in/group-01/") + name, std::string("print('") + name + "')"}}, "2026-02-28 12:00");
+            {{name + std::string(" in/group-01/") + name, std::string("print('") + name + "')"}}, "2026-02-28 12:00");
         ASSERT_EQ(taken.received.size(), 1u) << name;
         EXPECT_EQ(taken.received[0].part, "script") << name;
     }
@@ -279,11 +289,16 @@ TEST(course_labs, unreadable_file_is_graded_as_unreadable_until_another_comes) {
     ASSERT_EQ(reminders.size(), 3u);
     EXPECT_THAT(message_text(reminders[0].missing.at(0)), HasSubstr("cannot be read"));
     EXPECT_THAT(message_text(reminders[1].missing.at(0)), Not(HasSubstr("cannot be read")));
-    course.take({{"in/group-01/analysis.lua", "print(1)"}}, "2026-02-28 13:00");
+    course.take({{"again/group-01/analysis.lua", "print(1)"}}, "2026-02-28 13:00");
     const CourseWork after(course.course(), course.lab());
     ASSERT_EQ(after.work().items.size(), 1u);
     EXPECT_EQ(after.work().items[0].submission.name, "group-01");
     EXPECT_EQ(after.work().items[0].unreadable, Message());
+    // A link is unreadable where its sender gave nothing else.
+    EXPECT_EQ(newest_versions(course.course(), course.lab())[course.group(2)]["first"].size(), 0u);
+    course.take_link(2, "2026-02-28 12:00");
+    EXPECT_EQ(newest_versions(course.course(), course.lab())[course.group(2)]["first"].at(kUnreadable).trouble,
+              "other-kind");
 }
 
 // oracle: the roster: both students of group 1 are called Petit, and each of two groups has a Moser

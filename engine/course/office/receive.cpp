@@ -45,6 +45,7 @@ struct Candidate {
     std::optional<ReviewPair> pair;
     bool from_pack = false, made = false;  ///< a PDF that was taken out of the group's pack; made of it
     bool unreadable = false;               ///< no PDF, but the document all the same
+    bool refused = false;                  ///< a link, too large: unreadable where its sender gave nothing else
     bool silent = false;                   ///< kept as a trace only: not taken, or beside the file that counts
     Message missing;                       ///< of a pack without the PDF that is wanted
     Message remark;                        ///< name and content differ
@@ -101,10 +102,13 @@ class HandInReceiver {
             if (!incoming_.batch()) throw EnvironmentError("{}: {}", file.source, message_of(error));
             outcome_.refused.push_back(Message("{}: {}", file.source, message_of(error)));
             const bool too_large = static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes;
-            const bool senders_doing = candidate.group.id != 0 && (too_large || !file.left_out.empty());
-            make_trace(candidate, senders_doing ? (too_large ? "too-large" : "other-kind") : kNotTaken,
+            candidate.refused = candidate.group.id != 0 && (too_large || !file.left_out.empty());
+            make_trace(candidate,
+                       !candidate.refused ? kNotTaken
+                       : too_large        ? "too-large"
+                                          : "other-kind",
                        message_of(error));
-            candidate.silent = !senders_doing;
+            candidate.silent = !candidate.refused;
         }
         return candidate;
     }
@@ -164,11 +168,9 @@ class HandInReceiver {
     }
 
     bool is_known(const Candidate& c, const std::string& hash) const {
-        return course_.database()
-            .query(
-                "SELECT 1 FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND part = ? AND hash = ?",
-                outcome_.assignment.id, c.group.id, request_.stage, c.part, hash)
-            .next();
+        constexpr char kSame[] =
+            "SELECT 1 FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND part = ? AND hash = ?";
+        return course_.database().query(kSame, outcome_.assignment.id, c.group.id, request_.stage, c.part, hash).next();
     }
 
     /// For what a candidate is; of two only one can hold.
@@ -179,17 +181,20 @@ class HandInReceiver {
     /// What cannot be read beside what can, in the same folder, or beside the PDF that was made of it, or beside a
     /// pack: it is not complained of.
     void mark_what_lies_beside() {
-        std::set<std::string> readable, anything, folders;
+        std::set<std::string> readable, anything, folders, others;
         for (const Candidate& c : candidates_) {
+            if (!c.refused) others.insert(slot_of(c, ""));
             if (c.unreadable || c.part == kUnreadable) continue;
             readable.insert(slot_of(c, c.part == "pack" ? document_part() : c.part));
             anything.insert(slot_of(c, ""));
             if (!c.file->folder.empty()) folders.insert(c.file->folder);
         }
         for (Candidate& c : candidates_)
-            if (!c.silent && ((c.unreadable && readable.contains(slot_of(c, c.part))) ||
-                              (c.part == kUnreadable && anything.contains(slot_of(c, ""))) ||
-                              (c.part == kUnreadable && folders.contains(c.file->folder))))
+            if (c.refused && others.contains(slot_of(c, "")))
+                make_trace(c, kBeside, Message(c.inspection.reason));
+            else if (!c.silent && ((c.unreadable && readable.contains(slot_of(c, c.part))) ||
+                                   (c.part == kUnreadable &&
+                                    (anything.contains(slot_of(c, "")) || folders.contains(c.file->folder)))))
                 make_trace(c, kBeside, Message("It came beside the file that counts."));
     }
 

@@ -50,7 +50,11 @@ void IncomingFiles::add(const fs::path& given) {
     if (fs::is_directory(given)) {
         if (way_.one_sender)
             throw EnvironmentError("{} is a folder; with --from give the files themselves, or a pack", source);
-        add_batch(given, source);
+        batch_ = true;
+        if (way_.knows(sender_of(given.filename())))
+            add_own_folder(given, source);
+        else
+            add_batch(given, source);
         return;
     }
     if (!fs::is_regular_file(given)) throw EnvironmentError("{} is not a regular file", source);
@@ -114,18 +118,23 @@ void IncomingFiles::add_batch(const fs::path& folder, const std::string& source)
     for (const fs::path& entry : entries) {
         const std::string name = entry.filename(), shown_source = source + "/" + name;
         if (names_the_folder_itself(entry)) {
-            Submission sender;
-            sender.name = name;
-            read_lms_name(sender);
-            const std::vector<fs::path> own = entries_of_one_person(entry);
-            if (way_.whole_folders && (own.size() > 1 || (own.size() == 1 && names_the_folder_itself(own.front()))))
-                add_pack_of(sender, entry, shown_source);
-            else
-                add_folder_of(sender, entry, shown_source, shown_source);
+            add_own_folder(entry, shown_source);
         } else {
             add_found(entry, shown_source);
         }
     }
+}
+
+/// A folder that is called after its sender.
+void IncomingFiles::add_own_folder(const fs::path& folder, const std::string& source) {
+    Submission sender;
+    sender.name = folder.filename();
+    read_lms_name(sender);
+    const std::vector<fs::path> own = entries_of_one_person(folder);
+    if (way_.whole_folders && (own.size() > 1 || (own.size() == 1 && names_the_folder_itself(own.front()))))
+        add_pack_of(sender, folder, source);
+    else
+        add_folder_of(sender, folder, source, source);
 }
 
 void IncomingFiles::add_pack_of(const Submission& sender, const fs::path& folder, const std::string& source) {
@@ -135,6 +144,9 @@ void IncomingFiles::add_pack_of(const Submission& sender, const fs::path& folder
     try {
         const fs::path zip = scratch_.path() / fmt::format("pack-{}.zip", ++unpacked_);
         zip_submission(submission, zip);
+        fs::file_time_type newest = fs::file_time_type::min();
+        for (const fs::path& file : files_below(folder)) newest = std::max(newest, fs::last_write_time(file));
+        if (newest > fs::file_time_type::min()) fs::last_write_time(zip, newest);
         files_.push_back({zip, name, source, sender, source, given_ - 1});
     } catch (const SubmissionError& error) {
         leave_out(name, source, sender, error.message());

@@ -46,6 +46,7 @@ class IncomingFiles {
     void add_folder_of(const Submission& sender, const std::filesystem::path& folder, const std::string& source,
                        const std::string& own);
 
+    void add_own_folder(const std::filesystem::path& folder, const std::string& source);
     void add_pack_of(const Submission& sender, const std::filesystem::path& folder, const std::string& source);
     void leave_out(const std::string& name, const std::string& source, const Submission& sender, const Message& reason);
 
