@@ -217,13 +217,7 @@ bool is_direct(const Question& asked, const Explanation& direct) {
 /// What the structure explains when an input that moves at nearly every sample is not held between them; nothing where
 /// a direct term does better.
 std::optional<Explanation> without_hold(const Question& asked, const Explanation& direct) {
-    constexpr double kNearlyAll = 0.9;
-    if (asked.record.hold != Hold::kZoh) return std::nullopt;
-    for (const Experiment& experiment : asked.record.experiments) {
-        const Index steps = experiment.u.rows() - 1;
-        const auto moves = experiment.u.topRows(steps).array() != experiment.u.bottomRows(steps).array();
-        if (static_cast<double>(moves.count()) < kNearlyAll * static_cast<double>(moves.size())) return std::nullopt;
-    }
+    if (!moves_between_samples(asked.record)) return std::nullopt;
     IdData lines = asked.record;
     lines.hold = Hold::kFoh;
     const Question other{lines, asked.given, asked.options};
@@ -370,6 +364,15 @@ Message reason_text(const MissedStructure& missed) {
 }
 
 }  // namespace
+
+bool moves_between_samples(const IdData& data) {
+    constexpr double kNearlyAll = 0.9;
+    return data.hold == Hold::kZoh && std::ranges::all_of(data.experiments, [&](const Experiment& experiment) {
+               const Index steps = experiment.u.rows() - 1;
+               const auto moves = experiment.u.topRows(steps).array() != experiment.u.bottomRows(steps).array();
+               return static_cast<double>(moves.count()) >= kNearlyAll * static_cast<double>(moves.size());
+           });
+}
 
 std::optional<MissedStructure> missed_structure(const IdData& data, const Fit& fit, const FitOptions& options) {
     if (fit.termination == Termination::kCancelled || !fit.removed.empty()) return std::nullopt;

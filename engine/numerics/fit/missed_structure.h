@@ -26,6 +26,9 @@ struct MissedStructure {
     double better_fit_percent = 0;
 };
 
+/// Whether inputs that count as held move at nearly every sample, as measured ones do.
+bool moves_between_samples(const IdData& data);
+
 /// The structure that an output-error fit in continuous time misses, or nothing: a direct feedthrough where it has
 /// fewer zeros than poles; with one input, one more pole, or a delay where the fit has a fixed one.
 ///

@@ -235,11 +235,6 @@ bool FittedRecord::runs_away() const {
     return !(range(simulation.output) < kFar * range(y()));
 }
 
-bool FittedRecord::has_jumping_input() const {
-    const Index steps = u().size() - 1;
-    return (u().tail(steps) - u().head(steps)).cwiseAbs().maxCoeff() > standard_deviation(u());
-}
-
 double FittedRecord::deviation() const {
     return standard_deviation(y());
 }

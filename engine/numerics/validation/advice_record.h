@@ -36,8 +36,7 @@ struct FittedRecord {
     VectorView u() const { return data.experiments.front().u.col(0); }
     /// A value of the output, rounded to so many significant digits.
     Message with_unit(double value, int digits) const;
-    double deviation() const;        ///< standard deviation of y
-    bool has_jumping_input() const;  ///< by more than its standard deviation from one sample to the next
+    double deviation() const;  ///< standard deviation of y
     /// The model explains half of the output, or of what is left of it without slow movement.
     bool trusted() const { return simulation.fit_percent > 50 || (movement_error < 0.5 && !runs_away()); }
     /// It is unstable and explains less than half from rest, or its simulation leaves the range of the output by far:

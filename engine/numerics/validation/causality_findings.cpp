@@ -4,6 +4,7 @@
 
 #include "numerics/error.h"
 #include "numerics/estimators/srivc.h"
+#include "numerics/fit/missed_structure.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/statistics/autoregression.h"
 #include "numerics/statistics/distributions.h"
@@ -128,7 +129,7 @@ bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
     const std::optional<Fit> direct = fit_to_earlier_input(fit, 0, zeros + 1);
     if (direct && N * std::log(best->loss / direct->loss) > kNoWorse) return false;
     std::optional<Fit> straight;
-    if (!fit.has_jumping_input()) straight = fit_to_earlier_input(fit, 0, zeros, Hold::kFoh);
+    if (moves_between_samples(fit.window.data)) straight = fit_to_earlier_input(fit, 0, zeros, Hold::kFoh);
     if (straight && N * std::log(straight->loss / best->loss) < kNoWorse) return false;
     findings.push_back(
         about(fit, "late_input", Weight::kWarning,

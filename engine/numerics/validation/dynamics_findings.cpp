@@ -106,9 +106,10 @@ bool may_be_a_lag(const FittedRecord& fit) {
 double input_frequency(const FittedRecord& fit) {
     const VectorView u = fit.u();
     const Index count = u.size() - 1;
-    if (fit.has_jumping_input()) return kInfinity;
-    const double step = std::sqrt((u.tail(count) - u.head(count)).squaredNorm() / static_cast<double>(count));
-    return step / (standard_deviation(u) * fit.data.Ts);
+    const Vector steps = u.tail(count) - u.head(count);
+    const double deviation = standard_deviation(u);
+    if (steps.cwiseAbs().maxCoeff() > deviation) return kInfinity;
+    return std::sqrt(steps.squaredNorm() / static_cast<double>(count)) / (deviation * fit.data.Ts);
 }
 
 /// Correlation of neighbors, between 0 and 1.
