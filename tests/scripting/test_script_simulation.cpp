@@ -95,6 +95,12 @@ TEST(script_simulation, bands_as_numbers) {
               "3\ttrue\t3\t3\ntrue\ntrue\t0\n3\t2\n");
 }
 
+// Oracle: MATLAB's final time, which has no counterpart.
+TEST(script_simulation, a_last_instant_is_refused_with_the_instants_to_give) {
+    for (const char* drawn : {"step(tf({1}, {1, 1}), 5)", "impulse(tf({1}, {1, 1}), 5)"})
+        EXPECT_THAT(error_of(drawn), HasSubstr("x = linspace(0, 5, 300)")) << drawn;
+}
+
 TEST(script_simulation, simsd_agrees_with_the_band_of_the_step) {
     EXPECT_EQ(printed(kEstimate + "local fig, s = simsd(G, ones(100), 0.05, {runs = 1000, seed = 1})\n"
                                   "local _, _, sd = step(G, 0.05*range(0, 99))\n"

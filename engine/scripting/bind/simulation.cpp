@@ -193,6 +193,16 @@ void add_confidence(const Call& call, const Options& options, std::vector<NamedM
         models[i].confidence = confidence_of(call, static_cast<int>(i + 1), level);
 }
 
+/// As step(G, 5) of MATLAB, a final time.
+void refuse_last_value(const Call& call, int index) {
+    if (call.type(index) != LUA_TNUMBER) return;
+    const Number last = significant(call.number(index, "t or w"), 6);
+    throw InvalidArgument(
+        "give all instants or frequencies instead of the last one, such as x = linspace(0, {}, 300): step(G, x) gives "
+        "numbers, plot(x, step(G, x)) a figure",
+        last);
+}
+
 void refuse_option_texts(const Call& call, int index) {
     if (call.type(index) == LUA_TSTRING)
         throw InvalidArgument(
@@ -205,6 +215,7 @@ int draw_models(Call& call) {
     int next = 0;
     std::vector<NamedModel> models = models_to_draw(call, next);
     const Vector grid = call.holds_vector(next) ? Vector(call.vector(next++, Message("t or w"))) : Vector();
+    refuse_last_value(call, next);
     if (kBands) refuse_option_texts(call, next);
     call.at_most(next);
     const Options options(call, next, kBands ? OptionTables(kRegionTables) : OptionTables(kNamedTables));
