@@ -313,7 +313,7 @@ std::optional<MissedStructure> missed_by_output(const IdData& data, const Fit& g
         if (feedthrough && !moves && !is_direct(asked, found)) continue;
         most = evidence;
         best = MissedStructure{.code = moves ? MissedCode::kHold : code,
-                               .option = moves ? "InterSample" : option_of(code),
+                               .option = moves ? "hold" : option_of(code),
                                .value = value_of(code, *fit),
                                .samples = shorter ? record.sample_count() : 0,
                                .fit_percent = present.fit(),
@@ -342,7 +342,7 @@ Message option_text(const MissedStructure& missed) {
         case MissedCode::kLine:
             return Message("the straight lines taken off (data:detrend(\"linear\"))");
         case MissedCode::kHold:
-            return Message("straight lines between the samples of the input (InterSample = \"foh\")");
+            return Message("straight lines between the samples of the input ({} = \"foh\")", OptionName{"hold"});
         default:
             return Message("as many zeros as poles");
     }

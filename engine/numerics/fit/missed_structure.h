@@ -18,7 +18,7 @@ enum class MissedCode {
 /// A better structure, and the fit that it leads to.
 struct MissedStructure {
     MissedCode code = MissedCode::kPole;
-    std::string option;       ///< of the structure: "delay" (s), "poles" or "zeros"; "InterSample", "detrend"
+    std::string option;       ///< of the structure: "delay" (s), "poles" or "zeros"; "hold", "detrend"
     double value = 0;         ///< to ask for
     std::string output = {};  ///< name of the output whose fit rises, where there are several
     Index samples = 0;        ///< of a long record: of its beginning, which both fits are of; 0 for all

@@ -30,7 +30,8 @@ constexpr OptionEntry kImportOptions[] = {
         "time_unit", about("unit of that column; \"dd/mm/yyyy\" or \"mm/dd/yyyy\" where it holds days")),
     option<&ImportOptions::sheet>("sheet", about("name of a workbook's sheet; by default the first one"))};
 constexpr OptionEntry kIddataOptions[] = {
-    option<&IdData::hold>("InterSample", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
+    option<&IdData::hold>("InterSample", kHoldOption.description,
+                          {.initial = "\"zoh\"", .choices = kHolds, .member = "hold"}),
     {"InputName", ValueKind::kAny, about("name of the input, or a list of names of several inputs")},
     {"OutputName", ValueKind::kAny, about("name of the output, or a list of names of several outputs")},
     {"InputUnit", ValueKind::kAny,
