@@ -125,4 +125,10 @@ Lesson find_lesson(const std::string& name) {
                            listed(slugs_of(fitting)));
 }
 
+std::string lasting_name(const Lesson& lesson) {
+    const std::vector<Lesson> listed = lessons();
+    const bool known = std::ranges::any_of(listed, [&](const Lesson& one) { return one.folder == lesson.folder; });
+    return known ? lesson.slug : lesson.folder.string();
+}
+
 }  // namespace dynlab::inline workflow

@@ -46,4 +46,7 @@ std::vector<Lesson> lessons();
 /// folder of that path. Throws EnvironmentError that lists the lessons when none or several fit.
 Lesson find_lesson(const std::string& name);
 
+/// What find_lesson finds the lesson by from every folder: its slug if it is listed, otherwise its path.
+std::string lasting_name(const Lesson& lesson);
+
 }  // namespace dynlab::inline workflow

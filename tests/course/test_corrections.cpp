@@ -312,8 +312,8 @@ TEST_F(corrections, the_same_bytes_of_two_groups_are_told_and_a_team_s_copies_ar
     course_.bench().write("in/group-02.pdf", small_pdf("one"));
     EXPECT_THAT(done({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}),
                 HasSubstr("the same file as group-01's"));
-    EXPECT_THAT(status(), AllOf(HasSubstr("handed in the same file as group-01"),
-                                HasSubstr("handed in the same file as group-02")));
+    EXPECT_THAT(status(), AllOf(HasSubstr("submitted the same file as group-01"),
+                                HasSubstr("submitted the same file as group-02")));
     course_.bench().write("roster.csv", "id,name,group\ns3,Student 3,group-03\ns4,Student 4,group-03\n");
     done({"import", "roster.csv"});
     for (const char* name : {"Student 3_900003", "Student 4_900004"})

@@ -234,7 +234,7 @@ TEST(gradebook_memory, nobodys_work_is_told_and_a_list_gives_it_to_somebody) {
     EXPECT_THAT(graded.output, AllOf(HasSubstr("\"my work\" belongs to nobody in the roster: it fits no group"),
                                      HasSubstr("\"Ben Lee\" and \"group-2\" are the same, byte for byte")));
     EXPECT_THAT(work.read("out/gradebook.csv"),
-                AllOf(HasSubstr("1,José García,,nothing handed in"), HasSubstr("2,Zoë Ade,group-2,graded,0,")));
+                AllOf(HasSubstr("1,José García,,nothing submitted"), HasSubstr("2,Zoë Ade,group-2,graded,0,")));
     work.write("roster.csv", "id,name,group\n1,José García,group-1\n2,Zoë Ade,group-2\n3,Ben Lee,group-3\n");
     work.write("owners.csv", "submission;id\nmy work;1\n");
     ASSERT_EQ(bench.grade({"--roster", "roster.csv", "--owners", "owners.csv"}).exit_code, 0);

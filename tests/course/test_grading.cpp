@@ -293,7 +293,7 @@ TEST(grading, a_row_for_each_student_lateness_and_neutral_formulas) {
     EXPECT_THAT(book, HasSubstr("001,A. Kalman,group-1,graded,5,5,0,0,2,3,\r\n002,R. Kalman,group-1,graded,5,"));
     EXPECT_THAT(book, HasSubstr("003,Ada Lovelace,Ada Lovelace_77_assignsubmission_file_,graded,5,"));
     EXPECT_THAT(book, HasSubstr("99,Grace Hopper,hoppergrace_LATE_99_1234_work,graded,4,5,1,25,"));
-    EXPECT_THAT(book, HasSubstr("005,Nobody,,nothing handed in,"));
+    EXPECT_THAT(book, HasSubstr("005,Nobody,,nothing submitted,"));
     EXPECT_THAT(book, HasSubstr("006,'=1+1,'=cmd(),graded,5,"));
 }
 

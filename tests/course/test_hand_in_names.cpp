@@ -245,7 +245,7 @@ with zipfile.ZipFile('all.zip', 'w') as z:
     std::string told;
     for (int student = 1; student <= 7; ++student)
         told += bench.bench().shell(fmt::format("grep '^{},' out/gradebook.csv | cut -d, -f4,5", student)).output;
-    EXPECT_EQ(told, "graded,0\ngraded,2\ngraded,0\ngraded,2\ngraded,0\ngraded,2\nnothing handed in,\n");
+    EXPECT_EQ(told, "graded,0\ngraded,2\ngraded,0\ngraded,2\ngraded,0\ngraded,2\nnothing submitted,\n");
 }
 
 TEST(hand_in_names, the_instructors_list_goes_before_names) {

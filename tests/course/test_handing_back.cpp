@@ -33,7 +33,7 @@ TEST(handing_back, gives_platforms_what_they_import) {
     EXPECT_EQ(summary.at("checks").at(0).at("mistakes").at(0).at("count"), 1);
     EXPECT_THAT(work.read("out/summary.md"), HasSubstr("None that was made twice."));
     EXPECT_THAT(work.read("out/summary.md"), AllOf(ContainsRegex("Anna Lovelace +[^\n]*graded[^\n]* 2 "),
-                                                   ContainsRegex("Nobody Here +[^\n]*nothing handed in")));
+                                                   ContainsRegex("Nobody Here +[^\n]*nothing submitted")));
     const ChildResult back =
         work.dynlab({"hand-back", "out", "--roster", "roster.csv", "--assignment", "Lab 4 (1234)"});
     EXPECT_EQ(back.output,

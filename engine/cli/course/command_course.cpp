@@ -160,9 +160,7 @@ std::string lasting_path(const std::string& given) {
 /// Sets what was given.
 void apply(const AssignmentArguments& words, const CourseClock& clock, Assignment& a) {
     if (!words.lesson.empty()) {
-        const Lesson lesson = find_lesson(words.lesson);  // there is one, and one only
-        const bool by_path = lesson.folder == fs::absolute(words.lesson).lexically_normal();
-        a.lesson = by_path ? lesson.folder.string() : words.lesson;
+        a.lesson = lasting_name(find_lesson(words.lesson));
     }
     if (!words.first.empty()) a.first_due = clock.parse(words.first, "--first");
     if (!words.review.empty()) a.review_due = clock.parse(words.review, "--review");

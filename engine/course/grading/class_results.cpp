@@ -22,6 +22,8 @@
 namespace dynlab::inline course {
 namespace {
 
+const std::string kNothingSubmitted = "nothing submitted";  ///< the state of a student without a submission
+
 using Entry = ClassResults::Entry;
 
 std::string state_of(const Entry& entry) {
@@ -45,7 +47,7 @@ std::vector<std::string> row_of(const std::string& id, const std::string& name, 
                                 const std::vector<std::string>& ids) {
     std::vector<std::string> row = {id, name};
     if (!entry) {
-        row.insert(row.end(), {"", "nothing handed in"});
+        row.insert(row.end(), {"", kNothingSubmitted});
         row.resize(8 + ids.size());
         return row;
     }
@@ -186,7 +188,7 @@ RecordedTable marks_of(const ClassResults& results) {
     const auto add = [&](const std::string& name, const std::string& group, const Entry* entry) {
         const Grade* grade = entry && entry->grade ? &*entry->grade : nullptr;
         table.rows.push_back({printable(name, kMaxNameCharacters), printable(group, kMaxNameCharacters),
-                              entry ? state_of(*entry) : "nothing handed in",
+                              entry ? state_of(*entry) : kNothingSubmitted,
                               grade && grade->whole() ? points_text(grade->earned()) : "–",
                               grade && grade->penalty > 0 ? points_text(grade->penalty) : "–"});
     };

@@ -246,7 +246,7 @@ class Status {
         readable(last, "final version");
         const auto id = group.id;
         if (const auto twin = twins_.find(id); twin != twins_.end())
-            things.push_back(fmt::format("handed in the same file as {}", shortened(twin->second)));
+            things.push_back(fmt::format("submitted the same file as {}", shortened(twin->second)));
         if (any_pair([&](const ReviewPair& p) {
                 return p.reviewer == id &&
                        kindred_.contains(std::pair(std::min(p.reviewer, p.author), std::max(p.reviewer, p.author)));

@@ -115,13 +115,6 @@ void remember(Course& course, const char* key, const std::string& value) {
     transaction.commit();
 }
 
-/// What find_lesson finds it by from every folder: its name, or its path where it is not one of those that are listed.
-std::string name_anywhere(const Lesson& lesson) {
-    const std::vector<Lesson> listed = lessons();
-    const bool known = std::ranges::any_of(listed, [&](const Lesson& one) { return one.folder == lesson.folder; });
-    return known ? lesson.slug : lesson.folder.string();
-}
-
 /// The lab, as it is or as it is new, with what the options say of it.
 Assignment wanted_assignment(Course& course, const FolderRequest& request) {
     Assignment a;
@@ -133,7 +126,7 @@ Assignment wanted_assignment(Course& course, const FolderRequest& request) {
         if (!a.lesson.empty() && a.name != lesson.slug)
             throw EnvironmentError("{} holds the results of lesson {}; name another folder with --out",
                                    request.out.string(), a.name);
-        a.name = lesson.slug, a.lesson = name_anywhere(lesson);
+        a.name = lesson.slug, a.lesson = lasting_name(lesson);
     }
     if (a.lesson.empty())
         throw EnvironmentError("{} has no results yet: name the lesson with --lesson NN", request.out.string());

@@ -109,34 +109,27 @@ std::optional<Fit> fit_to_earlier_input(const FittedRecord& fit, Index samples, 
 }  // namespace
 
 bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
-    constexpr Index kMostLate = 3;                   // samples
     constexpr double kEvidence = 30, kNoWorse = 10;  // of N log of losses: a feedthrough; straight between samples
     const Fit& found = fit.search.candidate.estimate;
     const bool at_zero = !found.at_bound.empty() && found.at_bound[static_cast<std::size_t>(found.theta.size() - 1)];
     if (fit.window.step > 1 || !((fit.trusted() && at_zero) || follows_later_inputs(fit, 0))) return false;
     const int zeros = fit.search.candidate.poles;  // and one pole more: the search chose without knowing
     const std::optional<Fit> in_time = fit_to_earlier_input(fit, 0, zeros);
-    std::optional<Fit> best = in_time;
-    Index late = 0;
-    for (Index samples = 1; samples <= kMostLate; ++samples)
-        if (std::optional<Fit> earlier = fit_to_earlier_input(fit, samples, zeros);
-            earlier && best && earlier->loss < best->loss)
-            best = std::move(earlier), late = samples;
-    if (late == 0) return false;
-    const double N = independent_errors(fit.window.data.shifted(-late), best->models.front());
-    const double evidence = N * std::log(std::min(fit.search.loss(), in_time->loss) / best->loss);
-    if (!(evidence > kEvidence)) return false;
+    const std::optional<Fit> earlier = fit_to_earlier_input(fit, 1, zeros);
+    if (!in_time || !earlier) return false;
+    const double N = independent_errors(fit.window.data.shifted(-1), earlier->models.front());
+    if (!(N * std::log(std::min(fit.search.loss(), in_time->loss) / earlier->loss) > kEvidence)) return false;
     const std::optional<Fit> direct = fit_to_earlier_input(fit, 0, zeros + 1);
-    if (direct && N * std::log(best->loss / direct->loss) > kNoWorse) return false;
+    if (direct && N * std::log(earlier->loss / direct->loss) > kNoWorse) return false;
     std::optional<Fit> straight;
     if (moves_between_samples(fit.window.data)) straight = fit_to_earlier_input(fit, 0, zeros, Hold::kFoh);
-    if (straight && N * std::log(straight->loss / best->loss) < kNoWorse) return false;
+    if (straight && N * std::log(straight->loss / earlier->loss) < kNoWorse) return false;
     findings.push_back(
         about(fit, "late_input", Weight::kWarning,
-              Message("{} answers before {} changes, by about {}: the input was logged late. Shift it with "
-                      "data:shift({}).",
-                      fit.output(), fit.input(), plural(late, "{} sample", "{} samples"), -late),
-              static_cast<double>(late)));
+              Message("{} answers before {} changes, by about one sample: the input was logged late. Shift it with "
+                      "data:shift(-1).",
+                      fit.output(), fit.input()),
+              1));
     return true;
 }
 

@@ -58,8 +58,9 @@ void find_feedback(const FittedRecord& fit, RecordFindings& findings);
 /// "unstable": the model is, or its simulation leaves the record, so that nothing that it leaves is a measure.
 bool find_runaway(const FittedRecord& fit, RecordFindings& findings);
 
-/// "late_input": the whitened error goes with the input of the same and later samples, and a delay below zero explains
-/// the record better by strong evidence, no worse than a direct feedthrough.
+/// "late_input": the whitened error goes with the input of the same and later samples, and the input one sample
+/// earlier explains the record better by strong evidence, no worse than a direct feedthrough or, where it moves at
+/// nearly every sample, than straight lines between its samples.
 bool find_late_input(const FittedRecord& fit, RecordFindings& findings);
 
 /// "causality": the model from output to input leaves less than two thirds of what the one from input to output

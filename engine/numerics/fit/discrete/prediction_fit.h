@@ -20,8 +20,8 @@ struct UndeterminedRoot {
     std::vector<std::string> names;
     Message warning;
 };
-/// Where a root r of the polynomial C or D lies within four standard errors sqrt(2 (1 - r)/N) of the unit circle: there
-/// estimates pile up on it, and their scatter is no normal one.
+/// Where a root r of the polynomial C or D is within four standard errors sqrt(2 (1 - r)/N) of the unit circle, in C
+/// within 5.7: there estimates pile up on it, and their scatter is not normal.
 std::optional<UndeterminedRoot> undetermined_root(char letter, const Vector& p, Index samples);
 
 /// The noise model of the errors of a first model, for a start; white when they are nothing but rounding against
