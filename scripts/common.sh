@@ -54,6 +54,7 @@ purpose_text() {
     fuzz) echo "to feed it mutated inputs" ;;
     package) echo "to make a package of it" ;;
     cluster) echo "to test work on several machines" ;;
+    web) echo "to build it for browsers" ;;
     *) echo "for its $1" ;;
   esac
 }
@@ -113,3 +114,39 @@ build() {
 # What scripts/start and scripts/test build: fast as a whole, for this machine's processor.
 release_options=(-DCMAKE_BUILD_TYPE=Release -DDYNLAB_NATIVE=ON -DDYNLAB_UNITY=ON)
 sanitize_options=(-DCMAKE_BUILD_TYPE=Debug -DDYNLAB_SANITIZE=ON -DDYNLAB_UNITY=ON)
+
+# debian_sources FOLDER PACKAGE...: the sources of Debian packages, unpacked in FOLDER, from where the system gets its packages.
+# Lists of sources are made for these calls: the system's settings stay as they are.
+debian_sources() {
+  local folder=$1 lists=$1/lists package file; shift
+  mkdir -p "$lists/partial" "$lists/parts"
+  for file in /etc/apt/sources.list /etc/apt/sources.list.d/*; do
+    case $file in
+      *.sources) sed 's/^Types:.*/Types: deb-src/' "$file" ;;
+      *) ! [ -e "$file" ] || sed -n 's/^deb /deb-src /p' "$file" ;;
+    esac >"$lists/parts/$(basename "$file")"
+  done
+  local apt=(apt-get -q -o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$lists/parts" -o "Dir::State::lists=$lists"
+             -o APT::Sandbox::User=root)
+  for package; do
+    [ -e "$folder/$package.done" ] && continue
+    (cd "$folder" && { [ -e lists/updated ] || { "${apt[@]}" update && touch lists/updated; } &&
+      "${apt[@]}" source --download-only "$package" && tar xf "$package"_*.orig.tar.* && touch "$package.done"; } >log 2>&1) ||
+      { tail -n 5 "$folder/log" >&2; say "The source of Debian's package $package could not be fetched."; return 1; }
+  done
+}
+
+# build_web: the engine as WebAssembly, in build/web/engine.
+build_web() {
+  local folder=$project/build/web
+  debian_sources "$folder/sources" lua5.4 re2 libsodium
+  # Emscripten's own libraries are built once into a copy of its cache that may be written to.
+  export EM_CACHE=$folder/cache EM_FROZEN_CACHE=0 NODE_PATH=/usr/share/nodejs
+  [ -d "$EM_CACHE" ] || cp -a /usr/share/emscripten/cache "$EM_CACHE"
+  local log=$folder/build.log
+  cmake -S "$project/engine/web" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSOURCES="$folder/sources" \
+    --toolchain /usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake >"$log" 2>&1 || { tail -n 30 "$log" >&2; return 1; }
+  NINJA_STATUS='%p ' cmake --build "$folder" -j "$(nproc)" 2>&1 | tee "$log" | sed -u -n 's/^ *\([0-9]*\)% .*/\1/p' |
+    tell_progress "Building for browsers"
+  [ "${PIPESTATUS[0]}" = 0 ] || { grep -v '^ *[0-9]*% ' "$log" | tail -n 100 >&2; return 1; }
+}

@@ -1,0 +1,32 @@
+#include "data_io/mat_file.h"
+#include "data_io/packaged_record.h"
+#include "data_io/workbook.h"
+#include "platform/error.h"
+
+// Formats whose libraries are not there in a browser.
+namespace dynlab::inline data_io {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const char* format) {
+    throw EnvironmentError("{}: a page in a browser reads no {} files; save the data as CSV", file.string(), format);
+}
+
+}  // namespace
+
+VariableTable read_mat_file(const std::filesystem::path& file, bool, std::vector<Message>*) {
+    refuse(file, "MAT");
+}
+
+void write_mat_file(const std::filesystem::path& file, const VariableTable&, int) {
+    throw EnvironmentError("{}: a page in a browser writes no MAT files; save the data as CSV", file.string());
+}
+
+SheetText read_sheet(const std::filesystem::path& file, const std::string&) {
+    refuse(file, ".xlsx");
+}
+
+VariableTable read_packaged_record(const PackagedRecord& record) {
+    refuse(record.file, "SLICOT");
+}
+
+}  // namespace dynlab::inline data_io
