@@ -103,10 +103,9 @@ Message result_of(const DelaySearch& search, const IdData& data) {
 
 Message explanation_of(const DelaySearch& search, const IdData& data, bool told) {
     std::vector<Message> all{result_of(search, data)};
-    if (search.delay <= 2 * search.std) {
-        all.push_back(Message("It does not differ significantly from no delay."));
-        if (told && late_input(data, search.candidate.poles, search.loss())) all.push_back(late_input_sentence(data));
-    }
+    if (search.delay <= 2 * search.std) all.push_back(Message("It does not differ significantly from no delay."));
+    if (told && search.delay < data.Ts && late_input(data, search.candidate.poles, search.loss()))
+        all.push_back(late_input_sentence(data));
     const Vector& errors = search.candidate.estimate.std;
     if (search.rival && !std::isinf(errors[errors.size() - 1]))  // else a warning of the estimate says so
         all.push_back(
