@@ -13,7 +13,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kRestStates = {"none", "steady"};  // of InitialState
+constexpr std::array kRestStates = {"none", "steady", "auto"};  // of InitialState
 constexpr std::array kCharacteristicOptions = {
     option<&HammersteinOptions::bins>("Bins", about("number of equal bins between the smallest and the largest input"),
                                       {.least = 1, .most = 1000, .member = "bins"}),
@@ -23,8 +23,8 @@ constexpr std::array kCharacteristicOptions = {
     option<&HammersteinOptions::initial_state>(
         "InitialState",
         about("the state before the data begin: at rest with the first input value (\"steady\") or with "
-              "zero input (\"none\")"),
-        {.initial = "\"steady\"", .choices = kRestStates, .former = "zero", .member = "initial_state"})};
+              "zero input (\"none\"), or the one of these that leaves less (\"auto\")"),
+        {.initial = "\"auto\"", .choices = kRestStates, .former = "zero", .member = "initial_state"})};
 constexpr OptionTable kHammerstein[] = {kCharacteristicOptions, kDelayOptions, kFixedDelayOptions, kLimitOptions};
 
 constexpr std::array kHammersteinArguments = {
