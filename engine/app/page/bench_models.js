@@ -1,10 +1,10 @@
 // Estimating, and the table of models.
-import { change, request, session, settled } from "./bench_session.js";
+import { change, request, session } from "./bench_session.js";
 import { button, choice, element, firstCall, labelled, rewrite, stepControls, textField, typeset, why } from "./bench_fields.js";
 import { formOf, freeName, keyOf, linesWith, modelSteps, newCell, preparingSteps, roles, taken, variables, written } from "./bench_steps.js";
 import { addModel, choose, chosenStep, rechoose, redraw, rowOf } from "./bench_choice.js";
 import { help } from "./bench_help.js";
-import { drawnModels, isHidden, reveal, setHidden } from "./bench_views.js";
+import { drawnModels, firstOrders, isHidden, reveal, setHidden } from "./bench_views.js";
 import { deleteStep } from "./bench_delete.js";
 import { say, shortNumber } from "./bench_words.js";
 
@@ -22,15 +22,13 @@ function methodList(act, now, name) {
   return list;
 }
 
-const kAdvice = 10000;  // ms that a first model waits for what the data say of its orders
 function estimateNew(method) {
   const form = session.forms.find((one) => one.name === method);
   addModel(async () => {
     const { estimation } = roles(), usual = firstCall(form, estimation);
     if (method !== "tfsrivc" || modelSteps().some((step) => formOf(step.function))) return usual;
-    await settled(() => session.views.advice || session.error || session.stopped, kAdvice);
-    const { first = [] } = session.views.advice ?? {};
-    return first.length === 2 ? `tfsrivc(${[estimation, ...first].join(", ")}, {TdMax = 0})` : usual;
+    const orders = await firstOrders();
+    return orders ? `tfsrivc(${[estimation, ...orders].join(", ")}, {TdMax = 0})` : usual;
   });
 }
 

@@ -25,7 +25,11 @@ function takeRolesInUse() {
   const group = groupNow(), own = offered.columns.filter((column) => groupOf(column) === group && column.usable);
   const inUse = [...data.input_names.map((name) => [name, "input"]), ...data.output_names.map((name) => [name, "output"])];
   if (!inUse.every(([name]) => own.some((column) => ownName(column) === name))) return;
-  for (const column of own) if (column.role !== "time") column.role = inUse.find(([name]) => name === ownName(column))?.[1] ?? "";
+  const units = Object.fromEntries([[data.input_names, data.input_units], [data.output_names, data.output_units]].flatMap(([names, list]) => names.map((name, i) => [name, list?.[i]])));
+  for (const column of own.filter(({ role }) => role !== "time")) {
+    column.role = inUse.find(([name]) => name === ownName(column))?.[1] ?? "";
+    column.unit ||= units[ownName(column)] ?? "";
+  }
 }
 /// The columns of the record in use, to take others of them.
 async function offerAgain() {

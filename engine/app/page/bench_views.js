@@ -1,10 +1,10 @@
 // The pictures of a session, as many at once as wanted, and what is told with them.
-import { change, isOlder, look, request, session, trouble } from "./bench_session.js";
+import { change, isOlder, look, request, session, settled, trouble } from "./bench_session.js";
 import { Brushes } from "./bench_brushes.js";
 import { addModel, chosenStep, redraw } from "./bench_choice.js";
 import { button, element, typeset, why } from "./bench_fields.js";
 import { movePart, partsNow } from "./bench_parts.js";
-import { channelOf, endOfScript, formOf, insertedBehind, keyOf, modelSteps, roles, variables } from "./bench_steps.js";
+import { channelOf, endOfScript, insertedBehind, keyOf, modelSteps, roles, variables } from "./bench_steps.js";
 import { deleteStep } from "./bench_delete.js";
 import { goesIntoReport, viewLines, wholeReport } from "./bench_report.js";
 import { say, shortNumber, viewName, viewNames } from "./bench_words.js";
@@ -105,6 +105,18 @@ export function download(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+let firstAsked = 0, questions = 0;  // the number of the question that is asked now
+const kLongestFirst = 60000;  // ms; Stop ends it before
+/// The numbers of poles and zeros of a first model without a delay; nothing where one of the usual orders is right.
+export async function firstOrders() {
+  firstAsked = ++questions;
+  ask();
+  await settled(() => session.views.first?.number === questions || session.error || session.stopped, kLongestFirst);
+  firstAsked = 0;
+  const { number, orders } = session.views.first ?? {};
+  return number === questions && orders.length === 2 ? orders : null;
+}
+
 /// Tells the server what is to be seen, at which size.
 export function ask() {
   clearTimeout(timer);
@@ -118,7 +130,7 @@ export function ask() {
     for (const [name, { body }] of tiles) if (!isEmpty(name)) sizes[name] = [body.clientWidth - 8, body.clientHeight - (name === "record" ? 40 : 4)];
     const of = [part.raw, part.prepared];
     const until = Math.max(0, ...session.steps.filter((step) => step.names.some((name) => of.includes(name))).map((step) => step.last_line));
-    look(every, { ...part, views: ["variables", "models", ...shownViews(), "advice"], models: drawnModels(), all_models: all, first: !models.some((step) => formOf(step.function)), channel_of, sizes, range, ...(wanted ? { save: wanted } : {}) }, until);
+    look(every, { ...part, views: ["variables", "models", ...shownViews(), ...(firstAsked ? ["first"] : []), "advice"], models: drawnModels(), all_models: all, first: firstAsked, channel_of, sizes, range, ...(wanted ? { save: wanted } : {}) }, until);
   }, 0);
 }
 
@@ -250,7 +262,7 @@ function takeOrders(poles, zeros, delay) {
   const { estimation, orders } = roles(), { output } = channelOf(session.steps.find((step) => step.names[0] === orders) ?? { arguments: [] });
   const count = variables()[estimation]?.outputs ?? 1, none = delay > 0 ? "" : ", {TdMax = 0}";
   if (!output || count === 1) return addModel(`tfsrivc(${estimation}, ${poles}, ${zeros}${none})`);
-  const before = chosenStep(), known = before?.function === "tfsrivc" && before.arguments[0] === estimation ? before.arguments.slice(1) : session.views.advice?.first ?? [];
+  const before = chosenStep(), known = before?.function === "tfsrivc" && before.arguments[0] === estimation ? before.arguments.slice(1) : [];
   const list = (orders, own) => {
     const text = String(orders ?? ""), numbers = /^\{[\d, ]+\}$/.test(text) ? text.slice(1, -1).split(",").map(Number) : Array(count).fill(/^\d+$/.test(text) ? Number(text) : own);
     numbers[output - 1] = own;

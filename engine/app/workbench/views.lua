@@ -226,13 +226,22 @@ function views.residuals(settings, values)
   local models, labels = labelled(settings, values, is_model)
   local data = values[settings.validation] or values[settings.estimation]
   if not is_data(data) or #models == 0 then return end
-  for k = #models, 1, -1 do
-    local part = own_part(settings, labels[k], models[k], data)
-    if part then
-      local fig, tests = resid(part, models[k])
-      return {figure = fig, words = labels[k] .. colon() .. tests.verdict}
+  local figures, told = {}, {}
+  local function test(name, part, model)
+    local fig, tests = resid(part, model)
+    figures[#figures + 1], told[#told + 1] = fig, name .. colon() .. tests.verdict
+  end
+  if own_part(settings, labels[#labels], models[#models], data) == data then  -- the last model has all outputs
+    test(labels[#labels], data, models[#models])
+  else
+    for i = 1, data.ny do
+      for k = #models, 1, -1 do
+        local one = simulates(settings, labels[k], models[k], data, i)
+        if one then test(labels[k], data.ny > 1 and data:select(i) or data, one) break end
+      end
     end
   end
+  if #told > 0 then return {figure = #figures > 0 and small_multiples(figures, {}, 1, true) or nil, words = table.concat(told, "\n")} end
   return {left_out = labels}
 end
 
@@ -566,9 +575,13 @@ function views.advice(settings, values)
     list[i] = {code = one.code, warning = one.warning, message = one.message, sections = one.sections}
   end
   local read, kinds = pcall(readings, values[settings.raw])
-  local known, orders = false, nil
-  if settings.first then known, orders = pcall(first_orders, data) end
-  return {list = list, readings = read and kinds or {}, first = known and orders or {}}
+  return {list = list, readings = read and kinds or {}}
+end
+
+--- For whoever presses New model: `settings.first` is the number of the question.
+function views.first(settings, values)
+  local known, orders = pcall(first_orders, values[settings.estimation])
+  return {number = settings.first, orders = known and orders or {}}
 end
 
 function views.variables(settings, values) return describe(values) end

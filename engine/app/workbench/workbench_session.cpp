@@ -228,7 +228,7 @@ void WorkbenchSession::take_orders() {
 std::optional<ViewOrder> WorkbenchSession::stale_views() {
     ViewOrder order = looked_at_;
     ::nlohmann::json settings = ::nlohmann::json::parse(order.settings), common = settings;
-    for (const char* name : {"views", "sizes", "range", "save"}) common.erase(name);
+    for (const char* name : {"views", "sizes", "range", "save", "first"}) common.erase(name);
     const std::vector<std::string> lines = lines_of(text_.text());
     const std::size_t until = std::min(lines.size(), static_cast<std::size_t>(std::max(0, order.data_until)));
     const std::string of_records =
