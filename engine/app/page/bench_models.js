@@ -24,11 +24,12 @@ function methodList(act, now, name) {
 
 function estimateNew(method) {
   const form = session.forms.find((one) => one.name === method);
+  let orders = null;  // asked for once, however often the script is changed elsewhere meanwhile
   addModel(async () => {
     const { estimation } = roles(), usual = firstCall(form, estimation);
     if (method !== "tfsrivc" || modelSteps().some((step) => formOf(step.function))) return usual;
-    const orders = await firstOrders();
-    return orders ? `tfsrivc(${[estimation, ...orders].join(", ")}, {TdMax = 0})` : usual;
+    orders ??= await firstOrders();
+    return orders.length > 0 ? `tfsrivc(${[estimation, ...orders].join(", ")}, {TdMax = 0})` : usual;
   });
 }
 

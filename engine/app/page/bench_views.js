@@ -107,14 +107,14 @@ export function download(name, blob) {
 
 let firstAsked = 0, questions = 0;  // the number of the question that is asked now
 const kLongestFirst = 60000;  // ms; Stop ends it before
-/// The numbers of poles and zeros of a first model without a delay; nothing where one of the usual orders is right.
+/// The numbers of poles and zeros of a first model without a delay; none where one of the usual orders is right.
 export async function firstOrders() {
   firstAsked = ++questions;
   ask();
   await settled(() => session.views.first?.number === questions || session.error || session.stopped, kLongestFirst);
   firstAsked = 0;
   const { number, orders } = session.views.first ?? {};
-  return number === questions && orders.length === 2 ? orders : null;
+  return number === questions ? orders : [];
 }
 
 /// Tells the server what is to be seen, at which size.
