@@ -160,7 +160,8 @@ TEST_F(preview_editor, text_cells_look_like_text_until_they_are_edited) {
     const Preview preview(file(), true, {"--edit"});
     Browser browser;
     open(browser, preview);
-    EXPECT_EQ(json::parse(browser.evaluate("return document.querySelector('.text-cell h1').innerText")), "A heading");
+    EXPECT_EQ(json::parse(browser.evaluate("return document.querySelector('.text-cell :is(h1, h2, h3)').innerText")),
+              "A heading");
     EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.text-cell math').length"), "1");
     browser.click(".text-cell strong");
     EXPECT_TRUE(browser.comes("!document.querySelector('.text-cell')"));

@@ -79,7 +79,7 @@ TEST_F(script_runner, questions_are_answered_from_the_state_that_the_script_left
     };
     EXPECT_EQ(answer("variables", ""), "[]");
     run(kA + kB);
-    EXPECT_THAT(answer("variables", ""), testing::HasSubstr(R"("name":"x","kind":"number")"));
+    EXPECT_THAT(answer("variables", ""), testing::HasSubstr(R"("name":"x","size":"","text":"2")"));
     EXPECT_THAT(answer("complete", "print(wo"), testing::HasSubstr(R"("text":"work")"));
     EXPECT_THAT(answer("help", "x"), testing::HasSubstr("2"));
     EXPECT_THAT(run(kA + kB + kC), ElementsAre(2)) << "the state is as it was";
