@@ -26,7 +26,7 @@ constexpr std::array kRefused = {
     "judge",       "judged",      "verdict",      "stands",       "stand",         "holds good",   "straight lines",
     "anew",        "afresh",      "besides",      "beforehand",   "hardly",        "likewise",     "by itself",
     "one by one",  "of its own",  "of their own", "of your own",  "of one's own",  "as far as",    "in the place of",
-    "in place of", "in front of", "unless given", "unless told",  "for good",      "colour",       "behaviour",
+    "in place of", "in front of", "unless given", "unless told",  "for good",      "coloured",     "behaviour",
     "neighbour",   "neighbours",  "realisation",  "realisations", "minimises",     "factorisation"};
 
 constexpr std::size_t kLongest = 25;           ///< words in a sentence

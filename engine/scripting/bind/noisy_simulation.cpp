@@ -225,7 +225,7 @@ int frequency_values(Call& call) {
 
 constexpr FunctionEntry kNoisySimulationFunctions[] = {
     {"sim", "simulation", "sim(G, u, Ts, {options}) -> y, v; sim(G, data, {...})",
-     "Simulate a model with noise of its own or of a given SNR", guarded<simulate_with_noise>, kNoiseTables,
+     "Simulate a model with its own noise or noise of a given SNR", guarded<simulate_with_noise>, kNoiseTables,
      kNoiseArguments},
     {"simsd", "simulation", "simsd(G, u, Ts, {options}) -> fig, table; simsd(G, data, {...})",
      "Plot a simulated output with its uncertainty", guarded<simulate_spread>, kSpreadTables, kSpreadArguments},
