@@ -145,13 +145,13 @@ int who(Call& call) {
 }
 
 constexpr FunctionEntry kProgramFunctions[] = {
-    {"require", "program", "require(name) -> value", "runs NAME.lua of the script's folder, once",
+    {"require", "program", "require(name) -> value", "Run NAME.lua in the folder of the script, once",
      guarded<require_file>},
-    {"run", "program", "run(path)", "runs a script at the prompt and keeps its variables", guarded<run_file>},
-    {"who", "program", "who()", "lists the variables", guarded<who>},
-    {"tic", "program", "tic()", "starts the stop watch", guarded<tic>},
-    {"toc", "program", "toc() -> seconds", "time since tic()", guarded<toc>},
-    {"clock", "program", "clock() -> seconds", "time since the script began", guarded<clock>},
+    {"run", "program", "run(path)", "Run a script at the prompt and keep its variables", guarded<run_file>},
+    {"who", "program", "who()", "List the variables", guarded<who>},
+    {"tic", "program", "tic()", "Start the stopwatch", guarded<tic>},
+    {"toc", "program", "toc() -> seconds", "Time since tic()", guarded<toc>},
+    {"clock", "program", "clock() -> seconds", "Time since the start of the script", guarded<clock>},
 };
 
 }  // namespace
