@@ -89,7 +89,7 @@ void add_log_ticks(Axis& axis, double count) {
     for (const std::string_view more : kNumberedDigits)
         if (count_of_digits(axis, digits) < std::min<double>(kFewest, count)) digits = more;
     const int stride = digits.size() > 1 ? 1 : std::max(1, static_cast<int>(std::ceil(decades / std::max(count, 2.0))));
-    const bool plain = first > -3.01 && last < 4.01 && decades < 2.1;
+    const bool plain = first > -3.01 && last < 4.01 && (decades < 2.1 || digits.size() > 1);
     for (int k = static_cast<int>(std::floor(first)); k <= static_cast<int>(std::ceil(last)); ++k) {
         for (int digit = 1; digit <= 9; ++digit) {
             const double value = digit * std::pow(10.0, k);

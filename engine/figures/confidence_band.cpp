@@ -13,7 +13,7 @@ Message confidence_text(double level) {
     return Message("{} % confidence", significant(100 * level, 4));
 }
 
-void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level) {
+void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level, double most) {
     const auto is_band = [](const Curve& curve) { return curve.style == CurveStyle::kBand; };
     const bool first = std::none_of(panel.curves.begin(), panel.curves.end(), is_band);
     const Curve& centre = panel.curves[line];
@@ -23,7 +23,7 @@ void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_widt
     band.colour = centre.colour;
     band.dash = centre.dash;
     const auto width =
-        half_width.array().isFinite().select(half_width.array(), std::numeric_limits<double>::quiet_NaN());
+        (half_width.array() <= most).select(half_width.array(), std::numeric_limits<double>::quiet_NaN());
     band.y = centre.y.array() - width;
     band.y_upper = centre.y.array() + width;
     if (!(band.y.array().isFinite() && band.y_upper.array().isFinite()).any()) return;

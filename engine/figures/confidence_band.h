@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "figures/figure.h"
 #include "figures/named_model.h"
 
@@ -8,8 +10,9 @@ namespace dynlab::inline figures {
 Message confidence_text(double level);
 
 /// Adds the band value +- half width around the curve `line` of a panel, in its colour. The first band of a panel is
-/// named in the legend. Samples without a finite width become gaps.
-void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level);
+/// named in the legend. Samples without a width of at most `most` become gaps: what is not determined is no band.
+void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level,
+                         double most = std::numeric_limits<double>::max());
 
 /// Where the uncertainty is large, the panel shows the bands only as far as they keep its first `lines` curves
 /// readable: half their height, and at least `least_room`, beyond them.

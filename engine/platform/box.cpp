@@ -20,14 +20,15 @@ void append(Words& words, std::initializer_list<std::string> more) {
     words.insert(words.end(), more);
 }
 
+/// run_child begins a session for it; all of the box stays in the group that it leads, and ends with it.
 /// A file system of its own that holds /usr and nothing else of the machine. Whoever calls as root has no more rights
 /// in it than others: with root's, what is mounted to be read could be mounted anew to be written.
 Words bare_box() {
-    Words words = {kBubblewrap,     "--unshare-all", "--die-with-parent",
-                   "--new-session", "--clearenv",    "--cap-drop",
-                   "ALL",           "--ro-bind",     "/usr",
-                   "/usr",          "--proc",        "/proc",
-                   "--dev",         "/dev"};
+    Words words = {kBubblewrap,  "--unshare-all", "--die-with-parent",
+                   "--clearenv", "--cap-drop",    "ALL",
+                   "--ro-bind",  "/usr",          "/usr",
+                   "--proc",     "/proc",         "--dev",
+                   "/dev"};
     for (const char* name : {"lib", "lib32", "lib64", "bin", "sbin"}) {
         const fs::path at_root = fs::path("/") / name;
         if (fs::is_symlink(at_root)) append(words, {"--symlink", fs::read_symlink(at_root).string(), at_root.string()});

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <stdexcept>
 #include <tuple>
 
@@ -16,9 +17,52 @@
 namespace dynlab::inline platform {
 namespace {
 
+constexpr char kBoxProgram[] = "bwrap";
+
+/// A process that outlives this program by a moment, to kill the groups that run then. `changes` has the leader of each
+/// that begins, and minus the leader of each that has ended.
+[[noreturn]] void survive(int changes) {
+    constexpr int kMost = 1024;
+    static pid_t groups[kMost] = {};
+    ::setsid();
+    if (changes > 0) ::close_range(0, static_cast<unsigned>(changes) - 1, 0);
+    ::close_range(static_cast<unsigned>(changes) + 1, ~0U, 0);
+    pid_t change = 0;
+    while (retry_interrupted([&] { return ::read(changes, &change, sizeof change); }) == sizeof change)
+        if (pid_t* const place = std::find(groups, groups + kMost, std::max(-change, 0)); place != groups + kMost)
+            *place = std::max(change, 0);
+    for (const pid_t group : groups)
+        if (group > 0) ::kill(-group, SIGKILL);
+    ::_exit(0);
+}
+
+/// bubblewrap binds its inner process to the outer one late: where the outer one is killed before, as it is when this
+/// program is, the inner one stays for ever. So somebody has to kill the whole group. Gives what survive() reads.
+int changes_of_boxes() {
+    static const Pipe changes = [] {
+        Pipe pipe;
+        if (::fork() == 0) survive(pipe.read_end.get());
+        ::fcntl(pipe.write_end.get(), F_SETFL, O_NONBLOCK);  // whatever happens to the other
+        return pipe;
+    }();
+    return changes.write_end.get();
+}
+
+void tell_change(int changes, pid_t change) {
+    write_all(changes, reinterpret_cast<const char*>(&change), sizeof change);
+}
+
+struct EndOfBox {
+    pid_t leader = 0;  ///< 0: it was no box
+    ~EndOfBox() {
+        if (leader > 0) tell_change(changes_of_boxes(), -leader);
+    }
+};
+
 /// Everything exec needs, made before the fork: between fork and exec only async-signal-safe calls are allowed.
 struct Launch {
     std::string program, folder;
+    int changes = -1;  ///< of a box, to be told of it; it has a session of its own, so that it has no terminal
     std::vector<std::string> arguments, environment;
     std::vector<char*> argument_pointers, environment_pointers;
     std::optional<std::chrono::milliseconds> processor_time;
@@ -68,6 +112,7 @@ Launch prepare_launch(const ChildOptions& options, const std::string& package) {
     Launch launch;
     launch.program = program_file(options.command.front(), package);
     launch.folder = options.folder.string();
+    if (options.command.front() == kBoxProgram) launch.changes = changes_of_boxes();
     launch.arguments = options.command;
     launch.environment = merged_environment(options.environment);
     launch.argument_pointers = pointers_to(launch.arguments);
@@ -84,7 +129,9 @@ Launch prepare_launch(const ChildOptions& options, const std::string& package) {
 
 /// Runs in the child. On failure errno goes up the `failure` pipe, which a successful exec closes.
 [[noreturn]] void become_program(const Launch& launch, pid_t parent, int output, int error_output, int failure) {
+    if (launch.changes >= 0) ::setsid();
     if (!become_group_leader(parent)) ::_exit(127);
+    if (launch.changes >= 0) tell_change(launch.changes, ::getpid());
     const bool ready = ::dup2(launch.input.get(), STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
                        ::dup2(error_output, STDERR_FILENO) >= 0 &&
                        (launch.folder.empty() || ::chdir(launch.folder.c_str()) == 0);
@@ -110,13 +157,15 @@ std::unique_ptr<ProcessGroup> start(const ChildOptions& options, const std::stri
     if (child == 0) {
         become_program(launch, parent, output.write_end.get(), error_output.write_end.get(), failure.write_end.get());
     }
+    failure.write_end.close();
+    int reason = 0;
+    const ssize_t failed = retry_interrupted([&] { return ::read(failure.read_end.get(), &reason, sizeof reason); });
+    // Once exec is done or has failed: who leads a group already cannot begin a session.
     auto group = std::make_unique<ProcessGroup>(
         child, std::move(output.read_end), std::move(error_output.read_end),
         ProcessGroup::Limits{options.timeout, options.processor_time, options.output_bytes, options.give_up,
                              options.heeds_interrupt});
-    failure.write_end.close();
-    int reason = 0;
-    if (retry_interrupted([&] { return ::read(failure.read_end.get(), &reason, sizeof reason); }) > 0) {
+    if (failed > 0) {
         if (launch.folder.empty()) throw EnvironmentError("cannot start {}: {}", launch.program, system_reason(reason));
         throw EnvironmentError("cannot start {}: {} (in {})", launch.program, system_reason(reason), launch.folder);
     }
@@ -134,7 +183,9 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 }
 
 ChildResult run_child(const ChildOptions& options, const std::string& package) {
-    return start(options, package)->wait();
+    const auto group = start(options, package);
+    const EndOfBox end{options.command.front() == kBoxProgram ? group->leader() : 0};
+    return group->wait();
 }
 
 struct ChildProcess::State {

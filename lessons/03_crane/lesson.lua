@@ -628,7 +628,7 @@ local friction = grey_box(variant(linear, {dry = 0.1}), {"gain", "viscous", "dry
 local wide = grey_box(variant(linear, {}), {"gain", "viscous", "coupling", "length", "pivot", "air"}, true)
 local physical = grey_box(variant(friction, {}), {"gain", "viscous", "dry", "coupling", "length", "pivot", "air"}, true)
 
-local nonlinear_rows = {{say("model", "modèle"), say("parameters", "paramètres"), "$x$ (%)", "$\\theta$ (%)", say("$\\theta$ left (mrad)", "reste $\\theta$ (mrad)"),
+local nonlinear_rows = {{say("model", "modèle"), say("parameters", "paramètres"), "$x$ (%)", "$\\theta$ (%)", say("error of $\\theta$ (mrad)", "erreur de $\\theta$ (mrad)"),
                          "steps $x$ (%)", "steps $\\theta$ (%)"}}
 local left_in_angle = {}
 for k, case in ipairs{{linear, false, 5, say("linear", "linéaire")}, {friction, false, 6, say("+ dry friction", "+ frottement sec")},

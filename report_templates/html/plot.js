@@ -5,6 +5,7 @@ const dynlabPlots = (() => {
   const { Panel, Painter, clamp } = dynlabDrawing;
   const { tr, text } = dynlabWords;
   const WORDS = { whole: tr("Whole figure"), kind: tr("interactive figure"), curve: tr("Show or hide: {}"), handle: tr("handle, moved by arrows"),
+                  copy: tr("Copy"), copied: tr("Copied"), stored: tr("Saved"),
                   help: tr("Arrows: read off; + and −: zoom; Shift and arrows: move; 0: whole figure; Esc: end") };
   const say = (key, ...values) => text(WORDS[key], ...values);
 
@@ -173,8 +174,46 @@ const dynlabPlots = (() => {
       this.whole.hidden = this.reading.hidden = true;
       this.whole.onclick = () => { this.reset(); this.box.focus({ preventScroll: true }); };
       this.data = dynlabTables.button(this.box, () => this.readable, this.comma);
-      this.box.append(this.canvas, this.over, this.reading, this.whole, this.data);
+      const tools = element("div", "plot-tools");
+      tools.append(this.data, this.copies());
+      this.box.append(this.canvas, this.over, this.reading, this.whole, tools);
       this.furnish();
+    }
+    /// What can be copied of the figure as it is shown now.
+    copies() {
+      const box = Object.assign(document.createElement("details"), { className: "copies" }), head = document.createElement("summary");
+      head.textContent = say("copy");
+      const button = (word, act) => {
+        const made = Object.assign(document.createElement("button"), { type: "button", textContent: word });
+        made.onclick = async () => {
+          made.textContent = say(await act());
+          setTimeout(() => { made.textContent = word; box.open = false; }, 1200);
+        };
+        return made;
+      };
+      const text = (content) => async () => { await dynlabTables.copy(content()); return "copied"; };
+      box.append(head, button("SVG", text(() => dynlabCopies.svg(this))), button("PNG", () => this.copyPicture()),
+                 button("CSV", text(() => dynlabTables.allAsCsv(this.readable))), button("Lua", text(() => dynlabCopies.lua(this))));
+      box.addEventListener("keydown", (event) => {
+        if (event.key !== "Escape" || !box.open) return;
+        box.open = false;
+        head.focus();
+        event.stopPropagation();
+      });
+      return box;
+    }
+    /// Where no picture may be put on the clipboard, it is saved as a file.
+    async copyPicture() {
+      const picture = dynlabCopies.png(this);
+      try {
+        await navigator.clipboard.write([new ClipboardItem({ "image/png": picture })]);
+        return "copied";
+      } catch {
+        const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(await picture), download: "figure.png" });
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+        return "stored";
+      }
     }
     /// The room that the figure takes, as the picture's own.
     shape() {
@@ -226,6 +265,31 @@ const dynlabPlots = (() => {
       this.drawCursor();
       this.motion?.refresh();
       this.box.dispatchEvent(new Event("drawn"));
+    }
+    /// What the abscissa of a panel is; the name stands below the last panel of a column alone.
+    abscissa(panel) { return (this.partners(panel).find((part) => part.x.name) ?? panel).x; }
+    /// The other figures of the page over the same quantity show the same place: `at` is {name, measure, value} or null.
+    link(at) {
+      for (const other of plots) if (other !== this) other.follow(at);
+    }
+    follow(at) {
+      if (this.linked === at || !this.linked && !at) return;
+      this.linked = at;
+      if (this.unit && !this.cursor) this.drawCursor();
+    }
+    drawLinked(painter) {
+      const { name, measure, value } = this.linked;
+      painter.stroke(painter.colours.line, 0.5);
+      for (const panel of this.readable) {
+        const axis = this.abscissa(panel), [at] = panel.place(value, panel.y.low);
+        if (!name || axis.name !== name || axis.measure !== measure || !(at >= panel.left && at <= panel.right)) continue;
+        painter.segment(at, panel.bottom, at, panel.top);
+        for (const curve of panel.curves) {
+          if (!curve.shown || !curve.isFunction || !curve.covers(value)) continue;
+          const read = curve.at(value), [x, y] = read === null ? [NaN, NaN] : panel.place(value, read);
+          if (panel.holds(x, y)) painter.marker(x, y, 7, 0.4, 0.6, painter.colours.of(curve.colour));
+        }
+      }
     }
     /// An instant that is shown elsewhere, as a line through the panels over time.
     showMoment(instant) {
@@ -287,7 +351,7 @@ const dynlabPlots = (() => {
       on("focusout", (event) => { if (!this.box.contains(event.relatedTarget)) this.setCursor(null); });
     }
     down(event) {
-      if (event.target.closest("button") || event.button !== 0) return;
+      if (event.target.closest("button, details") || event.button !== 0) return;
       const at = this.place(event), [panel, only] = this.panelAt(at);
       if (!panel) return;
       this.box.focus({ preventScroll: true });
@@ -379,6 +443,7 @@ const dynlabPlots = (() => {
     setCursor(cursor, byKeys = false) {
       this.cursor = cursor;
       this.byKeys = byKeys && cursor !== null;
+      if (!cursor) this.link(null);
       this.reading.setAttribute("aria-live", byKeys ? "polite" : "off");
       this.drawCursor();
     }
@@ -390,8 +455,8 @@ const dynlabPlots = (() => {
       if (!guide) return this.nearestPoint();
       let value = panel.x.value((x - panel.left) / panel.width);
       if (guide.covers(value)) value = guide.x[guide.nearest(value, false)];
-      const named = this.partners(panel).find((part) => part.x.name) ?? panel;
-      lines.push({ name: named.x.name || "x", text: named.x.text(value, this.comma) });
+      const axis = this.abscissa(panel);
+      lines.push({ name: axis.name || "x", text: axis.text(value, this.comma, guide.countsWhole) });
       for (const part of this.partners(panel).filter((one) => !one.picture))
         for (const curve of part.curves) {
           if (!curve.shown || !curve.isFunction || !curve.covers(value)) continue;
@@ -416,7 +481,7 @@ const dynlabPlots = (() => {
         });
       const [a, b] = best ? [best.x, best.y]
         : [panel.x.value((x - panel.left) / panel.width), panel.y.value((y - panel.bottom) / panel.height)];
-      const lines = [{ name: panel.x.name || "x", text: panel.x.text(a, this.comma) },
+      const lines = [{ name: panel.x.name || "x", text: panel.x.text(a, this.comma, best?.curve.countsWhole) },
                      { name: panel.y.name || "y", text: panel.y.text(b, this.comma) }];
       if (best?.curve.label) lines.unshift({ name: best.curve.label, text: "", colour: best.colour });
       return { lines, places: best ? [best] : [], value: null };
@@ -442,8 +507,10 @@ const dynlabPlots = (() => {
                            Math.abs(to[0] - from[0]) * this.unit, Math.abs(to[1] - from[1]) * this.unit);
       }
       this.reading.hidden = !this.cursor || boxed;
+      if (!this.cursor && this.linked && !boxed) this.drawLinked(painter);
       if (!this.cursor || boxed) return;
       const { panel, x, y } = this.cursor, { lines, places, value } = this.readings();
+      if (value !== null) this.link({ name: this.abscissa(panel).name, measure: this.abscissa(panel).measure, value });
       painter.stroke(painter.colours.line, 0.5);
       for (const part of value === null ? [panel] : this.partners(panel)) {
         const at = value === null ? x : clamp(part.place(value, part.y.low)[0], part.left, part.right);

@@ -54,20 +54,22 @@ const dynlabDrawing = (() => {
     }
     decadeMarks(decades, count) {
       const ticks = [], minor = [], every = Math.ceil(decades / count), numbered = decades < 1.5 ? [1, 2, 5] : [1];
+      const plain = this.low > 1e-3 && this.high < 1e4 && decades < 2.1;
       for (let k = Math.floor(Math.log10(this.low)); k <= Math.log10(this.high); ++k)
         for (let digit = 1; digit < 10; ++digit) {
           const value = digit * 10 ** k;
           if (value < this.low || value > this.high) continue;
           if (!numbered.includes(digit) || k % every !== 0) minor.push(value);
-          else ticks.push([value, digit === 1 ? ["=10", "^" + k] : [`=${digit}·10`, "^" + k]]);
+          else ticks.push([value, plain ? value.toFixed(Math.max(0, -k)) : digit === 1 ? ["=10", "^" + k] : [`=${digit}·10`, "^" + k]]);
         }
       return { ticks, minor, exponent: 0 };
     }
-    /// A value with as many digits as one sees.
-    text(value, comma) {
+    /// A value with as many digits as one sees, a whole one without any where `whole` is true.
+    text(value, comma, whole = false) {
       const span = this.log ? Math.abs(value) : this.high - this.low;
       const large = Math.abs(value) >= 1e6 || span < 1e-6;
       let text = large ? value.toExponential(3) : value.toFixed(this.decimals(span / 2000));
+      if (whole && !large && Number.isInteger(value)) text = String(value);
       text = text.replace(/-/g, "−");
       return (comma ? text.replace(".", ",") : text) + (this.measure ? " " + this.measure : "");
     }
@@ -96,6 +98,8 @@ const dynlabDrawing = (() => {
       if (this.x[high] <= x) return high;
       return holds || x - this.x[low] < this.x[high] - x ? low : high;
     }
+    /// Years, numbers of samples.
+    get countsWhole() { return this.whole ??= this.x.every((x) => x === null || Number.isInteger(x)); }
     covers(x) { return this.x.length > 0 && x >= this.x[0] && x <= this.x[this.x.length - 1]; }
     at(x, values = this.y) {
       const i = this.nearest(x), k = this.x[i] < x ? i + 1 : i - 1;

@@ -123,5 +123,6 @@ const dynlabTables = (() => {
     };
     return button;
   }
-  return { button, copyButton };
+  const allAsCsv = (panels) => tables(panels).map(csv).join("\n");
+  return { button, copyButton, copy, allAsCsv };
 })();

@@ -64,7 +64,7 @@ const dynlabSliders = (() => {
       input.type = "range";
       input.id = "slider-" + slider.name;
       label.htmlFor = input.id;
-      label.textContent = slider.label;
+      dynlabWords.typeset(label, slider.label);
       back.textContent = text(tr("as in the script"));
       Object.assign(input, { min: 0, max: slider.values.length - 1, step: 1 });
       const tell = () => {

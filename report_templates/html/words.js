@@ -31,5 +31,19 @@ const dynlabWords = (() => {
   /// A number that is written with a point, as the language writes it.
   const number = (written) => written.replace(".", dynlabCatalogs[language()]?.decimalSign ?? ".");
 
-  return { tr, trIn, trPlural, languages, languageOf, language, text, textIn, number };
+  /// A text into an element, "T_s" and "s^{2}" with what is lowered and raised.
+  function typeset(node, written) {
+    node.replaceChildren();
+    let end = 0;
+    for (const found of written.matchAll(/(?<![\p{L}\d_])(\p{L})([_^])(?:\{([^}]*)\}|([\p{L}\d]+))/gu)) {
+      const [all, base, way, inBraces, plain] = found;
+      const part = document.createElement(way === "_" ? "sub" : "sup");
+      part.textContent = inBraces ?? plain;
+      node.append(written.slice(end, found.index) + base, part);
+      end = found.index + all.length;
+    }
+    node.append(written.slice(end));
+  }
+
+  return { typeset, tr, trIn, trPlural, languages, languageOf, language, text, textIn, number };
 })();

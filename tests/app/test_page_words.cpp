@@ -79,7 +79,7 @@ std::set<std::string> keys_shown(const std::string& text) {
 
 /// The pages whose words stand in page_words.js: of live documents, and of a prompt's figures.
 const std::vector<std::string> kPreview = {"index.html", "page.js",    "editor.js", "drafts.js", "findings.js",
-                                           "hand_in.js", "sliders.js", "view.html", "view.js"};
+                                           "hand_in.js", "sliders.js", "view.html", "view.js",   "text_cells.js"};
 
 std::vector<std::string> workbench_files() {
     std::vector<std::string> files = {"workbench.html", "workbench.js"};
@@ -158,6 +158,18 @@ std::set<std::string> all_found(const std::string& text, const std::string& patt
     std::set<std::string> found;
     for (std::sregex_iterator one(text.begin(), text.end(), wanted), end; one != end; ++one) found.insert((*one)[1]);
     return found;
+}
+
+/// A page does not know whether a server or a worker answers. Oracle: the functions with which browsers ask servers.
+TEST(page_words, one_file_of_the_document_s_page_speaks_to_the_server) {
+    static const std::regex asks(R"(\b(fetch|EventSource|XMLHttpRequest|WebSocket|order)\()");
+    for (const PageFile& file : page_files()) {
+        const bool of_workbench = file.name.starts_with("bench_") || file.name == "workbench.js";
+        if (!file.name.ends_with(".js") || of_workbench || file.name == "orders.js" || file.name == "session.js")
+            continue;
+        EXPECT_FALSE(std::regex_search(code_of(std::string(file.name)), asks)) << file.name;
+    }
+    EXPECT_TRUE(std::regex_search(code_of("session.js"), asks));
 }
 
 /// The editor's own words are looked up by their English. Oracle: the sources of CodeMirror that our pages load.

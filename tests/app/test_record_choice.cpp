@@ -46,6 +46,19 @@ TEST_F(record_choice, orders_that_are_no_records_are_refused) {
     std::filesystem::current_path(before);
 }
 
+/// All that sounds like a channel is one, but for those of another experiment in the same file.
+TEST_F(record_choice, all_channels_of_one_experiment_are_offered) {
+    const auto channels = [&](const std::string& head) {
+        write("plant.csv", "# Ts: 0.1\n" + head + "\n1,2,5,3,4,6\n0,3,4,7,5,3\n1,2,6,4,8,4\n");
+        const RecordOrder order = suggested_order(look_at_record(file("plant.csv").string(), false));
+        return std::pair(order.inputs, order.outputs);
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(channels("voltage,theta,x,note,speed,y2"),
+              std::pair(Names{"voltage"}, Names({"theta", "x", "speed", "y2"})));
+    EXPECT_EQ(channels("u,y,u_val,y_val,u_high,y_high"), std::pair(Names{"u"}, Names{"y"}));
+}
+
 /// Experiments in structs; a record again in place of itself, another behind it.
 TEST_F(record_choice, a_record_takes_the_place_of_itself) {
     const RecordOrder order{"crane", {"estimation.u"},       {"estimation.theta", "estimation.x"}, "estimation.t", 0,

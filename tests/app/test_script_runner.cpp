@@ -70,6 +70,44 @@ TEST_F(script_runner, runs_only_from_the_first_change_on) {
     EXPECT_EQ(printed("c"), "30\n");
 }
 
+/// What somebody asks while he types is answered from the state behind the last part, and changes nothing.
+TEST_F(script_runner, questions_are_answered_from_the_state_that_the_script_left) {
+    const auto answer = [&](const std::string& question, const std::string& text) {
+        RunOrder order;
+        order.question = question, order.text = text;
+        return runner.ask(order);
+    };
+    EXPECT_EQ(answer("variables", ""), "[]");
+    run(kA + kB);
+    EXPECT_THAT(answer("variables", ""), testing::HasSubstr(R"("name":"x","size":"","text":"2")"));
+    EXPECT_THAT(answer("complete", "print(wo"), testing::HasSubstr(R"("text":"work")"));
+    EXPECT_THAT(answer("help", "x"), testing::HasSubstr("2"));
+    EXPECT_THAT(run(kA + kB + kC), ElementsAre(2)) << "the state is as it was";
+    order(kA + "-- %% id=b\nx = 5\nwhile true do end\n");
+    while (runner.running() && runner.next().kind != "split") {
+    }
+    EXPECT_THAT(answer("variables", ""), testing::HasSubstr("\"x\"")) << "while a part runs, from the state before";
+    runner.stop();
+}
+
+TEST_F(script_runner, a_run_ends_with_the_cell_that_was_asked_for_or_begins_with_it_again) {
+    ReportRequest request;
+    request.script = script(kA + kB + kC);
+    const auto ran = [&](const ScriptRunner::RunExtent& extent) {
+        std::vector<std::size_t> parts;
+        runner.run(request, folder.path(), {}, extent);
+        while (runner.running())
+            if (const RunnerNews news = runner.next(); news.kind == "begun") parts.push_back(news.part);
+        return parts;
+    };
+    EXPECT_THAT(ran({.again = "", .until = "b"}), ElementsAre(0, 1));
+    EXPECT_FALSE(runner.finished());
+    EXPECT_THAT(ran({.again = "", .until = "a"}), ElementsAre()) << "it has run";
+    EXPECT_THAT(ran({}), ElementsAre(2));
+    EXPECT_TRUE(runner.finished());
+    EXPECT_THAT(ran({.again = "b", .until = ""}), ElementsAre(1, 2));
+}
+
 TEST_F(script_runner, text_alone_runs_nothing) {
     run(kA + kB);
     EXPECT_THAT(run("-- %% [markdown]\n-- Text.\n\n" + kA + kB), ElementsAre());

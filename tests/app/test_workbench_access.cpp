@@ -173,7 +173,7 @@ TEST_F(workbench_access, help_is_formatted_and_its_text_is_no_markup) {
         EXPECT_EQ(
             browser.evaluate("return ['h3', 'p', 'table'].map((kind) => document.querySelectorAll('#help-text ' + "
                              "kind).length > 0)"),
-            name == std::string("advice") ? "[true,true,true]" : "[true,true,false]");
+            name == std::string("tfsrivc") ? "[true,true,false]" : "[true,true,true]");
         browser.evaluate("document.getElementById('page-of-help').close()");
     }
     EXPECT_EQ(browser.evaluate(

@@ -125,7 +125,7 @@ TEST_F(workbench_hands, what_is_typed_in_one_go_is_one_step_of_the_history) {
 /// A field is made anew with each of its keys.
 TEST_F(workbench_hands, what_is_typed_into_a_field_is_one_step_until_something_else_is_done) {
     ASSERT_TRUE(press(browser, "New model"));
-    ASSERT_TRUE(file_comes({"tfsrivc(estimation, 2, 0)"}));
+    ASSERT_TRUE(script_has(browser, "tfsrivc(estimation, 2, 0)")) << "the page, too, whose field is typed into";
     ASSERT_TRUE(is_ready(browser));
     const auto type = [&](const std::string& name, const std::string& value) {
         evaluate(

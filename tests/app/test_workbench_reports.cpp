@@ -61,7 +61,7 @@ TEST_F(workbench_reports, the_crane_is_identified_by_clicks_with_both_outputs_an
     ASSERT_TRUE(script_has(browser, "validation = second1"));
     ASSERT_TRUE(is_ready(browser));
     ASSERT_TRUE(press(browser, "New model"));
-    ASSERT_TRUE(script_has(browser, "G1 = tfsrivc(estimation, 2, 0)"));
+    ASSERT_TRUE(script_has(browser, "G1 = tfsrivc(estimation, 3, 1, {TdMax = 0})"));
     ASSERT_TRUE(view_comes(browser, "compare"));
     ASSERT_TRUE(is_ready(browser));
     ASSERT_TRUE(press(browser, "Report (PDF)"));

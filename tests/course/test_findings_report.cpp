@@ -41,6 +41,16 @@ TEST(findings_report, rules_come_before_hints_with_place_and_remedy) {
                   "\n  language-mixed\n    page 2: A hint.\n    -> Look at it.\n");
 }
 
+/// The page of a document counts so, too (app/page/findings.js).
+TEST(findings_report, answers_and_checks_of_the_lesson_are_counted_by_themselves) {
+    CheckResult result = some_result();
+    result.findings.push_back({"answer-missing", Severity::kRule, 0, "", Message("Missing."), Message("Give it.")});
+    result.findings.push_back({"check-failed", Severity::kHint, 0, "", Message("Lost."), Message("Look.")});
+    const std::string words = findings_in_words(result, false);
+    for (const char* const title : {"Answers open (1)", "Rules broken (3)", "Hints (1)", "Checks of the lesson (1)"})
+        EXPECT_THAT(words, HasSubstr(std::string("\n") + title + "\n"));
+}
+
 TEST(findings_report, hints_alone_say_that_no_rule_is_broken) {
     CheckResult result = some_result();
     result.findings.erase(result.findings.begin(), result.findings.begin() + 3);

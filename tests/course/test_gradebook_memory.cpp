@@ -263,8 +263,8 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     const std::string book = work.read("out/gradebook.csv");
     const std::string reason =
-        "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 % "
-        "of the points";
+        "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; 10 % of the points are "
+        "taken off for each day or part of a day";
     EXPECT_THAT(book, HasSubstr("1,Anna Müller,group-1,graded,1.8,2,0.2,0.33,2,\"" + reason + "\"\r\n"));
     EXPECT_THAT(book, HasSubstr("2,Zoë Ade,group-2,graded,2,2,0,0,2,\r\n"));
     EXPECT_THAT(book, HasSubstr("3,Ben Lee,Ben Lee,graded,2,2,0,0,2,\r\n"));

@@ -9,6 +9,7 @@
 namespace dynlab::test {
 namespace test_hand_in_names {
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -294,6 +295,36 @@ TEST(hand_in_names, a_course_takes_files_by_the_same_names) {
     EXPECT_THAT(bench.course({"status", "crane"}).output, HasSubstr("Not taken: report.pdf, Sun 2026-03-01 10:00: "));
     EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("all there and unaltered"));
     EXPECT_THAT(taken.output + taken.error_output, Not(HasSubstr("01-times")));
+}
+
+// oracle: Moodle's worksheet, which names the participants of a blind export
+TEST(hand_in_names, a_worksheet_says_whose_a_participant_s_number_is) {
+    CourseBench work(3);
+    work.bench().write("all/Participant_9003_assignsubmission_file_/report.pdf", small_pdf("blind"));
+    work.bench().write("sheet.csv",
+                       "Identifier,Full name,Grade,Maximum Grade,Last modified (submission)\nParticipant 9003,Student "
+                       "3,,10,\"Sunday, 1 March 2026, 9:00 AM\"\nParticipant 9001,Student 1,,10,-\n");
+    const ChildResult blind = work.course({"submit", "all", "--at", "2026-03-01 10:00", "--no-checks"});
+    EXPECT_EQ(blind.exit_code, 1);
+    EXPECT_THAT(blind.error_output, HasSubstr("say whose it is"));
+    const ChildResult told =
+        work.course({"submit", "all", "--at", "2026-03-01 10:00", "--no-checks", "--times", "sheet.csv"});
+    EXPECT_EQ(told.exit_code, 0) << told.error_output;
+    EXPECT_THAT(told.output, HasSubstr("group-03"));
+}
+
+// oracle: membership when the first version came; who moves later stays its author
+TEST(hand_in_names, a_final_version_is_of_the_group_of_the_first_one) {
+    CourseBench bench(3);
+    CourseBench::expect_done(bench.hand_in("group-01.pdf", small_pdf("first"), "2026-02-27 12:00", {"--no-checks"}));
+    bench.bench().write("moved.csv", "id,name,group\ns1,Student 1,group-02\n");
+    CourseBench::expect_done(bench.course({"import", "moved.csv"}));
+    bench.bench().write("final/Student 1.pdf", small_pdf("of both"));
+    bench.bench().write("final/Student 2.pdf", small_pdf("of the other"));
+    const ChildResult final =
+        bench.course({"submit", "final", "--stage", "final", "--at", "2026-03-14 12:00", "--no-checks"});
+    EXPECT_EQ(final.exit_code, 0) << final.error_output;
+    EXPECT_THAT(final.output, AllOf(HasSubstr("2 files taken"), HasSubstr("group-01"), HasSubstr("group-02")));
 }
 
 }  // namespace test_hand_in_names

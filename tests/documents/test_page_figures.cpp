@@ -209,6 +209,62 @@ TEST_F(page_figures, the_wheel_scrolls_the_page_until_the_figure_is_chosen) {
     EXPECT_LT(value("panel.x.high - panel.x.low").get<double>(), 9);
 }
 
+/// Years are no measurements. Oracle: the samples.
+TEST_F(page_figures, whole_abscissas_are_read_without_decimals) {
+    Figure figure = ramps();
+    for (Curve& curve : figure.panels[0].curves) curve.x = Vector::LinSpaced(1001, 1000, 2000);
+    figure.panels[0].x_range = {1000, 2000}, figure.panels[0].x_label = Message("year");
+    make(figure);
+    open();
+    mouse({move(at(0.956, 0.5))});
+    EXPECT_THAT(reading(), testing::MatchesRegex("year: 195[0-9]\n.*"));
+}
+
+/// Oracles: an XML reader that browsers have, and the samples.
+TEST_F(page_figures, what_is_shown_can_be_copied_as_a_drawing_and_as_numbers) {
+    make(ramps());
+    open();
+    browser.click(".entry");  // a hidden curve is not copied
+    browser.evaluate(
+        "window.drawing = new DOMParser().parseFromString(dynlabCopies.svg(plot), 'image/svg+xml').documentElement");
+    EXPECT_EQ(value("drawing.tagName"), "svg") << value("drawing.textContent");
+    EXPECT_EQ(value("[...drawing.querySelectorAll('text')].filter(t => /output|time/.test(t.textContent)).length"), 2);
+    EXPECT_EQ(value("[...drawing.querySelectorAll('path')].filter(p => p.getAttribute('stroke') === "
+                    "plot.panels[0].curves[1].colour && p.getAttribute('d').split('L').length > 100).length"),
+              1);
+    EXPECT_EQ(value("[...drawing.querySelectorAll('path')].filter(p => p.getAttribute('stroke') === "
+                    "plot.panels[0].curves[0].colour && p.getAttribute('d').split('L').length > 100).length"),
+              0);
+    const std::string csv = value("dynlabTables.allAsCsv(plot.readable)");
+    EXPECT_THAT(csv, HasSubstr("time (s),up <b>ramp</b>: output (V),down: output (V)\n"));
+    EXPECT_THAT(csv, HasSubstr("\n5,10,10\n"));
+}
+
+/// Two figures over the same time show one place; one over another quantity does not.
+TEST_F(page_figures, cursors_of_figures_over_the_same_quantity_are_linked) {
+    make(ramps());
+    open();
+    browser.evaluate(
+        "const other = JSON.parse(document.querySelector('script.plot-data').textContent); const holder = "
+        "document.createElement('div'); document.body.append(holder); window.same = dynlabPlots.show(holder, other, "
+        "'same'); const third = JSON.parse(JSON.stringify(other)); third.panels[0].x.label = 'frequency (Hz)'; "
+        "window.another = dynlabPlots.show(holder, third, 'another')");
+    ASSERT_TRUE(browser.comes("same.unit > 0 && another.unit > 0"));
+    const auto drawn = [&](const std::string& plot) {
+        return value(
+            "(p => p.over.getContext('2d').getImageData(0, 0, p.over.width, p.over.height).data.some(x => x > "
+            "0))(" +
+            plot + ")");
+    };
+    EXPECT_EQ(drawn("same"), false);
+    mouse({move(at(0.3, 0.5))});
+    EXPECT_EQ(drawn("same"), true);
+    EXPECT_EQ(drawn("another"), false);
+    EXPECT_NEAR(value("same.linked.value"), 3, 0.03);
+    mouse({move({5, 5})});
+    EXPECT_EQ(drawn("same"), false);
+}
+
 TEST_F(page_figures, the_keyboard_alone_reads_zooms_moves_and_resets) {
     make(ramps());
     open();

@@ -130,21 +130,22 @@ TEST(help, numbered_items_and_formulas_keep_their_lines) {
 TEST(help, leads_on_from_toolboxes_methods_and_lua) {
     const auto all = functions();
     EXPECT_THAT(help_text("tfest", all),
-                AllOf(HasSubstr("tfest is a word of other programs; here: write tfsrivc"), HasSubstr("\n  tfsrivc  ")));
+                AllOf(HasSubstr("tfest is a name of another program: write tfsrivc"), HasSubstr("\n  tfsrivc  ")));
     EXPECT_THAT(help_text("CARX", all), AllOf(HasSubstr("\n  lssvf  "), HasSubstr("\n  ivsvf  ")));
     EXPECT_THAT(help_text("CBJ", all), HasSubstr("\n  rivc  "));
     EXPECT_EQ(help_text("COE", all), help_text("coe", all));
     EXPECT_THAT(help_text("legend", all), HasSubstr("name the curves: plot(x1"));
     for (const char* name : {"procest", "ssest", "polyest", "idpoly", "disp", "fprintf", "roots"})
-        EXPECT_THAT(help_text(name, all), HasSubstr("is a word of other programs; here: ")) << name;
-    EXPECT_THAT(help_text("iddata.split", all), StartsWith("data:split(0.6) (two parts)\n"));
-    EXPECT_THAT(help_text("data:shift", all), StartsWith("data:shift(n) (input delayed by n samples)\n"));
-    EXPECT_THAT(help_text("fig.add", all), StartsWith("fig:add(x, y, {label =, style =, ...}) (a curve)\n"));
-    EXPECT_THAT(help_text("pairs", all), AllOf(HasSubstr("belongs to Lua itself"), HasSubstr("Tables\n------")));
+        EXPECT_THAT(help_text(name, all), HasSubstr("is a name of another program: ")) << name;
+    EXPECT_THAT(help_text("iddata.split", all),
+                StartsWith("data:split(0.6): two data objects, the first 60 % and the rest\n"));
+    EXPECT_THAT(help_text("data:shift", all), StartsWith("data:shift(n): input delayed by n samples\n"));
+    EXPECT_THAT(help_text("fig.add", all), StartsWith("fig:add(x, y, {label =, style =, ...}): adds a curve\n"));
+    EXPECT_THAT(help_text("pairs", all), AllOf(HasSubstr("is part of Lua"), HasSubstr("Tables\n------")));
     EXPECT_THAT(help_text("pcall", all), HasSubstr("local ok, message = pcall("));
     EXPECT_THAT(help_text("string.format", all), HasSubstr("%.1f"));
     EXPECT_THAT(help_text("for", all), HasSubstr("for k = 1, 3 do"));
-    EXPECT_THAT(help_text("math", all), HasSubstr("belongs to Lua itself"));
+    EXPECT_THAT(help_text("math", all), HasSubstr("is part of Lua"));
 }
 
 TEST(help, finds_pages_by_words) {
@@ -153,7 +154,8 @@ TEST(help, finds_pages_by_words) {
     const std::string delay = help_search("delay", all);
     EXPECT_LT(delay.find("delayest"), delay.find("tfsrivc"));  // names come before pages
     for (const char* word : {"report", "cells", "noise", "csv", "colour", "Young"})
-        EXPECT_THAT(help_text(word, all), AllOf(HasSubstr("these speak of it:\n\n  "), HasSubstr("help NAME"))) << word;
+        EXPECT_THAT(help_text(word, all), AllOf(HasSubstr("These pages contain it:\n\n  "), HasSubstr("help NAME")))
+            << word;
     EXPECT_THAT(help_text("cells", all), HasSubstr("guide-report"));
     EXPECT_THAT(help_text("colour", all), HasSubstr("\n  plot  "));
     for (const char* words : {"prediction interval", "interval prediction"})

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "platform/temporary_folder.h"
 #include "script_run.h"
@@ -55,9 +56,24 @@ TEST_P(reference_pages, has_the_form_of_a_page) {
             << "a page that is neither a function's nor a known subject";
         return;
     }
-    for (const char* section : {"## Arguments", "## Returns", "## Errors", "## Example"}) {
-        EXPECT_THAT(text, HasSubstr(std::string("\n") + section + "\n\n"));
+    std::size_t last = 0;
+    for (const char* part : {"Syntax", "Description", "Input Arguments", "Output Arguments", "Errors", "Examples",
+                             "Algorithms", "References", "See Also"}) {
+        const bool optional = std::string_view(part) == "Algorithms" || std::string_view(part) == "References";
+        const std::size_t at = text.find(std::string("\n## ") + part + "\n\n");
+        if (at == std::string::npos && optional) continue;
+        ASSERT_NE(at, std::string::npos) << part;
+        EXPECT_GT(at, last) << part << " is not in its place";
+        last = at;
     }
+    static const std::regex named("`([^`]+)`");
+    int related = 0;
+    for (std::sregex_iterator it(text.begin() + static_cast<long>(last), text.end(), named), end; it != end; ++it) {
+        const std::string name = (*it)[1];
+        EXPECT_TRUE(find_help_page(name) && name != GetParam().name) << name;
+        ++related;
+    }
+    EXPECT_GT(related, 0);
 }
 
 TEST_P(reference_pages, example_runs_and_shows_something) {

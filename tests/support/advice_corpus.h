@@ -316,7 +316,7 @@ inline IdData offset_record(std::uint32_t seed) {
     });
 }
 
-/// Cut out where the output is far from where it would rest.
+/// Cut out where the output is far from where it would rest, and from zero.
 inline IdData running_start_record(std::uint32_t seed) {
     RandomExperiment chance = random_experiment(seed);
     chance.N += 400;
@@ -324,7 +324,7 @@ inline IdData running_start_record(std::uint32_t seed) {
     const Vector x = lsim(chance.G, u, chance.Ts);
     const Vector distance = (x - chance.G.dc_gain() * u).cwiseAbs();
     Index first = 200;
-    while (first < 399 && distance[first] < 1.2 * deviation(x)) ++first;
+    while (first < 399 && (distance[first] < 1.2 * deviation(x) || std::abs(x[first]) < 0.8 * deviation(x))) ++first;
     return record_of(chance, u, x).range(first + 1, chance.N);
 }
 
@@ -358,13 +358,16 @@ inline IdData slow_noise_record(std::uint32_t seed) {
     return IdData(Matrix(x + e), Matrix(u), chance.Ts);
 }
 
-/// An angle within one turn, in degrees or radians.
+/// An angle within one turn, in degrees or radians; its noise is wrapped with it.
 inline IdData wrapped_record(std::uint32_t seed) {
-    return spoilt_record(seed, false, [](RandomExperiment& chance, Vector&, Vector& x) {
-        const double turn = chance.coin() ? 360 : 2 * std::numbers::pi, low = chance.coin() ? 0 : -turn / 2;
-        x *= chance.between(0.6, 1.2) * turn / x.cwiseAbs().maxCoeff();
-        for (double& v : x) v -= turn * std::floor((v - low) / turn);
-    });
+    RandomExperiment chance = random_experiment(seed);
+    const Vector u = chance.coin() ? multisine_input(chance) : prbs_input(chance);
+    Vector x = lsim(chance.G, u, chance.Ts);
+    const double turn = chance.coin() ? 360 : 2 * std::numbers::pi, low = chance.coin() ? 0 : -turn / 2;
+    x *= chance.between(0.6, 1.2) * turn / x.cwiseAbs().maxCoeff();
+    x += noise_of(chance, x);
+    for (double& v : x) v -= turn * std::floor((v - low) / turn);
+    return IdData(Matrix(x), Matrix(u), chance.Ts);
 }
 
 /// The input is logged one sample late.

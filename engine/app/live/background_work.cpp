@@ -9,6 +9,7 @@
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
 #include "platform/program_lookup.h"
+#include "platform/terminal/progress.h"
 
 namespace dynlab::inline app {
 namespace {
@@ -112,6 +113,11 @@ std::string BackgroundWork::findings() {
     return findings_;
 }
 
+std::optional<double> BackgroundWork::checking() {
+    const std::lock_guard lock(mutex_);
+    return checking_;
+}
+
 bool BackgroundWork::pdf_is_ready() {
     const std::lock_guard lock(mutex_);
     return pdf_version_ == version_;
@@ -194,16 +200,32 @@ BackgroundWork::Pdf BackgroundWork::made_pdf(const std::map<std::string, double>
     }
 }
 
-std::string BackgroundWork::made_findings(const std::function<bool()>& give_up) const {
+std::string BackgroundWork::made_findings(const std::function<bool()>& give_up) {
     ChildOptions child;
     child.command = {this_program(), "check", document_, "--json"};
     child.timeout = kLongest;
-    child.give_up = give_up;
+    const fs::path progress = folder_.path() / "check.progress";
+    fs::remove(progress);
+    child.environment = {{kFileOfProgress, progress.string()}};
+    child.give_up = [&] {
+        set_checking(progress_in(progress).value_or(0));
+        return give_up();
+    };
+    std::string found;
     try {
-        return run_child(child, "dynlab").output;
+        found = run_child(child, "dynlab").output;
     } catch (const std::exception&) {  // then there are none to show
-        return {};
     }
+    set_checking({});
+    return found;
+}
+
+void BackgroundWork::set_checking(std::optional<double> done) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (std::exchange(checking_, done) == done) return;
+    }
+    tell_();
 }
 
 }  // namespace dynlab::inline app

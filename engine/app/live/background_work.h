@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -46,6 +47,7 @@ class BackgroundWork {
 
     /// JSON as `dynlab check --json` prints it; empty before it was made, and for a single script.
     std::string findings();
+    std::optional<double> checking();  ///< the part of `dynlab check` that is done, from 0 to 1, while it runs
     bool pdf_is_ready();
 
   private:
@@ -56,7 +58,8 @@ class BackgroundWork {
     Task next_task(Clock::time_point now) const;
     void do_task(Task task, std::unique_lock<std::mutex>& lock);
     Pdf made_pdf(const std::map<std::string, double>& slider_values, const std::function<bool()>& give_up);
-    std::string made_findings(const std::function<bool()>& give_up) const;
+    std::string made_findings(const std::function<bool()>& give_up);
+    void set_checking(std::optional<double> done);
 
     const std::string document_;
     const bool is_folder_;
@@ -69,6 +72,7 @@ class BackgroundWork {
     Clock::time_point change_time_ = Clock::now();
     Pdf pdf_;
     std::string findings_;
+    std::optional<double> checking_;
     int waiting_for_pdf_ = 0;
     bool wanted_ = false, end_ = false;
     std::mutex making_;

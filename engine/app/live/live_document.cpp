@@ -19,6 +19,8 @@ using namespace std::chrono_literals;
 
 /// A file is looked at when it has been left alone for so long: editors write in several steps.
 constexpr auto kQuiet = 30ms;
+/// Setting a page takes longer than most cells: those that are over by then are set with it.
+constexpr auto kShortRun = 100ms;
 /// A page that was recalled runs when the reader has it: the run would take the processors from the browser.
 constexpr auto kRunAfterRecall = 1500ms;
 /// A page is kept for the next time when nothing has changed for so long: that takes disk and processor.
@@ -72,6 +74,12 @@ void LiveDocument::stop_run() {
     wake();
 }
 
+void LiveDocument::run_at(const RunPlace& place) {
+    const std::lock_guard lock(orders_mutex_);
+    place_ = place;
+    wake();
+}
+
 void LiveDocument::run_anew() {
     const std::lock_guard lock(orders_mutex_);
     anew_ = true;
@@ -105,7 +113,8 @@ void LiveDocument::follow() {
     }
     read_again({});
     while (!end_) {
-        if (page_is_old_ && !page_is_recalled_) set_page();
+        const bool may_end_soon = runner_.running() && Clock::now() < set_from_;
+        if (page_is_old_ && !page_is_recalled_ && !may_end_soon) set_page();
         wait_for_something();
         throw_if_interrupted();
         if (end_) break;
@@ -128,6 +137,7 @@ void LiveDocument::wait_for_something() {
     const Clock::time_point now = Clock::now();
     Clock::time_point until = now + kLookForInterrupt;
     if (!changed_.empty()) until = std::min(until, last_change_ + kQuiet);
+    if (page_is_old_ && runner_.running() && now < set_from_) until = std::min(until, set_from_);
     for (const auto& instant : {first_run_, remember_})
         if (instant) until = std::min(until, *instant);
     const auto longest = std::chrono::ceil<std::chrono::milliseconds>(until - now).count();
@@ -138,10 +148,12 @@ void LiveDocument::take_orders() {
     std::uint64_t count = 0;
     if (::read(wake_.get(), &count, sizeof count) <= 0) return;
     bool stop = false, anew = false;
+    RunPlace place;
     {
         const std::lock_guard lock(orders_mutex_);
         stop = std::exchange(stop_, false);
         anew = std::exchange(anew_, false);
+        place = std::exchange(place_, {});
     }
     if (stop && runner_.running()) {
         runner_.stop();
@@ -152,8 +164,9 @@ void LiveDocument::take_orders() {
     if (anew) {
         runner_.forget();
         page_is_recalled_ = false;
+        until_.clear();
     }
-    if (!stop) read_again({});
+    if (!stop) read_again({}, place);
 }
 
 bool LiveDocument::is_ours(const fs::path& changed) const {
@@ -182,10 +195,12 @@ void LiveDocument::or_complain(const std::function<void()>& act) {
 }
 
 /// Reads script and template again and runs what has changed.
-void LiveDocument::read_again(const std::set<fs::path>& changed) {
+void LiveDocument::read_again(const std::set<fs::path>& changed, const RunPlace& place) {
     remember_.reset();
     or_complain([&] {
+        const std::string before = request_ ? request_->script.source : "";
         request_ = read_();
+        if (request_->script.source != before) until_.clear();
         page_.speak(request_->script.header.language, request_->script.header.lesson);
         std::set<fs::path> data;
         for (const fs::path& file : data_)
@@ -208,13 +223,18 @@ void LiveDocument::read_again(const std::set<fs::path>& changed) {
             first_run_ = Clock::now() + kRunAfterRecall;
             return;
         }
-        run(data);
+        run(data, place);
     });
 }
 
-void LiveDocument::run(const std::set<fs::path>& changed_data) {
+void LiveDocument::run(const std::set<fs::path>& changed_data, const RunPlace& place) {
     first_run_.reset();
-    const std::size_t first = runner_.run(*request_, figures_.path(), changed_data);
+    const bool in_script = place.file == request_->script.file.filename();
+    const Cell* const chosen = in_script ? request_->script.cell_at_line(place.line) : nullptr;
+    const std::string id = chosen && chosen->kind == Cell::Kind::kCode ? chosen->id : "";
+    if (!id.empty()) until_ = place.again ? "" : id;
+    set_from_ = Clock::now() + kShortRun;
+    const std::size_t first = runner_.run(*request_, figures_.path(), changed_data, {place.again ? id : "", until_});
     for (std::size_t i = first; runner_.running() && i < runner_.parts().size(); ++i)
         for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0, 0};
     show_states();
@@ -313,7 +333,8 @@ void LiveDocument::set_page() {
     remember_.reset();
     if (!request_) return;
     try {
-        page_is_unfinished_ = runner_.running() || shown_.error.has_value() || runner_.parts().empty();
+        page_is_unfinished_ =
+            runner_.running() || shown_.error.has_value() || runner_.parts().empty() || !runner_.finished();
         const SetDocument document = setter_.set(document_source(*request_, shown_), page_is_unfinished_);
         page_.show(document, request_->script, shown_);
         pictures_.clear();

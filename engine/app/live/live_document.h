@@ -19,6 +19,14 @@
 
 namespace dynlab::inline app {
 
+/// A line of a document's script.
+struct RunPlace {
+    std::string file;
+    int line = 0;
+    bool again = false;  ///< its cell runs, changed or not
+};
+DYNLAB_DESCRIBE(RunPlace, file, line, again)
+
 /// A document that follows its script, its template, the data it reads, the pictures it shows and its literature. One
 /// thread works (`work`); orders come from others.
 class LiveDocument {
@@ -37,6 +45,8 @@ class LiveDocument {
 
     void allow_runs();
     void stop_run();
+    /// Runs to the cell there, what has changed; with `again` from that cell on to the end.
+    void run_at(const RunPlace& place);
     void run_anew();                                                ///< from the first cell
     void set_sliders(const std::map<std::string, double>& values);  ///< by their names
     void end();
@@ -48,8 +58,8 @@ class LiveDocument {
     void take_orders();
     bool is_ours(const std::filesystem::path& changed) const;
     void or_complain(const std::function<void()>& act);
-    void read_again(const std::set<std::filesystem::path>& changed);
-    void run(const std::set<std::filesystem::path>& changed_data);
+    void read_again(const std::set<std::filesystem::path>& changed, const RunPlace& place = {});
+    void run(const std::set<std::filesystem::path>& changed_data, const RunPlace& place = {});
     void take_news();
     void take(RunnerNews news);
     void set_page();
@@ -71,6 +81,7 @@ class LiveDocument {
     PageMemory memory_;
     std::optional<ReportRequest> request_;
     RunRecord shown_;                          ///< what the page shows: of this run, below it of the one before
+    std::string until_;                        ///< the last cell that was asked for, while the script stays; empty: all
     std::map<std::string, CellState> states_;  ///< by cell
     std::set<std::filesystem::path> inputs_;   ///< canonical files that the document is made of
     std::map<std::filesystem::path, std::string> pictures_;  ///< of the page, not figures: canonical file -> digest
@@ -78,7 +89,8 @@ class LiveDocument {
     std::set<std::filesystem::path> changed_;                ///< of inputs_, and not yet looked at
     Clock::time_point last_change_;
     bool page_is_old_ = false;
-    bool page_is_unfinished_ = false;             ///< it was set while the run was under way
+    Clock::time_point set_from_;       ///< while a run is under way the page is not set before: its end may be near
+    bool page_is_unfinished_ = false;  ///< it was set while the run was under way
     std::optional<Clock::time_point> remember_;   ///< when the page is kept for the next time, where it is whole
     bool opened_ = false;                         ///< a first run was allowed
     std::optional<Clock::time_point> first_run_;  ///< when it begins, where the page is that of a run before
@@ -87,6 +99,7 @@ class LiveDocument {
     FileDescriptor wake_;
     std::mutex orders_mutex_;
     bool may_run_ = false, stop_ = false, anew_ = false;  ///< orders
+    RunPlace place_;                                      ///< an order, where it names a file
     std::map<std::string, double> sliders_;               ///< where they were moved to
     std::atomic<bool> end_ = false;
 };

@@ -86,6 +86,7 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
     content_.notes = document.notes;
     content_.complaints = document.complaints;
     content_.sliders = record.sliders;
+    error_ = record.error;
     content_.pieces.clear();
     fresh_.clear();
     std::map<std::string, std::string> html;
@@ -134,6 +135,7 @@ void LivePage::show(PageContent remembered) {
     const std::lock_guard lock(mutex_);
     ++version_;
     changed_ = text_changed_ = recalled_ = true;
+    error_.reset();
     fresh_.clear();
     for (const auto& [id, html] : remembered.html) fresh_.push_back(id);
     for (auto& [name, picture] : remembered.pictures) picture.version = version_;
@@ -192,6 +194,11 @@ void LivePage::ask_whether_to_run(bool asking) {
     changed_ = true;
 }
 
+void LivePage::set_made_here(bool made_here) {
+    const std::lock_guard lock(mutex_);
+    made_here_ = made_here;
+}
+
 void LivePage::set_open_answers(std::string answers) {
     const std::lock_guard lock(mutex_);
     changed_ = changed_ || content_.open_answers != answers;
@@ -210,9 +217,10 @@ void LivePage::set_hands_in(bool hands_in) {
     hands_in_ = hands_in;
 }
 
-void LivePage::set_work(std::string findings, bool pdf_is_ready) {
+void LivePage::set_work(std::string findings, bool pdf_is_ready, std::optional<double> checking) {
     const std::lock_guard lock(mutex_);
-    changed_ = changed_ || findings_ != findings || pdf_is_ready_ != pdf_is_ready;
+    changed_ = changed_ || findings_ != findings || pdf_is_ready_ != pdf_is_ready || checking_ != checking;
+    checking_ = checking;
     findings_changed_ = findings_changed_ || findings_ != findings;
     findings_ = std::move(findings);
     pdf_is_ready_ = pdf_is_ready;
@@ -231,9 +239,13 @@ std::string LivePage::json(bool all) const {
                              {"sources", sources_},
                              {"pdf_is_ready", pdf_is_ready_},
                              {"hands_in", hands_in_},
+                             {"made_here", made_here_},
                              {"states", ::nlohmann::json::object()}};
+    if (checking_) page["checking"] = *checking_;
     for (const Message& complaint : content_.complaints)
         for (const std::string& line : lines_of(reader().text(complaint))) page["complaints"].push_back(line);
+    if (error_)
+        page["error"] = {{"file", error_->file}, {"line", error_->line}, {"text", reader().text(error_->message)}};
     for (const auto& [cell, state] : content_.states)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
     if (all || findings_changed_) {

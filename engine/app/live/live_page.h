@@ -30,12 +30,15 @@ class LivePage {
     void set_states(std::map<std::string, CellState> states, bool running);
     void set_running(bool running);
     void ask_whether_to_run(bool asking);
+    void set_made_here(bool made_here);  ///< `dynlab new` made the document's folder on this computer
     /// Answers that the script does not give yet, "G1 (model), gain (number)".
     void set_open_answers(std::string answers);
     void set_sources(std::map<std::string, std::string> digests);  ///< of the files that the page may change
     void set_hands_in(bool hands_in);                              ///< whether report and zip can be asked for
-    void set_work(std::string findings, bool pdf_is_ready);        ///< findings: JSON, in English, or empty
-    std::string told(const Message& message) const;                ///< in the page's language
+    /// Findings: JSON, in English, or empty; `checking`: the part of dynlab check that is done while it runs, else
+    /// none.
+    void set_work(std::string findings, bool pdf_is_ready, std::optional<double> checking = {});
+    std::string told(const Message& message) const;  ///< in the page's language
 
     PageContent content() const;  ///< of the last version alone
     bool settled() const;  ///< the run came to its end, or to a mistake; not one that was stopped, nor one of before
@@ -58,10 +61,12 @@ class LivePage {
     PageContent content_;
     std::vector<std::string> fresh_;  ///< ids that the last version did not have
     std::map<std::string, std::string> sources_;
+    std::optional<RecordedError> error_;  ///< of the run that the page shows
     std::string findings_;
     std::string language_ = "en", lesson_;
     mutable std::optional<LessonReader> reader_;  ///< once it was needed
-    bool pdf_is_ready_ = false, hands_in_ = false;
+    std::optional<double> checking_;
+    bool pdf_is_ready_ = false, hands_in_ = false, made_here_ = false;
     bool running_ = false, recalled_ = false, asking_ = false;
     bool changed_ = false, text_changed_ = false, findings_changed_ = false;
     std::uint64_t version_ = 0;

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "app/live/background_work.h"
+#include "app/live/editor_routes.h"
 #include "app/live/live_document.h"
 #include "app/live/page_notes.h"
 #include "app/live/permissions.h"
@@ -17,6 +18,7 @@
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/locks/file_lock.h"
+#include "workflow/authoring/made_folders.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline app {
@@ -190,15 +192,17 @@ void preview(const PreviewOptions& options) {
     serve_page(server, page);
     take_orders(server, document, permissions);
     serve_sources(server, sources, page);
+    if (options.edit) serve_editor(server, runner, document, page, sources);
     serve_notes(server, notes);
     page.set_sources(sources.digests());
 
     background.start([&] {
-        page.set_work(background.findings(), background.pdf_is_ready());
+        page.set_work(background.findings(), background.pdf_is_ready(), background.checking());
         send_changes();
     });
     serve_work(server, background, permissions, page);
     page.set_hands_in(background.hands_in());
+    page.set_made_here(was_made_here(request.script.file.parent_path()));
     server.on_stream([&] { return look_for_readers(), page.whole(); });
     document.on_reading([&](const std::map<std::string, double>& slider_values) {
         background.document_changed(slider_values);

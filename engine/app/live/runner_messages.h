@@ -16,6 +16,11 @@ struct RunOrder {
     std::uint32_t seed = 1;
     std::string figure_folder;
     std::map<std::string, double> slider_values;  ///< instead of what the script gives its sliders
+    std::size_t until = 0;                        ///< the part before which the run ends
+    /// "complete", "help" or "variables": a question about the state, answered without a run. `text` is the code up to
+    /// the cursor ("complete") or the line with the cursor ("help"), `number` returns as the part of the answer.
+    std::string question = {}, text = {};
+    std::size_t cursor = 0, number = 0;
 };
 
 /// What scripts find in the process besides dynlab's own functions, and what becomes of their figures.
@@ -29,7 +34,7 @@ struct RunnerWorld {
 struct RunnerNews {
     /// "split": a process goes on from here, its line comes with the message; "begun": a part begins; "progress": of
     /// something long in it, so much; "done": it is over, `record` has everything up to here; "ended": all parts are
-    /// over, or one failed.
+    /// over, or one failed; "answer": to a question, shown["answer"] is JSON.
     std::string kind;
     std::size_t part = 0;
     std::int64_t process = 0;  ///< number of the process that goes on
@@ -39,7 +44,7 @@ struct RunnerNews {
     std::map<std::string, std::string> shown = {};  ///< what the part gave the page (page_values.h)
 };
 
-DYNLAB_DESCRIBE(RunOrder, file, source, from, seed, figure_folder, slider_values)
+DYNLAB_DESCRIBE(RunOrder, file, source, from, seed, figure_folder, slider_values, until, question, text, cursor, number)
 DYNLAB_DESCRIBE(RunnerNews, kind, part, process, seconds, progress, record, shown)
 
 }  // namespace dynlab::inline app

@@ -13,6 +13,7 @@
 
 #include "app/live/page_values.h"
 #include "app/live/runner_messages.h"
+#include "app/live/state_questions.h"
 #include "base/languages.h"
 #include "data_io/values/cbor_values.h"
 #include "documents/html/plot_data.h"
@@ -78,7 +79,10 @@ class RunnerProcess {
     [[noreturn]] void serve() {
         while (const auto message = line_.receive()) {
             const RunOrder order = from_cbor<RunOrder>(message->bytes);
-            if (split() == Side::kGoesOn) run(order);
+            if (!order.question.empty())
+                answer(order);
+            else if (split() == Side::kGoesOn)
+                run(order);
         }
         ::_exit(0);
     }
@@ -107,13 +111,24 @@ class RunnerProcess {
         if (!line_.send(cbor_of(news))) ::_exit(0);
     }
 
+    /// From the state here: of the script as far as it has run, else of a script without a line.
+    void answer(const RunOrder& question) {
+        if (!world_ && !empty_world_) {
+            empty_world_ = std::make_unique<World>(RunOptions(), "en", wanted_.prelude);
+            empty_world_->runtime.run_statement(read_script_part("", {}), "start");  // names can be completed
+        }
+        lua_State* const L = (world_ ? world_ : empty_world_)->runtime.state();
+        tell({.kind = "answer", .part = question.number, .shown = {{"answer", answer_about_state(L, question)}}});
+    }
+
     void run(const RunOrder& order) {
         const PercentScript script = parse_percent_script(order.source, order.file);
         const std::vector<ScriptPart> parts = script_parts(script);
         if (!world_) begin(order, script);
         world_->sliders.chosen = order.slider_values;
+        const std::size_t end = std::min(parts.size(), order.until);
         std::size_t last = order.from;
-        for (std::size_t i = order.from; i < parts.size(); ++i) {
+        for (std::size_t i = order.from; i < end; ++i) {
             last = i;
             tell({.kind = "begun", .part = i});
             ProgressBar::tell_instead([this, i](std::size_t done, std::size_t total) {
@@ -139,7 +154,7 @@ class RunnerProcess {
                 tell({.kind = "ended", .part = i});
                 ::_exit(0);
             }
-            const bool keep = i + 1 < parts.size() && seconds_since(kept_at_) >= kWorthKeeping;
+            const bool keep = i + 1 < end && seconds_since(kept_at_) >= kWorthKeeping;
             if (keep) return_freed_memory();
             if (keep && split() == Side::kStays) return;
         }
@@ -176,7 +191,7 @@ class RunnerProcess {
 
     Channel line_;
     RunnerWorld wanted_;
-    std::unique_ptr<World> world_;
+    std::unique_ptr<World> world_, empty_world_;
     Clock::time_point kept_at_ = Clock::now();
 };
 

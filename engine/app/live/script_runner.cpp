@@ -1,6 +1,7 @@
 #include "app/live/script_runner.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,6 +26,14 @@ Message none_left() {
 /// What a change of which makes every part run anew: the file's place, the seed, the header.
 std::string settings_of(const PercentScript& script, std::uint32_t seed) {
     return fmt::format("{}\n{}\n{}", script.file.string(), seed, script.header.language);
+}
+
+/// The number of parts before the one with this cell; of all where there is none.
+std::size_t parts_before(const std::vector<ScriptPart>& parts, const std::string& cell) {
+    const auto has_cell = [&](const ScriptPart& part) {
+        return std::ranges::find(part.cells, cell) != part.cells.end();
+    };
+    return static_cast<std::size_t>(std::ranges::find_if(parts, has_cell) - parts.begin());
 }
 
 bool is_same(const ScriptPart& a, const ScriptPart& b) {
@@ -82,20 +91,26 @@ bool ScriptRunner::is_as_it_ran(std::size_t part, const std::vector<ScriptPart>&
 }
 
 std::size_t ScriptRunner::run(const ReportRequest& request, const fs::path& figure_folder,
-                              const std::set<fs::path>& changed) {
+                              const std::set<fs::path>& changed, const RunExtent& extent) {
+    const std::lock_guard lock(mutex_);
     const PercentScript& script = request.script;
     std::vector<ScriptPart> parts = script_parts(script);
     const std::string settings = settings_of(script, request.seed);
     std::size_t same = 0;
     while (settings == settings_ && is_as_it_ran(same, parts, request, changed)) ++same;
     const bool all_same = same == parts.size() && same == parts_.size();
-    if (all_same && (running_ || done_ == same)) return under_way_;
+    const std::size_t until =
+        extent.until.empty() ? parts.size() : std::min(parts_before(parts, extent.until) + 1, parts.size());
+    const bool reaches = running_ ? order_.until == until : done_ >= until;
+    if (all_same && extent.again.empty() && reaches) return under_way_;
+    if (!extent.again.empty()) same = std::min(same, parts_before(parts, extent.again));
     go_back_to(std::min(same, done_));
     settings_ = settings;
     slider_values_ = request.slider_values;
     parts_ = std::move(parts);
     used_.resize(parts_.size());
-    order_ = {script.file.string(), script.source, 0, request.seed, figure_folder.string(), request.slider_values};
+    order_ = {script.file.string(),   script.source,         0,    request.seed,
+              figure_folder.string(), request.slider_values, until};
     if (!send_order()) throw EnvironmentError(none_left());
     return under_way_;
 }
@@ -111,7 +126,25 @@ bool ScriptRunner::send_order() {
     }
 }
 
+std::string ScriptRunner::ask(RunOrder question) {
+    constexpr int kLongest = 2000;  // ms
+    const std::lock_guard lock(mutex_);
+    const std::size_t runs = running_ ? 1 : 0;  // the last process has no time to answer
+    if (kept_.size() <= runs) return {};
+    Channel& line = kept_[kept_.size() - 1 - runs].line;
+    question.number = ++questions_;
+    if (!line.send(cbor_of(question))) return {};
+    for (pollfd waiting{line.descriptor(), POLLIN, 0}; ::poll(&waiting, 1, kLongest) > 0;) {
+        const auto message = line.receive();
+        if (!message) return {};
+        RunnerNews news = from_cbor<RunnerNews>(message->bytes);
+        if (news.kind == "answer" && news.part == questions_) return std::move(news.shown["answer"]);
+    }
+    return {};
+}
+
 void ScriptRunner::stop() {
+    const std::lock_guard lock(mutex_);
     if (running_) go_back_to(done_);
     done_ = kept_.back().parts;
 }
@@ -121,6 +154,7 @@ int ScriptRunner::descriptor() const {
 }
 
 RunnerNews ScriptRunner::next() {
+    const std::lock_guard lock(mutex_);
     std::optional<Channel::Message> message = kept_.back().line.receive();
     if (!message) {
         if (!split_) {  // it died before it had begun
@@ -147,7 +181,8 @@ RunnerNews ScriptRunner::next() {
     } else if (news.kind == "ended") {
         running_ = false;
         kept_.back().parts = done_;
-        if (done_ < parts_.size() || !keeps_end_) end_last();  // a part failed: nothing goes on from there
+        const std::size_t until = std::min(order_.until, parts_.size());
+        if (done_ < until || !keeps_end_) end_last();  // a part failed: nothing goes on from there
     }
     return news;
 }

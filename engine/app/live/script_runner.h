@@ -2,6 +2,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,9 +16,15 @@ namespace dynlab::inline app {
 
 /// Runs a script again and again while it is being written: parts before the first that has changed are not run anew.
 /// The script runs in processes of its own (app/live/runner_process.h), so that a run can always be stopped and takes
-/// nothing with it when it fails. For one thread.
+/// nothing with it when it fails. For one thread, but for `ask`.
 class ScriptRunner {
   public:
+    /// Which cells of the script a run is about, by their ids; empty: all of them.
+    struct RunExtent {
+        std::string again;  ///< runs again, changed or not
+        std::string until;  ///< the last that runs
+    };
+
     /// Starts the first process. To be made before the program has threads.
     explicit ScriptRunner(RunnerWorld world = {});
     ~ScriptRunner();  ///< ends all of them
@@ -29,10 +36,14 @@ class ScriptRunner {
     /// given up, but not for a change of text alone. Where a process that kept a state has died, it begins from the one
     /// before. Returns the part with which it begins; throws EnvironmentError when there is none any more.
     std::size_t run(const ReportRequest& request, const std::filesystem::path& figure_folder,
-                    const std::set<std::filesystem::path>& changed);
+                    const std::set<std::filesystem::path>& changed, const RunExtent& extent = {});
+    /// The answer to a question about the state of the script as far as it has run, JSON; empty when there is none
+    /// within two seconds. For any thread.
+    std::string ask(RunOrder question);
     void stop();                          ///< gives the run up; the next begins behind the last part that was kept
     void forget() { settings_.clear(); }  ///< the next run begins with the first part
     bool running() const { return running_; }
+    bool finished() const { return done_ == parts_.size(); }  ///< every part has run
 
     /// To be polled for reading; -1 when nothing runs.
     int descriptor() const;
@@ -67,6 +78,8 @@ class ScriptRunner {
     std::size_t done_ = 0;                         ///< parts that are over
     std::size_t under_way_ = 0;
     bool keeps_end_ = true;
+    std::recursive_mutex mutex_;
+    std::size_t questions_ = 0;
     bool running_ = false, split_ = false;  ///< split: the process that got the order has made the one that runs
 };
 

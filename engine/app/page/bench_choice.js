@@ -10,12 +10,12 @@ export function choose(key) {
   chosen = key;
   redraw();
 }
-/// A new cell with a model; its controls are shown.
+/// A new cell with a model, a text or what a function gives in its turn; its controls are shown.
 export function addModel(call) {
-  return change(() => {
-    const name = freeName("G");
+  return change(async () => {
+    const text = typeof call === "function" ? await call() : call, name = freeName("G");
     chosen = `${name}#0`;
-    return [newCell(name, `${name} = ${call}`)];
+    return [newCell(name, `${name} = ${text}`)];
   });
 }
 /// After a rename: the same model by its other name.

@@ -32,11 +32,14 @@ export function withOption(step, name, text) {
 const optionText = (step, name) => step.options.find(({ key }) => key === name)?.text ?? "";
 const isNumber = (text) => text.trim() !== "" && Number.isFinite(Number(text));
 
+/// A text whose T_s, R_T² and the like are set as formulas are.
+export const typeset = (words) => words.split(/\b([A-Z]_[A-Za-z])\b/).map((piece, i) => (i % 2 === 0 ? piece.replace(/^\^2/, "²") : element("span", {}, element("i", { textContent: piece[0] }), element("sub", { textContent: piece[2] }))));
+
 function labelled(words, control, title = "") {
   control.title = title;
   const range = control.querySelector?.("input[type=range]");
   if (range) range.ariaLabel = say("labelled", words, say("slider"));
-  return element("label", { title }, element("span", { textContent: words }), control);
+  return element("label", { title }, element("span", {}, ...typeset(words)), control);
 }
 /// The beginning of what a help page says of an option, and what is taken where it is not given.
 function shortWords(words) {

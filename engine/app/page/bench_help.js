@@ -55,12 +55,20 @@ export function formatted(text) {
   return made;
 }
 
+/// What a page begins with, and the rest of it behind a link.
+function shortened(text) {
+  const at = text.indexOf("\n## "), [begin, rest] = at < 0 ? [text, ""] : [text.slice(0, at), text.slice(at)];
+  const all = formatted(begin), shown = all.slice(0, Math.max(1, all.findIndex((one) => one.tagName === "P" && !one.textContent.includes("->")) + 1));
+  const more = [...all.slice(shown.length), ...formatted(rest)];
+  return more.length > 0 ? [...shown, node("details", node("summary", say("wholePage")), ...more)] : shown;
+}
+
 /// The help page of a function.
 export async function help(name) {
   const answer = await request(`help?name=${encodeURIComponent(name)}`);
   document.getElementById("help-title").textContent = say("help", name);
-  document.getElementById("help-text").replaceChildren(...formatted((await answer.text()).replace(/^# .*\n+/, "")));
+  document.getElementById("help-text").replaceChildren(...shortened((await answer.text()).replace(/^# .*\n+/, "")));
   const dialog = document.getElementById("page-of-help");
   dialog.showModal();
-  dialog.scrollTop = 0;
+  document.getElementById("help-text").scrollTop = 0;
 }

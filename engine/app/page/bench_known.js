@@ -78,7 +78,7 @@ export function knownPanel() {
   const key = keyOf(study);
   const number = (name, words) => labelled(words, numberField(optionOf(study, name), dragged(key, (step, text) => withOption(step, name, text))));
   const plain = (name, words, field = textField) => labelled(words, field(optionOf(study, name), (text) => rewrite(key, (step) => withOption(step, name, text)), { slider: false }));
-  node.append(defined(study, "system", say("system")), defined(study, "input", say("inputSignal")), number("Ts", "Ts (s)"), number("sigma", say("noise")),
+  node.append(defined(study, "system", say("system")), defined(study, "input", say("inputSignal")), number("Ts", "T_s (s)"), number("sigma", say("noise")),
               lambdaControl(key, study), plain("runs", say("runs"), numberField), estimatorsControl(key, study), why("montecarlo"));
   return node;
 }

@@ -1,11 +1,11 @@
 // Estimating, and the table of models.
-import { change, session, trouble, request } from "./bench_session.js";
-import { button, element, firstCall, labelled, rewrite, stepControls, textField, why } from "./bench_fields.js";
-import { cellRemoval, freeName, keyOf, linesWith, modelSteps, newCell, preparingSteps, replaced, roles, stepOf, taken, variables, written } from "./bench_steps.js";
+import { change, request, session } from "./bench_session.js";
+import { button, choice, element, firstCall, labelled, rewrite, stepControls, textField, typeset, why } from "./bench_fields.js";
+import { formOf, freeName, keyOf, linesWith, modelSteps, newCell, preparingSteps, roles, taken, variables, written } from "./bench_steps.js";
 import { addModel, choose, chosenStep, rechoose, redraw, rowOf } from "./bench_choice.js";
 import { help } from "./bench_help.js";
-import { drawnModels, isHidden, setHidden } from "./bench_views.js";
-import { reportWithout } from "./bench_report.js";
+import { drawnModels, firstOrders, isHidden, reveal, setHidden } from "./bench_views.js";
+import { deleteStep } from "./bench_delete.js";
 import { say, shortNumber } from "./bench_words.js";
 
 let method = "tfsrivc";  // that a new model will have
@@ -23,7 +23,28 @@ function methodList(act, now, name) {
 }
 
 function estimateNew(method) {
-  addModel(firstCall(session.forms.find((one) => one.name === method), roles().estimation));
+  const form = session.forms.find((one) => one.name === method);
+  let orders = null;  // asked for once, however often the script is changed elsewhere meanwhile
+  addModel(async () => {
+    const { estimation } = roles(), usual = firstCall(form, estimation);
+    if (method !== "tfsrivc" || modelSteps().some((step) => formOf(step.function))) return usual;
+    orders ??= await firstOrders();
+    return orders.length > 0 ? `tfsrivc(${[estimation, ...orders].join(", ")}, {TdMax = 0})` : usual;
+  });
+}
+
+let searched = 1;  // the output whose structures are compared
+/// Structures are compared for one output; with several one says which.
+function searchControls() {
+  const part = roles(), seen = variables()[part.estimation], names = seen?.output_names ?? [], output = Math.min(searched, names.length || 1);
+  const select = names.length > 1 ? `:select(${output})` : "", apart = part.validation !== part.estimation ? `, validate = ${part.validation}${select}` : "";
+  const search = () => change(() => {
+    const name = freeName("orders");
+    return [newCell(name, `${name} = srivcstruc(${part.estimation}${select}, {poles = {1, 4}, zeros = {0, 2}${apart}})`)];
+  }).then(() => reveal("orders"));
+  const several = seen?.inputs > 1, list = names.length > 1 && !several ? choice(names.map((_, i) => String(i + 1)), String(output), (value) => { searched = Number(value); redraw(); }, names) : "";
+  if (list) list.ariaLabel = say("ofOutput");
+  return [button(say("search"), search, { disabled: several }), list, why("srivcstruc"), several ? element("small", { textContent: say("oneInput") }) : ""];
 }
 
 /// Another method for a step: what the new one does not know is left out.
@@ -41,23 +62,18 @@ const isMistake = (step) => session.error && session.error.line >= step.first_li
 
 /// What the server says of the step's line: its mistake, or its model's own message.
 function verdictOf(step) {
-  if (isMistake(step)) return [session.error.message, "broken"];
+  if (isMistake(step)) return [session.error.text ?? session.error.message, "broken"];
   return [rowOf(step)?.message ?? "", ""];
 }
 
 export function estimatePanel() {
-  const { raw, estimation } = roles();
-  if (!raw) return "";
+  if (!roles().raw) return "";
   const node = element("section", { className: "panel" }, element("h2", { textContent: say("estimate") }));
   const quick = element("div", { className: "adding" });
   const list = methodList((name) => { method = name; }, method, say("method"));
   quick.append(labelled(say("method"), list), button(say("newModel"), () => estimateNew(list.value), { className: "main" }),
                button(say("why"), () => help(list.value), { className: "why", ariaLabel: `${say("why")} ${say("method")}` }));
-  const seen = variables()[estimation];
-  quick.append(button(say("search"), () => change(() => {
-    const name = freeName("orders"), part = roles(), apart = part.validation !== part.estimation ? `, validate = ${part.validation}` : "";
-    return [newCell(name, `${name} = srivcstruc(${part.estimation}, {poles = {1, 4}, zeros = {0, 2}${apart}})`)];
-  }), { disabled: seen?.inputs > 1 || seen?.outputs > 1, title: "srivcstruc" }), why("srivcstruc"));
+  quick.append(...searchControls());
   node.append(quick);
   const step = chosenStep();
   if (step) {
@@ -80,10 +96,10 @@ function trapsOf(step, form) {
 }
 const rightSide = (step) => (step.function ? written({ ...step, names: [], local: false, on: true }) : step.arguments[0]);
 
-const COLUMNS = [
-  ["name", (row) => row.name], ["method", (row) => row.method], ["poles", (row) => row.poles], ["zeros", (row) => row.zeros],
+const ALL_COLUMNS = [
+  ["name", (row) => row.name], ["method", (row) => row.method], ["output_", (row) => row.output_name], ["poles", (row) => row.poles], ["zeros", (row) => row.zeros],
   ["delay", (row) => row.delay], ["fitEstimation", (row) => row.estimation?.fit], ["fitValidation", (row) => row.validation?.fit],
-  ["R_T²", (row) => (row.validation ?? row.estimation)?.r_squared], ["YIC", (row) => row.estimation?.yic], ["condition", (row) => row.condition],
+  ["R_T^2", (row) => (row.validation ?? row.estimation)?.r_squared], ["YIC", (row) => row.estimation?.yic], ["condition", (row) => row.condition],
   ["white", (row) => (row.is_white === undefined ? null : say(row.is_white ? "yesWord" : "noWord"))],
   ["independent", (row) => (row.independent === undefined ? null : say(row.independent ? "noWord" : "yesWord"))],
 ];
@@ -126,28 +142,6 @@ function rename(now, next) {
   change(() => ({ text: session.source.split("\n").map((line) => (/^\s*--(?! (off: |%%))/.test(line) ? line : renamed(line))).join("\n") }));
 }
 
-/// Calls that show models, and how many arguments they need to show anything.
-const SHOWS = { compare: 2, resid: 2, impulseest: 1, step: 1, impulse: 1, bode: 1, nyquist: 1, pzmap: 1, present: 1 };
-/// A model goes with what shows it alone, and out of the calls that show others, too; what is computed from it would break
-/// the script, so that it is told.
-function deleteModel(key) {
-  change(() => {
-    const own = stepOf(key), name = own?.names[0];
-    if (!own) return null;
-    const shows = session.steps.filter((step) => step.names.length === 0 && SHOWS[step.function] && step.arguments.includes(name));
-    const without = (step) => step.arguments.filter((text) => text !== name);
-    const empty = shows.filter((step) => without(step).length < SHOWS[step.function]), others = shows.filter((step) => !empty.includes(step));
-    const isOurs = (line) => [own, ...shows].some((step) => line >= step.first_line && line <= step.last_line);
-    const report = reportWithout(name, modelSteps().map((step) => step.names[0]));
-    const used = linesWith(name).find((line) => !isOurs(line) && !report.seen.has(line));
-    if (used) {
-      trouble(say("isUsed", name, used, session.source.split("\n")[used - 1].trim()));
-      return null;
-    }
-    return [...cellRemoval([own, ...empty]), ...others.map((step) => replaced(step, { arguments: without(step) })), ...report.edits];
-  });
-}
-
 function actionsOf(step) {
   const key = keyOf(step), name = step.names[0];
   const act = (word, does) => button(say(word), does, { ariaLabel: say("labelled", say(word), name) });
@@ -155,40 +149,47 @@ function actionsOf(step) {
     act("copy", () => change(() => {
       const other = freeName("G");
       return [newCell(other, written({ ...structuredClone(step), names: [other] }))];
-    })), act("rename", () => renameModel(step)), act("remove", () => deleteModel(key)));
+    })), act("rename", () => renameModel(step)), act("remove", () => deleteStep(key)));
 }
 
 export function modelsPanel() {
   const steps = modelSteps();
   if (steps.length === 0) return "";
-  const rows = new Map((Array.isArray(session.views.models?.rows) ? session.views.models.rows : []).map((row) => [row.name, row]));
-  const lines = steps.map((step) => ({ step, row: { ...(rows.get(step.names[0]) ?? {}), name: step.names[0], method: step.function || rightSide(step) } }));
+  const rows = Array.isArray(session.views.models?.rows) ? session.views.models.rows : [];
+  const COLUMNS = ALL_COLUMNS.filter(([key]) => key !== "output_" || rows.some((row) => row.output_name));
+  const rowsOf = (name) => { const own = rows.filter((row) => row.name === name); return own.length > 0 ? own : [{}]; };
+  const lines = steps.map((step) => {
+    const all = rowsOf(step.names[0]).map((row) => ({ ...row, name: step.names[0], method: step.function || rightSide(step) }));
+    return { step, row: all[0], all };
+  });
   const column = COLUMNS.find(([key]) => key === sorting.key);
   if (column) lines.sort((a, b) => sorting.way * ((column[1](a.row) ?? -Infinity) > (column[1](b.row) ?? -Infinity) ? 1 : -1));
   const head = element("tr", {}, element("th", { scope: "col", textContent: "✓", title: say("shown"), ariaLabel: say("shown") }), ...COLUMNS.map(([key]) => {
     const cell = element("th", { scope: "col" });
-    cell.append(button(say(key), () => { sorting = { key, way: sorting.key === key ? -sorting.way : 1 }; redraw(); }, { title: say(`${key}About`) }));
+    cell.append(button("", () => { sorting = { key, way: sorting.key === key ? -sorting.way : 1 }; redraw(); }, { title: say(`${key}About`) }));
+    cell.firstChild.append(...typeset(say(key)));
     if (sorting.key === key) cell.setAttribute("aria-sort", sorting.way > 0 ? "ascending" : "descending");
     return cell;
   }));
   const chosen = chosenStep();
-  const body = lines.map(({ step, row }) => {
-    const line = element("tr", { className: chosen === step ? "chosen" : "" });
+  const body = lines.flatMap(({ step, all }) => all.map((row, i) => {
+    const line = element("tr", { className: chosen === step ? "chosen" : "" }), span = (cell) => Object.assign(cell, { rowSpan: all.length });
     const shown = element("input", { type: "checkbox", checked: step.on && !isHidden(row.name), ariaLabel: say("labelled", say("shown"), row.name), onchange: () => setHidden(row.name, !shown.checked) });
-    line.append(element("td", {}, shown));
+    if (i === 0) line.append(span(element("td", {}, shown)));
     for (const [name, read] of COLUMNS) {
+      if (i > 0 && ["name", "method"].includes(name)) continue;
       const value = read(row), cell = element("td", { className: typeof value === "number" ? "number" : name });
       if (name === "name") cell.append(button(row.name, () => choose(keyOf(step)), { title: row.text ?? "", ariaPressed: String(chosen === step) }));
       else cell.append(cellText(name, value, row));
       if (name === "method") cell.title = row.method;
-      line.append(cell);
+      line.append(["name", "method"].includes(name) ? span(cell) : cell);
     }
     if (isMistake(step)) line.classList.add("broken");
     return line;
-  });
+  }));
   const ticked = steps.filter((step) => step.on && !isHidden(step.names[0])).length, drawn = drawnModels().length;
   const few = drawn < ticked ? [element("p", { className: "warning", textContent: say("fewDrawn", drawn, ticked) })] : [];
-  const legend = element("details", {}, element("summary", { textContent: say("columns") }), element("dl", {}, ...COLUMNS.flatMap(([key]) => [element("dt", { textContent: say(key) }), element("dd", { textContent: say(`${key}About`) })])));
+  const legend = element("details", {}, element("summary", { textContent: say("columns") }), element("dl", {}, ...COLUMNS.flatMap(([key]) => [element("dt", {}, ...typeset(say(key))), element("dd", { textContent: say(`${key}About`) })])));
   const node = element("section", { className: "models", tabIndex: -1, ariaLabel: say("models") }, element("h2", {}, say("models"), " ", chosen ? actionsOf(chosen) : ""),
     ...few, element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)), legend);
   return node;

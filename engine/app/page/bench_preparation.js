@@ -92,6 +92,7 @@ export function partsPanel() {
   const about = (name, data, more = "") => node.append(element("p", { textContent: say("labelled", name, `${shortNumber(data.start)} … ${shortNumber(data.last)} s (${data.N})${more}`) }));
   if (a?.kind === "data") about(estimation, a);
   if (b?.kind === "data") about(validation, b, second ? ` – ${say("ofRecord", second)}` : "");
+  if (b?.kind === "data" && (a?.outputs !== b.outputs || a?.inputs !== b.inputs)) node.append(element("p", { className: "warning", textContent: say("otherValidation") }));
   if (same) node.append(element("p", { className: "warning", textContent: say("sameParts") }));
   if (second && preparedAlike().length > 0) node.append(element("p", { className: "warning" }, say("notAlike"), " ", button(say("prepareAlike"), () => change(() => preparedAlike()))));
   const left = second ? ` (${say("without", second)})` : "";

@@ -3,6 +3,7 @@ import { change, session } from "./bench_session.js";
 import { button, element, hold, why } from "./bench_fields.js";
 import { keyOf, luaNumber, newCell, roles, stepOf, freeName } from "./bench_steps.js";
 import { addModel } from "./bench_choice.js";
+import { reveal } from "./bench_views.js";
 import { say } from "./bench_words.js";
 
 const MODELS = {
@@ -19,7 +20,7 @@ function begin(kind) {
   change(() => {
     const name = freeName("reading");
     return [newCell(name, `${name} = {kind = "${kind}", ${numbers.join(", ")}}\n${name}_model = ${MODELS[kind](name)}`)];
-  });
+  }).then(() => reveal("reading"));
 }
 
 const readingStep = () => session.steps.find((step) => step.on && step.names[0] === roles().reading);

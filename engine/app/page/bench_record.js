@@ -1,12 +1,11 @@
 // The record: where it comes from, which column is what, what advice says of it, and the steps that prepare it.
-import { order } from "./orders.js";
-import { change, inTurn, post, session, settled, trouble } from "./bench_session.js";
-import { button, choice, element, labelled, rewrite, why, withOption } from "./bench_fields.js";
+import { change, inTurn, post, request, session, settled, trouble, upload } from "./bench_session.js";
+import { button, choice, element, labelled, rewrite, typeset, why, withOption } from "./bench_fields.js";
 import { formOf, freeName, keyOf, newCell, roles, variables } from "./bench_steps.js";
 import { chosenStep } from "./bench_choice.js";
 import { preparedAlike } from "./bench_parts.js";
 import { addPreparing, callWords, REMEDIES } from "./bench_preparation.js";
-import { showSamples } from "./bench_views.js";
+import { reveal, showSamples } from "./bench_views.js";
 import { say, shortNumber } from "./bench_words.js";
 
 let offered = null;  // RecordChoice of the file that is being opened
@@ -14,38 +13,61 @@ let offered = null;  // RecordChoice of the file that is being opened
 async function offer(answer) {
   if (!answer.ok) return trouble(await answer.text());
   offered = await answer.json();
+  takeRolesInUse();
   trouble(null);
   document.dispatchEvent(new Event("benchdraw"));
 }
-async function upload(file) {
-  await offer(await order(`upload?name=${encodeURIComponent(file.name)}`, file));
+const ownName = ({ name }) => name.slice(groupOf({ name }).length).replace(/^\./, "");
+/// The channels of the record in use have the same roles in another one, where it has them all.
+function takeRolesInUse() {
+  const data = variables()[roles().raw];
+  if (data?.kind !== "data") return;
+  const group = groupNow(), own = offered.columns.filter((column) => groupOf(column) === group && column.usable);
+  const inUse = [...data.input_names.map((name) => [name, "input"]), ...data.output_names.map((name) => [name, "output"])];
+  if (!inUse.every(([name]) => own.some((column) => ownName(column) === name))) return;
+  const units = Object.fromEntries([[data.input_names, data.input_units], [data.output_names, data.output_units]].flatMap(([names, list]) => names.map((name, i) => [name, list?.[i]])));
+  for (const column of own.filter(({ role }) => role !== "time")) {
+    column.role = inUse.find(([name]) => name === ownName(column))?.[1] ?? "";
+    column.unit ||= units[ownName(column)] ?? "";
+  }
+}
+/// The columns of the record in use, to take others of them.
+async function offerAgain() {
+  const { raw } = roles(), file = session.steps.find((step) => step.function === "load" && step.names[0] === `${raw}_file`);
+  if (!file) return;
+  await offer(await request(`columns?data=${encodeURIComponent(JSON.parse(file.arguments[0]))}`));
+  const data = session.steps.find((step) => step.function === "iddata" && step.names[0] === raw), group = groups().find((name) => data?.arguments[0].includes(`.${name}.`));
+  if (group && group !== groupNow()) chooseGroup(group);
+}
+async function offerFile(file) {
+  await offer(await upload(file));
 }
 document.addEventListener("dragover", (event) => event.preventDefault());
 document.addEventListener("drop", (event) => {
   const file = event.dataTransfer?.files?.[0];
   if (!file) return;
   event.preventDefault();
-  upload(file);
+  offerFile(file);
 });
 
 /// What the program was started with and could not decide alone; gives whether the session is a new one.
 export async function openFirst() {
-  const { data, words, fresh } = await (await fetch("opening")).json();
-  if (data && !roles().raw) await offer(await fetch(`columns?data=${encodeURIComponent(data)}`));
+  const { data, words, fresh } = await (await request("opening")).json();
+  if (data && !roles().raw) await offer(await request(`columns?data=${encodeURIComponent(data)}`));
   if (words) trouble(words);
   return fresh;
 }
 
 let sets = null;
 async function fillSets(list) {
-  sets ??= await (await fetch("datasets")).json();
+  sets ??= await (await request("datasets")).json();
   list.append(element("option", { value: "", textContent: say("course") }), ...sets.map((name) => element("option", { value: name, textContent: name })));
 }
 
 function opener() {
-  const list = element("select", { ariaLabel: say("course"), onchange: async () => list.value && offer(await fetch(`columns?data=${encodeURIComponent(list.value)}`)) });
+  const list = element("select", { ariaLabel: say("course"), onchange: async () => list.value && offer(await request(`columns?data=${encodeURIComponent(list.value)}`)) });
   fillSets(list);
-  const file = element("input", { type: "file", ariaLabel: say("file"), accept: ".csv,.txt,.dat,.tsv,.lvm,.xlsx,.mat", onchange: () => file.files[0] && upload(file.files[0]) });
+  const file = element("input", { type: "file", ariaLabel: say("file"), accept: ".csv,.txt,.dat,.tsv,.lvm,.xlsx,.mat", onchange: () => file.files[0] && offerFile(file.files[0]) });
   return element("div", { className: "controls" }, element("p", { textContent: say("drop") }), file, list);
 }
 
@@ -57,12 +79,12 @@ const groupOf = ({ name }) => (name.includes(".") ? name.slice(0, name.indexOf("
 const groups = () => [...new Set(offered.columns.map(groupOf))].filter(Boolean);
 const groupNow = () => offered.group ?? groupOf(offered.columns.find(({ role }) => role) ?? { name: groups()[0] ?? "" });
 function chooseGroup(group) {
-  const roleOf = {}, own = ({ name }) => name.slice(name.indexOf(".") + 1);
+  const roleOf = {};
   for (const column of offered.columns.filter((one) => groupOf(one) === groupNow())) {
-    roleOf[own(column)] = column.role;
+    roleOf[ownName(column)] = column.role;
     column.role = "";
   }
-  for (const column of offered.columns.filter((one) => groupOf(one) === group && one.usable)) column.role = roleOf[own(column)] ?? "";
+  for (const column of offered.columns.filter((one) => groupOf(one) === group && one.usable)) column.role = roleOf[ownName(column)] ?? "";
   offered.group = group;
   redraw();
 }
@@ -118,7 +140,7 @@ async function take(name) {
 }
 
 function offeredRecord() {
-  const box = element("input", { type: "number", min: 0, step: "any", placeholder: say("asFile"), value: offered.Ts ?? "", oninput: () => { offered.Ts = box.value; } });
+  const box = element("input", { type: "number", className: "sampling", min: 0, step: "any", placeholder: say("asFile"), value: offered.Ts ?? "", oninput: () => { offered.Ts = box.value; } });
   const node = element("div", { className: "controls" }, element("h3", { textContent: offered.data }), columnsTable(), labelled(say("sampling"), box));
   node.append(element("details", {}, element("summary", { textContent: "dynlab look" }), element("pre", { textContent: offered.look, tabIndex: 0 })));
   node.append(button(say("take"), () => take("data"), { className: "main" }));
@@ -127,10 +149,15 @@ function offeredRecord() {
   return node;
 }
 async function takeSecond() {
+  const data = variables()[roles().raw], wanted = [data?.inputs, data?.outputs].join(), count = (role) => offered.columns.filter((column) => column.role === role).length;
+  if (data?.kind === "data" && [count("input"), count("output")].join() !== wanted) return trouble(say("otherChannels", channelsOf(data)));
   await takeForValidation();
   await settled(() => roles().second, 3000);
-  change(preparedAlike, { goesOn: true });
+  await change(preparedAlike, { goesOn: true });
+  reveal("second");
 }
+const withUnits = (names, units) => names.map((name, i) => (units?.[i] ? `${name} (${units[i]})` : name)).join(", ");
+const channelsOf = (data) => `${withUnits(data.input_names, data.input_units)} → ${withUnits(data.output_names, data.output_units)}`;
 /// A second record stands in for the part that validates.
 async function takeForValidation() {
   const name = freeName("second");
@@ -172,7 +199,10 @@ export function recordPanel() {
   if (offered) node.append(offeredRecord());
   else if (!raw) node.append(opener());
   else {
-    if (data?.kind === "data") node.append(element("p", { textContent: say("labelled", raw, `${data.N} × ${data.inputs} → ${data.outputs}, Ts = ${shortNumber(data.Ts)} s`) }));
+    if (data?.kind === "data") {
+      node.append(element("p", {}, ...typeset(say("labelled", raw, `${say("samples", data.N)}, T_s = ${shortNumber(data.Ts)} s`))),
+                  element("p", { className: "channels" }, channelsOf(data), " ", button(say("channels"), offerAgain)));
+    }
     node.append(element("details", {}, element("summary", { textContent: say("open") }), opener()), findingsList());
   }
   return node;

@@ -1,19 +1,45 @@
 // What a session puts into its report: figures and tables with numbers, captions and a sentence each, as lines of the script.
 import { session } from "./bench_session.js";
-import { luaText, roles, variables } from "./bench_steps.js";
+import { channelOf, luaText, roles, variables } from "./bench_steps.js";
 import { languages, text as told, textIn, tr, trIn } from "./bench_words.js";
 
 const labels = (models) => `{labels = {${models.map(luaText).join(", ")}}}`;
+const outputsOf = (data) => variables()[data]?.output_names ?? [""];
+/// Pairs of an output and an input of data, from 1 on, each with what selects it.
+function pairsOf(data) {
+  const { outputs = 1, inputs = 1 } = variables()[data] ?? {};
+  return Array.from({ length: outputs * inputs }, (_, k) => [1 + Math.floor(k / inputs), 1 + k % inputs]).map(([i, j]) => [outputs * inputs > 1 ? `:select(${i}, ${j})` : "", i, j]);
+}
+const panels = (figures) => (figures.length > 1 ? `subplot(${figures.length}, 1, {\n  ${figures.join(",\n  ")}})` : figures[0]);
+const POWER = tr("power of the output"), FREQUENCY = tr("frequency (rad/s)");
+const spectrumOf = (data, y, title) => `loglog(range(1, 1, ${data}.N//2)*(2*math.pi/(${data}.N*${data}.Ts)),\n    fft(${y} - mean(${y})).abs:range(2, ${data}.N//2 + 1)^2*(${data}.Ts/${data}.N),\n`
+  + `    {${title ? `title = ${luaText(title)}, ` : ""}xlabel = ${luaText(told(FREQUENCY))}, ylabel = ${luaText(told(POWER))}})`;
+
+/// The models that have these outputs, by output: as compare and fit take them.
+const channelOfModel = (name) => channelOf(session.steps.find((step) => step.names[0] === name) ?? { arguments: [] });
+function compared(data, models) {
+  const outputs = outputsOf(data), own = models.map((model) => channelOfModel(model).output);
+  if (outputs.length === 1 || own.every((output) => !output)) return `compare(${[data, ...models, labels(models)].join(", ")})`;
+  return panels(outputs.map((_, i) => {
+    const some = models.filter((_, k) => !own[k] || own[k] === i + 1);
+    return some.length > 0 ? `compare(${[`${data}:select(${i + 1})`, ...some.map((model) => (channelOfModel(model).output ? model : `${model}.channels[${i + 1}][1]`)), labels(some)].join(", ")})` : "";
+  }).filter(Boolean));
+}
+const partOf = (data, model) => {
+  const { output, input } = channelOfModel(model);
+  return output && outputsOf(data).length > 1 ? `${data}:select(${[output, input].filter(Boolean).join(", ")})` : data;
+};
+
 /// The transfer functions of the models, each with what a legend calls it: several where there are several channels.
 function channelsOf(models) {
   const data = variables()[roles().estimation], titles = (list, count) => (count > 1 ? list ?? [] : []);
   return models.flatMap((model) => {
     const { outputs = 1, inputs = 1 } = session.views.models?.rows?.find(({ name }) => name === model) ?? {};
-    if (outputs * inputs === 1) return [{ code: model, label: model }];
+    if (outputs * inputs === 1) return [{ code: model, label: model, ...channelOfModel(model) }];
     return Array.from({ length: outputs * inputs }, (_, k) => {
       const i = Math.floor(k / inputs), j = k % inputs;
       const label = [...(models.length > 1 ? [model] : []), titles(data?.input_names, inputs)[j], titles(data?.output_names, outputs)[i]].filter(Boolean).join(", ");
-      return { code: `${model}.channels${outputs > 1 ? `[${i + 1}]` : ""}[${j + 1}]`, label };
+      return { code: `${model}.channels${outputs > 1 ? `[${i + 1}]` : ""}[${j + 1}]`, label, output: i + 1, input: j + 1 };
     });
   });
 }
@@ -35,10 +61,10 @@ const FIGURES = {
     tr("The record: output above, input below"), tr("the record as it was measured")],
   second: [({ second }) => `idplot(${second})`,
     tr("The second record: output above, input below"), tr("the record on which the models are judged")],
-  compare: [({ validation }, models) => `compare(${[validation, ...models, labels(models)].join(", ")})`,
+  compare: [({ validation }, models) => compared(validation, models),
     tr("Measured output and outputs that the models simulate, with the fit of each"),
     tr("what was measured and what the models simulate")],
-  residuals: [({ validation }, models) => `(resid(${validation}, ${models[models.length - 1]}))`,
+  residuals: [({ validation }, models) => `(resid(${partOf(validation, models.at(-1))}, ${models.at(-1)}))`,
     tr("Autocorrelation of the simulation error, and its correlation with the input; the grey bands are the bounds of chance"),
     tr("what the model leaves unexplained")],
   step: [(_, models) => together("step", models),
@@ -52,7 +78,12 @@ const FIGURES = {
   poles: [(_, models) => together("pzmap", models),
     tr("Poles (crosses) and zeros (circles) with the regions of their confidence where they are known"),
     tr("poles and zeros")],
-  correlation: [({ estimation }, models) => `(impulseest(${[estimation, ...models, ...(models.length > 0 ? [labels(models)] : [])].join(", ")}))`,
+  spectrum: [({ raw }) => panels(outputsOf(raw).map((name, i, all) => (all.length > 1 ? spectrumOf(raw, `${raw}.y:col(${i + 1})`, name) : spectrumOf(raw, `${raw}.y`)))),
+    tr("Spectrum of the measured outputs"), tr("at which frequencies the output has its power")],
+  correlation: [({ estimation }, models) => panels(pairsOf(estimation).map(([pair, i, j]) => {
+    const parts = models.map((model) => [channelsOf([model]).find((one) => !one.output || (one.output === i && one.input === j))?.code, model]).filter(([code]) => code);
+    return `(impulseest(${[`${estimation}${pair}`, ...parts.map(([code]) => code), ...(parts.length > 0 ? [labels(parts.map(([, model]) => model))] : [])].join(", ")}))`;
+  })),
     tr("Impulse response by correlation; the grey band is what chance alone would give"),
     tr("the impulse response that the record shows without any model")],
   reading: [({ raw, reading }) => `compare(${raw}, ${reading}_model, ${labels([told(BY_HAND)])})`,
@@ -66,8 +97,8 @@ const TABLES = {
   parameters: [(_, models) => models.map((model) => `present(${model})`).join("\n")],
   models: [({ estimation, validation }, models, name) => {
     const outputs = variables()[estimation]?.output_names ?? [""];
-    const cell = (part, model, i) => number(outputs.length > 1 ? `(select(${i + 1}, fit(${part}, ${model})))` : `fit(${part}, ${model})`, 1);
-    const rows = models.flatMap((model) => outputs.map((output, i) => `{${luaText(outputs.length > 1 ? `${model}, ${output}` : model)}, ${cell(estimation, model, i)}, ${cell(validation, model, i)}}`));
+    const cell = (part, model, i) => number(outputs.length > 1 && partOf(part, model) === part ? `(select(${i + 1}, fit(${part}, ${model})))` : `fit(${partOf(part, model)}, ${model})`, 1);
+    const rows = models.flatMap((model) => outputs.map((output, i) => [output, i]).filter(([, i]) => [undefined, i + 1].includes(channelOfModel(model).output)).map(([output, i]) => `{${luaText(outputs.length > 1 ? `${model}, ${output}` : model)}, ${cell(estimation, model, i)}, ${cell(validation, model, i)}}`));
     return `report.table("${name}", {\n  ${headText(HEADS.models)},\n  ${rows.join(",\n  ")}})`;
   }, tr("Fit of the simulated output"), tr("how well the models simulate the records")],
   orders: [({ orders }, _, name) =>
@@ -78,7 +109,7 @@ const TABLES = {
 export const goesIntoReport = (view) => Object.hasOwn(FIGURES, view) || Object.hasOwn(TABLES, view);
 
 /// Views of one kind come under one heading.
-const SECTIONS = [[tr("Record"), ["record", "second", "correlation"]], [tr("Reading by hand"), ["reading"]], [tr("Choice of the structure"), ["orders"]],
+const SECTIONS = [[tr("Record"), ["record", "second", "spectrum", "correlation"]], [tr("Reading by hand"), ["reading"]], [tr("Choice of the structure"), ["orders"]],
   [tr("Models"), ["parameters", "models"]], [tr("Validation"), ["compare", "residuals"]], [tr("Responses"), ["step", "impulse", "bode", "nyquist", "poles"]],
   [tr("Monte Carlo study"), ["study"]]];
 
@@ -147,7 +178,7 @@ export const viewLines = (view, models) => linesOf(view, models, takenIds());
 export function wholeReport(shown, models) {
   if (/^-- %% \[markdown\]/m.test(session.source) || /\b(report\.|idplot|plot|figure|compare|resid|step|bode|nyquist|pzmap|present|print)\s*[({."]/.test(session.source)) return "";
   const { raw, second, orders, reading, study } = roles(), taken = takenIds();
-  const there = { record: raw, second, correlation: raw && shown.includes("correlation"), reading, orders, study };
+  const there = { record: raw, second, correlation: raw && shown.includes("correlation"), spectrum: raw && shown.includes("spectrum"), reading, orders, study };
   const wanted = (view) => (view in there ? there[view] : models.length > 0 && (shown.includes(view) || ["parameters", "models"].includes(view)));
   return SECTIONS.map(([heading, views]) => [told(heading), views.filter((view) => wanted(view) && goesIntoReport(view))])
     .filter(([, views]) => views.length > 0)
@@ -164,15 +195,15 @@ function cellsOf(lines) {
 }
 const isHeading = ({ body }) => /^-- #+ [^\n]*$/.test(body);
 
-/// Edits that take a model out of the report's own cells, which go with their texts and headings where nothing is left; and the
+/// Edits that take names out of the report's own cells, which go with their texts and headings where nothing is left; and the
 /// lines that are seen to by them.
-export function reportWithout(name, models) {
+export function reportWithout(names, models) {
   const lines = session.source.replace(/\n$/, "").split("\n"), cells = cellsOf(lines), edits = [], seen = new Set(), gone = new Set();
   cells.forEach((cell, k) => {
     const view = cell.id?.replace(/-\d+$/, "");
     if (!goesIntoReport(view ?? "") || !/ echo=false/.test(lines[cell.start])) return;
-    const named = models.filter((model) => new RegExp(`(?<![\\w."])${model}(?!\\w)`).test(cell.body)), rest = named.filter((model) => model !== name);
-    if (!named.includes(name)) return;
+    const isIn = (name) => new RegExp(`(?<![\\w."])${name}(?!\\w)`).test(cell.body), rest = models.filter((model) => isIn(model) && !names.includes(model));
+    if (!names.some(isIn)) return;
     for (let line = cell.start; line < cell.end; ++line) seen.add(line + 1);
     if (rest.length > 0) {
       edits.push({ first: cell.start + 2, last: cell.start + 1 + cell.body.split("\n").length, text: codeOf(view, rest, cell.id) });

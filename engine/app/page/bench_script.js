@@ -113,6 +113,15 @@ export function closeScript() {
   document.getElementById("field").readOnly = true;
 }
 
+/// Puts the cursor into a line of the script, from 1 on.
+export function showLine(number) {
+  if (document.body.classList.contains("without-script")) document.getElementById("show-script").click();
+  const field = document.getElementById("field");
+  if (!mirror) return field.focus();
+  mirror.setCursor({ line: number - 1, ch: 0 });
+  mirror.focus();
+}
+
 export function showMistake() {
   if (!mirror) return;
   if (line >= 0 && line < mirror.lineCount()) mirror.removeLineClass(line, "wrap", "broken-line");

@@ -1,4 +1,4 @@
-// The session as the server tells it, and orders to it. An order that changes the script is made from the state that the one
+// The session as the server tells it, and orders to it: no other part of the workbench speaks to the server. An order that changes the script is made from the state that the one
 // before it left.
 import { order } from "./orders.js";
 import { say } from "./bench_words.js";
@@ -19,6 +19,7 @@ export async function request(path, ask = fetch) {
     throw new Error(say(session.over ? "ended" : "noAnswer"));
   }
 }
+export const upload = (file) => request(`upload?name=${encodeURIComponent(file.name)}`, (path) => order(path, file));
 export async function post(path, body, written = false) {
   const text = written ? body : JSON.stringify(body ?? {}), keepalive = document.hidden && text.length < kMostOfLeaving;
   const answer = await request(path, () => order(path, text, { keepalive }));
@@ -82,7 +83,7 @@ async function obey(order) {
   if (last === order) last = null;
   const { make, hand, held, goesOn, done } = order;
   for (let attempt = 0; attempt < kAttempts; ++attempt) {
-    const made = make();
+    const made = await make();
     if (!made || (Array.isArray(made) && made.length === 0)) return done();
     const whole = !Array.isArray(made), before = session.revision;
     const answer = await post("script", { revision: before, edits: whole ? [] : made, whole, text: whole ? made.text : "",
@@ -98,12 +99,12 @@ async function obey(order) {
 }
 
 let told = null;
-/// Tells something at the top until the script changes; null takes it away.
-export function trouble(words) {
+/// Tells something at the top until the script changes, with controls behind it; null takes it away.
+export function trouble(words, ...controls) {
   told = words;
   const node = document.getElementById("trouble");
   node.hidden = !words;
-  node.textContent = words ?? "";
+  node.replaceChildren(words ?? "", ...controls.flatMap((control) => [" ", control]));
 }
 
 let looked = "", next = null, looking = false, asked = {};  // asked: the settings that are looked at

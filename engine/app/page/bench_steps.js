@@ -83,6 +83,13 @@ export function roles() {
   return { raw, prepared, estimation, validation, second, orders, study, reading };
 }
 
+/// The channels, from 1 on, that a step's data were selected from others; {} for all of them.
+export function channelOf(step) {
+  const text = step.arguments[0] ?? "", named = session.steps.find((one) => one.on && one.function === "select" && one.names[0] === text);
+  const [, output, input] = /:select\((\d+)(?:, *(\d+))?\)$/.exec(named ? `:select(${named.arguments.join(", ")})` : text) ?? [];
+  return output ? { output: Number(output), ...(input ? { input: Number(input) } : {}) } : {};
+}
+
 /// Models that were estimated or written down; not the true system of a study.
 export function modelSteps() {
   const seen = variables(), truths = session.steps.flatMap((step) => step.options.filter(({ key }) => key === "system").map(({ text }) => text));

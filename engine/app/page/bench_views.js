@@ -1,16 +1,18 @@
 // The pictures of a session, as many at once as wanted, and what is told with them.
-import { change, isOlder, look, request, session, trouble } from "./bench_session.js";
+import { change, isOlder, look, request, session, settled, trouble } from "./bench_session.js";
 import { Brushes } from "./bench_brushes.js";
-import { addModel, redraw } from "./bench_choice.js";
-import { button, choice, element, labelled, why } from "./bench_fields.js";
+import { addModel, chosenStep, redraw } from "./bench_choice.js";
+import { button, element, typeset, why } from "./bench_fields.js";
 import { movePart, partsNow } from "./bench_parts.js";
-import { endOfScript, insertedBehind, modelSteps, roles, variables } from "./bench_steps.js";
+import { channelOf, endOfScript, insertedBehind, keyOf, modelSteps, roles, variables } from "./bench_steps.js";
+import { deleteStep } from "./bench_delete.js";
 import { goesIntoReport, viewLines, wholeReport } from "./bench_report.js";
 import { say, shortNumber, viewName, viewNames } from "./bench_words.js";
 
 const HELP = { record: "idplot", second: "idplot", spectrum: "fft", compare: "compare", residuals: "resid", step: "step", impulse: "impulse", bode: "bode", nyquist: "nyquist",
                poles: "pzmap", parameters: "present", correlation: "impulseest", delay: "delayest", reading: "step_delayed", orders: "srivcstruc", study: "montecarlo" };
 const WIDE = ["record", "second", "study", "reading", "orders"];
+const PER_CHANNEL = ["compare", "residuals", "step", "impulse", "nyquist", "poles", "bode", "correlation", "spectrum"];
 const OVER_TIME = [["record", "compare"], ["step", "impulse", "correlation"]];  // pictures whose cursors go together
 const tiles = new Map();  // name -> {node, body, words, plot}
 const hidden = new Set();  // models that are not drawn
@@ -22,11 +24,11 @@ function defaultViews() {
   const { raw, second, orders, study, reading } = roles(), models = modelSteps().length > 0;
   const names = raw ? ["record"] : [];
   if (second) names.push("second");
+  if (reading) names.push("reading");
   if (models) names.push("compare", "residuals", "step", "bode");
   else if (raw) names.push("correlation", "spectrum");
   if (orders) names.push("orders");
   if (study) names.push("study");
-  if (reading) names.push("reading");
   return names;
 }
 export const shownViews = () => chosen ?? defaultViews();
@@ -49,13 +51,24 @@ function toggleView(name, on = !shownViews().includes(name)) {
   const closes = tiles.get(name)?.node.contains(document.activeElement);
   arrange();
   redraw();
+  if (on) reveal(name);
   if (closes) (document.querySelector("#views .tile .close") ?? document.getElementById("views")).focus();
 }
 export function viewsPanel() {
   const shown = shownViews(), { raw, study } = roles();
   if (!raw && !study && modelSteps().length === 0) return "";
   const toggle = (name) => button(viewName(name), () => toggleView(name), { ariaPressed: String(shown.includes(name)), title: isEmpty(name) ? emptyWords(name) : "" });
-  return element("section", { className: "panel" }, element("h2", { textContent: say("views") }), element("div", { className: "adding" }, ...viewNames().map(toggle)), channelChoice() ?? "");
+  return element("section", { className: "panel" }, element("h2", { textContent: say("views") }), element("div", { className: "adding" }, ...viewNames().map(toggle)));
+}
+/// Shows a view that was asked for, where it is to be seen.
+export function reveal(name) {
+  if (!shownViews().includes(name)) return toggleView(name, true);
+  const { node } = tiles.get(name) ?? {};
+  if (!node) return;
+  for (const { node } of tiles.values()) node.classList.remove("asked");
+  node.scrollIntoView({ block: "nearest" });
+  node.classList.add("asked");
+  setTimeout(() => node.classList.remove("asked"), 1500);
 }
 
 /// The instant under the cursor, in the other pictures of the same time.
@@ -92,28 +105,32 @@ export function download(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-/// Of records and models with several channels: which one the views of a single channel show.
-let channel = { output: 1, input: 1 };
-export function channelChoice() {
-  const data = variables()[roles().estimation];
-  const lists = [["output", data?.output_names], ["input", data?.input_names]].filter(([, names]) => names?.length > 1);
-  if (lists.length === 0) return null;
-  return element("div", { className: "controls" }, ...lists.map(([kind, names]) => labelled(say(kind),
-    choice(names.map((_, i) => String(i + 1)), String(Math.min(channel[kind], names.length)), (value) => { channel = { ...channel, [kind]: Number(value) }; ask(); }, names))));
+let firstAsked = 0, questions = 0;  // the number of the question that is asked now
+const kLongestFirst = 60000;  // ms; Stop ends it before
+/// The numbers of poles and zeros of a first model without a delay; none where one of the usual orders is right.
+export async function firstOrders() {
+  firstAsked = ++questions;
+  ask();
+  await settled(() => session.views.first?.number === questions || session.error || session.stopped, kLongestFirst);
+  firstAsked = 0;
+  const { number, orders } = session.views.first ?? {};
+  return number === questions ? orders : [];
 }
 
 /// Tells the server what is to be seen, at which size.
 export function ask() {
   clearTimeout(timer);
   timer = setTimeout(() => {
-    const part = roles(), all = modelSteps().filter((step) => step.on).map((step) => step.names[0]);
+    const part = roles(), models = modelSteps().filter((step) => step.on), all = models.map((step) => step.names[0]);
+    const channel_of = Object.fromEntries(models.map((step) => [step.names[0], channelOf(step)]).filter(([, { output }]) => output));
     const names = [...new Set([...Object.values(part), ...all].filter((name) => name && /^[A-Za-z_]\w*$/.test(name)))];
     const every = [...new Set([...names, ...session.steps.filter((step) => step.on).flatMap((step) => step.names)])];
     const sizes = {};
+    sizeTiles();
     for (const [name, { body }] of tiles) if (!isEmpty(name)) sizes[name] = [body.clientWidth - 8, body.clientHeight - (name === "record" ? 40 : 4)];
     const of = [part.raw, part.prepared];
     const until = Math.max(0, ...session.steps.filter((step) => step.names.some((name) => of.includes(name))).map((step) => step.last_line));
-    look(every, { ...part, views: ["variables", "models", ...shownViews(), "advice"], models: drawnModels(), all_models: all, sizes, range, ...channel, ...(wanted ? { save: wanted } : {}) }, until);
+    look(every, { ...part, views: ["variables", "models", ...shownViews(), ...(firstAsked ? ["first"] : []), "advice"], models: drawnModels(), all_models: all, first: firstAsked, channel_of, sizes, range, ...(wanted ? { save: wanted } : {}) }, until);
   }, 0);
 }
 
@@ -128,10 +145,21 @@ function makeTile(name) {
   const saved = element("select", { className: "save", ariaLabel: say("labelled", say("saveAs"), viewName(name)) });
   saved.append(...["↓", "PDF", "SVG", "PNG"].map((text) => element("option", { value: text.toLowerCase(), textContent: text })));
   saved.onchange = () => { if (saved.selectedIndex > 0) save({ what: "figure", view: name, format: saved.value }); saved.selectedIndex = 0; };
-  const tools = element("span", { className: "tools-of-tile" }, why(HELP[name]), ...(TABLES[name] ? [] : [saved]), ...(goesIntoReport(name) ? [into] : []), close);
+  const made = ["orders", "study", "reading"].includes(name) ? [button(say("remove"), () => deleteStep(keyOf(session.steps.find((step) => step.on && step.names[0] === roles()[name]))), { ariaLabel: say("labelled", say("remove"), viewName(name)) })] : [];
+  const tools = element("span", { className: "tools-of-tile" }, why(HELP[name]), ...(TABLES[name] ? [] : [saved]), ...(goesIntoReport(name) ? [into] : []), ...made, close);
   node.append(element("header", {}, title, tools), body, words);
   for (const group of OVER_TIME) if (group.includes(name)) linkCursor(name, body, group);
-  return { node, body, words, tools };
+  return { node, body, words, tools, title };
+}
+/// The output whose structures the last search compares, where there are several.
+function searchedName() {
+  const { output } = channelOf(session.steps.find((step) => step.names[0] === roles().orders) ?? { arguments: [] });
+  return output ? variables()[roles().estimation]?.output_names?.[output - 1] ?? "" : "";
+}
+/// What was read off, by the formulas of its shape.
+function readingWords({ kind, numbers, fit }) {
+  const list = numbers.map((value) => shortNumber(value, 4));
+  return kind === "first" ? say("readFirst", ...list, shortNumber(fit, 3)) : kind === "delayed" ? say("readDelayed", ...list, shortNumber(fit, 3)) : say("readSecond", ...list, shortNumber(fit, 3));
 }
 /// All tiles anew, in another language.
 export function renewTiles() {
@@ -139,6 +167,19 @@ export function renewTiles() {
   tiles.clear();
 }
 
+/// Views of several channels have room for all their panels; residuals and Bode have two rows or columns for each then.
+function sizeTiles() {
+  const { outputs = 1, inputs = 1 } = variables()[roles().estimation] ?? {}, several = outputs * inputs > 1;
+  for (const [name, { node, body }] of tiles) {
+    if (name === "record" || name === "second") body.style.height = outputs + inputs > 2 ? `${7 + 4.5 * (outputs + inputs)}rem` : "";
+    if (!PER_CHANNEL.includes(name)) continue;
+    node.classList.toggle("wide", several && ["residuals", "bode"].includes(name));
+    const rows = name === "residuals" ? 1 + inputs : name !== "bode" ? outputs : outputs * inputs * (body.clientWidth < kNarrow ? 2 : 1);
+    body.style.height = several ? `${5 + 8 * rows}rem` : "";
+  }
+}
+const kNarrow = 490;  // px: panels of Bode stand one below the other, as views.lua does it
+const ASKED = ["reading", "orders", "study", "second"];  // views of steps that somebody made to see them
 export function arrange() {
   const main = document.getElementById("views"), names = shownViews(), before = tiles.size;
   for (const [name, tile] of tiles) if (!names.includes(name)) { tile.node.remove(); tiles.delete(name); }
@@ -148,8 +189,10 @@ export function arrange() {
     const { node } = tiles.get(name), place = main.querySelectorAll(".tile")[i];
     if (place !== node) main.insertBefore(node, place ?? null);  // one that stays keeps its focus
   });
+  sizeTiles();
   drawTiles(names);
-  if (before > 0 && fresh.length > 0) tiles.get(fresh[0]).node.scrollIntoView({ block: "nearest" });
+  const asked = ASKED.find((name) => fresh.includes(name)) ?? (main.querySelector(".tile.asked") ? null : fresh[0]);
+  if (before > 0 && asked) reveal(asked);
   ask();
 }
 
@@ -202,12 +245,11 @@ function table(head, rows) {
 /// The map of orders: a click estimates the structure.
 function ordersMap(seen) {
   const rows = seen.rows, zeros = [...new Set(rows.map((row) => row.zeros))].sort((a, b) => a - b), poles = [...new Set(rows.map((row) => row.poles))].sort((a, b) => a - b);
-  const best = Math.max(...rows.map((row) => row.validation ?? row.fit ?? -Infinity)), worst = Math.min(...rows.map((row) => row.validation ?? row.fit ?? Infinity));
+  const fitOf = (row) => Math.max(0, row.validation ?? row.fit ?? 0), best = Math.max(...rows.map(fitOf)), worst = Math.min(...rows.map(fitOf));
   const cell = (p, z) => {
     const row = rows.find((row) => row.poles === p && row.zeros === z);
     if (!row) return "";
-    const fit = row.validation ?? row.fit;
-    const words = row.failure ? say("failed") : `${shortNumber(fit, 4)} %${row.best ? " ★" : ""}${row.doubt ? " ?" : ""}`;
+    const fit = fitOf(row), words = row.failure ? say("failed") : `${fit > 0 ? shortNumber(fit, 4) : "< 0"} %${row.best ? " ★" : ""}${row.doubt ? " ?" : ""}`;
     const node = button(words, () => takeOrders(p, z, row.delay), { title: row.failure ?? say("labelled", say("takeOrders"), `YIC ${shortNumber(row.yic, 3)}, BIC ${shortNumber(row.bic, 5)}`) });
     node.style.setProperty("--share", String(best > worst ? (fit - worst) / (best - worst) : 1));
     node.className = "order";
@@ -215,7 +257,19 @@ function ordersMap(seen) {
   };
   return table([`${say("poles")} \\ ${say("zeros")}`, ...zeros.map(String)], poles.map((p) => [element("b", { textContent: p }), ...zeros.map((z) => cell(p, z))]));
 }
-const takeOrders = (poles, zeros, delay) => addModel(`tfsrivc(${roles().estimation}, ${poles}, ${zeros}${delay > 0 ? "" : ", {TdMax = 0}"})`);
+/// The structure for one output: of the others the chosen model's numbers stay.
+function takeOrders(poles, zeros, delay) {
+  const { estimation, orders } = roles(), { output } = channelOf(session.steps.find((step) => step.names[0] === orders) ?? { arguments: [] });
+  const count = variables()[estimation]?.outputs ?? 1, none = delay > 0 ? "" : ", {TdMax = 0}";
+  if (!output || count === 1) return addModel(`tfsrivc(${estimation}, ${poles}, ${zeros}${none})`);
+  const before = chosenStep(), known = before?.function === "tfsrivc" && before.arguments[0] === estimation ? before.arguments.slice(1) : [];
+  const list = (orders, own) => {
+    const text = String(orders ?? ""), numbers = /^\{[\d, ]+\}$/.test(text) ? text.slice(1, -1).split(",").map(Number) : Array(count).fill(/^\d+$/.test(text) ? Number(text) : own);
+    numbers[output - 1] = own;
+    return numbers.every((one) => one === numbers[0]) ? String(own) : `{${numbers.join(", ")}}`;
+  };
+  return addModel(`tfsrivc(${estimation}, ${list(known[0], poles)}, ${list(known[1], zeros)}${none})`);
+}
 
 const TABLES = {
   parameters: (seen) => table([say("model"), say("parameter"), say("value"), say("error")], seen.rows),
@@ -224,13 +278,18 @@ const TABLES = {
 const studyTable = (seen) => table(["", say("parameter"), say("truth"), say("meanOf"), say("scatter"), say("bound"), say("reported")], seen.rows);
 
 function drawTile(name) {
-  const tile = tiles.get(name), seen = session.views[name] ?? {}, older = isOlder(name), empty = isEmpty(name) && !seen.error;
+  const tile = tiles.get(name), seen = session.views[name] ?? {}, older = isOlder(name), empty = isEmpty(name) && !seen.error, out = seen.left_out ?? [];
+  const bare = !older && !seen.figure && !seen.rows && (Boolean(seen.error) || out.length > 0);
   tile.node.classList.toggle("older", older);
-  tile.node.classList.toggle("empty", empty);
-  tile.words.textContent = empty ? emptyWords(name) : seen.error ?? [older && say("older"), seen.words, name === "delay" && !seen.figure && !session.running && say("no_delays")].filter(Boolean).join(" – ");
+  tile.node.classList.toggle("empty", empty || bare);
+  const error = seen.error && say("notDrawn", seen.error.replace(/^\S+:\d+: /, ""));
+  const words = empty ? emptyWords(name) : error ?? [older && say("older"), name === "reading" && seen.numbers ? readingWords(seen) : seen.words, out.length > 0 && say("elsewhere", out.join(", ")), name === "delay" && !seen.figure && !session.running && say("no_delays")].filter(Boolean).join(" – ");
+  tile.words.replaceChildren(...typeset(words));
+  if (name === "orders") tile.title.textContent = say("labelled", viewName(name), searchedName()).replace(/\W+$/, "");
   tile.words.classList.toggle("broken", Boolean(seen.error));
-  if (empty) return;
+  if (empty || bare) return;
   if (seen.figure) drawFigure(name, tile, seen.figure);
+  if (tile.node.classList.contains("asked")) tile.node.scrollIntoView({ block: "nearest" });  // its words have come
   if (TABLES[name] && seen.rows) tile.body.replaceChildren(TABLES[name](seen));
   if (name === "study" && seen.rows) {
     tile.rows ??= tile.node.insertBefore(element("div", {}), tile.words);

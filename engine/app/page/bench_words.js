@@ -47,7 +47,7 @@ addWords({
   delayAbout: tr("pure delay in s, and its standard error"),
   fitEstimationAbout: tr("how much of the output the simulation explains, on the samples of the estimation; 100 % is all"),
   fitValidationAbout: tr("the same on the samples of the validation"),
-  "R_T²About": tr("1 − variance of the simulation error over variance of the output"),
+  "R_T^2About": tr("1 − variance of the simulation error over variance of the output"),
   YICAbout: tr("Young's criterion: small errors and certain parameters; the lower, the better"),
   conditionAbout: tr("condition number of the equations; very large: the data do not tell the parameters apart"),
   whiteAbout: tr("whether the residuals are white: nothing in them is predictable"),
@@ -61,6 +61,16 @@ addWords({
   without: tr("without {}"), notAlike: tr("The second record is not prepared as the first is."),
   prepareAlike: tr("Prepare it alike"), levelStep: tr("Level"), trendStep: tr("Trend"), filterStep: tr("Filter"),
   resampleStep: tr("Resample"), outliersStep: tr("Outliers"), rangeStep: tr("Range"),
+  samples: tr("{} samples"), channels: tr("Channels …"), otherChannels: tr("Choose the channels of the record in use: {}."),
+  otherValidation: tr("The validation data have other channels than the estimation data: divide the record, or open one with the same channels."),
+  elsewhere: tr("Not shown: {}. These models have other channels than the data."),
+  output_: tr("output"), output_About: tr("the output that the numbers of this line are about"),
+  ofOutput: tr("output to search"), ordersOfOne: tr("{} compares structures of one output, but {} has {}. Choose one of them, or delete the search."),
+  searchOne: tr("Search for {}"), showControls: tr("Show its controls"), showLine: tr("Show the line"), atStep: trIn("step", "{} ({}): {}"),
+  oneInput: tr("Structures are compared for records of one input."), making: tr("making the report"),
+  wholePage: tr("The whole page"), readFirst: tr("K = change of y/change of u = {}/{} = {}. T: 63 % of the change after {} s. Within 5 % after 3 T = {} s. Fit {} %."),
+  readDelayed: tr("28 % after {} s, 63 % after {} s: T = 1.5 (t63 − t28) = {} s, Td = t63 − T = {} s. K = {}. Fit {} %."),
+  readSecond: tr("Overshoot D = {} % after T1 = {} s: z = sqrt(ln(D)²/(ln(D)² + pi²)) = {}, w0 = pi/(T1 sqrt(1 − z²)) = {} rad/s. K = {}. Within 5 % after about 3/(z w0) = {} s. Fit {} %."), notDrawn: tr("Not drawn: {}"),
   noStep: tr("The input of this record is no single step, or the response has not settled."), exports: tr("Exports"),
   exportModels: tr("Models"), exportData: tr("Prepared record"), exportScript: tr("Script"),
 });
@@ -77,5 +87,8 @@ export const viewNames = () => Object.keys(VIEWS);
 /// A number as a table shows it.
 export function shortNumber(value, digits = 4) {
   if (value === null || value === undefined || typeof value !== "number") return "";
-  return number(String(Number(value.toPrecision(digits))).replace("-", "−"));
+  const plain = Number(value.toPrecision(digits)), size = Math.abs(plain);
+  if (size === 0 || (size < 1e6 && size >= 1e-4) || !Number.isFinite(size)) return number(String(plain).replace("-", "−"));
+  const [factor, power] = value.toExponential(digits - 1).split("e"), raised = [...power.replace("+", "")].map((sign) => (sign === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[sign])).join("");
+  return `${number(String(Number(factor)).replace("-", "−"))}·10${raised}`;
 }

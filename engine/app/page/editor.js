@@ -1,16 +1,22 @@
 // The document's files beside the page, where it may change them. What is saved says what it was made from: a file that
 // was changed elsewhere meanwhile is not written over, both texts are shown.
+import { forgetAnswers, helpWithCode } from "./code_help.js";
 import { draftsOf, forget, keepDraft, keepDraftSoon, setAside, wordsOf } from "./drafts.js";
 import { noteOf, readNotes, setNote } from "./notes.js";
-import { order } from "./orders.js";
 import { inEnglish, say } from "./page_words.js";
+import { cellAt, cellsOf, defineScriptMode, outlineOf } from "./script_mode.js";
+import { Lost, session } from "./session.js";
+import { showTextCells } from "./text_cells.js";
+import { beginVariables, followVariables } from "./variables.js";
 
 const $ = (id) => document.getElementById(id);
 const sources = new Map();  // number -> {number, name, place, digest, saved, doc, tab, theirs, drafts, key}
 const kPhrases = ["search", "asPattern", "replace", "replaceAll", "replaceWith", "replaceBy", "replaceIt", "yes", "no", "all", "stop"];  // CodeMirror's
 let open = null;            // the one that is shown
 let mirror = null;          // CodeMirror, where it is installed
-let followCursor = () => {};
+let code = null;            // its help (code_help.js)
+let refreshCells = () => {};
+let followCursor = () => {}, piecesOf = () => [];
 
 function loaded(file) {
   return new Promise((yes, no) => {
@@ -121,19 +127,73 @@ export function speak() {
 
 function show(source) {
   open = source;
+  code?.leave();
   if (mirror) mirror.swapDoc(source.doc);
-  else $("field").value = source.doc.getValue();
+  if (mirror && !source.seen && source.name.endsWith(".lua")) mirror.foldCode(0);
+  source.seen = true;
+  if (!mirror) $("field").value = source.doc.getValue();
   showMarks();
+  showOutline();
+}
+
+/// Headings and questions of the script that is shown.
+function showOutline() {
+  const found = mirror && open?.name.endsWith(".lua") ? outlineOf(mirror) : [], list = $("outline");
+  const text = JSON.stringify(found);
+  list.hidden = found.length === 0;
+  if (list.dataset.shown === text) return;
+  list.dataset.shown = text;
+  const option = ({ line, level, words }) => Object.assign(document.createElement("option"), {
+    value: line, textContent: "\u2003".repeat(level === 7 ? 1 : level - 1) + words.replace(/[`*]|\\?\$/g, "") });
+  list.replaceChildren(Object.assign(document.createElement("option"), { value: "", textContent: "☰" }), ...found.map(option));
+}
+
+const kHistory = 40_000;  // letters of what can be undone that are kept
+const historyOf = (source) => `dynlab-undo ${source.place}`;
+/// What was typed can be undone after the page was closed, while the file stays as it is.
+function keepHistory(source) {
+  if (!mirror || isChanged(source)) return;
+  const history = source.doc.getHistory();
+  const kept = () => JSON.stringify({ digest: source.digest, history });
+  while (history.done.length > 0 && kept().length > kHistory) history.done.splice(0, Math.ceil(history.done.length / 4));
+  if (history.done.length > 0) setNote(historyOf(source), kept());
+}
+function restoreHistory(source) {
+  try {
+    const { digest, history } = JSON.parse(noteOf(historyOf(source)));
+    if (digest === source.digest) source.doc.setHistory(history);
+  } catch { /* none is kept */ }
+}
+
+const pause = (ms) => new Promise((yes) => { setTimeout(yes, ms); });
+/// The cell at a line runs, and what is behind it; with `only`, the cells up to it that have changed. The text is saved before.
+async function runCell(line, only = false) {
+  const source = open;
+  while (source.saving) await pause(5);
+  await save(source, { line, only });
+}
+function runHere(moveOn) {
+  const cell = open.name.endsWith(".lua") && cellAt(mirror, mirror.getCursor().line);
+  if (!cell) return save(open);
+  const next = moveOn && cellsOf(mirror).find(({ marker }) => marker > cell.marker);
+  if (next) mirror.setCursor(next.first, 0);
+  if (next) mirror.scrollIntoView({ from: { line: next.marker, ch: 0 }, to: { line: next.last, ch: 0 } }, 40);
+  return cell.text ? save(open) : runCell(cell.first);
+}
+function runAbove() {
+  const above = open.name.endsWith(".lua") ? cellsOf(mirror).filter(({ marker, text }) => !text && marker < (cellAt(mirror, mirror.getCursor().line)?.marker ?? 0)) : [];
+  if (above.length > 0) runCell(above[above.length - 1].first, true);
 }
 
 function add({ number, name, place, text, digest }) {
   const tab = document.createElement("button");
   tab.setAttribute("role", "tab");
-  const mode = name.endsWith(".lua") ? "lua" : name.endsWith(".md") ? "markdown" : null;
+  const mode = name.endsWith(".lua") ? "dynlab" : name.endsWith(".md") ? "markdown" : null;
   const plain = unix(text);
   const doc = mirror ? window.CodeMirror.Doc(plain, mode) : new PlainDoc(plain);
   const source = { number, name, place, digest, saved: plain, crlf: text.includes("\r\n"), doc, tab, theirs: null, saves: 0 };
   source.drafts = draftsOf(source);
+  if (mirror) restoreHistory(source);
   tab.onclick = () => show(source);
   $("tabs").append(tab);
   sources.set(number, source);
@@ -177,8 +237,8 @@ function dropDraft(source) {
 }
 
 /// One save of a file at a time: the next says what it was made from only when the one before has been answered.
-async function save(source) {
-  if (!source || !isChanged(source)) return;
+async function save(source, place = null) {
+  if (!source || !isChanged(source) && !place) return;
   if (source.saving) {
     source.again = true;
     return;
@@ -187,11 +247,12 @@ async function save(source) {
   source.again = false;
   const text = source.doc.getValue(), written = source.crlf ? text.replace(/\n/g, "\r\n") : text;
   try {
-    const reply = await order("save", JSON.stringify({ number: source.number, name: source.name, text: written, digest: source.digest }));
-    if (reply.status === 403) throw new TypeError(say("lost"));
-    if (reply.status !== 200 && reply.status !== 409) throw new Error(await reply.text());
-    const now = await reply.json();
-    if (reply.status === 409) {
+    const asked = { number: source.number, name: source.name, text: written, digest: source.digest }, changed = isChanged(source);
+    const outcome = place ? await session.runCell(source.name, place.line + 1, place.only, changed ? asked : undefined) : await session.save(asked);
+    const { now } = outcome;
+    if (outcome.written && !changed) {
+      // it runs as it is
+    } else if (!outcome.written) {
       source.digest = "";
       meet(source, now);
     } else {
@@ -199,10 +260,12 @@ async function save(source) {
       source.saved = text;
       source.theirs = null;
       keepDraft(source);
+      clearTimeout(source.keeping);
+      source.keeping = setTimeout(() => keepHistory(source), 2000);
     }
     $("trouble").textContent = "";
   } catch (error) {
-    $("trouble").textContent = say("notSaved", error instanceof TypeError ? say("lost") : error.message);
+    $("trouble").textContent = say("notSaved", error instanceof Lost ? say("lost") : error.message);
     source.again = false;
   }
   source.saving = false;
@@ -213,6 +276,7 @@ async function save(source) {
 
 function onChange() {
   showMarks();
+  showOutline();
   const source = open;
   if (!source) return;
   keepDraftSoon(source);
@@ -233,19 +297,39 @@ async function begin() {
     await loaded("codemirror.css");
     await loaded("codemirror.js");
     await Promise.all(["codemirror-lua.js", "codemirror-markdown.js", "codemirror-searchcursor.js", "codemirror-dialog.js",
-      "codemirror-dialog.css", "codemirror-search.js", "codemirror-continue.js"].map(loaded));
+      "codemirror-dialog.css", "codemirror-search.js", "codemirror-continue.js", "codemirror-comment.js", "codemirror-brackets.js",
+      "codemirror-hint.js", "codemirror-hint.css", "codemirror-fold.js", "codemirror-gutter.js"].map(loaded));
+    defineScriptMode();
   } catch {
     window.CodeMirror = undefined;
   }
   await readNotes();
   document.body.classList.add("editing");
   if (window.CodeMirror) {
-    const keys = { "Ctrl-S": () => save(open), "Cmd-S": () => save(open), Esc: () => $("bar").querySelector("button:not([hidden])").focus() };
-    const typing = { ...keys, Tab: (cm) => cm.execCommand("insertSoftTab"), "Shift-Tab": "indentLess" };
+    const lineNow = (line) => lineIn(open.doc.getValue(), open.saved, line);
+    let helped = {};
+    const ask = (key) => () => helped[key]?.();
+    const keys = { "Ctrl-Space": ask("Ctrl-Space"), F1: ask("F1"), "Shift-Enter": () => { runHere(true); }, "Ctrl-Enter": () => { runHere(false); },
+                   "Ctrl-/": "toggleComment", "Cmd-/": "toggleComment", "Ctrl-S": () => save(open), "Cmd-S": () => save(open), Esc: () => $("bar").querySelector("button:not([hidden])").focus() };
+    const typing = { ...keys, Tab: (cm) => cm.execCommand(cm.somethingSelected() ? "indentMore" : "insertSoftTab"), "Shift-Tab": "indentLess" };
     const passing = { ...keys, Tab: false, "Shift-Tab": false };  // who comes by the keyboard goes on by it
     mirror = window.CodeMirror($("code"), { lineNumbers: true, lineWrapping: true, indentUnit: 2, tabSize: 2, extraKeys: passing,
-      phrases: phrases(), continueComments: { key: "Enter", continueLineComment: true } });
+      phrases: phrases(), continueComments: { key: "Enter", continueLineComment: true }, matchBrackets: true, foldGutter: true,
+      gutters: ["mistakes", "cells", "CodeMirror-linenumbers", "CodeMirror-foldgutter"] });
     $("field").remove();
+    code = helpWithCode(mirror, () => ({ name: open?.name ?? "", lineNow }));
+    helped = code.keys;
+    refreshCells = showTextCells(mirror, () => open && open.name.endsWith(".lua") && !isChanged(open)
+      ? { pieces: (first, last) => piecesOf(open.name, first, last), run: (line) => runCell(line) } : null);
+    $("run-cell").onclick = () => runHere(false);
+    $("run-above").onclick = runAbove;
+    $("find").onclick = () => mirror.execCommand("replace");
+    $("outline").onchange = () => {
+      const line = Number($("outline").value);
+      if ($("outline").value !== "") goTo(open.name, lineIn(open.saved, open.doc.getValue(), line + 1));
+      $("outline").value = "";
+    };
+    window.addEventListener("pagehide", () => { for (const source of sources.values()) keepHistory(source); });
     mirror.on("changes", (cm, changes) => {
       if (changes.some(({ origin }) => origin !== "setValue")) mirror.setOption("extraKeys", typing);
       onChange();
@@ -279,6 +363,7 @@ async function begin() {
   };
   $("take-draft").onclick = () => takeDraft(open);
   $("drop-draft").onclick = () => dropDraft(open);
+  beginVariables();
   $("at-once").checked = noteOf("at-once") === "yes";
   $("at-once").onchange = () => {
     setNote("at-once", $("at-once").checked ? "yes" : "");
@@ -298,8 +383,9 @@ async function begin() {
 let beginning = null;
 
 /// The digests of the files as they are on disk: reads those that are new.
-export async function follow(digests, onCursor) {
-  followCursor = onCursor;
+export async function follow(digests, ways) {
+  followCursor = ways.showLine;
+  piecesOf = ways.piecesOf;
   if (Object.keys(digests).length === 0) return;
   beginning ??= begin();
   await beginning;
@@ -309,9 +395,8 @@ export async function follow(digests, onCursor) {
   });
   if (known) return;
   const saves = new Map([...sources].map(([number, source]) => [number, source.saves]));
-  const reply = await fetch("sources");
-  if (!reply.ok) return;
-  for (const text of await reply.json()) {
+  const texts = await session.sources().catch(() => []);
+  for (const text of texts) {
     const source = sources.get(text.number);
     if (source && (source.saving || source.saves !== saves.get(text.number))) continue;  // it is older than what was saved
     if (source) meet(source, text);
@@ -320,6 +405,18 @@ export async function follow(digests, onCursor) {
   const all = [...sources.values()];
   if (!open && all.length > 0) show(all.find(({ drafts }) => drafts.length > 0) ?? all[0]);
 }
+
+/// What the page shows is new; `error`: {file, line, text} at which the run stopped.
+export function tell(error) {
+  if (!beginning) return;
+  forgetAnswers();
+  followVariables();
+  refreshCells();
+  if (JSON.stringify(error) === toldError) return;
+  toldError = JSON.stringify(error);
+  beginning.then(() => code?.setFailure(error));
+}
+let toldError = JSON.stringify(null);
 
 /// Puts the cursor on a line of a file, where the page may change it.
 export function goTo(file, line) {

@@ -42,8 +42,8 @@ function pointsIn(messages) {
 }
 
 /// `older`: the files have changed since, and are being checked again. `ways` lead to places: goTo(file, line),
-/// goToPage(number), goToName(name of an answer).
-export function showFindings(result, openAnswers, older, ways) {
+/// goToPage(number), goToName(name of an answer). `checking`: the part of a check that is done while it runs.
+export function showFindings(result, openAnswers, older, ways, checking) {
   const answers = openAnswers ? openAnswers.split(", ") : [];
   const isOpen = ({ id, remedy_message: remedy }) =>  // "Give it: answer("{}", ...)."
     id === "answer-missing" && answers.some((text) => text.split(" ")[0] === remedy?.arguments[0].text);
@@ -58,6 +58,7 @@ export function showFindings(result, openAnswers, older, ways) {
   if (hints.length > 0) words.push(say("hints", hints.length));
   if (points) words.push(points);
   if (words.length === 0 && result) words.push(say("checked"));
+  if (checking !== undefined) words.push(say("checking", Math.round(100 * checking)));
   const told = words.join(", "), shown = $("show-findings");
   if (shown.textContent !== told) shown.textContent = told;
   shown.hidden = words.length === 0;

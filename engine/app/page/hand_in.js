@@ -1,10 +1,10 @@
 // What is handed in: the report and the zip of the folder, made when somebody asks for them.
 import * as editor from "./editor.js";
-import { order } from "./orders.js";
 import { say } from "./page_words.js";
+import { Lost, session } from "./session.js";
 
 const $ = (id) => document.getElementById(id);
-const kTasks = { "make-report": ["report", () => say("makingReport")], "make-pack": ["pack", () => say("makingPack")] };
+const kTasks = { "make-report": [session.makeReport, () => say("makingReport")], "make-pack": [session.makePack, () => say("makingPack")] };
 
 function tell(words, failed = false) {
   delete $("made").dataset.say;
@@ -12,22 +12,20 @@ function tell(words, failed = false) {
   $("made").classList.toggle("broken", failed);
 }
 
-async function make(command, meanwhile) {
+async function make(task, meanwhile) {
   if (editor.hasUnsaved() && !await editor.saveAll()) return tell(say("notMade"), true);
   for (const id of Object.keys(kTasks)) $(id).disabled = true;
   tell(meanwhile());
   try {
-    const reply = await order(command);
-    if (!reply.ok) throw new Error(await reply.text());
-    const { done, words } = await reply.json();
+    const { done, words } = await task();
     tell(words.trim(), !done);
   } catch (error) {
-    tell(error instanceof TypeError ? say("lost") : error.message, true);
+    tell(error instanceof Lost ? say("lost") : error.message, true);
   }
   for (const id of Object.keys(kTasks)) $(id).disabled = false;
 }
 
-for (const [id, [command, meanwhile]] of Object.entries(kTasks)) $(id).onclick = () => make(command, meanwhile);
+for (const [id, [task, meanwhile]] of Object.entries(kTasks)) $(id).onclick = () => make(task, meanwhile);
 $("show-hand-in").onclick = () => {
   $("hand-in").hidden = !$("hand-in").hidden;
   $("show-hand-in").setAttribute("aria-expanded", String(!$("hand-in").hidden));

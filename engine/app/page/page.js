@@ -2,14 +2,13 @@
 import { controlsByCell } from "./sliders.js";
 import * as editor from "./editor.js";
 import { showFindings } from "./findings.js";
-import { order } from "./orders.js";
 import { label, number, say, useLanguage } from "./page_words.js";
+import { session } from "./session.js";
 import "./hand_in.js";
 
 const $ = (id) => document.getElementById(id);
 const nodes = new Map();  // id of a piece -> its element
 let version = -1;
-let source = null;
 let sliders = [];
 let findings = null;
 let language = null;
@@ -180,14 +179,16 @@ function show(page) {
   $("name").textContent = page.name;
   if (page.asking && $("question").hidden && document.activeElement === document.body) setTimeout(() => $("question").focus());
   $("question").hidden = !page.asking;
+  $("asked-about").textContent = say(page.made_here ? "askedAboutOwn" : "askedAbout");
   showComplaints(page.complaints);
   showStates(page);
   placeSliders(page.running);
   if ("findings" in page) findings = page.findings;
-  showFindings(findings, page.open_answers, !page.pdf_is_ready, { goTo, goToPage, goToName });
+  showFindings(findings, page.open_answers, !page.pdf_is_ready, { goTo, goToPage, goToName }, page.checking);
   showPdf(page.pdf_is_ready);
   $("show-hand-in").hidden = !page.hands_in || page.asking;
-  editor.follow(page.sources, showLine);
+  editor.follow(page.sources, { showLine, piecesOf });
+  editor.tell(page.error ?? null);
   if (marked) mark(pieceAt(...marked));
   hold(held);
   restorePlace();
@@ -211,6 +212,13 @@ function pieceAt(file, line) {
     if (node.dataset.file === file && Number(node.dataset.line) <= line) found = node;
   }
   return found;
+}
+
+/// Those of the pieces that come from these lines of a file.
+function piecesOf(file, first, last) {
+  const lineOf = ({ dataset }) => Number(dataset.line);
+  return [...nodes.values()].filter((node) => node.dataset.file === file && lineOf(node) >= first && lineOf(node) <= last && !node.dataset.cell)
+    .sort((a, b) => lineOf(a) - lineOf(b));
 }
 
 let marked = null;  // file and line of what is marked
@@ -265,7 +273,7 @@ function showPdf(ready, page = 0) {
   if (!anew && !page && $("page:pdf").firstChild) return;
   const frame = document.createElement("iframe");
   frame.title = say("asPrinted");
-  frame.src = `document.pdf?version=${version}#${page ? `page=${page}&` : ""}navpanes=0&view=FitH`;
+  frame.src = `${session.pdfAddress(version)}#${page ? `page=${page}&` : ""}navpanes=0&view=FitH`;
   $("page:pdf").replaceChildren(frame);
 }
 
@@ -282,32 +290,25 @@ $("view").onclick = () => {
 
 /// One stream of news; the browser comes again by itself when it is cut, and gets everything then.
 function connect() {
-  if (source) source.close();
   version = -1;
-  source = new EventSource("events");
-  source.addEventListener("page", (event) => show(JSON.parse(event.data)));
-  source.addEventListener("over", () => {
-    source.close();
-    $("state").textContent = say("ended");
-  });
-  source.onerror = () => { $("state").textContent = say("noAnswer"); version = -1; };
+  session.open({ page: show,
+                 over: () => { $("state").textContent = say("ended"); },
+                 away: () => { $("state").textContent = say("noAnswer"); version = -1; } });
 }
 
 /// Browsers open six connections to one server, whatever the number of tabs: those that nobody sees let theirs go.
 document.addEventListener("visibilitychange", () => {
   if (!document.hidden) return connect();
-  if (source) source.close();
-  source = null;
+  session.close();
 });
 
-async function tellServer(path) {
-  const reply = await order(path).catch(() => null);
-  if (!reply?.ok) $("state").textContent = say("lost");
+async function ask(act) {
+  await act().catch(() => { $("state").textContent = say("lost"); });
   $("document").focus({ preventScroll: true });
 }
-$("stop").onclick = () => tellServer("stop");
-$("anew").onclick = () => tellServer("anew");
-$("allow").onclick = () => tellServer("allow");
+$("stop").onclick = () => ask(session.stop);
+$("anew").onclick = () => ask(session.runAll);
+$("allow").onclick = () => ask(session.allow);
 
 $("document").addEventListener("click", (event) => {
   if (event.target.closest(".slider, .plot, .motion, .option, a, button, summary, input")) return;

@@ -33,7 +33,13 @@ constexpr std::pair<const char*, const char*> kEditorFiles[] = {
     {"/codemirror-search.js", "addon/search/search.js"},
     {"/codemirror-dialog.js", "addon/dialog/dialog.js"},
     {"/codemirror-dialog.css", "addon/dialog/dialog.css"},
-    {"/codemirror-continue.js", "addon/comment/continuecomment.js"}};
+    {"/codemirror-continue.js", "addon/comment/continuecomment.js"},
+    {"/codemirror-comment.js", "addon/comment/comment.js"},
+    {"/codemirror-brackets.js", "addon/edit/matchbrackets.js"},
+    {"/codemirror-hint.js", "addon/hint/show-hint.js"},
+    {"/codemirror-hint.css", "addon/hint/show-hint.css"},
+    {"/codemirror-fold.js", "addon/fold/foldcode.js"},
+    {"/codemirror-gutter.js", "addon/fold/foldgutter.js"}};
 
 }  // namespace
 

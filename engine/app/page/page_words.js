@@ -11,15 +11,19 @@ addWords({
   lost: tr("dynlab does not answer: start it again and open its new address; your text is still here"),
   asked: tr("This document runs programs. Run it?"),
   askedAbout: tr("Its text is shown below. Say yes only if you know where it comes from."),
+  askedAboutOwn: tr("dynlab new made its folder on this computer. Its text is shown below."),
   notPrinted: tr("{}: code that is not printed"), asInScript: tr("as in the script"),
 
   // The editor
   source: tr("Source"), field: tr("Text of the file"), save: tr("Save"), atOnce: tr("at once"),
-  atOnceAbout: tr("Save as you type"), wayOut: tr("Esc leaves the text"), notYet: tr("not saved yet (Ctrl-S)"),
+  atOnceAbout: tr("Save as you type"), saveAbout: tr("Save (Ctrl-S); Esc leaves the text"), notYet: tr("not saved yet (Ctrl-S)"),
   notSaved: tr("not saved: {}"),
   conflict: tr("was changed elsewhere as well. Yours stands in the editor; of the file these lines are others:"),
   takeTheirs: tr("Take the file's text"), keepMine: tr("Save mine over it"), draft: tr("A draft of {} was not saved."),
   takeDraft: tr("Take it"), dropDraft: tr("Throw it away"), notInIt: tr("(lines of yours are not in it)"),
+  outline: tr("Go to …"), runCell: tr("Run this cell (Ctrl-Enter; Shift-Enter: and go to the next)"),
+  runAbove: tr("Run the cells above this one that have changed"), find: tr("Find and replace (Ctrl-F, Shift-Ctrl-F)"),
+  editText: tr("Click to edit"), variables: tr("Variables of the script"), noVariables: tr("The script has no variables yet."),
   // What CodeMirror's search says, in its own English
   search: tr("Search:"), asPattern: tr("(Use /re/ syntax for regexp search)"), replace: tr("Replace:"),
   replaceAll: tr("Replace all:"), replaceWith: tr("Replace with:"), replaceBy: tr("With:"), replaceIt: tr("Replace?"),
@@ -32,7 +36,7 @@ addWords({
   notMade: tr("not made: the text in the editor is not saved yet"),
 
   // What dynlab check finds
-  found: tr("What dynlab check finds"), onPage: tr("page {}"), checked: tr("checked"),
+  found: tr("What dynlab check finds"), onPage: tr("page {}"), checked: tr("checked"), checking: tr("checking: {} %"),
   openAnswers: trPlural("{} answer open", "{} answers open"), brokenRules: trPlural("{} rule broken", "{} rules broken"),
   hints: trPlural("{} hint", "{} hints"), points: tr("{} of {} points"),
   older: tr("of the files before the last change; they are being checked again"),
@@ -47,4 +51,4 @@ addWords({
   figures: tr("Figures"), noFigures: tr("none yet: type, say, {}"),
   lastFigures: tr("dynlab has ended; these are its last figures"),
 });
-export { inEnglish, label, language, number, say, useLanguage } from "./words.js";
+export { inEnglish, label, language, number, say, typeset, useLanguage } from "./words.js";

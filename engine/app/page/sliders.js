@@ -1,7 +1,7 @@
 // Sliders of a document: a control behind the cell that asks for it. What was chosen goes to the server; while a run is
 // under way only the newest choice waits, so that dragging shows every result that there was time for.
-import { order } from "./orders.js";
-import { number, say } from "./page_words.js";
+import { number, say, typeset } from "./page_words.js";
+import { session } from "./session.js";
 
 const kPlaces = 1000;  // of a slider without steps
 const controls = new Map();  // name -> {node, input, output, slider}
@@ -34,7 +34,7 @@ function send() {
   if (sent && performance.now() - sent.at < kLongestWait || waiting.size === 0) return;
   sent = { values: Object.fromEntries(waiting), at: performance.now() };
   waiting.clear();
-  order("slider", JSON.stringify({ values: sent.values })).catch(() => { sent = null; });
+  session.moveSliders(sent.values).catch(() => { sent = null; });
   setTimeout(send, kLongestWait + 1);
 }
 
@@ -94,7 +94,7 @@ function make(slider) {
 
 function update(control, slider) {
   control.slider = slider;
-  control.label.textContent = slider.label;
+  typeset(control.label, slider.label);
   control.reset.textContent = say("asInScript");
   control.input.min = 0;
   control.input.max = slider.step ? Math.round((slider.to - slider.from) / slider.step) : kPlaces;

@@ -1,17 +1,18 @@
 // The figures of a prompt as they are made, the newest first. The page speaks the browser's language.
 import { label, say } from "./page_words.js";
+import { session } from "./session.js";
 
 const $ = (id) => document.getElementById(id);
 const shown = new Map();  // number -> element
 
 /// What plot.js draws the figure from takes the picture's place on the screen.
 async function enliven(node, number) {
-  const answer = await fetch(`plot/${number}`);
-  if (!answer.ok) return;  // forgotten meanwhile
+  const drawn = await session.figure(number);
+  if (drawn === null) return;  // forgotten meanwhile
   const data = document.createElement("script");
   data.type = "application/json";
   data.className = "plot-data";
-  data.textContent = await answer.text();
+  data.textContent = drawn;
   node.querySelector("img").after(data);
   dynlabPlots.enliven(node);
 }
@@ -41,10 +42,5 @@ function show({ figures }) {
 }
 
 label();
-const source = new EventSource("events");
-source.addEventListener("page", (event) => show(JSON.parse(event.data)));
-source.addEventListener("over", () => {
-  source.close();
-  $("state").textContent = say("lastFigures");
-});
-source.onerror = () => { $("state").textContent = say("noAnswer"); };
+const tell = (key) => () => { $("state").textContent = say(key); };
+session.open({ page: show, over: tell("lastFigures"), away: tell("noAnswer") });

@@ -1,6 +1,6 @@
 // The words of our pages, in the page's language. Each page adds a table of its own, {key: tr("English")}; its scripts and its
 // HTML look up by key what they show. Translations: report_templates/html/words.js.
-export const { tr, trIn, trPlural, number, language, languages, languageOf, text, textIn } = dynlabWords;
+export const { tr, trIn, trPlural, typeset, number, language, languages, languageOf, text, textIn } = dynlabWords;
 const words = {};
 
 export const addWords = (table) => Object.assign(words, table);

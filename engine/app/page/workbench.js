@@ -8,6 +8,7 @@ import { knownPanel } from "./bench_known.js";
 import { arrange, ask, download, drawTiles, fillReport, redrawBrushes, renewTiles, shownViews, takeSaved, viewsPanel } from "./bench_views.js";
 import { exportsPanel } from "./bench_exports.js";
 import { closeScript, openScript, showMistake, showScript } from "./bench_script.js";
+import { mistakeWords } from "./bench_mistake.js";
 import { reportIn } from "./bench_report.js";
 import { modelSteps, roles } from "./bench_steps.js";
 import { browserLanguage, label, language, languages, say, useLanguage } from "./bench_words.js";
@@ -57,14 +58,14 @@ function showState() {
   const running = Object.values(session.states).find(({ state }) => state === "running");
   const share = running?.progress > 0 ? ` ${Math.floor(100 * running.progress)} %` : "";
   $("state").textContent = connection === "over" ? say("ended") : connection === "away" ? say("noAnswer")
-    : session.running ? say("running") + share : session.error ? say("mistake") : session.stopped ? say("stopped") : say("ready");
+    : making ? say("making") : session.running ? say("running") + share : session.error ? say("mistake") : session.stopped ? say("stopped") : say("ready");
   $("state").classList.toggle("broken", Boolean(session.error));
   $("question").hidden = !session.asking;
   $("unsaved").hidden = !session.unsaved;
   const unsaved = session.unsaved ? say("unsaved", session.unsaved) : "";
   if ($("unsaved").textContent !== unsaved) $("unsaved").textContent = unsaved;
-  const mistake = session.error?.message ?? "", { dataset, hidden } = $("trouble");
-  if (mistake && (dataset.mistake !== mistake || hidden)) trouble(mistake);
+  const [mistake, ...controls] = session.error ? mistakeWords(session.error) : [""], { dataset, hidden } = $("trouble");
+  if (mistake && (dataset.mistake !== mistake || hidden)) trouble(mistake, ...controls);
   else if (!mistake && dataset.mistake) trouble(null);
   dataset.mistake = mistake;
 }

@@ -82,7 +82,6 @@ class Columns {
         std::string guessed = signals_.empty() ? "" : signals_.front().group;  // the struct whose signals get roles
         std::map<std::string, Index> lengths;                                  // of the groups
         std::string time;
-        bool first_output = true;
         for (const Signal& signal : signals_) {
             const auto [known, is_new] = lengths.try_emplace(signal.group);
             if (is_new) known->second = samples_of(signal.group);
@@ -96,10 +95,8 @@ class Columns {
             const std::string own = signal.group.empty() ? signal.name : signal.name.substr(signal.group.size() + 1);
             if (signal.group.empty() ? time == own : own == "t" || own == "time")
                 column.role = "time";
-            else if (column.usable && sounds_like(own, kInputs))
-                column.role = "input";
-            else if (column.usable && first_output && sounds_like(own, kOutputs))
-                column.role = "output", first_output = false;
+            else if (column.usable && !is_of_other_experiment(own))
+                column.role = sounds_like(own, kInputs) ? "input" : sounds_like(own, kOutputs) ? "output" : "";
         }
         for (const std::string& name : texts_) columns.push_back({name, "", "", 0, 0, "text", false});
         if (guessed.empty()) guess_rest(columns);
@@ -121,6 +118,22 @@ class Columns {
         if (const auto* table = std::get_if<std::shared_ptr<VariableTable>>(&variable.value);
             table != nullptr && group.empty())
             for (const auto& [member, value] : **table) collect(name + "." + member, name, value);
+    }
+
+    /// Whether a file has an input and an output of this suffix besides those without one: u, y, u_val, y_val.
+    bool is_of_other_experiment(const std::string& name) const {
+        const std::size_t at = name.rfind('_');
+        if (at == std::string::npos) return false;
+        const std::string suffix = name.substr(at);
+        bool input = false, output = false, plain = false;
+        for (const Signal& signal : signals_) {
+            const bool drives = sounds_like(signal.name, kInputs);
+            plain = plain || (drives && signal.name.find('_') == std::string::npos);
+            if (!signal.name.ends_with(suffix)) continue;
+            input = input || drives;
+            output = output || (!drives && sounds_like(signal.name, kOutputs));
+        }
+        return input && output && plain;
     }
 
     /// As most signals of the group have.

@@ -2,12 +2,12 @@
 -- names another meaning changes nothing here.
 local compare, resid, step, impulse, bode, nyquist, pzmap = compare, resid, step, impulse, bode, nyquist, pzmap
 local idplot, impulseest, fit, fit_measures, advice, spa = idplot, impulseest, fit, fit_measures, advice, spa
-local figure, plot, delayest, selcstruc, stable = figure, plot, delayest, selcstruc, stable
+local figure, plot, subplot, zero, tfsrivc = figure, plot, subplot, zero, tfsrivc
 local pcall, type, ipairs, pairs, tostring, math, string, table = pcall, type, ipairs, pairs, tostring, math, string, table
 local mean, std, vector, exp, sqrt, cos, sin, abs, fft = mean, std, vector, exp, math.sqrt, cos, sin, abs, fft
-local range, slider, save, save_mat, save_csv = range, slider, save, save_mat, save_csv
+local range, linspace, slider, save, save_mat, save_csv = range, linspace, slider, save, save_mat, save_csv
 local step_first_order, step_second_order, step_delayed = step_first_order, step_second_order, step_delayed
-local show, figure_label, reading_words, language = workbench.show, workbench.label, workbench.reading_words, report.language
+local show, figure_label, language = workbench.show, workbench.label, report.language
 
 local CM_PER_PIXEL = 2.54/96
 
@@ -22,15 +22,20 @@ local function is_linear(value) return type(value) == "userdata" and (field(valu
 --- Linear, or simulated by its own equations (greyest, narx, sindy).
 local function is_model(value) return is_linear(value) or type(value) == "userdata" and field(value, "param") ~= nil and field(value, "report") ~= nil end
 
---- How many inputs and outputs a model has, and its transfer function from the chosen input to the chosen output.
-local function seen_channel(model, settings)
+--- A model's transfer functions by output and input.
+local function channels_of(model)
   local list = field(model, "channels")
-  if list == nil then return model, 1, 1 end
-  local several = type(list[1]) == "table"
-  local outputs, inputs = several and #list or 1, several and #list[1] or #list
-  if outputs*inputs == 1 then return model, 1, 1 end
-  local i, j = math.min(settings.output or 1, outputs), math.min(settings.input or 1, inputs)
-  return several and list[i][j] or list[j], outputs, inputs
+  if list == nil then return {{model}} end
+  return type(list[1]) == "table" and list or {list}
+end
+
+--- The transfer function of a model for one of all_channels(); nothing where the model has none. A model that was estimated
+--- from selected channels (`settings.channel_of`) has these, others all or none of the data's.
+local function channel(settings, name, model, one)
+  local list, own = channels_of(model), settings.channel_of and settings.channel_of[name] or {}
+  if one.of_data and not own.output and (#list ~= one.outputs or #list[1] ~= one.inputs) then return end
+  local row = list[own.output and (own.output == one.output and 1 or 0) or one.output]
+  return row and row[own.input and (own.input == one.input and 1 or 0) or one.input]
 end
 
 --- At the size in which the page shows it, in the printed figure's type.
@@ -65,6 +70,49 @@ end
 
 --- Behind a name, as the script's language sets it.
 local function colon() return language() == "fr" and "\u{202F}: " or ": " end
+
+--- The names of a record's channels, u1, u2 ... where they have none.
+local function names_of(data, key, count, letter)
+  local given, names = field(data, key), {}
+  for i = 1, count do
+    local name = type(given) == "table" and given[i] or i == 1 and type(given) == "string" and given or ""
+    names[i] = name ~= "" and name or letter .. i
+  end
+  return names
+end
+
+--- The channels that a view shows: those of the data, or of the models where there are none.
+local function all_channels(settings, values, models)
+  local data, channels, outputs, inputs = values[settings.estimation], {}, 1, 1
+  if is_data(data) then
+    outputs, inputs = data.ny, data.nu
+  else
+    for _, model in ipairs(models) do
+      local list = channels_of(model)
+      outputs, inputs = math.max(outputs, #list), math.max(inputs, #list[1])
+    end
+  end
+  local y = is_data(data) and names_of(data, "OutputName", outputs, "y") or {}
+  local u = is_data(data) and names_of(data, "InputName", inputs, "u") or {}
+  for i = 1, outputs do
+    for j = 1, inputs do
+      local from, to = u[j] or "u" .. j, y[i] or "y" .. i
+      channels[#channels + 1] = {output = i, input = j, outputs = outputs, inputs = inputs, of_data = is_data(data), title = outputs*inputs > 1 and (inputs > 1 and from .. " → " .. to or to) or nil}
+    end
+  end
+  return channels, outputs, inputs
+end
+
+--- One figure of several, each under its title; `across`: panels of each stand side by side.
+local function small_multiples(figures, titles, columns, across)
+  if #figures == 1 then return titles[1] and figures[1]:set{title = titles[1]} or figures[1] end
+  local panels, first = figures[1].panels, {}
+  for k = 1, #figures do first[k] = (k - 1)*panels + 1 end
+  local fig = (across or columns == 1) and subplot(across and #figures or #figures*panels, across and panels or 1, figures)
+              or subplot(math.ceil(#figures/columns), columns, figures)
+  for k, title in ipairs(titles) do fig:set{panel = first[k], title = title} end
+  return fig
+end
 
 local views = {}
 
@@ -108,43 +156,133 @@ end
 function views.spectrum(settings, values)
   local raw, prepared = values[settings.raw], values[settings.prepared]
   if not is_data(raw) or raw.N < 8 then return end
-  local curves = {}
-  local function add(data, label, colour)
-    local w, power = power_of(data.ny > 1 and data.y:col(math.min(settings.output or 1, data.ny)) or data.y, data.Ts)
-    curves[#curves + 1] = {x = w, y = power, label = label, colour = colour}
+  local figures, titles = {}, names_of(raw, "OutputName", raw.ny, "y")
+  for i = 1, raw.ny do
+    local curves = {}
+    local function add(data, label, colour)
+      local w, power = power_of(data.ny > 1 and data.y:col(i) or data.y, data.Ts)
+      curves[#curves + 1] = {x = w, y = power, label = label, colour = colour}
+    end
+    add(raw, settings.raw, 8)
+    if prepared ~= raw and is_data(prepared) and prepared.ny == raw.ny then add(prepared, settings.prepared, 0) end
+    figures[i] = figure{curves = curves, x_log = true, y_log = true, xlabel = figure_label("frequency"), ylabel = figure_label("power")}
   end
-  add(raw, settings.raw, 8)
-  if prepared ~= raw and is_data(prepared) then add(prepared, settings.prepared, 0) end
-  return {figure = figure{curves = curves, x_log = true, y_log = true, xlabel = figure_label("frequency"), ylabel = figure_label("power")}}
+  return {figure = small_multiples(figures, titles, 1)}
+end
+
+--- A line for each model that has no part of these data, in the page's words.
+local function left_out(settings, values, models, labels)
+  local names = {}
+  local channels = all_channels(settings, values, models)
+  for k, model in ipairs(models) do
+    local some = false
+    for _, one in ipairs(channels) do some = some or channel(settings, labels[k], model, one) ~= nil end
+    if not some then names[#names + 1] = labels[k] end
+  end
+  return names
+end
+
+--- The channels of the data that a model is of; nothing where it has others.
+local function own_part(settings, name, model, data)
+  if not is_data(data) then return end
+  local list, own = channels_of(model), settings.channel_of and settings.channel_of[name] or {}
+  if own.output and data.ny*data.nu > 1 then data = data:select(own.output, own.input) end
+  if not is_linear(model) or #list == data.ny and #list[1] == data.nu then return data end
+end
+
+--- What simulates output i of the data: the model where it has this output alone, else its transfer function.
+local function simulates(settings, name, model, data, i)
+  local list, own = channels_of(model), settings.channel_of and settings.channel_of[name] or {}
+  if not own_part(settings, name, model, data) then return end
+  if own.output then return own.output == i and (own.input == nil or data.nu == 1) and model or nil end
+  if data.ny == 1 then return model end
+  return data.nu == 1 and list[i][1] or nil
 end
 
 function views.compare(settings, values)
   local models, labels = labelled(settings, values, is_model)
   local data = values[settings.validation] or values[settings.estimation]
   if not is_data(data) or #models == 0 then return end
-  local told = {}
-  for k, model in ipairs(models) do
-    local done, measures = pcall(fit_measures, data, model)
-    if done then told[#told + 1] = labels[k] .. colon() .. measures.message end
+  local figures, told = {}, {}
+  for _, model in ipairs(models) do
+    if data.ny > 1 and not is_linear(model) then return {figure = with_models(compare, {data}, models, labels)} end
   end
-  return {figure = with_models(compare, {data}, models, labels), words = table.concat(told, "\n")}
+  for i = 1, data.ny do
+    local part, some, names = data.ny > 1 and data:select(i) or data, {}, {}
+    for k, model in ipairs(models) do
+      local one = simulates(settings, labels[k], model, data, i)
+      if one then
+        some[#some + 1], names[#names + 1] = one, labels[k]
+        local done, measures = pcall(fit_measures, part, one)
+        if done then told[#told + 1] = labels[k] .. (data.ny > 1 and ", " .. names_of(data, "OutputName", data.ny, "y")[i] or "") .. colon() .. measures.message end
+      end
+    end
+    if #some > 0 then figures[#figures + 1] = with_models(compare, {part}, some, names) end
+  end
+  return {figure = #figures > 0 and small_multiples(figures, {}, 1) or nil, words = table.concat(told, "\n"), left_out = left_out(settings, values, models, labels)}
 end
 
 function views.residuals(settings, values)
   local models, labels = labelled(settings, values, is_model)
   local data = values[settings.validation] or values[settings.estimation]
   if not is_data(data) or #models == 0 then return end
-  local fig, tests = resid(data, models[#models])
-  return {figure = fig, words = labels[#labels] .. colon() .. tests.verdict}
+  local figures, told = {}, {}
+  local function test(name, part, model)
+    local fig, tests = resid(part, model)
+    figures[#figures + 1], told[#told + 1] = fig, name .. colon() .. tests.verdict
+  end
+  if own_part(settings, labels[#labels], models[#models], data) == data then  -- the last model has all outputs
+    test(labels[#labels], data, models[#models])
+  else
+    for i = 1, data.ny do
+      for k = #models, 1, -1 do
+        local one = simulates(settings, labels[k], models[k], data, i)
+        if one then test(labels[k], data.ny > 1 and data:select(i) or data, one) break end
+      end
+    end
+  end
+  if #told > 0 then return {figure = #figures > 0 and small_multiples(figures, {}, 1, true) or nil, words = table.concat(told, "\n")} end
+  return {left_out = labels}
+end
+
+--- Where a pole so slow that the data do not show it makes a figure of times or frequencies far from theirs, those of the data.
+local kFar = 50
+local function near_data(fig, name, data, models, labels, f, title)
+  if not is_data(data) then return fig end
+  local duration, low, last = data.t[data.N] - data.t[1], math.huge, 0
+  for _, curve in ipairs(fig.curves) do low, last = math.min(low, curve.x[1]), math.max(last, curve.x[#curve.x]) end
+  if name == "bode" and low < 1/(kFar*duration) then
+    for k = 1, fig.panels do fig:set{panel = k, x_range = {1/duration, 10^math.ceil(math.log(last, 10))}} end
+  elseif (name == "step" or name == "impulse") and last > kFar*duration then
+    local t, curves = linspace(0, duration, 400), {}
+    for k, model in ipairs(models) do curves[k] = {x = t, y = f(model, t), label = labels[k]} end
+    return figure{curves = curves, xlabel = figure_label("time"), ylabel = title}
+  end
+  return fig
 end
 
 for name, f in pairs{step = step, impulse = impulse, bode = bode, nyquist = nyquist, poles = pzmap} do
   views[name] = function(settings, values)
     local models, labels = labelled(settings, values, is_linear)
-    local options = {}
+    local options, figures, titles = {}, {}, {}
+    if #models == 0 then return end
     if settings.bands == false and name ~= "nyquist" and name ~= "impulse" then options.confidence = false end
-    for k, model in ipairs(models) do models[k] = seen_channel(model, settings) end
-    if #models > 0 then return {figure = with_models(f, {}, models, labels, options)} end
+    local channels, _, inputs = all_channels(settings, values, models)
+    for _, one in ipairs(channels) do
+      local some, names = {}, {}
+      for k, model in ipairs(models) do
+        local part = channel(settings, labels[k], model, one)
+        if part then some[#some + 1], names[#names + 1] = part, labels[k] end
+      end
+      if #some > 0 then
+        local fig = with_models(f, {}, some, names, options)
+        figures[#figures + 1], titles[#titles + 1] = near_data(fig, name, values[settings.estimation], some, names, f, one.title), one.title
+      end
+    end
+    if #figures == 0 then return end
+    local size = settings.sizes and settings.sizes[name]
+    local across = name == "bode" and size and size[1] > 480
+    return {figure = small_multiples(figures, titles, name == "bode" and 1 or inputs, across), left_out = left_out(settings, values, models, labels)}
   end
 end
 
@@ -152,10 +290,19 @@ function views.correlation(settings, values)
   local data = values[settings.estimation]
   if not is_data(data) then return end
   local models, labels = labelled(settings, values, is_linear)
-  if data.ny*data.nu > 1 then data = data:select(math.min(settings.output or 1, data.ny), math.min(settings.input or 1, data.nu)) end
-  for k, model in ipairs(models) do models[k] = seen_channel(model, settings) end
-  local fig, seen = with_models(impulseest, {data}, models, labels)
-  return {figure = fig, words = seen.message}
+  local figures, titles, told = {}, {}, {}
+  local channels, _, inputs = all_channels(settings, values, models)
+  for _, one in ipairs(channels) do
+    local some, names = {}, {}
+    for k, model in ipairs(models) do
+      local part = channel(settings, labels[k], model, one)
+      if part then some[#some + 1], names[#names + 1] = part, labels[k] end
+    end
+    local fig, seen = with_models(impulseest, {data.ny*data.nu > 1 and data:select(one.output, one.input) or data}, some, names)
+    figures[#figures + 1], titles[#titles + 1] = fig, one.title
+    told[#told + 1] = (one.title and one.title .. colon() or "") .. seen.message
+  end
+  return {figure = small_multiples(figures, titles, inputs), words = table.concat(told, "\n")}
 end
 
 --- The i-th of a list that may be shorter, or not there.
@@ -288,8 +435,7 @@ function views.reading(settings, values)
       fig:handle{x = function(v) return r.start + at(v) end, x_slider = "reading-" .. handle.parameter, y = r.rest + r.change*handle.y, text = handle.text}
     end
   end
-  local error = data.y - y
-  return {figure = fig, words = reading_words(r.kind, numbers, 100*(1 - std(error)/std(data.y)))}
+  return {figure = fig, kind = r.kind, numbers = numbers, fit = 100*(1 - std(data.y - y)/std(data.y))}
 end
 
 --- What the functions for step tests read off a record, to begin with.
@@ -309,14 +455,9 @@ local function readings(data)
   return list
 end
 
---- The names of a record's channels, u1, u2 ... where they have none.
-local function names_of(data, key, count, letter)
-  local given, names = field(data, key), {}
-  for i = 1, count do
-    local name = type(given) == "table" and given[i] or i == 1 and type(given) == "string" and given or ""
-    names[i] = name ~= "" and name or letter .. i
-  end
-  return names
+local function units_of(data, key)
+  local units = field(data, key)
+  return type(units) == "string" and {units} or units
 end
 
 --- Of which kind each variable is, and what controls ask about it.
@@ -327,7 +468,8 @@ local function describe(values)
       local t = value.t
       seen[name] = {kind = "data", N = value.N, Ts = value.Ts, start = t[1], last = t[value.N], inputs = value.nu,
                     outputs = value.ny, experiments = value.experiments, hold = value.InterSample,
-                    input_names = names_of(value, "InputName", value.nu, "u"), output_names = names_of(value, "OutputName", value.ny, "y")}
+                    input_names = names_of(value, "InputName", value.nu, "u"), output_names = names_of(value, "OutputName", value.ny, "y"),
+                    input_units = units_of(value, "InputUnit"), output_units = units_of(value, "OutputUnit")}
     elseif is_model(value) then
       local num, den = field(value, "num"), field(value, "den")
       local proper = type(num) ~= "userdata" or type(den) ~= "userdata" or #num <= #den
@@ -347,43 +489,82 @@ local function describe(values)
   return seen
 end
 
---- A line of the table of models.
-local function measured(name, model, settings, values)
-  local row = {name = name, text = tostring(model)}
+--- The lines of the table of models for one model: one for each output that it has of the data.
+local function measured(name, model, settings, values, rows)
   local report = field(model, "report")
   local function of(key) return report and field(report, key) end
-  row.message, row.condition, row.white = of("message"), of("condition_number"), of("white")
-  row.delay = field(model, "IODelay")
+  local list = channels_of(model)
+  local data = values[settings.estimation]
+  local own = settings.channel_of and settings.channel_of[name] or {}
+  local outputs = is_data(data) and data.ny or #list
+  local titles = own_part(settings, name, model, data) and outputs > 1 and names_of(data, "OutputName", outputs, "y") or {}
   local names, errors = field(model, "names"), field(model, "std")
-  if names and errors and #errors == #names then
-    row.parameters = #names
-    local last = names[#names]
-    if last == "IODelay" or last == "Td" or last == "delay" then row.delay_std = errors[#names] end
-  end
-  local poles, zeros = field(model, "den"), field(model, "num")
-  local channel, outputs, inputs = seen_channel(model, settings)
-  row.outputs, row.inputs = outputs, inputs
-  if outputs*inputs > 1 then poles, zeros, row.delay = field(channel, "den"), field(channel, "num"), field(channel, "IODelay") end
-  if type(poles) == "userdata" and type(zeros) == "userdata" then row.poles, row.zeros = #poles - 1, #zeros - 1 end
-  local function measure(part, key)
-    local data = values[part]
-    if not is_data(data) then return end
-    local done, seen = pcall(fit_measures, data, model)
-    if done then
-      row[key] = {fit = seen.fit_percent, r_squared = seen.r_squared_simulation, yic = seen.yic}
-      return
+  local function part_of(part) return own_part(settings, name, model, values[part]) end
+  local judged = part_of(settings.validation) or part_of(settings.estimation)
+  local done, _, tests = pcall(resid, judged, model, {quiet = true})
+  for i = 1, #list do
+    local row = {name = name, text = tostring(model), message = of("message"), condition = of("condition_number"), outputs = #list, inputs = #list[1],
+                 output = own.output or i, output_name = titles[own.output or i]}
+    local one = #list*#list[1] == 1 and model or #list[1] == 1 and list[i][1] or nil
+    local seen = one or list[i][1]
+    local poles, zeros = field(seen, "den"), field(seen, "num")
+    row.delay = field(seen, "IODelay")
+    if type(poles) == "userdata" and type(zeros) == "userdata" then row.poles, row.zeros = #poles - 1, #zeros - 1 end
+    if names and errors and #errors == #names then
+      row.parameters = #names
+      for k, parameter in ipairs(names) do
+        local kind, output = parameter:match("^([%a]+)_?y?(%d*)$")
+        local delay = kind == "IODelay" or kind == "Td" or kind == "delay"
+        if delay and (output == "" and k == #names or tonumber(output) == i) then row.delay_std = errors[k] end
+      end
     end
-    local fits = {pcall(fit, data, model)}
-    if fits[1] then row[key] = {fit = fits[1 + math.min(settings.output or 1, #fits - 1)]} end
+    local function measure(part, key)
+      local whole = part_of(part)
+      if not whole then return end
+      local measured, seen = pcall(fit_measures, whole.ny > 1 and whole:select(i) or whole, one)
+      if one and measured then
+        row[key] = {fit = seen.fit_percent, r_squared = seen.r_squared_simulation, yic = seen.yic}
+        return
+      end
+      local fits = {pcall(fit, whole, model)}
+      if fits[1] then row[key] = {fit = fits[1 + i]} end
+    end
+    measure(settings.estimation, "estimation")
+    if settings.validation ~= settings.estimation then measure(settings.validation, "validation") end
+    if done then
+      local about = tests.outputs and tests.outputs[i] or {white = tests.white}  -- none of a model that reproduces the data
+      row.is_white, row.independent = about.white, about.inputs ~= nil or tests.independent
+      for _, input in ipairs(about.inputs or {}) do row.independent = row.independent and input.independent end
+    end
+    rows[#rows + 1] = row
   end
-  measure(settings.estimation, "estimation")
-  if settings.validation ~= settings.estimation then measure(settings.validation, "validation") end
-  local data = values[settings.validation] or values[settings.estimation]
-  if is_data(data) then
-    local done, _, tests = pcall(resid, data, model, {quiet = true})
-    if done then row.verdict, row.is_white, row.independent = tests.verdict, tests.white, tests.independent end
+end
+
+--- How many poles and zeros a first model has: two and none with a delay, unless a lag explains the response as well, which
+--- a zero of the right half plane that imitates the delay does not.
+local function first_orders(data)
+  local delayed = tfsrivc(data, 2, 0)
+  local late, best, least = {}, nil, nil
+  for i, row in ipairs(channels_of(delayed)) do
+    for j, part in ipairs(row) do
+      if part.IODelay > 0.1*data.Ts then late[#late + 1] = {i, j, part.IODelay} end
+    end
   end
-  return row
+  if #late == 0 then return end
+  local before = {fit(data, delayed)}
+  for _, orders in ipairs{{2, 1}, {3, 1}} do
+    local done, model = pcall(tfsrivc, data, orders[1], orders[2], {TdMax = 0})
+    if done then
+      local now, lowest, worse = {fit(data, model)}, math.huge, false
+      for i = 1, #now do lowest, worse = math.min(lowest, now[i]), worse or now[i] < before[i] end
+      for _, place in ipairs(late) do
+        local roots = zero(channels_of(model)[place[1]][place[2]]).re
+        for k = 1, #roots do worse = worse or roots[k] > 0 and math.abs(math.log(2/roots[k]/place[3])) < math.log(4) end
+      end
+      if not worse and (least == nil or lowest > least + 0.5) then best, least = orders, lowest end
+    end
+  end
+  return best
 end
 
 function views.advice(settings, values)
@@ -397,12 +578,18 @@ function views.advice(settings, values)
   return {list = list, readings = read and kinds or {}}
 end
 
+--- For whoever presses New model: `settings.first` is the number of the question.
+function views.first(settings, values)
+  local known, orders = pcall(first_orders, values[settings.estimation])
+  return {number = settings.first, orders = known and orders or {}}
+end
+
 function views.variables(settings, values) return describe(values) end
 
 function views.models(settings, values)
   local rows = {}
   for _, name in ipairs(settings.all_models or {}) do
-    if is_model(values[name]) then rows[#rows + 1] = measured(name, values[name], settings, values) end
+    if is_model(values[name]) then measured(name, values[name], settings, values, rows) end
   end
   return {rows = rows}
 end

@@ -228,7 +228,7 @@ void WorkbenchSession::take_orders() {
 std::optional<ViewOrder> WorkbenchSession::stale_views() {
     ViewOrder order = looked_at_;
     ::nlohmann::json settings = ::nlohmann::json::parse(order.settings), common = settings;
-    for (const char* name : {"views", "sizes", "range", "save"}) common.erase(name);
+    for (const char* name : {"views", "sizes", "range", "save", "first"}) common.erase(name);
     const std::vector<std::string> lines = lines_of(text_.text());
     const std::size_t until = std::min(lines.size(), static_cast<std::size_t>(std::max(0, order.data_until)));
     const std::string of_records =
@@ -239,9 +239,8 @@ std::optional<ViewOrder> WorkbenchSession::stale_views() {
     };
     const auto is_stale = [&](const std::string& view) {
         std::string& key = under_way_[view];
-        key = is_one_of(view, kViewsOfRecords)
-                  ? of_records + part(settings, "raw") + part(settings, "prepared") + part(settings, "output")
-                  : text_.text() + common.dump();
+        key = is_one_of(view, kViewsOfRecords) ? of_records + part(settings, "raw") + part(settings, "prepared")
+                                               : text_.text() + common.dump();
         if (settings.contains("sizes")) key += part(settings["sizes"], view);
         if (view == "record") key += part(settings, "range");
         const auto seen = seen_.find(view);
@@ -389,6 +388,8 @@ std::string WorkbenchSession::json(bool all) const {
         page["error"] = {{"message", message_text(unread_, reader)}, {"line", 0}};
     else if (error_)
         page["error"] = {{"message", message_text(with_place(*error_), reader)},
+                         {"text", message_text(error_->message, reader)},
+                         {"place", fmt::format("{}:{}", error_->file, error_->line)},
                          {"line", error_->line_in(text_.file().filename().string())}};
     if (all) page["file"] = fs::absolute(text_.file()).string();
     if (all || sent_language_ != told_in) page["forms"] = ::nlohmann::json::parse(json_of(estimator_forms(reader)));

@@ -16,6 +16,8 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "platform/terminal/activity_line.h"
+#include "platform/terminal/progress.h"
 #include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
 #include "platform/text/small_letters.h"
@@ -82,9 +84,25 @@ LessonReader reader_for(const fs::path& subject, const CheckResult& result) {
     return LessonReader(language, result.lesson);
 }
 
+Message words_of(CheckStep step) {
+    if (step == CheckStep::kAnalysis) return Message("running the analysis");
+    return step == CheckStep::kLessonChecks ? Message("trying the checks of the lesson")
+                                            : Message("reading the report");
+}
+
+CheckResult check_work(const fs::path& subject, CheckOptions wishes) {
+    if (!fs::is_directory(subject) && !is_script(subject)) return check_pdf(subject, wishes);
+    constexpr std::size_t kSteps = 3;
+    ActivityLine activity;
+    wishes.begins = [&activity](CheckStep step) {
+        activity.begin_step(message_text(words_of(step), user()));
+        write_progress(static_cast<std::size_t>(step), kSteps);
+    };
+    return fs::is_directory(subject) ? check_folder(subject, running_program(), wishes) : check_script(subject, wishes);
+}
+
 int check(const CheckArguments& words) {
     CheckOptions wishes;
-    CheckResult result;
     if (words.pages > 0) wishes.pages = words.pages;
     wishes.lesson_checks = !words.document_only;
     const auto misuse = [](const Message& sentence) {
@@ -98,12 +116,7 @@ int check(const CheckArguments& words) {
         return misuse(message_of(error));
     }
     if (!fs::exists(words.subject)) return misuse(Message("there is no file or folder '{}'", words.subject));
-    if (fs::is_directory(words.subject))
-        result = check_folder(words.subject, running_program(), wishes);
-    else if (is_script(words.subject))
-        result = check_script(words.subject, wishes);
-    else
-        result = check_pdf(words.subject, wishes);
+    const CheckResult result = check_work(words.subject, wishes);
     std::cout << (words.as_json ? findings_as_json(result)
                                 : findings_in_words(result, in_colour(), reader_for(words.subject, result).reader()));
     return result.passed() ? kDone : kFailed;

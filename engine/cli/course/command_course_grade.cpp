@@ -126,7 +126,7 @@ void add_mark(CLI::App& course, CourseArguments& where, Action& action) {
 void add_grade_commands(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<GradeWords>();
     CLI::App* command = course.add_subcommand("grade", "Grade the submissions of a lab: marks, feedback, summary");
-    command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
+    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Needed when there are several.");
     command->add_option("--only", words->only, "A group or student; may be repeated")->type_name("NAME");
     command->add_flag("--regrade", words->regrade, "Grade again what has a result; your own marks stay");
     command->add_option("--jobs", words->jobs, "Number of parallel jobs. Default: number of cores.")

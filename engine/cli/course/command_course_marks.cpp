@@ -222,7 +222,7 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
 
     const auto shown =
         add_one(course, "marks", "Medians, marks of reports and reviewers, odd reviews", where, action, marks);
-    shown.app->add_option("ASSIGNMENT", shown.words->assignment, "Needed when there are several");
+    shown.app->add_option("ASSIGNMENT", shown.words->assignment, "Assignment. Needed when there are several.");
     add_time_option(*shown.app, shown.words->at);
     shown.app->footer(
         "A report's mark: 100 times the sum of the medians over that of the most points. A reviewer's: 100 (1 - 2 d),\n"

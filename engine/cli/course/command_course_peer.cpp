@@ -165,7 +165,7 @@ void add_return(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<ReturnArguments>();
     CLI::App* command =
         course.add_subcommand("deliver", "Deliver new files to each student: copies, reviews, receipts");
-    command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
+    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Needed when there are several.");
     command->add_option("-o,--out", words->out, "A new folder: one below it for each group, and mail.csv")
         ->type_name("DIR")
         ->required();
@@ -188,7 +188,7 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseA
                   int (*run)(const CourseArguments&, const PeerArguments&)) {
     auto words = std::make_shared<PeerArguments>();
     CLI::App* command = parent.add_subcommand(name, about);
-    command->add_option("ASSIGNMENT", words->assignment, "Needed when there are several");
+    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Needed when there are several.");
     if (run == pairs) {
         command->add_option("REVIEWER", words->reviewer, "A group");
         command->add_option("AUTHOR", words->author, "Another group");

@@ -6,6 +6,7 @@
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
 #include "course/corrections/corrections.h"
+#include "course/export/returned_files.h"
 #include "course/intake/arrival_times.h"
 #include "course/office/receive.h"
 #include "course/store/receipts.h"
@@ -118,6 +119,8 @@ int receive_files(const CourseArguments& where, const ReceiveArguments& words, c
             return times.of(file.sender);
         };
     }
+    request.numbers = participants_for(course, assignment_named(course, words.assignment),
+                                       words.times == "archive" ? "" : words.times);
     request.level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
     request.program = running_program();
     request.take_as_first = words.first;
@@ -161,7 +164,8 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
         ->add_option(
             "--times", words->times,
             "When each was handed in: Moodle's grading worksheet or another CSV (column id, identifier, group, "
-            "name or mail, and time), or `archive` for the files' own times; --at for the others")
+            "name or mail, and time), or `archive` for the files' own times; --at for the others. The worksheet says "
+            "also whose a participant's number is")
         ->type_name("CSV|archive");
     command->add_option("--isolation", words->isolation, "How far archives are kept apart while they are unpacked")
         ->type_name("full|process")

@@ -8,6 +8,7 @@
 #include "platform/terminal/terminal_text.h"
 #include "workflow/authoring/editor_files.h"
 #include "workflow/authoring/lesson_skeleton.h"
+#include "workflow/authoring/made_folders.h"
 #include "workflow/student_copy.h"
 
 namespace dynlab::inline cli {
@@ -53,6 +54,7 @@ int make_new(const NewArguments& words) {
         if (words.group_seed)
             activity.begin_step(message_text(Message("finding out which data the lesson loads"), user()));
         make_student_copy(lesson, words.folder, words.group_seed, words.language, write_editor_files);
+        note_made_folder(words.folder);
     }
     say(
         Message("{}: analysis.lua is yours to edit, report.md is your report's text.\n"

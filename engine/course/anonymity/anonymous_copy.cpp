@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMaxFile = 64ull << 20, kMaxMade = 200ull << 20;
+constexpr std::uint64_t kMaxFile = 64ull << 20, kMaxMade = 200ull << 20, kRoomForReport = 8ull << 20;
 
 std::uint64_t bytes_below(const fs::path& folder) {
     std::uint64_t bytes = 0;
@@ -80,6 +80,7 @@ class CopyingAnonymously {
             write_file_atomically(copy, bytes);
             result_.hash = sha256_of(bytes);
         } catch (const PdfRefusal& refusal) {
+            refuse_full_disk(work_.path(), 2 * fs::file_size(*original));
             result_.made = false;
             result_.trouble = refusal.message();
         }
@@ -129,6 +130,7 @@ class CopyingAnonymously {
         const ChildResult child =
             box.run({program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
         const bool made = child.exit_code == 0 && fs::is_regular_file(report());
+        if (!made) refuse_full_disk(report().parent_path(), kRoomForReport);
         if (made && bytes_below(report().parent_path()) <= kMaxMade) return true;
         result_.trouble = Message("The report cannot be made again: {}",
                                   made ? Message("it is too large") : reason_of(child, inside));

@@ -8,12 +8,12 @@
 
 #include "base/reader.h"
 #include "course/intake/owners.h"
-#include "course/intake/roster.h"
 #include "data_io/tables/number_cell.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"
+#include "platform/text/small_letters.h"
 #include "platform/utf8.h"
 
 namespace dynlab::inline course {
@@ -60,11 +60,6 @@ std::string without_quotes(const std::string& cell) {
         if (text[i] == '"') ++i;
     }
     return value;
-}
-
-std::string number_at_end(const std::string& text) {
-    const std::size_t last = text.find_last_not_of("0123456789");
-    return last == std::string::npos ? text : text.substr(last + 1);
 }
 
 /// "Participant 900001", "Teilnehmer/in900001": a word and a number.
@@ -209,7 +204,7 @@ void PlatformSheet::recognise_canvas(const std::string& assignment) {
 void PlatformSheet::find_people() {
     for (const std::size_t row : rows()) {
         Person person{row, value(row, number_), value(row, id_), value(row, mail_), value(row, name_)};
-        if (platform_ == Platform::kMoodle) person.number = number_at_end(person.number);
+        if (platform_ == Platform::kMoodle) person.number = digits_at_end(person.number);
         if (!person.number.empty()) people_.push_back(std::move(person));  // not "Points Possible"
     }
 }
@@ -234,6 +229,22 @@ std::string PlatformSheet::text() const {
     for (const Line& line : lines_)
         text += fmt::format("{}{}", fmt::join(line.cells, std::string(1, separator_)), line.end);
     return text;
+}
+
+std::map<std::string, std::string> numbers_in(const PlatformSheet& sheet, const std::vector<Student>& students) {
+    std::map<std::string, std::string> numbers;
+    for (const PlatformSheet::Person& person : sheet.people()) {
+        std::vector<std::string> certain, named;
+        for (const Student& student : students) {
+            const bool same_mail =
+                !person.mail.empty() && in_small_letters(student.mail) == in_small_letters(person.mail);
+            if (student.id == person.id || same_mail) certain.push_back(student.id);
+            if (same_person(student.name, person.name)) named.push_back(student.id);
+        }
+        const std::vector<std::string>& found = certain.empty() ? named : certain;
+        if (found.size() == 1) numbers[found.front()] = person.number;
+    }
+    return numbers;
 }
 
 }  // namespace dynlab::inline course

@@ -1,10 +1,12 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/message.h"
+#include "course/intake/roster.h"
 
 namespace dynlab::inline course {
 
@@ -62,5 +64,8 @@ class PlatformSheet {
     std::vector<Person> people_;
     std::vector<Message> unrecognised_;
 };
+
+/// The participants' numbers of students, by id: whose id, mail or, where nobody else has it, name the table has.
+std::map<std::string, std::string> numbers_in(const PlatformSheet& sheet, const std::vector<Student>& students);
 
 }  // namespace dynlab::inline course

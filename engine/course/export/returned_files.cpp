@@ -7,14 +7,13 @@
 #include "base/reader.h"
 #include "course/export/mailing.h"
 #include "course/export/platform_sheet.h"
-#include "course/intake/owners.h"
 #include "course/store/groups.h"
 #include "course/store/receipts.h"
 #include "course/store/senders.h"
 #include "numerics/error.h"
 #include "platform/atomic_file.h"
+#include "platform/error.h"
 #include "platform/hash.h"
-#include "platform/text/small_letters.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -48,14 +47,11 @@ class Returner {
 
   private:
     void settle_numbers() {
-        std::map<std::string, std::string> numbers = participants_of(course_, assignment_.id);
-        if (!request_.worksheet.empty()) {
-            const PlatformSheet sheet(request_.worksheet, "");
-            if (sheet.platform() != PlatformSheet::Platform::kMoodle)
-                throw InvalidArgument("{} is Canvas's gradebook: the zip for Moodle needs Moodle's grading worksheet",
-                                      request_.worksheet.string());
-            numbers = numbers_in(sheet);
-        }
+        if (!request_.worksheet.empty() &&
+            PlatformSheet(request_.worksheet, "").platform() != PlatformSheet::Platform::kMoodle)
+            throw InvalidArgument("{} is Canvas's gradebook: the zip for Moodle needs Moodle's grading worksheet",
+                                  request_.worksheet.string());
+        const std::map<std::string, std::string> numbers = participants_for(course_, assignment_, request_.worksheet);
         for (const auto& [id, number] : numbers)
             if (const Student& student = students_[id]; !student.moodle.empty() && student.moodle != number)
                 ++outcome_.other_numbers;
@@ -66,23 +62,6 @@ class Returner {
             else if (outcome_.other_numbers > 0 || !request_.worksheet.empty())
                 student.moodle.clear();
         }
-    }
-
-    /// By student: whose id, mail or, where nobody else has it, name stands there.
-    std::map<std::string, std::string> numbers_in(const PlatformSheet& sheet) const {
-        std::map<std::string, std::string> numbers;
-        for (const PlatformSheet::Person& person : sheet.people()) {
-            std::vector<std::string> certain, named;
-            for (const auto& [id, student] : students_) {
-                const bool same_mail =
-                    !person.mail.empty() && in_small_letters(student.mail) == in_small_letters(person.mail);
-                if (id == person.id || same_mail) certain.push_back(id);
-                if (same_person(student.name, person.name)) named.push_back(id);
-            }
-            const std::vector<std::string>& found = certain.empty() ? named : certain;
-            if (found.size() == 1) numbers[found.front()] = person.number;
-        }
-        return numbers;
     }
 
     void collect(const Group& group) {
@@ -178,6 +157,19 @@ class Returner {
 
 ReturnOutcome return_files(Course& course, const Assignment& assignment, const ReturnRequest& request) {
     return Returner(course, assignment, request).run();
+}
+
+std::map<std::string, std::string> participants_for(Course& course, const Assignment& assignment,
+                                                    const fs::path& table) {
+    std::map<std::string, std::string> all = participants_of(course, assignment.id), told;
+    if (table.empty()) return all;
+    try {
+        if (const PlatformSheet sheet(table, ""); sheet.platform() == PlatformSheet::Platform::kMoodle)
+            told = numbers_in(sheet, students_of(course));
+    } catch (const EnvironmentError&) {  // a table of something else
+    }
+    told.merge(all);
+    return told;
 }
 
 }  // namespace dynlab::inline course

@@ -35,4 +35,9 @@ struct ReturnOutcome {
 /// folder is not new.
 ReturnOutcome return_files(Course& course, const Assignment& assignment, const ReturnRequest& request);
 
+/// Numbers of participants in this assignment, by student: those in `table`, where that is Moodle's worksheet, else
+/// those in the names of what was received.
+std::map<std::string, std::string> participants_for(Course& course, const Assignment& assignment,
+                                                    const std::filesystem::path& table);
+
 }  // namespace dynlab::inline course

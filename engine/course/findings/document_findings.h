@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,12 +32,16 @@ DocumentStandard standard_of(const std::string& template_name_or_file);
 DocumentStandard standard_of_lesson(const Lesson& lesson, const std::string& language = "en");
 
 /// What is asked for instead of what the document's kind demands.
+/// What the check of a folder does, in this order.
+enum class CheckStep { kAnalysis, kLessonChecks, kReport };
+
 struct CheckOptions {
     std::optional<DocumentStandard> standard;
     std::optional<int> pages;   ///< the most that are allowed altogether
     bool lesson_checks = true;  ///< of a folder: try the lesson's checks on its answers too
     /// Who must not be named; of a folder its members are added. Nobody: of a PDF, names are not looked for.
     std::shared_ptr<const IdentityMatcher> names = nullptr;
+    std::function<void(CheckStep)> begins = [](CheckStep) {};  ///< called as a step begins
 };
 
 /// The outcome of a check.

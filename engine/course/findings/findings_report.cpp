@@ -39,6 +39,14 @@ std::string wrapped(const std::string& sentence, const std::string& first) {
     return result + line + "\n";
 }
 
+/// As the page of a document counts them (app/page/findings.js).
+enum class Counted { kAnswers, kRules, kHints, kChecks };
+Counted counted_as(const Finding& finding) {
+    if (finding.id == "answer-missing") return Counted::kAnswers;
+    if (finding.id == "check-failed") return Counted::kChecks;
+    return finding.severity == Severity::kRule ? Counted::kRules : Counted::kHints;
+}
+
 class Writer {
   public:
     Writer(bool in_colour, const Reader& reader) : in_colour_(in_colour), reader_(reader) {}
@@ -49,12 +57,12 @@ class Writer {
         return in_colour_ ? style + text + kPlain : text;
     }
 
-    /// Findings of one severity, those of one kind together; a remedy they share stands once.
-    std::string group(const CheckResult& result, Severity severity, const char* style, const Message& title) const {
+    /// Findings that belong together, those of one kind behind one another; a remedy they share stands once.
+    std::string group(const CheckResult& result, Counted as, const char* style, const Message& title) const {
         std::vector<std::pair<std::string, std::vector<const Finding*>>> kinds;
         std::size_t count = 0;
         for (const Finding& finding : result.findings) {
-            if (finding.severity != severity) continue;
+            if (counted_as(finding) != as) continue;
             ++count;
             const auto same = [&finding](const auto& kind) { return kind.first == finding.id; };
             const auto known = std::find_if(kinds.begin(), kinds.end(), same);
@@ -120,8 +128,10 @@ std::string findings_in_words(const CheckResult& result, bool in_colour, const R
         writer.words(result.checked.empty() ? Message::verbatim(writer.styled(kBold, subject))
                                             : Message("{}: {}", writer.styled(kBold, subject), checked)) +
         "\n";
-    text += writer.group(result, Severity::kRule, kRed, Message("Rules broken"));
-    text += writer.group(result, Severity::kHint, kYellow, Message("Hints"));
+    text += writer.group(result, Counted::kAnswers, kRed, Message("Answers open"));
+    text += writer.group(result, Counted::kRules, kRed, Message("Rules broken"));
+    text += writer.group(result, Counted::kHints, kYellow, Message("Hints"));
+    text += writer.group(result, Counted::kChecks, kYellow, Message("Checks of the lesson"));
     if (rules == 0) text += "\n" + writer.styled(kGreen, writer.words(Message("No rule is broken."))) + "\n";
     return text;
 }

@@ -91,6 +91,7 @@ class FolderCheck {
     CheckResult check(CheckOptions wishes) {
         if (!has_its_files() || !copied()) return result_;
         const std::optional<PercentScript> script = readable_script();
+        wishes.begins(CheckStep::kAnalysis);
         const bool made = script && makes_report();
         if (script) {
             result_.lesson = script->header.lesson;
@@ -102,10 +103,12 @@ class FolderCheck {
                 check_answers(*script, run);
                 check_places(*script, run);
             }
+            wishes.begins(CheckStep::kLessonChecks);
             if (wishes.lesson_checks && !stopped_by_file()) try_lesson_checks(script->header.lesson);
         }
         if (!wishes.standard) wishes.standard = own_standard(script);
         add_members(wishes);
+        wishes.begins(CheckStep::kReport);
         const std::optional<fs::path> handed_in = pdf_in_folder();
         if (made || fs::exists(report()))
             check_report(report(), wishes);

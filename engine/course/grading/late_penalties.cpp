@@ -10,8 +10,6 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr double kNeedsConfirmation = 50;  ///< percent
-
 std::string shown_instant(std::int64_t instant) {
     const std::time_t seconds = instant;
     std::tm time{};
@@ -21,17 +19,19 @@ std::string shown_instant(std::int64_t instant) {
             std::strftime(text, sizeof text, time.tm_sec == 0 ? "%Y-%m-%d %H:%M %Z" : "%Y-%m-%d %H:%M:%S %Z", &time)};
 }
 
-/// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; each begun day costs 10 % of the
-/// points"
+/// "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; 10 % of the points are
+/// taken off for each day or part of a day"
 Message reason_of(const LatePolicy& policy, std::int64_t received) {
     const std::string came = shown_instant(received), due = shown_instant(policy.deadline);
     const Message duration = duration_message(received - policy.deadline);
     if (policy.most_percent < 100)
         return Message(
-            "received {}, {} after the deadline of {}; each begun day costs {} % of the points, at most {} %", came,
-            duration, due, significant(policy.percent_per_day, 4), significant(policy.most_percent, 4));
-    return Message("received {}, {} after the deadline of {}; each begun day costs {} % of the points", came, duration,
-                   due, significant(policy.percent_per_day, 4));
+            "received {}, {} after the deadline of {}; {} % of the points are taken off for each day or part of a day, "
+            "at most {} %",
+            came, duration, due, significant(policy.percent_per_day, 4), significant(policy.most_percent, 4));
+    return Message(
+        "received {}, {} after the deadline of {}; {} % of the points are taken off for each day or part of a day",
+        came, duration, due, significant(policy.percent_per_day, 4));
 }
 
 }  // namespace

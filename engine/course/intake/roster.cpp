@@ -41,13 +41,12 @@ void translate_columns(TextTable& table) {
         if (const std::string ours = our_column(name); !table.column(ours)) name = ours;
 }
 
-/// "Participant 900010" as 900010.
+}  // namespace
+
 std::string digits_at_end(const std::string& text) {
     const std::size_t last = text.find_last_not_of("0123456789");
     return last == std::string::npos ? text : text.substr(last + 1);
 }
-
-}  // namespace
 
 std::string our_column(const std::string& header) {
     const std::string words = fmt::format("|{}|", fmt::join(words_of_name(header), " "));

@@ -24,6 +24,9 @@ struct Student {
 /// lower case.
 std::string our_column(const std::string& header);
 
+/// "Participant 900010" as 900010.
+std::string digits_at_end(const std::string& text);
+
 /// Group, id and name, of which an instructor may use each for what the student hands in; those that are known.
 std::vector<std::string> known_names_of(const Student& student);
 

@@ -56,8 +56,11 @@ struct Candidate {
 class HandInReceiver {
   public:
     HandInReceiver(Course& course, const ReceiveRequest& request)
-        : course_(course), request_(request), senders_(course), incoming_(way()) {
-        outcome_.assignment = assignment_named(course, request.assignment);
+        : course_(course),
+          request_(request),
+          outcome_{assignment_named(course, request.assignment), {}, {}, {}},
+          senders_(course, outcome_.assignment, request.stage, request.numbers),
+          incoming_(way()) {
         due_for(course, outcome_.assignment, 0, request.stage);  // a talk has no reviews
         if (request.of.size() > 1 && request.of.size() != request.files.size())
             throw InvalidArgument("{} and {} times --of: say --of once for each file, in their order",
@@ -86,8 +89,7 @@ class HandInReceiver {
 
   private:
     IncomingFiles::Way way() {
-        return {request_.level, request_.program, !request_.from.empty(),
-                assignment_named(course_, request_.assignment).is_lab(),
+        return {request_.level, request_.program, !request_.from.empty(), outcome_.assignment.is_lab(),
                 [this](const Submission& submission) { return senders_.knows(submission); }};
     }
 
@@ -155,7 +157,7 @@ class HandInReceiver {
         const Assignment& a = outcome_.assignment;
         const bool over = a.review_due && candidate.at > *a.review_due + a.grace;
         if (!released && !(sent && over)) return;
-        if (is_known(candidate, sha256_of(read_file(candidate.file->file)))) return;
+        if (has_any(candidate, candidate.part, sha256_of_file(candidate.file->file))) return;
         throw released
             ? EnvironmentError(
                   "the reviews of {} are released: did you mean dynlab course submit --stage final? --first takes it "
@@ -165,12 +167,6 @@ class HandInReceiver {
                   "the reviews of {} are due: did you mean dynlab course submit --stage final? --first takes it as a "
                   "first version all the same",
                   candidate.group.name);
-    }
-
-    bool is_known(const Candidate& c, const std::string& hash) const {
-        constexpr char kSame[] =
-            "SELECT 1 FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND part = ? AND hash = ?";
-        return course_.database().query(kSame, outcome_.assignment.id, c.group.id, request_.stage, c.part, hash).next();
     }
 
     /// For what a candidate is; of two only one can hold.
@@ -344,12 +340,12 @@ class HandInReceiver {
     /// Whether an earlier version may count as well as the newest one.
     bool each_counts() const { return outcome_.assignment.is_lab() && outcome_.assignment.keep != "newest"; }
 
-    bool has_any(const Candidate& c, const std::string& part) const {
+    bool has_any(const Candidate& c, const std::string& part, const std::string& hash = "") const {
         return course_.database()
             .query(
                 "SELECT 1 FROM versions WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, 0) = ? "
-                "AND part = ?",
-                outcome_.assignment.id, c.group.id, request_.stage, c.pair ? c.pair->id : 0, part)
+                "AND part = ? AND hash = ifnull(nullif(?, ''), hash)",
+                outcome_.assignment.id, c.group.id, request_.stage, c.pair ? c.pair->id : 0, part, hash)
             .next();
     }
 
@@ -430,6 +426,7 @@ class HandInReceiver {
 
     Course& course_;
     const ReceiveRequest& request_;
+    ReceiveOutcome outcome_;
     Senders senders_;
     IncomingFiles incoming_;
     std::optional<Group> from_;
@@ -438,7 +435,6 @@ class HandInReceiver {
     TemporaryFolder opened_;           ///< what packs held
     std::deque<IncomingFile> packed_;  ///< candidates point to them
     std::vector<GivenMark> scores_;    ///< in packs of reviews
-    ReceiveOutcome outcome_;
 };
 
 }  // namespace

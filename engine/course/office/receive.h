@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct ReceiveRequest {
     std::vector<std::string> of;  ///< of reviews: the report's pseudonym for each file; empty: by the files' names
     Instant at = 0;               ///< time of receipt, where `time_of` tells none
     std::function<std::optional<Instant>(const IncomingFile&)> time_of;  ///< may be empty (intake/arrival_times.h)
+    std::map<std::string, std::string> numbers;  ///< of participants by student, instead of the roster's
     Isolation level = Isolation::kFull;
     std::filesystem::path program;
     bool take_as_first = false;  ///< a first version even when the group's report was reviewed already

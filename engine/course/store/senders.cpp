@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "course/store/newest_versions.h"
 #include "platform/spelling.h"
 
 namespace dynlab::inline course {
@@ -20,10 +21,28 @@ std::vector<std::string> group_names_of(const std::vector<Group>& groups) {
     return names;
 }
 
+std::vector<Student> senders_among(Course& course, const Assignment& assignment, const std::string& stage,
+                                   const std::vector<Group>& groups,
+                                   const std::map<std::string, std::string>& numbers) {
+    std::vector<Student> students = students_of(course);
+    const auto authors = author_groups(course, assignment);
+    for (Student& student : students) {
+        if (const auto number = numbers.find(student.id); number != numbers.end()) student.moodle = number->second;
+        const auto author = authors.find(student.id);
+        if (stage != "final" || author == authors.end()) continue;
+        const auto group = std::ranges::find(groups, author->second, &Group::id);
+        if (group != groups.end()) student.group = group->name;
+    }
+    return students;
+}
+
 }  // namespace
 
-Senders::Senders(Course& course)
-    : groups_(groups_of(course)), students_(students_of(course)), owners_(students_, group_names_of(groups_)) {}
+Senders::Senders(Course& course, const Assignment& assignment, const std::string& stage,
+                 const std::map<std::string, std::string>& numbers)
+    : groups_(groups_of(course)),
+      students_(senders_among(course, assignment, stage, groups_, numbers)),
+      owners_(students_, group_names_of(groups_)) {}
 
 bool Senders::knows(const Submission& submission) const {
     const Owners::Found found = owners_.find(submission);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "course/intake/owners.h"
+#include "course/store/assignments.h"
 #include "course/store/groups.h"
 
 namespace dynlab::inline course {
@@ -12,7 +13,10 @@ namespace dynlab::inline course {
 /// Whose file it is, by its name or its folder's (intake/owners.h), among the groups of a course.
 class Senders {
   public:
-    explicit Senders(Course& course);
+    /// `numbers`: of participants by student, instead of those in the roster. Final versions are those of the group
+    /// with which a student submitted first.
+    Senders(Course& course, const Assignment& assignment, const std::string& stage,
+            const std::map<std::string, std::string>& numbers);
 
     /// Whether the name is, or begins with, that of a group or a student: a zip of that name is theirs, not a class's.
     bool knows(const Submission& submission) const;

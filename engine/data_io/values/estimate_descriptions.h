@@ -17,8 +17,8 @@ constexpr std::array<const char*, 4> names_of(InitialState) {
     return {"zero", "steady", "estimate", "auto"};
 }
 
-constexpr std::array<const char*, 5> names_of(MissedCode) {
-    return {"delay", "pole", "feedthrough", "hold", "line"};
+constexpr std::array<const char*, 6> names_of(MissedCode) {
+    return {"delay", "pole", "feedthrough", "hold", "late", "line"};
 }
 
 DYNLAB_DESCRIBE(Level, value, from, to)

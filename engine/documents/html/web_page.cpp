@@ -51,7 +51,8 @@ std::string plot_element(const std::string& plot) {
 
 std::string shown_scripts(const fs::path& shared_templates) {
     std::string scripts;
-    for (const char* name : {"words.js", "plot_drawing.js", "motion.js", "plot_table.js", "plot.js", "choices.js"})
+    for (const char* name :
+         {"words.js", "plot_drawing.js", "motion.js", "plot_copies.js", "plot_table.js", "plot.js", "choices.js"})
         scripts += read_file(shared_templates / "html" / name);
     return scripts;
 }

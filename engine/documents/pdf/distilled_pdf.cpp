@@ -62,9 +62,9 @@ void print(const fs::path& file, const fs::path& folder, const DistillSetup& set
          "-dCompatibilityLevel=1.7", "-dMaxInlineImageSize=0", "-dPassThroughJPEGImages=false",
          "-dPassThroughJPXImages=false", "-o", (out / "copy.pdf").string(), "-c", kPictureSettings, "-f", in.string()},
         {}, "", limits);
-    if (child.exit_code != 0 || !fs::is_regular_file(folder / "copy.pdf"))
-        throw PdfRefusal(PdfFault::kDamaged,
-                         Message("Ghostscript cannot print the file: {}.", reason_of(child, setup)));
+    if (child.exit_code == 0 && fs::is_regular_file(folder / "copy.pdf")) return;
+    refuse_full_disk(folder, 2 * fs::file_size(file));
+    throw PdfRefusal(PdfFault::kDamaged, Message("Ghostscript cannot print the file: {}.", reason_of(child, setup)));
 }
 
 std::size_t number_at(const std::string& bytes, std::size_t at, std::size_t count) {
@@ -198,6 +198,13 @@ class Pruning {
 };
 
 }  // namespace
+
+void refuse_full_disk(const fs::path& folder, std::uintmax_t bytes) {
+    std::error_code unknown;
+    if (const fs::space_info disk = fs::space(folder, unknown); !unknown && disk.available < bytes)
+        throw EnvironmentError("there is no space left in {}: make room, or name another folder in TMPDIR",
+                               folder.string());
+}
 
 std::string distilled_pdf(const fs::path& file, const DistillSetup& setup) {
     const TemporaryFolder work;

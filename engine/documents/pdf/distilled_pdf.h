@@ -19,6 +19,11 @@ struct DistillSetup {
 /// encoded again; embedded fonts have numbers for names. Bookmarks stay, and links within the document or to the web
 /// and to mail addresses. Equal input gives equal bytes on the same machine.
 /// Throws MissingProgram without Ghostscript, and PdfRefusal where the file cannot be read or printed.
+/// EnvironmentError as refuse_full_disk does.
 std::string distilled_pdf(const std::filesystem::path& file, const DistillSetup& setup = {});
+
+/// Throws EnvironmentError where the disk of a temporary folder, in which something could not be made, has less room
+/// than this many bytes: then the disk is to blame.
+void refuse_full_disk(const std::filesystem::path& folder, std::uintmax_t bytes);
 
 }  // namespace dynlab::inline documents

@@ -70,8 +70,10 @@ Figure step_plot(const std::vector<NamedModel>& models, const Vector& t) {
         if (!models[i].confidence) continue;
         const auto& [model, level] = *models[i].confidence;
         const Vector width = normal_half_width(level) * step_response_std(model, panel.curves[i].x);
-        add_confidence_band(panel, i, width, level);
+        const Vector& y = panel.curves[i].y;
+        add_confidence_band(panel, i, width, level, y.maxCoeff() - y.minCoeff());
     }
+    limit_to_readable(panel, models.size(), 0);
     return figure;
 }
 

@@ -228,8 +228,9 @@ void HammersteinOptions::validate() const {
         if (!(breakpoints[i] > breakpoints[i - 1]))
             throw InvalidArgument("{} must increase, and value {} is {} after {}", OptionName{"breakpoints"}, i + 1,
                                   breakpoints[i], breakpoints[i - 1]);
-    if (initial_state != InitialState::kZero && initial_state != InitialState::kSteady)
-        throw InvalidArgument("{} must be \"zero\" or \"steady\" for hammerstein", OptionName{"initial_state"});
+    if (initial_state == InitialState::kEstimate)
+        throw InvalidArgument("{} must be \"zero\", \"steady\" or \"auto\" for hammerstein",
+                              OptionName{"initial_state"});
     if (offset != Offset::kNone)
         throw InvalidArgument("{} must be \"none\" for hammerstein: a constant is part of its characteristic",
                               OptionName{"offset"});
@@ -253,6 +254,13 @@ Matrix hat_functions(const VectorView& edges, const VectorView& u) {
 
 Fit hammerstein(const IdData& data, const TransferStructure& structure, const HammersteinOptions& options) {
     check(data, structure, options);
+    if (options.initial_state == InitialState::kAuto) {
+        HammersteinOptions zero = options, steady = options;
+        zero.initial_state = InitialState::kZero;
+        steady.initial_state = InitialState::kSteady;
+        Fit from_zero = hammerstein(data, structure, zero), from_rest = hammerstein(data, structure, steady);
+        return from_zero.loss < from_rest.loss ? from_zero : from_rest;
+    }
     std::vector<Message> warnings;
     StaticCharacteristic characteristic;
     characteristic.breakpoints = visited_edges(data, options, warnings);

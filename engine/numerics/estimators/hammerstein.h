@@ -3,14 +3,14 @@
 
 namespace dynlab::inline numerics {
 
-/// Options of the linear part, of which initial_state may be kZero or kSteady and offset must be kNone (a constant is
-/// part of the static characteristic); lambda and delays as for srivc.
+/// Options of the linear part, of which initial_state may be kZero, kSteady or kAuto (the one of these that leaves
+/// less) and offset must be kNone (a constant is part of the static characteristic); lambda and delays as for srivc.
 struct HammersteinOptions : FitOptions {
     int bins = 10;       ///< equal bins between the smallest and the largest input
     Vector breakpoints;  ///< the bins' edges (increasing, two at least), when given instead of `bins`
 
     HammersteinOptions() {
-        initial_state = InitialState::kSteady;
+        initial_state = InitialState::kAuto;
         offset = Offset::kNone;
     }
     /// Throws InvalidArgument naming the option.

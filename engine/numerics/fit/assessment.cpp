@@ -146,7 +146,9 @@ Message worthlessness(const Fit& fit) {
     return Message();
 }
 
-Message verdict_of(const Assessment& assessment, const Fit& fit, const std::vector<std::string>& names) {
+Message verdict_of(const Assessment& assessment, const Fit& fit, const IdData& data) {
+    constexpr Index kFewSamples = 60;
+    const std::vector<std::string>& names = data.output_names;
     std::vector<Message> all;
     for (std::size_t i = 0; i < assessment.whiteness.size(); ++i) {
         const WhitenessTest& test = assessment.whiteness[i];
@@ -157,7 +159,11 @@ Message verdict_of(const Assessment& assessment, const Fit& fit, const std::vect
     if (!worthless.empty())
         all.push_back(worthless);
     else if (!assessment.white)
-        all.push_back(Message("The robust standard errors are the ones to use."));
+        all.push_back(data.sample_count() < kFewSamples
+                          ? Message("The robust standard errors are the ones to use, as a lower bound: {} samples are "
+                                    "too few to tell how the errors depend on each other.",
+                                    data.sample_count())
+                          : Message("The robust standard errors are the ones to use."));
     return sentences(std::move(all));
 }
 
@@ -222,7 +228,7 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
         assessment.white = assessment.white && assessment.whiteness.back().white;
     }
     finish(assessment, Psi, errors, lengths, ny, fit.covariance, linear_unknowns);
-    assessment.verdict = verdict_of(assessment, fit, data.output_names);
+    assessment.verdict = verdict_of(assessment, fit, data);
     return assessment;
 }
 
@@ -291,7 +297,7 @@ Assessment assess_prediction(const IdData& data, const Fit& fit, const ResidualO
     assessment.whiteness = {whiteness_test(records, options)};
     assessment.white = assessment.whiteness.front().white;
     finish(assessment, Psi, errors, lengths, 1, fit.covariance, linear_unknowns);
-    assessment.verdict = verdict_of(assessment, fit, data.output_names);
+    assessment.verdict = verdict_of(assessment, fit, data);
     return assessment;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "numerics/criteria/transfer_output.h"
@@ -227,11 +228,7 @@ std::optional<Explanation> without_hold(const Question& asked, const Explanation
     return gains(found, direct) ? std::nullopt : std::optional(found);
 }
 
-/// A structure to try.
-struct Candidate {
-    MissedCode code;
-    TransferStructure structure;
-};
+using Candidate = std::pair<MissedCode, TransferStructure>;  ///< a structure to try
 
 std::vector<Candidate> candidates(const IdData& data, const Question& asked) {
     const TransferStructure& structure = asked.given.structure;
@@ -239,7 +236,7 @@ std::vector<Candidate> candidates(const IdData& data, const Question& asked) {
     if (structure.single_channel() && errors_follow_input(asked.record, asked.given)) {
         if (!structure.free_delays) {
             all.push_back({MissedCode::kDelay, structure});
-            all.back().structure.free_delays = true;
+            all.back().second.free_delays = true;
         }
         all.push_back({MissedCode::kPole, changed(structure, 1, [](int, int m) { return m; })});
     }
@@ -262,21 +259,34 @@ bool may_miss_line(const Question& asked) {
     return !errors.allFinite() || wanders(errors.head(model.rows(0)));
 }
 
-/// Whether the same structure does better without the straight lines of input and output.
-std::optional<MissedStructure> missed_line(const Question& asked, const Explanation& present) {
-    if (!may_miss_line(asked)) return std::nullopt;
-    const IdData level = detrend(asked.record, TrendKind::kLinear);
-    const Question other{level, asked.given, asked.options};
+/// The same structure on other data, where that gains over the present fit with so many more values.
+std::optional<MissedStructure> gain_on(const IdData& data, const Question& asked, const Explanation& present,
+                                       MissedCode code, const char* option, Index more_values) {
+    const Question other{data, asked.given, asked.options};
     const std::optional<Fit> fit = other.fit_of(asked.given.structure);
     if (!fit) return std::nullopt;
     Explanation found = other.explanation(*fit);
     found.variation = present.variation;
-    found.values += 2 * static_cast<Index>(asked.record.experiments.size());
+    found.values += more_values;
     if (!gains(present, found)) return std::nullopt;
-    return MissedStructure{.code = MissedCode::kLine,
-                           .option = "detrend",
-                           .fit_percent = present.fit(),
-                           .better_fit_percent = found.fit()};
+    return MissedStructure{
+        .code = code, .option = option, .fit_percent = present.fit(), .better_fit_percent = found.fit()};
+}
+
+/// Whether the same structure does better without the straight lines of input and output.
+std::optional<MissedStructure> missed_line(const Question& asked, const Explanation& present) {
+    if (!may_miss_line(asked)) return std::nullopt;
+    return gain_on(detrend(asked.record, TrendKind::kLinear), asked, present, MissedCode::kLine, "detrend",
+                   2 * static_cast<Index>(asked.record.experiments.size()));
+}
+
+/// Whether it does better with the input one sample earlier.
+std::optional<MissedStructure> missed_shift(const Question& asked, const Explanation& present) {
+    const auto& [record, given, options] = asked;
+    if (!given.structure.single_channel() || options.integration || given.models.front().delay() > 0) return {};
+    const int poles = given.structure.poles.front();
+    if (!errors_follow_input(record, given) || !late_input(record, poles, given.loss)) return {};
+    return gain_on(record.shifted(-1), asked, present, MissedCode::kLate, "shift", 0);
 }
 
 double value_of(MissedCode code, const Fit& fit) {
@@ -296,6 +306,7 @@ std::optional<MissedStructure> missed_by_output(const IdData& data, const Fit& g
     const Question asked{record, given, options};
     const Explanation present = asked.explanation(given);
     std::optional<MissedStructure> best = missed_line(asked, present);
+    if (!best) best = missed_shift(asked, present);
     if (best) {
         best->samples = shorter ? record.sample_count() : 0;
         return best;
@@ -341,6 +352,8 @@ Message option_text(const MissedStructure& missed) {
             return Message("one more pole");
         case MissedCode::kLine:
             return Message("the straight lines taken off (data:detrend(\"linear\"))");
+        case MissedCode::kLate:
+            return Message("the input one sample earlier (data:shift(-1))");
         case MissedCode::kHold:
             return Message("straight lines between the samples of the input ({} = \"foh\")", OptionName{"hold"});
         default:
@@ -356,6 +369,8 @@ Message reason_text(const MissedStructure& missed) {
             return Message("the errors still follow the input");
         case MissedCode::kLine:
             return Message("the output drifts, or a constant load acts on an integrator");
+        case MissedCode::kLate:
+            return Message("the output answers before the input changes: the input was logged late");
         case MissedCode::kHold:
             return Message("the input moves between its samples");
         default:
@@ -372,6 +387,33 @@ bool moves_between_samples(const IdData& data) {
                const auto moves = experiment.u.topRows(steps).array() != experiment.u.bottomRows(steps).array();
                return static_cast<double>(moves.count()) >= kNearlyAll * static_cast<double>(moves.size());
            });
+}
+
+bool late_input(const IdData& data, int poles, double loss) {
+    constexpr double kEvidence = 30, kAdequate = 20, kNoWorse = 10;  // of N log of losses
+    if (!data.regular() || data.sample_count() > kFitted) return false;
+    IdData lines = data;
+    lines.hold = Hold::kFoh;
+    const IdData shifted = data.shifted(-1);
+    FitOptions options = FitOptions().started({InitialState::kEstimate, true});
+    options.tolerance = 1e-3;
+    const Fit none;
+    const Question seen{data, none, options}, early{shifted, none, options}, straight{lines, none, options};
+    const int most = std::max(poles + 1, 3);  // the structure was chosen without knowing
+    const auto strictly = [](int n) { return TransferStructure::single(n, n - 1); };
+    const std::optional<Fit> in_time = seen.fit_of(strictly(most)), earlier = early.fit_of(strictly(most));
+    if (!in_time || !earlier) return false;
+    const double N = explanation_of(shifted, *earlier, 0).samples;
+    const auto gain = [N](double from, const auto& to) { return to ? N * std::log(from / to->loss) : -kInfinity; };
+    if (!(gain(std::min(loss, in_time->loss), earlier) > kEvidence)) return false;
+    if (moves_between_samples(data) && gain(earlier->loss, straight.fit_of(strictly(most))) > -kNoWorse) return false;
+    // A direct feedthrough of n poles is as good as n + 1 poles with the input earlier, one too fast to be seen.
+    for (int n = 1; n <= most; ++n) {
+        const std::optional<Fit> direct = seen.fit_of(TransferStructure::single(n, n));
+        if (!direct || gain(earlier->loss, direct) < -kAdequate) continue;
+        return gain(direct->loss, n < most ? early.fit_of(strictly(n)) : earlier) > -kNoWorse;
+    }
+    return true;
 }
 
 std::optional<MissedStructure> missed_structure(const IdData& data, const Fit& fit, const FitOptions& options) {
@@ -394,24 +436,15 @@ std::optional<MissedStructure> missed_structure(const IdData& data, const Fit& f
 
 Message sentence_of(const MissedStructure& missed) {
     const Message option = option_text(missed), reason = reason_text(missed);
-    const Number better = significant(missed.better_fit_percent, 4), fit = significant(missed.fit_percent, 4);
-    const bool finite = std::isfinite(missed.fit_percent);
-    if (missed.output.empty() && missed.samples == 0)
-        return finite ? Message("With {} the fit is {} % instead of {} %: {}.", option, better, fit, reason)
-                      : Message("With {} the fit is {} %: {}.", option, better, reason);
-    if (missed.samples == 0)
-        return finite ? Message("With {} the fit of {} is {} % instead of {} %: {}.", option, missed.output, better,
-                                fit, reason)
-                      : Message("With {} the fit of {} is {} %: {}.", option, missed.output, better, reason);
-    if (missed.output.empty())
-        return finite ? Message("With {} the fit of the first {} samples is {} % instead of {} %: {}.", option,
-                                missed.samples, better, fit, reason)
-                      : Message("With {} the fit of the first {} samples is {} %: {}.", option, missed.samples, better,
-                                reason);
-    return finite ? Message("With {} the fit of {} of the first {} samples is {} % instead of {} %: {}.", option,
-                            missed.output, missed.samples, better, fit, reason)
-                  : Message("With {} the fit of {} of the first {} samples is {} %: {}.", option, missed.output,
-                            missed.samples, better, reason);
+    const bool whole = missed.samples == 0;
+    const Message fit = missed.output.empty()
+                            ? whole ? Message("the fit") : Message("the fit of the first {} samples", missed.samples)
+                        : whole ? Message("the fit of {}", missed.output)
+                                : Message("the fit of {} of the first {} samples", missed.output, missed.samples);
+    const Number better = significant(missed.better_fit_percent, 4), present = significant(missed.fit_percent, 4);
+    return std::isfinite(missed.fit_percent)
+               ? Message("With {} {} is {} % instead of {} %: {}.", option, fit, better, present, reason)
+               : Message("With {} {} is {} %: {}.", option, fit, better, reason);
 }
 
 }  // namespace dynlab::inline numerics

@@ -12,13 +12,14 @@ enum class MissedCode {
     kPole,         ///< one more pole
     kFeedthrough,  ///< a direct term: as many zeros as poles
     kHold,         ///< straight lines between the samples of an input that is held in the fit
+    kLate,         ///< nothing, but the input was logged one sample late
     kLine,         ///< none of these: a straight line lies in the output, a drift or the ramp of a loaded integrator
 };
 
 /// A better structure, and the fit that it leads to.
 struct MissedStructure {
     MissedCode code = MissedCode::kPole;
-    std::string option;       ///< of the structure: "delay" (s), "poles" or "zeros"; "hold", "detrend"
+    std::string option;       ///< of the structure: "delay" (s), "poles" or "zeros"; "hold", "detrend", "shift"
     double value = 0;         ///< to ask for
     std::string output = {};  ///< name of the output whose fit rises, where there are several
     Index samples = 0;        ///< of a long record: of its beginning, which both fits are of; 0 for all
@@ -29,12 +30,19 @@ struct MissedStructure {
 /// Whether inputs that count as held move at nearly every sample, as measured ones do.
 bool moves_between_samples(const IdData& data);
 
+/// Whether the input one sample earlier explains a record of one input and one output better than a model of so many
+/// poles with this mean square error, by strong evidence; better than straight lines between the samples of an input
+/// that moves at nearly every one, and as well as a direct feedthrough of as few poles. Not for irregular sampling and
+/// above 100,000 samples.
+bool late_input(const IdData& data, int poles, double loss);
+
 /// The structure that an output-error fit in continuous time misses, or nothing: a direct feedthrough where it has
 /// fewer zeros than poles; with one input, one more pole, or a delay where the fit has a fixed one.
 ///
 /// Where the errors wander (statistics/wandering.h), a straight line comes first: the structure is fitted to the data
-/// without their lines, and nothing else is looked for where that gains. A feedthrough is fitted where a LOOK AHEAD on
-/// the first 3000 samples at most promises it: J'J and J'e of the sensitivities at the fit, extended by the further
+/// without their lines, and nothing else is looked for where that gains; then, where a fit without a delay leaves
+/// errors that follow the input, an input that was logged late (late_input). A feedthrough is fitted where a LOOK AHEAD
+/// on the first 3000 samples at most promises it: J'J and J'e of the sensitivities at the fit, extended by the further
 /// coefficients of B, tell what one Gauss-Newton step gains. A pole and a delay are fitted where the errors follow the
 /// input. Each is fitted by the options of the fit, which choose its start again where they leave it open (of records
 /// above 100,000 samples, to their beginning). A gain counts when it lowers BIC by more than 10, very strong evidence

@@ -6,7 +6,7 @@
 
 #include "numerics/error.h"
 #include "numerics/signals/checks.h"
-#include "numerics/signals/robust_statistics.h"
+#include "numerics/statistics/autoregression.h"
 
 namespace dynlab::inline numerics {
 
@@ -17,8 +17,16 @@ double smallest_step(double step, double period) {
     return step - period * std::round(step / period);
 }
 
+/// Mean square of what the last samples do not tell of the next one.
+double prediction_error(const Vector& x) {
+    constexpr Index kMemory = 10;
+    const Vector centered = x.array() - x.mean();
+    return fit_autoregression(centered, {centered.size()}, kMemory, AutoregressiveOrder::kBic).variance;
+}
+
 bool is_wrapped(const VectorView& x, double period) {
-    constexpr double kAngleSlack = 0.01, kFilled = 0.9, kNearEnd = 0.3, kMostJumps = 0.9;  // of the period
+    constexpr double kAngleSlack = 0.05, kFilled = 0.9, kNearEnd = 0.3;  // of the period
+    constexpr double kMostJumps = 0.7, kMuchBetter = 0.5;
     constexpr double kUsual = 3;  // times the largest other step
     const double low = x.minCoeff(), high = x.maxCoeff(), slack = kAngleSlack * period;
     const bool centered = low >= -period / 2 - slack && high <= period / 2 + slack;
@@ -37,9 +45,10 @@ bool is_wrapped(const VectorView& x, double period) {
         from_ends +=
             std::min(x[k], x[k - 1]) < low + kNearEnd * period && std::max(x[k], x[k - 1]) > high - kNearEnd * period;
     }
-    // A signal that jumps anyway, as a square wave does, has no steps that unwrapping could make usual.
+    // A signal that jumps anyway, as a square wave does, has no steps that unwrapping could make usual; nor does
+    // unwrapping make noise or a fast sine easier to predict.
     return jumps > 0 && static_cast<double>(from_ends) >= kMostJumps * static_cast<double>(jumps) && usual > 0 &&
-           across < kUsual * usual;
+           across < kUsual * usual && prediction_error(unwrap(x, period)) < kMuchBetter * prediction_error(x);
 }
 
 }  // namespace

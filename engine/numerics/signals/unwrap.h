@@ -11,9 +11,9 @@ namespace dynlab::inline numerics {
 /// positive and samples that are not finite.
 Vector unwrap(const VectorView& x, double period);
 
-/// The period of a signal that was wrapped: it stays within -P/2..P/2 or 0..P (P one of the `periods`), fills 90 % of
-/// that, and jumps from near one end to near the other, which unwrapping turns into steps no larger than usual. Nothing
-/// for other signals.
+/// The period of a signal that was wrapped: it stays within -P/2..P/2 or 0..P (P one of the `periods`; noise may lead
+/// 5 % beyond), fills 90 % of that, and mostly jumps from near one end to near the other; unwrapping turns these jumps
+/// into steps no larger than usual, and its samples predict the next one twice as well. Nothing for other signals.
 std::optional<double> wrapped_period(const VectorView& x, const Vector& periods);
 
 }  // namespace dynlab::inline numerics

@@ -104,13 +104,37 @@ RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, con
     return result;
 }
 
-RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths,
+namespace {
+
+/// Of errors of one size: H X'X H times their mean square, x the instruments coloured backwards.
+Vector variances_of_one_size(const Matrix& H, const MatrixView& Psi, const Vector& e, const std::vector<Index>& lengths,
+                             const Autoregression& model) {
+    const Matrix V = coloured_backwards(model, Psi, lengths) * H;
+    const auto freedom = static_cast<double>(std::max<Index>(1, Psi.rows() - Psi.cols() - model.order()));
+    return whitened(model, e, lengths).squaredNorm() / freedom * V.colwise().squaredNorm().transpose();
+}
+
+}  // namespace
+
+RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& given_lengths,
                                    Index outputs) {
+    constexpr double kLeast = 0.1;
     if (Psi.rows() <= Psi.cols())
         throw InvalidArgument("A robust covariance needs more samples than parameters, and got {} and {}",
                               plural(Psi.rows(), "{} sample", "{} samples"),
                               plural(Psi.cols(), "{} parameter", "{} parameters"));
-    return robust_covariance(solve_least_squares(Psi, e).inverse_gram, Psi, e, lengths, outputs);
+    const Matrix H = solve_least_squares(Psi, e).inverse_gram;
+    const Vector leverages = (Psi * H).cwiseProduct(Psi).rowwise().sum();
+    const Vector unfitted = e.array() / (1 - leverages.array()).max(kLeast);
+    RobustCovariance result = robust_covariance(H, Psi, unfitted, given_lengths, outputs);
+    if (outputs > 1) return result;
+    const std::vector<Index> lengths = given_lengths.empty() ? std::vector<Index>{Psi.rows()} : given_lengths;
+    const Vector least = variances_of_one_size(H, Psi, unfitted, lengths, result.whitening.front());
+    const Vector std = result.std.cwiseMax(least.cwiseSqrt());
+    const Vector rise = (result.std.array() > 0).select(std.cwiseQuotient(result.std), 1);
+    result.covariance = rise.asDiagonal() * result.covariance * rise.asDiagonal();
+    result.std = result.covariance.diagonal().cwiseSqrt();
+    return result;
 }
 
 }  // namespace dynlab::inline numerics

@@ -82,54 +82,14 @@ bool output_is_smoother(const IdData& window) {
     return unpredictable_part(record.y.col(0)) < unpredictable_part(record.u.col(0));
 }
 
-/// As many white errors of the same power at low frequencies as the model leaves.
-double independent_errors(const IdData& data, const TransferFunction& G) {
-    const Vector e = data.experiments.front().y.col(0) - compare(data, G).output;
-    const Index N = e.size();
-    const double r = std::clamp(e.head(N - 1).dot(e.tail(N - 1)) / e.squaredNorm(), 0.0, 0.999);
-    return static_cast<double>(N) * (1 - r) / (1 + r);
-}
-
-/// The model of one pole more than the window's, without a delay, to its input so many samples earlier.
-std::optional<Fit> fit_to_earlier_input(const FittedRecord& fit, Index samples, int zeros,
-                                        std::optional<Hold> hold = std::nullopt) {
-    IdData data = samples > 0 ? fit.window.data.shifted(-samples) : fit.window.data;
-    data.hold = hold.value_or(data.hold);
-    FitOptions options;
-    options.initial_state = InitialState::kEstimate;
-    options.offset = Offset::kEstimate;
-    options.tolerance = kQuickTolerance;
-    try {
-        return srivc(data, TransferStructure::single(fit.search.candidate.poles + 1, zeros), options);
-    } catch (const InvalidArgument&) {
-        return std::nullopt;
-    }
-}
-
 }  // namespace
 
 bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
-    constexpr double kEvidence = 30, kNoWorse = 10;  // of N log of losses: a feedthrough; straight between samples
     const Fit& found = fit.search.candidate.estimate;
     const bool at_zero = !found.at_bound.empty() && found.at_bound[static_cast<std::size_t>(found.theta.size() - 1)];
     if (fit.window.step > 1 || !((fit.trusted() && at_zero) || follows_later_inputs(fit, 0))) return false;
-    const int zeros = fit.search.candidate.poles;  // and one pole more: the search chose without knowing
-    const std::optional<Fit> in_time = fit_to_earlier_input(fit, 0, zeros);
-    const std::optional<Fit> earlier = fit_to_earlier_input(fit, 1, zeros);
-    if (!in_time || !earlier) return false;
-    const double N = independent_errors(fit.window.data.shifted(-1), earlier->models.front());
-    if (!(N * std::log(std::min(fit.search.loss(), in_time->loss) / earlier->loss) > kEvidence)) return false;
-    const std::optional<Fit> direct = fit_to_earlier_input(fit, 0, zeros + 1);
-    if (direct && N * std::log(earlier->loss / direct->loss) > kNoWorse) return false;
-    std::optional<Fit> straight;
-    if (moves_between_samples(fit.window.data)) straight = fit_to_earlier_input(fit, 0, zeros, Hold::kFoh);
-    if (straight && N * std::log(straight->loss / earlier->loss) < kNoWorse) return false;
-    findings.push_back(
-        about(fit, "late_input", Weight::kWarning,
-              Message("{} answers before {} changes, by about one sample: the input was logged late. Shift it with "
-                      "data:shift(-1).",
-                      fit.output(), fit.input()),
-              1));
+    if (!late_input(fit.window.data, fit.search.candidate.poles, fit.search.loss())) return false;
+    findings.push_back(about(fit, "late_input", Weight::kWarning, late_input_sentence(fit.data), 1));
     return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/first_estimate.h"
+#include "numerics/fit/missed_structure.h"
 #include "numerics/fit/operating_points.h"
 #include "numerics/validation/delay_profile.h"
 
@@ -100,9 +101,11 @@ Message result_of(const DelaySearch& search, const IdData& data) {
                          fit);
 }
 
-Message explanation_of(const DelaySearch& search, const IdData& data) {
+Message explanation_of(const DelaySearch& search, const IdData& data, bool told) {
     std::vector<Message> all{result_of(search, data)};
     if (search.delay <= 2 * search.std) all.push_back(Message("It does not differ significantly from no delay."));
+    if (told && search.delay < data.Ts && late_input(data, search.candidate.poles, search.loss()))
+        all.push_back(late_input_sentence(data));
     const Vector& errors = search.candidate.estimate.std;
     if (search.rival && !std::isinf(errors[errors.size() - 1]))  // else a warning of the estimate says so
         all.push_back(
@@ -114,6 +117,13 @@ Message explanation_of(const DelaySearch& search, const IdData& data) {
 }
 
 }  // namespace
+
+Message late_input_sentence(const IdData& data) {
+    return Message(
+        "{} answers before {} changes, by about one sample: the input was logged late. Shift it with "
+        "data:shift(-1).",
+        data.output_names.front(), data.input_names.front());
+}
 
 DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) {
     check_options(options);
@@ -139,7 +149,7 @@ DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) 
     if (const Index last = estimate.covariance.rows(); std::isinf(search.std) && last > 0)  // in its own valley
         search.std = std::sqrt(estimate.covariance(last - 1, last - 1));
     search.rival = rival_of(search, data.sample_count());
-    search.explanation = explanation_of(search, data);
+    search.explanation = explanation_of(search, data, options.profile);
     return search;
 }
 

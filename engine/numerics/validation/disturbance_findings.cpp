@@ -150,14 +150,28 @@ void find_disturbance(FittedRecord& fit, RecordFindings& findings) {
 
 namespace {
 
+/// Of the rms errors of sections, which is far beyond that of most of the record.
+double strange_level(const Vector& levels, double deviation) {
+    return std::max(kStrange * median(levels), kLeastError * deviation);
+}
+
+double rms_of(const VectorView& x) {
+    return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
+}
+
+Vector levels_of_sections(const Vector& error) {
+    const Index length = error.size() / kSections;
+    Vector levels(kSections);
+    for (Index i = 0; i < kSections; ++i) levels[i] = rms_of(error.segment(i * length, length));
+    return levels;
+}
+
 /// Sections whose error is far beyond that of most of the record.
 std::vector<Segment> strange_sections(const Vector& error, double deviation) {
     const Index length = error.size() / kSections;
     if (length < 5) return {};
-    Vector levels(kSections);
-    for (Index i = 0; i < kSections; ++i)
-        levels[i] = std::sqrt(error.segment(i * length, length).squaredNorm() / static_cast<double>(length));
-    const double limit = std::max(kStrange * median(levels), kLeastError * deviation);
+    const Vector levels = levels_of_sections(error);
+    const double limit = strange_level(levels, deviation);
     std::vector<Segment> sections;
     for (Index i = 0; i < kSections; ++i)
         if (levels[i] > limit) sections.push_back({i * length + 1, (i + 1) * length});
@@ -194,7 +208,11 @@ bool find_strange_sections(const FittedRecord& fit, RecordFindings& findings) {
 
 bool has_strange_beginning(const FittedRecord& fit) {
     const std::vector<Segment> sections = strange_sections(fit.error, fit.deviation());
-    return !sections.empty() && is_at_the_beginning(sections.front());
+    if (!sections.empty() && is_at_the_beginning(sections.front())) return true;
+    const auto unheard = static_cast<Index>(2 * fit.search.delay / fit.data.Ts);
+    const Index length = std::max<Index>(5, unheard);
+    if (kSections * length > fit.error.size()) return false;
+    return rms_of(fit.error.head(length)) > strange_level(levels_of_sections(fit.error), fit.deviation());
 }
 
 }  // namespace dynlab::inline numerics

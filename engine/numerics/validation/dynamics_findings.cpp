@@ -7,6 +7,7 @@
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/integrated_input.h"
 #include "numerics/linalg/least_squares.h"
+#include "numerics/linalg/polynomial.h"
 #include "numerics/signals/preprocess.h"
 #include "numerics/signals/robust_statistics.h"
 #include "numerics/simulation/frequency_response.h"
@@ -85,17 +86,35 @@ std::optional<double> level_at_rest(const FittedRecord& fit) {
     return level;
 }
 
+/// Correlation of neighbors, between 0 and 1.
+double memory_of(const Vector& x) {
+    const Index N = x.size();
+    return std::clamp(x.head(N - 1).dot(x.tail(N - 1)) / x.squaredNorm(), 0.0, 0.999);
+}
+
+/// As many white errors of the same power at low frequencies.
+double independent_errors(const Vector& error) {
+    const double r = memory_of(error);
+    return static_cast<double>(error.size()) * (1 - r) / (1 + r);
+}
+
 /// Whether one more pole in the place of the delay does nearly as well.
 bool may_be_a_lag(const FittedRecord& fit) {
     constexpr double kNearly = 10;  // of N log of losses
-    const Fit& found = fit.search.candidate.estimate;
-    FitOptions options = FitOptions().started(found.start);
+    FitOptions options = FitOptions().started({InitialState::kEstimate, true});
     options.tolerance = 1e-3;
+    const TransferFunction& G = fit.model();
+    const Vector y = fit.window.data.experiments.front().y.col(0), own = y - compare(fit.window.data, G).output;
+    const double corner = 1 / G.delay();  // of the lag that answers as late
+    const Vector den = multiply(G.den(), Vector{{1.0, corner}});
+    SearchAids aids;
+    aids.start.resize(den.size() - 1 + G.num().size());
+    aids.start << den.tail(den.size() - 1), corner * G.num();
+    const auto structure = TransferStructure::single(static_cast<int>(G.pole_count()) + 1, fit.search.candidate.zeros);
     try {
-        const Fit lag =
-            srivc(fit.window.data,
-                  TransferStructure::single(fit.search.candidate.poles + 1, fit.search.candidate.zeros), options);
-        return static_cast<double>(fit.window.data.sample_count()) * std::log(lag.loss / found.loss) < kNearly;
+        const Fit lag = srivc(fit.window.data, structure, options, aids);
+        const Vector left = y - compare(fit.window.data, lag.models.front()).output;
+        return independent_errors(own) * std::log(left.squaredNorm() / own.squaredNorm()) < kNearly;
     } catch (const InvalidArgument&) {
         return false;
     }
@@ -112,16 +131,9 @@ double input_frequency(const FittedRecord& fit) {
     return std::sqrt(steps.squaredNorm() / static_cast<double>(count)) / (deviation * fit.data.Ts);
 }
 
-/// Correlation of neighbors, between 0 and 1.
-double memory_of(const Vector& x) {
-    const Index N = x.size();
-    return std::clamp(x.head(N - 1).dot(x.tail(N - 1)) / x.squaredNorm(), 0.0, 0.999);
-}
-
 /// Standard error of the mean of errors that follow each other.
 double error_of_mean(const Vector& error) {
-    const double r = memory_of(error);
-    return standard_deviation(error) * std::sqrt((1 + r) / (1 - r) / static_cast<double>(error.size()));
+    return standard_deviation(error) / std::sqrt(independent_errors(error));
 }
 
 bool excludes_zero(const VectorView& u) {
@@ -249,9 +261,7 @@ bool start_is_evident(const FittedRecord& fit) {
         const CompareResult other = compare(fit.data, fit.model(), {state, Offset::kEstimate});
         rest = std::min(rest, (fit.y() - other.output).squaredNorm());
     }
-    const Index N = fit.error.size();
-    const double squares = fit.error.squaredNorm(), r = memory_of(fit.error);
-    return static_cast<double>(N) * (1 - r) / (1 + r) * std::log(rest / squares) > kEvident;
+    return independent_errors(fit.error) * std::log(rest / fit.error.squaredNorm()) > kEvident;
 }
 
 }  // namespace

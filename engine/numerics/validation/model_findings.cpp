@@ -46,6 +46,7 @@ ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel
     if (!fit) return advice;
     const bool answered_backwards = find_exchange(*fit, cancel, findings);
     if (answered_backwards && !fit->runs_away()) return advice;
+    if (!answered_backwards && find_late_input(*fit, findings)) return advice;  // its errors look like outliers
     const bool judged_one_by_one = fit->error.size() <= kMostSamplesToJudge;
     if (judged_one_by_one) find_error_outliers(*fit, cancel, findings);
     advice.judges_outliers = fit->trusted() && judged_one_by_one;
@@ -54,7 +55,6 @@ ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel
         find_feedback(*fit, findings);
         return advice;
     }
-    if (find_late_input(*fit, findings)) return advice;
     const bool strange = fit->trusted() && find_strange_sections(*fit, findings);
     if (!strange && !gain_explains_error(*fit)) find_disturbance(*fit, findings);
     if (fit->simulation.fit_percent > kSomething && !strange) find_nonlinearity(*fit, findings);

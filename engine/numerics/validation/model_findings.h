@@ -40,7 +40,7 @@ bool find_load(const FittedRecord& fit, RecordFindings& findings);
 /// "nonlinear" with sections (of 24, but for the first) whose rms error is more than four times the median of all and
 /// 5 % of the output's standard deviation. True when there are any: no other test of the error means much then.
 bool find_strange_sections(const FittedRecord& fit, RecordFindings& findings);
-/// The first section is such a one.
+/// The first section is such a one, or two dead times at the beginning (five samples at least).
 bool has_strange_beginning(const FittedRecord& fit);
 
 /// "nonlinear", "saturation" and "changing_gain": F-tests at level 2e-7 each, after whitening, of whether a static
@@ -58,9 +58,8 @@ void find_feedback(const FittedRecord& fit, RecordFindings& findings);
 /// "unstable": the model is, or its simulation leaves the record, so that nothing that it leaves is a measure.
 bool find_runaway(const FittedRecord& fit, RecordFindings& findings);
 
-/// "late_input": the whitened error goes with the input of the same and later samples, and the input one sample
-/// earlier explains the record better by strong evidence, no worse than a direct feedthrough or, where it moves at
-/// nearly every sample, than straight lines between its samples.
+/// "late_input": the whitened error goes with the input of the same and later samples, or the delay ends at zero, and
+/// the input one sample earlier explains the record better (fit/missed_structure.h).
 bool find_late_input(const FittedRecord& fit, RecordFindings& findings);
 
 /// "causality": the model from output to input leaves less than two thirds of what the one from input to output

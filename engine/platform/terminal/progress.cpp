@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <utility>
 
 #include "platform/terminal/activity_line.h"
@@ -34,6 +36,17 @@ ProgressBar::Listener& bar_listener() {
 
 void ProgressBar::tell_instead(Listener listener) {
     bar_listener() = std::move(listener);
+}
+
+void write_progress(std::size_t done, std::size_t total) {
+    if (const char* const file = std::getenv(kFileOfProgress))
+        std::ofstream(file, std::ios::trunc) << done << " " << total << "\n";
+}
+
+std::optional<double> progress_in(const std::filesystem::path& file) {
+    std::size_t done = 0, total = 0;
+    if (!(std::ifstream(file) >> done >> total) || total == 0) return {};
+    return static_cast<double>(std::min(done, total)) / static_cast<double>(total);
 }
 
 std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double seconds_so_far) {

@@ -1,13 +1,21 @@
 #pragma once
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace dynlab::inline platform {
 
 /// "what  [#####-----]  50/100  3 s left"; with total 0 only "what".
 std::string progress_line(const std::string& what, std::size_t done, std::size_t total, double seconds_so_far);
+
+/// Names, in the environment of a command, the file in which another process reads how far it is.
+inline constexpr const char* kFileOfProgress = "DYNLAB_PROGRESS";
+void write_progress(std::size_t done, std::size_t total);  ///< into that file, where there is one
+/// What such a file says, from 0 to 1; nothing where it says nothing yet.
+std::optional<double> progress_in(const std::filesystem::path& file);
 
 /// A bar with count and time left on standard error when that is a terminal, behind what an ActivityLine shows there;
 /// silent otherwise. Appears after 0.3 s.

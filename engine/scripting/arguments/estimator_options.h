@@ -15,31 +15,31 @@ inline constexpr std::array kOffsets = {"none", "remove", "estimate", "auto"};
 
 /// Of an options struct that has the member.
 template <class T>
-inline constexpr OptionEntry kHoldOfOutput = option<&T::hold_y>(
-    "hold_y",
-    about("how the output behaves between its samples inside the filters, straight lines (\"foh\") or steps (\"zoh\")"),
-    {.initial = "\"foh\"", .choices = kHolds});
+inline constexpr OptionEntry kHoldOfOutput =
+    option<&T::hold_y>("hold_y",
+                       about("intersample behavior of the output in the filters: linear interpolation (\"foh\") or "
+                             "zero-order hold (\"zoh\")"),
+                       {.initial = "\"foh\"", .choices = kHolds});
 
 inline constexpr std::array kFirstFilterOptions = {
     option<&FitOptions::lambda>(
         "lambda", about("cut-off frequency of the filter of the first estimate; by default several are tried"),
         {.unit = "rad/s"}),
     option<&FitOptions::hold_y>(
-        "hold_y", about("how the output behaves between its samples inside the filters; it does not change the result"),
+        "hold_y", about("intersample behavior of the output in the filters; it does not change the result"),
         {.initial = "\"foh\"", .choices = kHolds})};
 
 inline constexpr std::array kStartOptions = {
     option<&FitOptions::initial_state>(
         "InitialState",
-        about("the state before the data begin: at rest with zero input (\"none\"), at rest with the first input value "
-              "(\"steady\"), unknown (\"estimate\"), or whichever of them has the smallest BIC (\"auto\")"),
+        about("initial state: at rest with zero input (\"none\"), at rest with the first input value (\"steady\"), "
+              "estimated (\"estimate\"), or the one with the smallest BIC (\"auto\")"),
         {.initial = "\"auto\"", .choices = kInitialStates, .former = "zero", .member = "initial_state"}),
     option<&FitOptions::offset>(
         "Offset",
-        about(
-            "a constant in the output: none, the operating point is removed first (\"remove\"), a "
-            "constant is estimated (\"estimate\"), or the smaller BIC of none and estimate (\"auto\"); where only one "
-            "of InitialState and Offset is given, the other stays \"auto\""),
+        about("constant offset of the output: zero (\"none\"), the operating point is removed first (\"remove\"), "
+              "estimated (\"estimate\"), or the smaller BIC of none and estimate (\"auto\"). If you give only one of "
+              "InitialState and Offset, the other remains \"auto\""),
         {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"})};
 
 inline constexpr OptionEntry kTolerance =
@@ -47,7 +47,8 @@ inline constexpr OptionEntry kTolerance =
                                    {.initial = "1e-6", .member = "tolerance"});
 inline constexpr std::array kIterationOptions = {
     option<&FitOptions::max_iterations>(
-        "MaxIter", about("maximum number of iterations; by default a search that has not settled continues up to 500"),
+        "MaxIter",
+        about("maximum number of iterations; by default a search that has not converged continues up to 500"),
         {.least = 0, .member = "max_iterations"}),
     kTolerance};
 /// Of methods that end there in any case.
@@ -57,7 +58,7 @@ inline constexpr std::array kLimitOptions = {
     kTolerance};
 
 inline constexpr std::array kIntegrationOptions = {option<&FitOptions::integration>(
-    "Integration", about("an integrator besides the poles, G = B/(s F); for held inputs only"),
+    "Integration", about("integrator in addition to the poles, G = B/(s F); for held inputs only"),
     {.member = "integration"})};
 
 inline constexpr OptionEntry kCommonDenominator = {
@@ -66,23 +67,23 @@ inline constexpr std::array kSharingOptions = {kCommonDenominator};
 
 inline constexpr OptionEntry kStableOption = option<&FitOptions::stable>(
     "Stable",
-    about("true keeps to models with all poles in the left half plane, false takes the best fit whatever its poles; by "
-          "default an unstable model is chosen only where it lowers the loss by 2 % or more"),
+    about("true allows only models with all poles in the left half plane; false takes the best fit regardless of its "
+          "poles. By default, an unstable model must lower the loss by 2 % or more"),
     {.member = "stable"});
 inline constexpr OptionEntry kFixedOption = option<&FitOptions::fixed>(
     "Fixed", about("known parameters, {a2 = 4}, which are not estimated"), {.member = "fixed"});
 inline constexpr std::array kSearchOptions = {
     kStableOption, kFixedOption,
     option<&FitOptions::output_weights>("OutputWeights",
-                                        about("with several outputs a weight for each, by which its errors are "
-                                              "multiplied; by default one over their standard deviation"),
+                                        about("with several outputs, one weight per output for its errors; by default "
+                                              "1/(standard deviation of the errors)"),
                                         {.member = "output_weights"})};
 
 inline constexpr std::array kDelayOptions = {
-    option<&FitOptions::least_delay>("TdMin", about("least delay of the search"),
+    option<&FitOptions::least_delay>("TdMin", about("smallest delay of the search"),
                                      {.unit = "s", .member = "least_delay"}),
     option<&FitOptions::largest_delay>(
-        "TdMax", about("largest delay of the search; by default a bound from the data, and 0 for no delay"),
+        "TdMax", about("largest delay of the search; by default a bound from the data; 0 for no delay"),
         {.unit = "s", .member = "largest_delay"}),
     option<&FitOptions::delay_count>("NumTd", about("maximum number of delays on the grid of the search"),
                                      {.member = "delay_count"})};
@@ -90,27 +91,27 @@ inline constexpr std::array kDelayOptions = {
 inline constexpr OptionEntry kKnownDelayOption = {
     "IODelay",
     ValueKind::kVector,
-    about("a known delay, which is then not estimated; with several inputs one for each"),
+    about("known delay, which is then not estimated; one per input with several inputs"),
     {.unit = "s", .member = "delay"}};
 inline constexpr std::array kFixedDelayOptions = {kKnownDelayOption};
 /// Read by started_structure().
 inline constexpr std::array kKnownDelayOptions = {
-    kKnownDelayOption,
-    OptionEntry{
-        "Td0", ValueKind::kVector, about("the delay where its search begins, instead of on a grid"), {.unit = "s"}}};
+    kKnownDelayOption, OptionEntry{"Td0",
+                                   ValueKind::kVector,
+                                   about("initial value of the delay for the search, instead of a grid"),
+                                   {.unit = "s"}}};
 
 inline constexpr ArgumentEntry kDataArgument = {
-    "data", ValueKind::kData,
-    about("data object, or a measured frequency response (idfrd) where the method takes one")};
+    "data", ValueKind::kData, about("data object, or a measured frequency response (idfrd) if the method accepts one")};
 inline constexpr ArgumentEntry kOneOutputData = {
     "data", ValueKind::kData,
     about("data object with one output, one or several inputs and experiments, regularly sampled")};
 inline constexpr ArgumentEntry kFilterFrequency = {
     "lambda", ValueKind::kNumber,
-    about("cut-off frequency of the filter in rad/s, usually a bit above the bandwidth of the system")};
+    about("cut-off frequency of the filter in rad/s, usually slightly above the bandwidth of the system")};
 inline constexpr ArgumentEntry kPoleCount = {
     "np", ValueKind::kCount,
-    about("number of poles; with several inputs or outputs a number for all or a table with one for each")};
-inline constexpr ArgumentEntry kZeroCount = {"nz", ValueKind::kCount, about("number of zeros, in the same way")};
+    about("number of poles; with several inputs or outputs, one number for all or a table with one per channel")};
+inline constexpr ArgumentEntry kZeroCount = {"nz", ValueKind::kCount, about("number of zeros, in the same form")};
 
 }  // namespace dynlab::inline scripting

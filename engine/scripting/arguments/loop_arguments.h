@@ -14,16 +14,14 @@ LoopController controller_at(const Call& call, int index);
 Index computing_delay_of(const Options& options);
 
 inline constexpr std::array kLoopOptions = {
-    OptionEntry{
-        "controller", ValueKind::kModel,
-        about("the controller of the loop, a model with the sampling time of the data or in continuous time, or "
-              "a number; it need not be known")},
-    OptionEntry{
-        "ComputingDelay", ValueKind::kCount,
-        about("samples that a sampled controller takes to answer; if absent, the data decide between none and one")},
-    option<&LoopKnowledge::hold_r>(
-        "hold_r", about("how the reference behaves between its samples, with a controller in continuous time"),
-        {.initial = "\"zoh\"", .choices = kHolds})};
+    OptionEntry{"controller", ValueKind::kModel,
+                about("controller of the loop: a model in continuous time or with the sampling time of the data, or a "
+                      "number; optional")},
+    OptionEntry{"ComputingDelay", ValueKind::kCount,
+                about("delay of a sampled controller in samples; by default the data decide between none and one")},
+    option<&LoopKnowledge::hold_r>("hold_r",
+                                   about("intersample behavior of the reference for a continuous-time controller"),
+                                   {.initial = "\"zoh\"", .choices = kHolds})};
 /// Of kLoopOptions; without ComputingDelay the record decides between none and one
 /// sample.
 LoopKnowledge loop_knowledge(const Options& options);

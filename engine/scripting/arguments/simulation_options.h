@@ -17,7 +17,7 @@ inline constexpr double kLargestSeed = 0xFFFFFFFF;
 inline constexpr OptionEntry kHoldOption = {
     "hold",
     ValueKind::kChoice,
-    about("behavior of the input between its samples: constant (\"zoh\") or straight lines (\"foh\")"),
+    about("intersample behavior of the input: zero-order hold (\"zoh\") or linear interpolation (\"foh\")"),
     {.initial = "\"zoh\"", .choices = kHolds}};
 
 inline constexpr OptionEntry kStateOption = {
@@ -29,7 +29,7 @@ inline constexpr std::array kStatesOfComparison = {"none", "steady", "estimate",
 inline constexpr OptionEntry kComparedStateOption = {
     "InitialState",
     ValueKind::kChoice,
-    about("the state before the data begin, as in `srivc`; of a grey-box model also \"model\", its own initial state"),
+    about("initial state, as in `srivc`; for a grey-box model also \"model\", its own initial state"),
     {.initial = "\"auto\"", .choices = kStatesOfComparison, .former = "zero", .member = "initial_state"}};
 inline constexpr OptionEntry kOffsetOption = option<&CompareOptions::offset>(
     "Offset", kStartOptions[1].description, {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"});

@@ -70,7 +70,7 @@ int give_advice(Call& call) {
 }
 
 constexpr FunctionEntry kAdviceFunctions[] = {
-    {"advice", "data", "advice(data) -> table", "what a teacher would say of a record before a model is fitted to it",
+    {"advice", "data", "advice(data) -> table", "Check a data set for common problems before estimation",
      guarded<give_advice>},
 };
 

@@ -64,7 +64,7 @@ int answer(Call& call) {
 }
 
 constexpr FunctionEntry kAnswersFunctions[] = {
-    {"answer", "report", "answer(name, value)", "hands a result in for the checks", guarded<answer>},
+    {"answer", "report", "answer(name, value)", "Submit a result for the checks", guarded<answer>},
 };
 
 }  // namespace

@@ -101,21 +101,19 @@ int extreme(Call& call) {
 }
 
 constexpr FunctionEntry kStatisticsFunctions[] = {
-    {"sum", "vectors", "sum(v) -> x; sum(A) -> v", "sum of the elements, of a matrix by columns", guarded<sum>},
-    {"mean", "vectors", "mean(v) -> x; mean(A) -> v", "arithmetic mean, of a matrix by columns",
+    {"sum", "vectors", "sum(v) -> x; sum(A) -> v", "Sum of elements, per column for a matrix", guarded<sum>},
+    {"mean", "vectors", "mean(v) -> x; mean(A) -> v", "Arithmetic mean, per column for a matrix",
      guarded<measure_columns<mean_of, 1>>},
-    {"median", "vectors", "median(v) -> x; median(A) -> v", "the value in the middle, of a matrix by columns",
+    {"median", "vectors", "median(v) -> x; median(A) -> v", "Middle value, per column for a matrix",
      guarded<measure_columns<median_of, 1>>},
-    {"std", "vectors", "std(v) -> x; std(A) -> v", "standard deviation (divided by N - 1), of a matrix by columns",
+    {"std", "vectors", "std(v) -> x; std(A) -> v", "Standard deviation (divisor N - 1), per column for a matrix",
      guarded<measure_columns<deviation_of, 2>>},
-    {"var", "vectors", "var(v) -> x; var(A) -> v", "variance (divided by N - 1), of a matrix by columns",
+    {"var", "vectors", "var(v) -> x; var(A) -> v", "Variance (divisor N - 1), per column for a matrix",
      guarded<measure_columns<variance_of, 2>>},
     {"min", "vectors", "min(v) -> x, place; min(x, y) -> v",
-     "smallest element and its place, of a matrix by columns; the smaller of two, element by element",
-     guarded<extreme<false>>},
+     "Smallest element and its position; the smaller of two, element by element", guarded<extreme<false>>},
     {"max", "vectors", "max(v) -> x, place; max(x, y) -> v",
-     "largest element and its place, of a matrix by columns; the larger of two, element by element",
-     guarded<extreme<true>>},
+     "Largest element and its position; the larger of two, element by element", guarded<extreme<true>>},
 };
 
 }  // namespace

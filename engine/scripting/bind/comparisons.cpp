@@ -49,18 +49,16 @@ int find(Call& call) {
 }
 
 constexpr FunctionEntry kComparisonsFunctions[] = {
-    {"gt", "vectors", "gt(v, x) -> mask", "which elements are greater than x",
+    {"gt", "vectors", "gt(v, x) -> mask", "Find elements greater than x",
      guarded<compare_elements<std::greater<double>>>},
-    {"lt", "vectors", "lt(v, x) -> mask", "which elements are less than x",
-     guarded<compare_elements<std::less<double>>>},
-    {"ge", "vectors", "ge(v, x) -> mask", "which elements are greater than or equal to x",
+    {"lt", "vectors", "lt(v, x) -> mask", "Find elements less than x", guarded<compare_elements<std::less<double>>>},
+    {"ge", "vectors", "ge(v, x) -> mask", "Find elements greater than or equal to x",
      guarded<compare_elements<std::greater_equal<double>>>},
-    {"le", "vectors", "le(v, x) -> mask", "which elements are less than or equal to x",
+    {"le", "vectors", "le(v, x) -> mask", "Find elements less than or equal to x",
      guarded<compare_elements<std::less_equal<double>>>},
-    {"eq", "vectors", "eq(v, x) -> mask", "which elements are equal to x",
-     guarded<compare_elements<std::equal_to<double>>>},
-    {"find", "vectors", "find(mask) -> places",
-     "places of the elements that are true; v:select(mask) gives the elements", guarded<find>},
+    {"eq", "vectors", "eq(v, x) -> mask", "Find elements equal to x", guarded<compare_elements<std::equal_to<double>>>},
+    {"find", "vectors", "find(mask) -> places", "Positions of true elements; v:select(mask) returns the elements",
+     guarded<find>},
 };
 
 }  // namespace

@@ -29,8 +29,7 @@ constexpr ArgumentEntry kPlacementArguments[] = {
     kStateMatrix,
     {"B", ValueKind::kAny, about("n x 1 matrix, one input")},
     {"poles", ValueKind::kAny,
-     about("list of n poles, or a complex vector; in a list a complex pair is written {re, im} and counts "
-           "twice")}};
+     about("list of n poles, or a complex vector. In a list, {re, im} is a complex pair and counts twice")}};
 constexpr ArgumentEntry kCraneArguments[] = {
     {"controller", ValueKind::kAny,
      about("function of time (s), measured position (m) and measured angle (rad) that returns a voltage (V)")}};
@@ -104,12 +103,12 @@ int drive_crane(Call& call) {
 }
 
 constexpr FunctionEntry kControlFunctions[] = {
-    {"lqr", "control", "lqr(A, B, Q, R) -> K, poles", "designs a linear-quadratic state feedback", guarded<lqr>,
+    {"lqr", "control", "lqr(A, B, Q, R) -> K, poles", "Design a linear-quadratic state feedback", guarded<lqr>,
      kNoOptions, kRegulatorArguments},
-    {"place", "control", "place(A, B, poles) -> K, poles", "places the poles of a system with one input",
-     guarded<place>, kNoOptions, kPlacementArguments},
+    {"place", "control", "place(A, B, poles) -> K, poles", "Place the poles of a system with one input", guarded<place>,
+     kNoOptions, kPlacementArguments},
     {"drive_crane", "control", "drive_crane(controller, {options}) -> table",
-     "tries a controller on the course's simulated crane", guarded<drive_crane>, kCraneTables, kCraneArguments},
+     "Test a controller on the simulated crane of the course", guarded<drive_crane>, kCraneTables, kCraneArguments},
 };
 
 }  // namespace

@@ -23,11 +23,11 @@ namespace {
 constexpr OptionEntry kImportOptions[] = {
     option<&ImportOptions::skip>("skip", about("number of lines of a text file that are skipped")),
     {"names", ValueKind::kAny, about("names of all columns, instead of those in the file")},
-    {"delimiter", ValueKind::kText, about("character between cells; \" \" for any number of blanks and tabs")},
+    {"delimiter", ValueKind::kText, about("separator of the cells; \" \" for any number of blanks and tabs")},
     {"units", ValueKind::kTable, about("units by column, {u = \"V\"}, instead of those in the file")},
     option<&ImportOptions::time>("time", about("name of the column of instants")),
     option<&ImportOptions::time_unit>(
-        "time_unit", about("unit of that column; \"dd/mm/yyyy\" or \"mm/dd/yyyy\" where it holds days")),
+        "time_unit", about("unit of that column; \"dd/mm/yyyy\" or \"mm/dd/yyyy\" if it contains days")),
     option<&ImportOptions::sheet>("sheet", about("name of a workbook's sheet; by default the first one"))};
 constexpr OptionEntry kIddataOptions[] = {
     option<&IdData::hold>("InterSample", kHoldOption.description,
@@ -42,10 +42,9 @@ constexpr OptionEntry kIddataOptions[] = {
     {"Tstart", ValueKind::kNumber, about("time of the first sample"), {.initial = "0"}},
     {"SamplingInstants",
      ValueKind::kVector,
-     about("increasing instants of irregular sampling, instead of `Ts`"),
+     about("increasing sampling instants of irregularly sampled data, instead of `Ts`"),
      {.member = "sampling_instants"}},
-    {"Reference", ValueKind::kAny,
-     about("N samples of the reference of the loop in which the data were recorded: a vector or a matrix")}};
+    {"Reference", ValueKind::kAny, about("N samples of the reference of the control loop: a vector or a matrix")}};
 constexpr std::array kIdplotOptions = {kLabelsOption};
 constexpr OptionTable kImportTables[] = {kImportOptions}, kIddataTables[] = {kIddataOptions},
                       kIdplotTables[] = {kIdplotOptions};
@@ -55,13 +54,13 @@ constexpr ArgumentEntry kLoadArguments[] = {
      about("name of a data set, such as \"winning_times\", or path of a file, such as \"my_record.csv\"")}};
 constexpr ArgumentEntry kIddataArguments[] = {
     {"y", ValueKind::kAny,
-     about("N output samples: a vector, or a matrix with a column for each output; nil for inputs alone")},
+     about("N output samples: a vector, or a matrix with one column per output; nil for inputs only")},
     {"u", ValueKind::kAny,
-     about("N input samples: a vector, or a matrix with a column for each input; nil for a time series")},
-    {"Ts", ValueKind::kNumber, about("sampling time in `TimeUnit`; by default 1, which is printed once")}};
+     about("N input samples: a vector, or a matrix with one column per input; nil for a time series")},
+    {"Ts", ValueKind::kNumber, about("sampling time in `TimeUnit`; by default 1, with a printed note")}};
 constexpr ArgumentEntry kIdplotArguments[] = {
     {"data, ...", ValueKind::kData, about("data objects with the same channels")},
-    {"first, last", ValueKind::kCount, about("of one data object, first and last sample that are drawn")}};
+    {"first, last", ValueKind::kCount, about("for one data object, first and last sample to plot")}};
 
 /// `path` is the name by which messages speak of what is pushed, such as crane.steps.
 void push_variable(const Call& call, const Variable& variable, const std::string& path);
@@ -334,12 +333,12 @@ int idplot(Call& call) {
 
 constexpr FunctionEntry kDataFunctions[] = {
     {"load", "data", "load(name_or_path, {options}) -> table",
-     "reads a data set of the course, a .mat file, or a table in a text file or workbook", guarded<load>, kImportTables,
+     "Load a data set of the course, a .mat file, or a table in a text file or workbook", guarded<load>, kImportTables,
      kLoadArguments},
-    {"iddata", "data", "iddata(y, u, Ts, {options}) -> data", "input-output data with their sampling",
+    {"iddata", "data", "iddata(y, u, Ts, {options}) -> data", "Create a data object from output and input signals",
      guarded<make_iddata>, kIddataTables, kIddataArguments},
     {"idplot", "data", "idplot(data, ..., {options}) -> fig; idplot(data, first, last)",
-     "outputs above inputs over time", guarded<idplot>, kIdplotTables, kIdplotArguments},
+     "Plot outputs and inputs over time", guarded<idplot>, kIdplotTables, kIdplotArguments},
 };
 
 }  // namespace

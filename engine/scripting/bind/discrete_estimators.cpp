@@ -30,8 +30,7 @@ constexpr std::array kDiscreteOutputErrorOrders = {kDiscreteNb, kDiscreteNf, kDi
 constexpr std::array kBoxJenkinsOrders = {kDiscreteNb, kDiscreteNc, kDiscreteNd, kDiscreteNf, kDiscreteNk};
 
 constexpr std::array kDiscreteIntegration = {option<&FitOptions::integration>(
-    "Integration", about("an integrator besides the poles, B/(1 - q^-1) in the place of B"),
-    {.member = "integration"})};
+    "Integration", about("integrator in addition to the poles: B/(1 - q^-1) replaces B"), {.member = "integration"})};
 constexpr OptionTable kEquationError[] = {kDiscreteIntegration};
 constexpr OptionTable kPredictionError[] = {kLimitOptions, kDiscreteIntegration};
 constexpr OptionTable kDiscreteSimulation[] = {kStartOptions, kDiscreteIntegration, kLimitOptions};
@@ -47,10 +46,9 @@ constexpr std::array kArmaxArguments = {
                         "delay, 1 for no direct term; with several inputs nb and nk are tables")}};
 constexpr std::array kDiscreteOutputErrorArguments = {
     kOneOutputData,
-    ArgumentEntry{
-        "orders", ValueKind::kOrders,
-        about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct term; with several inputs, "
-              "each with poles of its own, they are tables, {{2, 1}, {2, 1}, {1, 3}}")}};
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct term; with several "
+                        "inputs, each with separate poles, they are tables, {{2, 1}, {2, 1}, {1, 3}}")}};
 constexpr std::array kBoxJenkinsArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
@@ -116,23 +114,23 @@ int estimate_bj(Call& call) {
 
 constexpr FunctionEntry kDiscreteEstimatorsFunctions[] = {
     {"arx", "discrete time", "arx(data, {na, nb, nk}, {options}) -> G",
-     marked("estimator", "A y = B u + e by least squares"), guarded<estimate_equation_error<arx>>, kEquationError,
-     kEquationErrorArguments},
+     marked("estimator", "Estimate A y = B u + e by least squares"), guarded<estimate_equation_error<arx>>,
+     kEquationError, kEquationErrorArguments},
     {"iv4", "discrete time", "iv4(data, {na, nb, nk}, {options}) -> G",
-     marked("estimator", "A y = B u + v by instrumental variables in four steps"),
+     marked("estimator", "Estimate A y = B u + v by instrumental variables in four steps"),
      guarded<memoized_call<estimate_equation_error<iv4>>>, kEquationError, kEquationErrorArguments},
     {"armax", "discrete time", "armax(data, {na, nb, nc, nk}, {options}) -> G",
-     marked("estimator", "A y = B u + C e with the smallest prediction error"), guarded<memoized_call<estimate_armax>>,
-     kPredictionError, kArmaxArguments},
+     marked("estimator", "Estimate A y = B u + C e with the smallest prediction error"),
+     guarded<memoized_call<estimate_armax>>, kPredictionError, kArmaxArguments},
     {"oe", "discrete time", "oe(data, {nb, nf, nk}, {options}) -> G",
-     marked("estimator", "y = B/F u + e with the smallest simulation error"),
+     marked("estimator", "Estimate y = B/F u + e with the smallest simulation error"),
      guarded<memoized_call<estimate_output_error<oe>>>, kDiscreteSimulation, kDiscreteOutputErrorArguments},
     {"sriv", "discrete time", "sriv(data, {nb, nf, nk}, {options}) -> G",
-     marked("estimator", "y = B/F u + e by refined instrumental variables"),
+     marked("estimator", "Estimate y = B/F u + e by refined instrumental variables"),
      guarded<memoized_call<estimate_output_error<sriv>>>, kDiscreteSimulation, kDiscreteOutputErrorArguments},
     {"bj", "discrete time", "bj(data, {nb, nc, nd, nf, nk}, {options}) -> G",
-     marked("estimator", "y = B/F u + C/D e with the smallest prediction error"), guarded<memoized_call<estimate_bj>>,
-     kDiscreteSimulation, kBoxJenkinsArguments},
+     marked("estimator", "Estimate y = B/F u + C/D e with the smallest prediction error"),
+     guarded<memoized_call<estimate_bj>>, kDiscreteSimulation, kBoxJenkinsArguments},
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ constexpr std::array kHandleOptions = {
     OptionEntry{"x_slider", ValueKind::kText, about("name of the slider that moves x")},
     OptionEntry{"y", ValueKind::kAny, about("position on the y axis: a number, or a function of the slider's number")},
     OptionEntry{"y_slider", ValueKind::kText, about("name of the slider that moves y")},
-    OptionEntry{"text", ValueKind::kText, about("text beside the point")}};
+    OptionEntry{"text", ValueKind::kText, about("text next to the point")}};
 constexpr OptionTable kAddTables[] = {kCurveLookOptions, kPanelNumberOptions},
                       kHandleTables[] = {kHandleOptions, kPanelNumberOptions},
                       kSetTables[] = {kPanelOptions, kFigureSizeOptions, kPanelNumberOptions};

@@ -21,35 +21,36 @@ constexpr std::array kCurveLists = {
     OptionEntry{"label", ValueKind::kAny, about("name of the curve in the legend, or a list with one for each curve")},
     OptionEntry{"style",
                 ValueKind::kAny,
-                about("\"line\", \"points\", \"line_points\", \"stairs\", \"stems\" or \"bars\", for all curves or a "
-                      "list with one for each"),
+                about("\"line\", \"points\", \"line_points\", \"stairs\", \"stems\" or \"bars\", for all curves or as "
+                      "a list with one per curve"),
                 {.initial = "\"line\"", .choices = kCurveStyles}},
-    OptionEntry{
-        "colour", ValueKind::kAny,
-        about(
-            "number in the palette, from 0 on, or a name such as \"red\", for all curves or a list with one for each")},
+    OptionEntry{"colour", ValueKind::kAny,
+                about("number in the palette, starting at 0, or a name such as \"red\", for all curves or as a list "
+                      "with one per curve")},
     OptionEntry{
         "dash", ValueKind::kVector,
         about(
             "dash pattern, for all curves or each: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns")},
     OptionEntry{"marker", ValueKind::kVector,
-                about("shape of the points, for all curves or each: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the "
-                      "same open, 8 cross, 9 plus, 10 asterisk")},
+                about("marker, for all curves or each: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the same open, 8 "
+                      "cross, 9 plus, 10 asterisk")},
     option<&Curve::line_width>("line_width", about("line width"), {.unit = "points"})};
 constexpr std::array kFigureGridOptions = {
     OptionEntry{"panels", ValueKind::kTable, about("list of panels, each a table of the options of one panel")},
-    OptionEntry{"rows", ValueKind::kCount, about("number of rows of panels; by default as many as the panels need")},
+    OptionEntry{"rows", ValueKind::kCount, about("number of rows of panels; by default as many as necessary")},
     OptionEntry{"columns", ValueKind::kCount, about("number of columns of panels"), {.initial = "1"}}};
 constexpr std::array kMotionOptions = {
-    OptionEntry{"rig", ValueKind::kText, about("name of the rig, such as \"crane\"")},
+    OptionEntry{"rig", ValueKind::kText, about("name of the plant, such as \"crane\"")},
     OptionEntry{"t", ValueKind::kVector, about("instants of the samples, increasing"), {.unit = "s"}},
-    OptionEntry{"measured", ValueKind::kTable, about("measured signals of the rig, a table with a vector for each")},
-    OptionEntry{"simulated", ValueKind::kTable, about("simulated signals of the rig, a table with a vector for each")},
+    OptionEntry{"measured", ValueKind::kTable,
+                about("measured signals of the plant, a table with one vector per signal")},
+    OptionEntry{"simulated", ValueKind::kTable,
+                about("simulated signals of the plant, a table with one vector per signal")},
     option<&MotionLook::instants>(
-        "instants", about("instants of the pictures on paper; by default four, evenly spread"), {.unit = "s"}),
+        "instants", about("instants of the drawings on paper; by default four, equally spaced"), {.unit = "s"}),
     OptionEntry{"title", ValueKind::kText, about("text above the figure")},
     option<&MotionLook::width_cm>("width", about("width of the figure"), {.unit = "cm"}),
-    option<&MotionLook::height_cm>("height", about("height of the figure; 0 for a height that follows from the panels"),
+    option<&MotionLook::height_cm>("height", about("height of the figure; 0 for a height that fits the panels"),
                                    {.unit = "cm"})};
 constexpr OptionTable kPlotTables[] = {kPanelOptions, kCurveLists, kFigureSizeOptions},
                       kFigureTables[] = {kPanelOptions, kFigureGridOptions, kFigureSizeOptions},
@@ -57,7 +58,7 @@ constexpr OptionTable kPlotTables[] = {kPanelOptions, kCurveLists, kFigureSizeOp
 
 constexpr std::array kCurvesArguments = {ArgumentEntry{
     "x, y, \"name\", ...", ValueKind::kVector,
-    about("curves and their names for the legend; the name may be left out, and x, too, which then counts from 1")}};
+    about("curves and their names in the legend. You can omit the name, and also x, which then counts from 1")}};
 constexpr std::array kFigureNumberArguments = {
     ArgumentEntry{"n", ValueKind::kCount, about("number of the next figure, instead of a description")}};
 constexpr std::array kSubplotArguments = {
@@ -319,22 +320,22 @@ int save(Call& call) {
 }
 
 constexpr FunctionEntry kFiguresFunctions[] = {
-    {"plot", "figures", "plot(x, y, \"name\", ..., {options}) -> fig", "draws curves in one panel",
+    {"plot", "figures", "plot(x, y, \"name\", ..., {options}) -> fig", "Plot curves in one panel",
      guarded<plot<false, false>>, kPlotTables, kCurvesArguments},
-    {"semilogx", "figures", "semilogx(x, y, \"name\", ..., {options}) -> fig", "the same with a logarithmic x axis",
+    {"semilogx", "figures", "semilogx(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic x axis",
      guarded<plot<true, false>>, kPlotTables, kCurvesArguments},
-    {"semilogy", "figures", "semilogy(x, y, \"name\", ..., {options}) -> fig", "the same with a logarithmic y axis",
+    {"semilogy", "figures", "semilogy(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic y axis",
      guarded<plot<false, true>>, kPlotTables, kCurvesArguments},
-    {"loglog", "figures", "loglog(x, y, \"name\", ..., {options}) -> fig", "the same with two logarithmic axes",
+    {"loglog", "figures", "loglog(x, y, \"name\", ..., {options}) -> fig", "Plot curves with two logarithmic axes",
      guarded<plot<true, true>>, kPlotTables, kCurvesArguments},
     {"figure", "figures", "figure{options} -> fig; figure(n)",
-     "a figure from its description; or the number of the next figure", guarded<figure>, kFigureTables,
+     "Create a figure from a description, or set the number of the next figure", guarded<figure>, kFigureTables,
      kFigureNumberArguments},
-    {"subplot", "figures", "subplot(rows, columns, {fig1, fig2, ...}) -> fig", "puts the panels of figures into one",
-     guarded<subplot>, kNoOptions, kSubplotArguments},
-    {"motion", "figures", "motion{options} -> fig", "a rig that moves as its signals say: measured beside simulated",
+    {"subplot", "figures", "subplot(rows, columns, {fig1, fig2, ...}) -> fig",
+     "Combine figures as panels of one figure", guarded<subplot>, kNoOptions, kSubplotArguments},
+    {"motion", "figures", "motion{options} -> fig", "Animate measured and simulated signals of a simulated plant",
      guarded<motion>, kMotionTables},
-    {"save", "figures", "save(fig, path)", "writes a figure as .pdf, .svg or .png", guarded<save>, kNoOptions,
+    {"save", "figures", "save(fig, path)", "Save a figure as .pdf, .svg, .png or .gp", guarded<save>, kNoOptions,
      kSaveFigureArguments},
 };
 

@@ -13,18 +13,18 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kRestStates = {"none", "steady"};  // of InitialState
+constexpr std::array kRestStates = {"none", "steady", "auto"};  // of InitialState
 constexpr std::array kCharacteristicOptions = {
     option<&HammersteinOptions::bins>("Bins", about("number of equal bins between the smallest and the largest input"),
                                       {.least = 1, .most = 1000, .member = "bins"}),
     option<&HammersteinOptions::breakpoints>(
-        "Breakpoints", about("edges of the bins, such as the ends of a dead band, in place of equal bins"),
+        "Breakpoints", about("edges of the bins, such as the ends of a dead band, instead of equal bins"),
         {.member = "breakpoints"}),
     option<&HammersteinOptions::initial_state>(
         "InitialState",
-        about("the state before the data begin: at rest with the first input value (\"steady\") or with "
-              "zero input (\"none\")"),
-        {.initial = "\"steady\"", .choices = kRestStates, .former = "zero", .member = "initial_state"})};
+        about("initial state: at rest with the first input value (\"steady\") or with zero input (\"none\"), or "
+              "the better of both (\"auto\")"),
+        {.initial = "\"auto\"", .choices = kRestStates, .former = "zero", .member = "initial_state"})};
 constexpr OptionTable kHammerstein[] = {kCharacteristicOptions, kDelayOptions, kFixedDelayOptions, kLimitOptions};
 
 constexpr std::array kHammersteinArguments = {
@@ -46,7 +46,7 @@ int estimate_hammerstein(Call& call) {
 
 constexpr FunctionEntry kHammersteinFunctions[] = {
     {"hammerstein", "continuous time", "hammerstein(data, np, nz, {options}) -> G",
-     marked("estimator", "a static characteristic by bins, then linear dynamics"),
+     marked("estimator", "Estimate a static characteristic followed by linear dynamics"),
      guarded<memoized_call<estimate_hammerstein>>, kHammerstein, kHammersteinArguments},
 };
 

@@ -49,8 +49,8 @@ int show(Call& call) {
 }
 
 constexpr FunctionEntry kHelpFunctions[] = {
-    {"help", "help", "help(name)", "explains a function; without a name, lists everything by area", guarded<help>},
-    {"show", "help", "show(x, ...)", "prints values as the prompt does, figures as figures", guarded<show>},
+    {"help", "help", "help(name)", "Show the help page of a function, or list all functions", guarded<help>},
+    {"show", "help", "show(x, ...)", "Print values as the prompt does, and show figures", guarded<show>},
 };
 
 }  // namespace

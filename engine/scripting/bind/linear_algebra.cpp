@@ -59,11 +59,11 @@ int fft(Call& call) {
 
 constexpr FunctionEntry kAlgebraFunctions[] = {
     {"solve", "vectors", "solve(A, b) -> x",
-     "A x = b; the least-squares solution when A has more rows than columns (MATLAB's A\\b)", guarded<solve>},
-    {"inv", "vectors", "inv(A) -> B", "the inverse of a square matrix", guarded<inverse>},
-    {"det", "vectors", "det(A) -> x", "the determinant of a square matrix", guarded<determinant>},
-    {"eig", "vectors", "eig(A) -> v", "the eigenvalues of a square matrix", guarded<give_eigenvalues>},
-    {"fft", "vectors", "fft(x) -> X", "discrete Fourier transform", guarded<fft>},
+     "Solve A x = b, by least squares for more rows than columns (MATLAB's A\\b)", guarded<solve>},
+    {"inv", "vectors", "inv(A) -> B", "Inverse of a square matrix", guarded<inverse>},
+    {"det", "vectors", "det(A) -> x", "Determinant of a square matrix", guarded<determinant>},
+    {"eig", "vectors", "eig(A) -> v", "Eigenvalues of a square matrix", guarded<give_eigenvalues>},
+    {"fft", "vectors", "fft(x) -> X", "Discrete Fourier transform", guarded<fft>},
 };
 
 }  // namespace

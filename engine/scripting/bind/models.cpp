@@ -40,8 +40,8 @@ constexpr OptionTable kTfTables[] = {kTfOptions}, kIdprocTables[] = {kIdprocOpti
 constexpr std::array kModelAlone = {kModelArgument};
 constexpr ArgumentEntry kTfArguments[] = {
     {"num", ValueKind::kVector,
-     about("coefficients of the numerator, highest power first; alone, a struct that `save_mat` or "
-           "`save_json` wrote of a model")},
+     about("coefficients of the numerator, highest power first; or only a struct of a model written by `save_mat` or "
+           "`save_json`")},
     {"den", ValueKind::kVector, about("coefficients of the denominator, highest power first")}};
 constexpr ArgumentEntry kIdprocArguments[] = {
     {"structure", ValueKind::kProcess, about("name of the structure, such as \"P1\", \"P2U\", \"P1D\" or \"P2DU\"")}};
@@ -57,10 +57,10 @@ constexpr ArgumentEntry kEqualTimes = {"G1, G2", ValueKind::kModel, about("model
 constexpr std::array kSeriesArguments = {kEqualTimes}, kParallelArguments = {kEqualDelays};
 constexpr ArgumentEntry kFeedbackArguments[] = {
     {"forward, backward", ValueKind::kModel,
-     about("models; a number is a gain, and delays of discrete models become poles at zero")},
+     about("models; a number is a gain, and delays of discrete-time models become poles at zero")},
     {"sign", ValueKind::kNumber, about("-1 (negative feedback, the default) or 1")}};
 constexpr ArgumentEntry kPadeArguments[] = {
-    {"G", ValueKind::kModel, about("model; the delay of a discrete one becomes poles at zero, exactly")},
+    {"G", ValueKind::kModel, about("model; the delay of a discrete-time model becomes poles at zero, exactly")},
     {"n", ValueKind::kCount, about("number of poles, 1 to 10")}};
 constexpr ArgumentEntry kConversion = {"method", ValueKind::kChoice,
                                        about("\"zoh\" (the default), \"foh\" or \"tustin\"")};
@@ -71,7 +71,7 @@ constexpr ArgumentEntry kDiscreteArguments[] = {
 constexpr ArgumentEntry kContinuousArguments[] = {{"Gd", ValueKind::kModel, about("discrete transfer function")},
                                                   kConversion};
 constexpr ArgumentEntry kPresentArguments[] = {{"G, ...", ValueKind::kModel, about("one or several models")}};
-constexpr ArgumentEntry kLoopArguments[] = {{"G", ValueKind::kModel, about("the open loop, a model")}};
+constexpr ArgumentEntry kLoopArguments[] = {{"G", ValueKind::kModel, about("open loop, a model")}};
 
 /// Pushes a field of a struct, which may be one that load() gave: these refuse names they have not.
 int push_field(lua_State* L, int index, const char* name) {
@@ -281,40 +281,40 @@ int present(Call& call) {
 
 constexpr FunctionEntry kModelsFunctions[] = {
     {"tf", "models", "tf(num, den, {options}) -> G; tf(\"s\"); tf(\"z\", Ts)",
-     "a transfer function, or its variable to write one with", guarded<make_tf>, kTfTables, kTfArguments},
+     "Create a transfer function, or a variable to write one", guarded<make_tf>, kTfTables, kTfArguments},
     {"idproc", "models", "idproc(\"P1D\", {options}) -> G; idproc(\"P1D\")",
-     "a process model from its gain, time constants and delay, or its structure", guarded<make_idproc>, kIdprocTables,
+     "Create a process model from gain, time constants and delay", guarded<make_idproc>, kIdprocTables,
      kIdprocArguments},
-    {"ss", "models", "ss(A, B, C, D, {options}) -> system; ss(G)", "a state-space model", guarded<make_ss>, kSsTables,
-     kSsArguments},
-    {"series", "models", "series(G1, G2) -> G", "one behind the other", guarded<connect_series>, kNoOptions,
+    {"ss", "models", "ss(A, B, C, D, {options}) -> system; ss(G)", "Create a state-space model", guarded<make_ss>,
+     kSsTables, kSsArguments},
+    {"series", "models", "series(G1, G2) -> G", "Connect two models in series", guarded<connect_series>, kNoOptions,
      kSeriesArguments},
-    {"parallel", "models", "parallel(G1, G2) -> G", "side by side, outputs added", guarded<connect_parallel>,
+    {"parallel", "models", "parallel(G1, G2) -> G", "Connect two models in parallel", guarded<connect_parallel>,
      kNoOptions, kParallelArguments},
-    {"feedback", "models", "feedback(forward, backward, sign) -> G",
-     "a closed loop, negative feedback unless sign is 1", guarded<connect_feedback>, kNoOptions, kFeedbackArguments},
-    {"pade", "models", "pade(G, n) -> G", "the delay replaced by an approximation of n poles", guarded<replace_delay>,
-     kNoOptions, kPadeArguments},
+    {"feedback", "models", "feedback(forward, backward, sign) -> G", "Close a loop, with negative feedback by default",
+     guarded<connect_feedback>, kNoOptions, kFeedbackArguments},
+    {"pade", "models", "pade(G, n) -> G", "Approximate the delay by n poles", guarded<replace_delay>, kNoOptions,
+     kPadeArguments},
     {"c2d", "models", "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
-     "discrete-time equal of a continuous-time model", guarded<to_discrete>, kNoOptions, kDiscreteArguments},
-    {"d2c", "models", "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G", "continuous-time equal of a discrete-time model",
-     guarded<to_continuous>, kNoOptions, kContinuousArguments},
-    {"pole", "models", "pole(G) -> complex vector", "poles", guarded<of_model<&TransferFunction::poles>>, kNoOptions,
-     kModelAlone},
-    {"zero", "models", "zero(G) -> complex vector", "zeros", guarded<of_model<&TransferFunction::zeros>>, kNoOptions,
-     kModelAlone},
-    {"dcgain", "models", "dcgain(G) -> K", "steady-state gain", guarded<of_model<&TransferFunction::dc_gain>>,
+     "Convert a continuous-time model to discrete time", guarded<to_discrete>, kNoOptions, kDiscreteArguments},
+    {"d2c", "models", "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G",
+     "Convert a discrete-time model to continuous time", guarded<to_continuous>, kNoOptions, kContinuousArguments},
+    {"pole", "models", "pole(G) -> complex vector", "Poles of a model", guarded<of_model<&TransferFunction::poles>>,
      kNoOptions, kModelAlone},
-    {"damp", "models", "damp(G) -> wn, zeta, T", "natural frequency, damping ratio and time constant of every pole",
+    {"zero", "models", "zero(G) -> complex vector", "Zeros of a model", guarded<of_model<&TransferFunction::zeros>>,
+     kNoOptions, kModelAlone},
+    {"dcgain", "models", "dcgain(G) -> K", "Steady-state gain", guarded<of_model<&TransferFunction::dc_gain>>,
+     kNoOptions, kModelAlone},
+    {"damp", "models", "damp(G) -> wn, zeta, T", "Natural frequency, damping ratio and time constant of every pole",
      guarded<damp>, kNoOptions, kModelAlone},
-    {"bandwidth", "models", "bandwidth(G) -> w", "frequency (rad/s) at which the gain is 3 dB below its dc value",
+    {"bandwidth", "models", "bandwidth(G) -> w", "Frequency (rad/s) at which the gain is 3 dB below its dc value",
      guarded<of_model<bandwidth>>, kNoOptions, kModelAlone},
-    {"stable", "models", "stable(G) -> true or false", "whether all poles are stable",
+    {"stable", "models", "stable(G) -> true or false", "Test whether all poles are stable",
      guarded<of_model<&TransferFunction::stable>>, kNoOptions, kModelAlone},
-    {"margin", "models", "margin(G) -> Gm, Pm, Wcg, Wcp, Dm", "gain, phase and delay margin of the loop that G closes",
+    {"margin", "models", "margin(G) -> Gm, Pm, Wcg, Wcp, Dm", "Gain, phase and delay margin of the loop that G closes",
      guarded<margins>, kNoOptions, kLoopArguments},
-    {"present", "models", "present(G, ...)", "prints all that is known of models", guarded<present>, kNoOptions,
-     kPresentArguments},
+    {"present", "models", "present(G, ...)", "Print the properties and estimation results of models", guarded<present>,
+     kNoOptions, kPresentArguments},
 };
 
 }  // namespace

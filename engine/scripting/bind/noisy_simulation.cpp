@@ -22,7 +22,7 @@ constexpr OptionEntry kNoiseSeed = {"seed",
                                     {.most = kLargestSeed}},
                       kHoldOfData = {"hold", ValueKind::kChoice, kHoldOption.description, {.choices = kHolds}};
 constexpr OptionEntry kNoiseOptions[] = {
-    {"noise", ValueKind::kFlag, about("noise of the model itself, which must be estimated and have one output")},
+    {"noise", ValueKind::kFlag, about("noise of the model itself, which must be estimated and must have one output")},
     {"snr",
      ValueKind::kNumber,
      about("signal-to-noise ratio 20 log10(std x/std v) of noise that is added to the noise-free output x"),
@@ -30,7 +30,7 @@ constexpr OptionEntry kNoiseOptions[] = {
     kNoiseSeed,
     kHoldOfData};
 constexpr OptionEntry kSpreadOptions[] = {
-    {"runs", ValueKind::kCount, about("number of models that are drawn"), {.initial = "200", .least = 2}},
+    {"runs", ValueKind::kCount, about("number of models to draw"), {.initial = "200", .least = 2}},
     kNoiseSeed,
     kHoldOfData,
     kConfidenceOption};
@@ -225,13 +225,12 @@ int frequency_values(Call& call) {
 
 constexpr FunctionEntry kNoisySimulationFunctions[] = {
     {"sim", "simulation", "sim(G, u, Ts, {options}) -> y, v; sim(G, data, {...})",
-     "response of a model to an input, with noise of its own or of a given SNR", guarded<simulate_with_noise>,
-     kNoiseTables, kNoiseArguments},
+     "Simulate a model with its own noise or noise of a given SNR", guarded<simulate_with_noise>, kNoiseTables,
+     kNoiseArguments},
     {"simsd", "simulation", "simsd(G, u, Ts, {options}) -> fig, table; simsd(G, data, {...})",
-     "how far the uncertainty of an estimate spreads its simulated output", guarded<simulate_spread>, kSpreadTables,
-     kSpreadArguments},
+     "Plot a simulated output with its uncertainty", guarded<simulate_spread>, kSpreadTables, kSpreadArguments},
     {"bode_values", "simulation", "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
-     "the numbers of bode with their standard deviations", guarded<frequency_values>, kNoOptions, kValuesArguments},
+     "Values of the Bode diagram with standard deviations", guarded<frequency_values>, kNoOptions, kValuesArguments},
 };
 
 }  // namespace

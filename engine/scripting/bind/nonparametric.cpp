@@ -19,16 +19,16 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr OptionEntry kQuietEstimate = {
-    "quiet", ValueKind::kFlag, about("no text and no figure, nil in its place"), {.initial = "false"}};
-constexpr OptionEntry kReadingConfidence = {"confidence",
-                                            ValueKind::kNumber,
-                                            about("probability of the band, and of the test that finds the dead time"),
-                                            {.initial = "0.99"}};
-constexpr MessageId<> kMeanRemoval = about("removal of the mean of both signals first");
+    "quiet", ValueKind::kFlag, about("no text and no figure; the figure is nil"), {.initial = "false"}};
+constexpr OptionEntry kReadingConfidence = {
+    "confidence",
+    ValueKind::kNumber,
+    about("probability of the band, and of the test that detects the dead time"),
+    {.initial = "0.99"}};
+constexpr MessageId<> kMeanRemoval = about("removal of the mean of both signals before the estimation");
 
 constexpr std::array kEtfeOptions = {
-    option<&EtfeOptions::smooth>("smooth",
-                                 about("number of frequencies on either side in a weighted mean, 0 for none")),
+    option<&EtfeOptions::smooth>("smooth", about("number of frequencies on each side in a weighted mean, 0 for none")),
     option<&EtfeOptions::remove_mean>("remove_mean", kMeanRemoval), kConfidenceOption, kLabelsOption, kQuietEstimate};
 constexpr std::array kSpaOptions = {
     option<&SpaOptions::window>("window", about("length of the window in samples, 0 for the smaller of 30 and N/10")),
@@ -39,18 +39,16 @@ constexpr std::array kSpaOptions = {
     kQuietEstimate};
 constexpr std::array kKernels = {"TC", "DC", "SS"};
 constexpr std::array kImpulseestOptions = {
-    option<&ImpulseestOptions::kernel>("Kernel", about("covariance of the prior: what smooth means"),
+    option<&ImpulseestOptions::kernel>("Kernel", about("covariance of the prior, which defines smoothness"),
                                        {.initial = "\"TC\"", .choices = kKernels}),
     option<&ImpulseestOptions::lags>(
-        "lags",
-        about("number of samples that the response lasts, as the argument `n`; 0 for the smaller of 70 and N/5")),
-    option<&ImpulseestOptions::smooth>("smooth",
-                                       about("smooth response that dies out, instead of plain least squares")),
+        "lags", about("length of the response in samples, like the argument `n`; 0 for the smaller of 70 and N/5")),
+    option<&ImpulseestOptions::smooth>("smooth", about("smooth, decaying response instead of plain least squares")),
     kReadingConfidence, kLabelsOption};
 constexpr std::array kCraOptions = {
     option<&CraOptions::lags>("lags", about("number of lags, 0 for the smaller of 70 and N/5")),
     option<&CraOptions::whitening>(
-        "whitening", about("order of the autoregressive filter, 0 for an input that is white already"), {.most = 100}),
+        "whitening", about("order of the autoregressive filter, 0 for an input that is already white"), {.most = 100}),
     kReadingConfidence, kLabelsOption};
 constexpr OptionTable kEtfeTables[] = {kEtfeOptions}, kSpaTables[] = {kSpaOptions},
                       kImpulseestTables[] = {kImpulseestOptions}, kCraTables[] = {kCraOptions};
@@ -60,13 +58,13 @@ constexpr ArgumentEntry
                       about("data object with one input, one output and one experiment, sampled regularly")},
     kSingleData = {"data", ValueKind::kData,
                    about("data object with one input and one output, sampled regularly; experiments are joined")},
-    kComparedModels = {"G1, ...", ValueKind::kModel, about("models that are drawn over the estimate")};
+    kComparedModels = {"G1, ...", ValueKind::kModel, about("models to plot with the estimate")};
 constexpr std::array kEtfeArguments = {kOneExperiment, kComparedModels},
                      kSpectralArguments = {kSingleData, kComparedModels};
 constexpr ArgumentEntry kImpulseArguments[] = {
     kSingleData,
     {"n", ValueKind::kCount,
-     about("number of samples that the response lasts, 1 to 400; by default the smaller of 70 and N/5")},
+     about("length of the response in samples, 1 to 400; by default the smaller of 70 and N/5")},
     kComparedModels};
 
 /// (data, G1, G2, ..., {options}): the models to draw over the estimate, and where the options stand.
@@ -188,16 +186,16 @@ int correlation_analysis(Call& call) {
 
 constexpr FunctionEntry kNonparametricFunctions[] = {
     {"etfe", "nonparametric", "etfe(data, G1, ..., {options}) -> fig, F",
-     "frequency response as the ratio of the Fourier transforms of output and input", guarded<ratio_of_transforms>,
-     kEtfeTables, kEtfeArguments},
+     "Estimate the frequency response as a ratio of Fourier transforms", guarded<ratio_of_transforms>, kEtfeTables,
+     kEtfeArguments},
     {"spa", "nonparametric", "spa(data, G1, ..., {options}) -> fig, F",
-     "frequency response with errors, from smoothed correlations", guarded<spectral_analysis>, kSpaTables,
-     kSpectralArguments},
+     "Estimate the frequency response with standard errors by spectral analysis", guarded<spectral_analysis>,
+     kSpaTables, kSpectralArguments},
     {"impulseest", "nonparametric", "impulseest(data, n, G1, ..., {options}) -> fig, table",
-     "impulse response by regression on past inputs, and the dead time it shows", guarded<regression_on_past_inputs>,
+     "Estimate the impulse response and the dead time by regression", guarded<regression_on_past_inputs>,
      kImpulseestTables, kImpulseArguments},
     {"cra", "nonparametric", "cra(data, G1, ..., {options}) -> fig, table",
-     "impulse response from correlations with the whitened input", guarded<correlation_analysis>, kCraTables,
+     "Estimate the impulse response by correlation analysis", guarded<correlation_analysis>, kCraTables,
      kSpectralArguments},
 };
 

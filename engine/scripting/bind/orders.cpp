@@ -25,8 +25,7 @@ namespace {
 constexpr std::array kStructureOrders = {kNb, kNf, kNk};
 
 constexpr OptionEntry kSearchLambda = kFirstFilterOptions[0];
-constexpr OptionEntry kValidate = {"validate", ValueKind::kData,
-                                   about("second data object, on which every model is checked, too")};
+constexpr OptionEntry kValidate = {"validate", ValueKind::kData, about("validation data")};
 template <auto kMember>
 constexpr OptionEntry kSearchThreads = option<kMember>("threads", about("number of threads, 0 for all cores"));
 
@@ -35,9 +34,9 @@ constexpr OptionEntry kGridOptions[] = {
     {"zeros", ValueKind::kAny, about("numbers of zeros: {from, to}, or one number"), {.initial = "{0, 2}"}},
     {"delays",
      ValueKind::kAny,
-     about("numbers of samples of delay to try, such as {0, 1, 2}, instead of estimating the delay up to `TdMax`"),
+     about("numbers of delay samples to try, such as {0, 1, 2}, instead of an estimated delay up to `TdMax`"),
      {.initial = "0"}},
-    {"Feedthrough", ValueKind::kFlag, about("structures with as many zeros as poles, too"), {.initial = "false"}}};
+    {"Feedthrough", ValueKind::kFlag, about("also structures with as many zeros as poles"), {.initial = "false"}}};
 constexpr std::array kStructureOptions = {kValidate, kSearchLambda, kStableOption,
                                           kSearchThreads<&OrderSelectionOptions::threads>};
 constexpr OptionTable kOrderListTables[] = {kStructureOptions, kStartOptions, kIterationOptions, kIntegrationOptions},
@@ -65,11 +64,10 @@ constexpr ArgumentEntry kChoiceArguments[] = {
     {"criterion", ValueKind::kText,
      about("\"recommended\" (the default), \"RT2\", \"YIC\", \"AIC\", \"BIC\", \"FPE\", \"fit\" or "
            "\"validation\"")}};
-constexpr ArgumentEntry kArxChoiceArguments[] = {
-    {"V", ValueKind::kAny, about("result of `arxstruc`")},
-    {"criterion", ValueKind::kText,
-     about("\"loss\", \"AIC\", or \"BIC\", which is also called \"MDL\"; by default the loss where there is a "
-           "second data object, else BIC")}};
+constexpr ArgumentEntry kArxChoiceArguments[] = {{"V", ValueKind::kAny, about("result of `arxstruc`")},
+                                                 {"criterion", ValueKind::kText,
+                                                  about("\"loss\", \"AIC\", or \"BIC\" (also called \"MDL\"); by "
+                                                        "default the loss with validation data, otherwise BIC")}};
 
 /// {from, to} or a single number.
 std::pair<int, int> range_of(const Options& options, const char* name, std::pair<int, int> fallback) {
@@ -260,19 +258,15 @@ int estimate_delay(Call& call) {
 
 constexpr FunctionEntry kOrdersFunctions[] = {
     {"srivcstruc", "structure", "srivcstruc(data, {options}) -> V",
-     "srivc for many numbers of poles, zeros and samples of delay, with criteria for each",
+     "Estimate models with srivc for several numbers of poles, zeros and delays",
      guarded<memoized_call<try_structures>>, kOrderGridTables, kSingleArguments},
-    {"selcstruc", "structure", "selcstruc(V, criterion) -> G, fig",
-     "the structure that a criterion chooses, explained in words", guarded<select_structure>, kNoOptions,
-     kChoiceArguments},
-    {"arxstruc", "structure", "arxstruc(data, {options}) -> V",
-     "the loss of arx for every structure, on a second record too", guarded<try_arx_structures>, kArxstrucTables,
-     kArxArguments},
+    {"selcstruc", "structure", "selcstruc(V, criterion) -> G, fig", "Select a structure of srivcstruc by a criterion",
+     guarded<select_structure>, kNoOptions, kChoiceArguments},
+    {"arxstruc", "structure", "arxstruc(data, {options}) -> V", "Compute the loss of arx for several orders",
+     guarded<try_arx_structures>, kArxstrucTables, kArxArguments},
     {"selstruc", "structure", "selstruc(V, criterion) -> {na, nb, nk}, fig",
-     "the orders that a criterion chooses among those of arxstruc", guarded<select_arx_structure>, kNoOptions,
-     kArxChoiceArguments},
-    {"delayest", "structure", "delayest(data, {options}) -> Td, fig, D",
-     "the delay between input and output, with its standard error and the loss over the delay",
+     "Select the orders of arxstruc by a criterion", guarded<select_arx_structure>, kNoOptions, kArxChoiceArguments},
+    {"delayest", "structure", "delayest(data, {options}) -> Td, fig, D", "Estimate the delay between input and output",
      guarded<memoized_call<estimate_delay>>, kDelayestTables, kSingleArguments},
 };
 

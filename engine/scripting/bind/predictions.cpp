@@ -59,10 +59,9 @@ int predict_output(Call& call) {
 }
 
 constexpr FunctionEntry kPredictionsFunctions[] = {
-    {"predict", "validation", "predict(data, G, {options}) -> y, table",
-     "output predicted k steps ahead from the outputs measured until then", guarded<predict_output<false>>,
-     kPredictionTables, kRecordAndModel},
-    {"pe", "validation", "pe(data, G, {options}) -> e, table", "errors of the prediction one or k steps ahead",
+    {"predict", "validation", "predict(data, G, {options}) -> y, table", "Predict the output k steps ahead",
+     guarded<predict_output<false>>, kPredictionTables, kRecordAndModel},
+    {"pe", "validation", "pe(data, G, {options}) -> e, table", "Compute prediction errors one or k steps ahead",
      guarded<predict_output<true>>, kPredictionTables, kRecordAndModel},
 };
 

@@ -15,32 +15,33 @@ namespace {
 
 constexpr OptionEntry kTrendOptions[] = {
     {"samples", ValueKind::kCount,
-     about("for \"start\", number of samples whose mean is the level; by default all before an input changes")}};
+     about(
+         "for \"start\", number of samples whose mean is the level; by default all samples before an input changes")}};
 constexpr std::array kFilterStarts = {"zero", "steady"};
 constexpr OptionEntry kFilterStart = {
     "start",
     ValueKind::kChoice,
-    about("signal before its first sample: zero (\"zero\"), or constant at the first sample (\"steady\")"),
+    about("signal before its first sample: zero (\"zero\"), or constant at the value of the first sample (\"steady\")"),
     {.initial = "\"zero\"", .choices = kFilterStarts}};
 constexpr OptionEntry kButterworthOptions[] = {
     option<&FilterOptions::order>("order", about("order of the low-pass prototype; two edges give twice as many poles"),
                                   {.least = 1, .most = 20}),
     option<&FilterOptions::zero_phase>("zero_phase",
                                        about("filtering forwards, then backwards: no delay, the magnitude squared")),
-    option<&FilterOptions::stop>("stop", about("removal of the band, instead of passing it")),
+    option<&FilterOptions::stop>("stop", about("removal of the band instead of passing it")),
     kFilterStart,
     {"Ts", ValueKind::kNumber, about("sampling time of a vector"), {.initial = "1", .unit = "s"}}};
 constexpr std::array kFillMethods = {"linear", "previous"};
 constexpr OptionEntry kFillMethod = {
     "method",
     ValueKind::kChoice,
-    about("straight lines between the neighbors (\"linear\", for outputs), or the sample before the gap (\"previous\", "
-          "for inputs that are logged when they change)"),
+    about("linear interpolation between the neighbors (\"linear\", for outputs), or the sample before the gap "
+          "(\"previous\", for inputs that are logged at their changes)"),
     {.initial = "\"linear\"", .choices = kFillMethods}};
 constexpr OptionEntry kGapOptions[] = {
     kFillMethod,
-    {"t", ValueKind::kVector, about("increasing instants of irregular sampling")},
-    {"longest", ValueKind::kCount, about("longest gap in samples that is filled; by default 10 for straight lines")}};
+    {"t", ValueKind::kVector, about("increasing sampling instants of irregularly sampled data")},
+    {"longest", ValueKind::kCount, about("longest gap in samples to fill; by default 10 for linear interpolation")}};
 constexpr std::array kOutlierOptions = {
     option<&OutlierOptions::window>("window", about("odd number of samples of the moving median")),
     option<&OutlierOptions::threshold>("threshold", about("distance from the median in robust standard deviations"))};
@@ -53,7 +54,7 @@ constexpr ArgumentEntry kAnySignals = {"data", ValueKind::kAny, about("data obje
 constexpr ArgumentEntry kTrendArguments[] = {
     kAnySignals,
     {"kind", ValueKind::kChoice,
-     about("\"linear\" (the default), \"mean\", or \"start\"; 1 and 0 stand for the first two")}};
+     about("\"linear\" (the default), \"mean\", or \"start\"; 1 and 0 are short for the first two")}};
 constexpr ArgumentEntry kButterworthArguments[] = {
     kRegularSignals,
     {"{lower, upper}", ValueKind::kVector,
@@ -151,22 +152,21 @@ int remove_outliers(Call& call) {
 
 constexpr FunctionEntry kPreprocessFunctions[] = {
     {"detrend", "data", "detrend(data, \"linear\" | \"mean\" | \"start\", {options}) -> data",
-     "takes off the straight line, the mean, or the level before the input changes", guarded<detrend_signals>,
-     kTrendTables, kTrendArguments},
+     "Remove the linear trend, the mean, or the level before the input changes", guarded<detrend_signals>, kTrendTables,
+     kTrendArguments},
     {"idfilt", "data", "idfilt(data, {lower, upper}, {options}) -> data",
-     "Butterworth filter over inputs and outputs alike", guarded<filter_signals>, kButterworthTables,
+     "Filter inputs and outputs with the same Butterworth filter", guarded<filter_signals>, kButterworthTables,
      kButterworthArguments},
     {"resample", "data", "resample(data, up, down) -> data",
-     "other sampling rate, by up/down, with a filter against aliasing", guarded<resample_signals>, kNoOptions,
+     "Change the sampling rate by up/down, with an anti-aliasing filter", guarded<resample_signals>, kNoOptions,
      kResampleArguments},
-    {"merge", "data", "merge(data1, data2, ...) -> data", "several experiments in one data object", guarded<merge_data>,
+    {"merge", "data", "merge(data1, data2, ...) -> data", "Combine experiments in one data object", guarded<merge_data>,
      kNoOptions, kMergeArguments},
     {"fillmissing", "data", "fillmissing(x, {options}) -> filled, places",
-     "fills samples that are not numbers, by straight lines or by holding", guarded<fill_gaps>, kGapsTables,
+     "Fill missing samples by linear interpolation or with the previous sample", guarded<fill_gaps>, kGapsTables,
      kGapArguments},
     {"filloutliers", "data", "filloutliers(x | data, {options}) -> cleaned, places",
-     "straight lines over samples that stand out from their neighbours", guarded<remove_outliers>, kOutliersTables,
-     kOutlierArguments},
+     "Replace outliers by linear interpolation", guarded<remove_outliers>, kOutliersTables, kOutlierArguments},
 };
 
 }  // namespace

@@ -23,17 +23,16 @@ constexpr OptionTable kProcsrivc[] = {kDelayOptions, kStartOptions, kLimitOption
 
 constexpr std::array kStepArguments = {
     ArgumentEntry{"data", ValueKind::kData,
-                  about("data object with one input that makes a single step, up or down from any level, and one "
-                        "output")}};
+                  about("data object with one output and one input with a single step, up or down from any level")}};
 constexpr std::array kConstructionArguments = {
     ArgumentEntry{"G", ValueKind::kModel, about("result of step_first_order, step_second_order or step_delayed")}};
 constexpr std::array kProcsrivcArguments = {
     ArgumentEntry{"data", ValueKind::kData,
                   about("data object with one input and one output, one or several experiments, regularly or "
-                        "irregularly sampled, held or linear between samples")},
+                        "irregularly sampled, zoh or foh")},
     ArgumentEntry{"structure", ValueKind::kProcess,
-                  about("P and the number of poles, 1 to 3, then any of the letters U, D, I and Z: \"P2DU\"; or what "
-                        "idproc gives")}};
+                  about("P and the number of poles, 1 to 3, then any of the letters U, D, I and Z: \"P2DU\"; or a "
+                        "result of idproc")}};
 
 template <StepTestResult (*kMethod)(const IdData&)>
 int read_step_response(Call& call) {
@@ -88,19 +87,18 @@ int estimate_process_model(Call& call) {
 constexpr const char* kStep = "step tests";
 constexpr FunctionEntry kEstimatorsFunctions[] = {
     {"step_first_order", kStep, "step_first_order(data) -> G",
-     marked("estimator", "K/(1 + T s) read off a step response: gain and 5 % settling time"),
+     marked("estimator", "Read K/(1 + T s) from a step response: gain and 5 % settling time"),
      guarded<read_step_response<step_first_order>>, kNoOptions, kStepArguments},
     {"step_second_order", kStep, "step_second_order(data) -> G",
-     marked("estimator", "gain, damping and natural frequency read off the first overshoot"),
+     marked("estimator", "Read gain, damping and natural frequency from the first overshoot"),
      guarded<read_step_response<step_second_order>>, kNoOptions, kStepArguments},
     {"step_delayed", kStep, "step_delayed(data) -> G",
-     marked("estimator", "K exp(-D s)/(1 + T s) from two points of a step response"),
+     marked("estimator", "Read K exp(-D s)/(1 + T s) from two points of a step response"),
      guarded<read_step_response<step_delayed>>, kNoOptions, kStepArguments},
-    {"step_construction", kStep, "step_construction(G, {options}) -> fig",
-     "the reading points of a step test on its response", guarded<draw_construction>, kConstruction,
-     kConstructionArguments},
+    {"step_construction", kStep, "step_construction(G, {options}) -> fig", "Plot the reading points of a step test",
+     guarded<draw_construction>, kConstruction, kConstructionArguments},
     {"procsrivc", "continuous time", "procsrivc(data, \"P2DU\", {options}) -> G",
-     marked("estimator", "process model with the smallest simulation error"),
+     marked("estimator", "Estimate a process model with the smallest simulation error"),
      guarded<memoized_call<estimate_process_model>>, kProcsrivc, kProcsrivcArguments},
 };
 

@@ -10,6 +10,7 @@
 #include "platform/stopwatch.h"
 #include "scripting/bind/bindings.h"
 #include "scripting/conversions/boxed.h"
+#include "scripting/conversions/variable_list.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/output_path.h"
 #include "scripting/runtime/prompt_statement.h"
@@ -133,62 +134,24 @@ int run_file(Call& call) {
     return 0;
 }
 
-std::string in_brackets(const std::string& polynomial) {
-    return polynomial.find(' ') == std::string::npos ? polynomial : "(" + polynomial + ")";
-}
-
-/// What a list has room for of a value's text: a fraction's three lines as one, "1/(s^2 + s + 1)", else the first line.
-std::string first_words(const std::string& text) {
-    const std::vector<std::string> lines = lines_of(text);
-    if (lines.size() < 3) return lines.empty() ? "" : lines.front();
-    const std::string above = trimmed(lines[0]), below = trimmed(lines[2]);
-    const std::size_t width = std::max(above.size(), below.size());
-    // The longer one stands just above or below the bar, in front of which there may be a delay.
-    const std::size_t bar = (above.size() == width ? lines[0] : lines[2]).find_first_not_of(' ');
-    if (width == 0 || bar >= lines[1].size() || lines[1].substr(bar, width) != std::string(width, '-'))
-        return lines.front();
-    const std::string time = trimmed(lines[1].substr(bar + width));
-    return lines[1].substr(0, bar) + in_brackets(above) + (below == "1" ? "" : "/" + in_brackets(below)) +
-           (time.empty() ? "" : ", " + time);
-}
-
-/// Variables of the table on top, by name.
-void add_variables(lua_State* L, std::map<std::string, std::string>& variables) {
-    constexpr std::size_t kLongest = 60;
-    const int table = lua_absindex(L, -1);
-    lua_pushnil(L);
-    while (lua_next(L, table)) {
-        if (lua_type(L, -2) == LUA_TSTRING) {
-            const std::string text = first_words(value_text(L, -1));
-            variables[lua_tostring(L, -2)] = text.size() > kLongest ? text.substr(0, kLongest) + " ..." : text;
-        }
-        lua_pop(L, 1);
-    }
-    lua_pop(L, 1);
-}
-
 int who(Call& call) {
     call.at_most(0);
-    lua_State* L = call.state();
-    std::map<std::string, std::string> variables;
-    lua_pushglobaltable(L);
-    add_variables(L, variables);
-    push_prompt_variables(L);
-    if (lua_istable(L, -1)) add_variables(L, variables);
+    const std::vector<ListedVariable> variables = variable_list(call.state());
     std::size_t width = 0;
-    for (const auto& [name, text] : variables) width = std::max(width, name.size());
-    for (const auto& [name, text] : variables) call.print(fmt::format("{:<{}}  {}\n", name, width, text));
+    for (const ListedVariable& variable : variables) width = std::max(width, variable.name.size());
+    for (const ListedVariable& variable : variables)
+        call.print(fmt::format("{:<{}}  {}\n", variable.name, width, variable.text));
     return 0;
 }
 
 constexpr FunctionEntry kProgramFunctions[] = {
-    {"require", "program", "require(name) -> value", "runs NAME.lua of the script's folder, once",
+    {"require", "program", "require(name) -> value", "Run NAME.lua in the folder of the script, once",
      guarded<require_file>},
-    {"run", "program", "run(path)", "runs a script at the prompt and keeps its variables", guarded<run_file>},
-    {"who", "program", "who()", "lists the variables", guarded<who>},
-    {"tic", "program", "tic()", "starts the stop watch", guarded<tic>},
-    {"toc", "program", "toc() -> seconds", "time since tic()", guarded<toc>},
-    {"clock", "program", "clock() -> seconds", "time since the script began", guarded<clock>},
+    {"run", "program", "run(path)", "Run a script at the prompt and keep its variables", guarded<run_file>},
+    {"who", "program", "who()", "List the variables", guarded<who>},
+    {"tic", "program", "tic()", "Start the stopwatch", guarded<tic>},
+    {"toc", "program", "toc() -> seconds", "Time since tic()", guarded<toc>},
+    {"clock", "program", "clock() -> seconds", "Time since the start of the script", guarded<clock>},
 };
 
 }  // namespace

@@ -28,11 +28,10 @@ int draw(Call& call) {
 }
 
 constexpr FunctionEntry kRandomFunctions[] = {
-    {"rng", "random", "rng(seed)", "starts the random numbers afresh from a seed", guarded<rng>},
-    {"randn", "random", "randn(n, m) -> v", "normal random numbers with mean 0 and variance 1",
+    {"rng", "random", "rng(seed)", "Set the seed of the random numbers", guarded<rng>},
+    {"randn", "random", "randn(n, m) -> v", "Normal random numbers with mean 0 and variance 1",
      guarded<draw<&RandomStream::normal>>},
-    {"rand", "random", "rand(n, m) -> v", "random numbers spread evenly over [0, 1)",
-     guarded<draw<&RandomStream::uniform>>},
+    {"rand", "random", "rand(n, m) -> v", "Uniform random numbers in [0, 1)", guarded<draw<&RandomStream::uniform>>},
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ constexpr std::array kPolyfitOptions = {
     option<&PolyfitOptions::centred>("centred", about("powers of x minus its mean, instead of those of x itself")),
     kRegressionMethod};
 constexpr OptionEntry kRegressionPlotOptions[] = {
-    {"forecast", ValueKind::kNumber, about("x of a forecast that is marked")},
+    {"forecast", ValueKind::kNumber, about("x of a forecast to mark")},
     {"text", ValueKind::kText, about("label of the forecast; by default its value")},
     {"level", ValueKind::kNumber, about("probability of the bands"), {.initial = "0.95"}},
     {"xlabel", ValueKind::kText, about("label of the x axis")},
@@ -68,7 +68,7 @@ constexpr ArgumentEntry kForecastArguments[] = {
     {"level", ValueKind::kNumber, about("probability of the interval; by default 0.95")}};
 constexpr ArgumentEntry kQuantileArguments[] = {
     {"p", ValueKind::kNumber,
-     about("probability between 0 and 1; 0.975 for an interval of 95 %, as 2.5 % are left on each side")},
+     about("probability between 0 and 1; 0.975 for an interval of 95 %, with 2.5 % on each side")},
     {"degrees", ValueKind::kNumber, about("degrees of freedom, greater than 0")}};
 constexpr ArgumentEntry kRegressionPlotArguments[] = {
     kRegressionX, kRegressionY, {"fit", ValueKind::kAny, about("result of `polyfit_report`")}};
@@ -217,22 +217,22 @@ int descend(Call& call) {
 }
 
 constexpr FunctionEntry kRegressionFunctions[] = {
-    {"polyfit", "vectors", "polyfit(x, y, degree) -> p", "least-squares polynomial, highest power first",
+    {"polyfit", "vectors", "polyfit(x, y, degree) -> p", "Fit a polynomial by least squares, highest power first",
      guarded<polyfit>, kNoOptions, kPolynomialArguments},
-    {"lsq", "regression", "lsq(Phi, y, {options}) -> fit",
-     "least squares with standard errors, residuals and condition number", guarded<least_squares>, kLsqTables,
-     kRegressorArguments},
+    {"lsq", "regression", "lsq(Phi, y, {options}) -> fit", "Linear least squares with standard errors and residuals",
+     guarded<least_squares>, kLsqTables, kRegressorArguments},
     {"polyfit_report", "regression", "polyfit_report(x, y, degree, {options}) -> fit",
-     "polynomial by least squares with its standard errors", guarded<polynomial>, kPolyfitTables, kPolynomialArguments},
+     "Fit a polynomial by least squares with standard errors", guarded<polynomial>, kPolyfitTables,
+     kPolynomialArguments},
     {"forecast", "regression", "forecast(fit, x, level) -> {value, low, high, ...}",
-     "forecast with its prediction interval", guarded<predict>, kNoOptions, kForecastArguments},
-    {"tinv", "regression", "tinv(p, degrees) -> t", "quantile of Student's distribution, for intervals by hand",
-     guarded<quantile_of_student>, kNoOptions, kQuantileArguments},
+     "Forecast a value with its prediction interval", guarded<predict>, kNoOptions, kForecastArguments},
+    {"tinv", "regression", "tinv(p, degrees) -> t", "Quantile of Student's distribution", guarded<quantile_of_student>,
+     kNoOptions, kQuantileArguments},
     {"regression_plot", "regression", "regression_plot(x, y, fit, {options}) -> fig",
-     "data, fitted polynomial and its bands", guarded<draw_regression>, kRegressionPlotTables,
+     "Plot data and a fitted polynomial with its bands", guarded<draw_regression>, kRegressionPlotTables,
      kRegressionPlotArguments},
     {"gradient_descent", "regression", "gradient_descent(Phi, y, {options}) -> table",
-     "least squares by steepest descent, with the loss after every step", guarded<descend>, kDescentTables,
+     "Solve least squares by steepest descent, with the loss of every step", guarded<descend>, kDescentTables,
      kRegressorArguments},
 };
 

@@ -14,12 +14,12 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr std::array kSliderOptions = {
-    option<&RecordedSlider::step>("step",
-                                  about("distance between places; by default any number of the range can be chosen")),
-    option<&RecordedSlider::logarithmic>(
-        "log", about("true spaces the places evenly on a logarithmic scale; `step` does not go with it")),
-    option<&RecordedSlider::unit>("unit", about("unit behind the number")),
-    option<&RecordedSlider::label>("label", about("text beside the slider, by default its name"))};
+    option<&RecordedSlider::step>(
+        "step", about("distance between positions; by default every number in the range is available")),
+    option<&RecordedSlider::logarithmic>("log",
+                                         about("positions equally spaced on a logarithmic scale; not with `step`")),
+    option<&RecordedSlider::unit>("unit", about("unit after the number")),
+    option<&RecordedSlider::label>("label", about("text next to the slider, by default its name"))};
 constexpr OptionTable kSliderTables[] = {kSliderOptions};
 
 constexpr ArgumentEntry kEntryName = {
@@ -27,28 +27,28 @@ constexpr ArgumentEntry kEntryName = {
 constexpr std::array kReportValueArguments = {
     kEntryName, ArgumentEntry{"x", ValueKind::kAny, about("number or text")},
     ArgumentEntry{"format", ValueKind::kText,
-                  about("format of a number, such as \"%.2f\"; by default a sensible one")}};
+                  about("format of a number, such as \"%.2f\"; by default chosen from the number")}};
 constexpr std::array kReportTableArguments = {
     kEntryName, ArgumentEntry{"{{title, ...}, {cell, ...}, ...}", ValueKind::kTable,
-                              about("rows of texts or numbers, the first row with the titles; a text may hold formulas "
-                                    "between dollar signs, \"$a_1$\"")}};
+                              about("rows of texts or numbers, the first row with the titles; a text can contain "
+                                    "formulas between dollar signs, \"$a_1$\"")}};
 constexpr std::array kReportFigureArguments = {
     kEntryName, ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
-    ArgumentEntry{"caption", ValueKind::kText, about("caption for documents that do not write one")}};
+    ArgumentEntry{"caption", ValueKind::kText, about("caption for documents that do not contain one")}};
 constexpr std::array kReportTextArguments = {kEntryName,
                                              ArgumentEntry{"markdown", ValueKind::kText, about("text in Markdown")}};
 constexpr std::array kSliderArguments = {
     kEntryName,
-    ArgumentEntry{"x", ValueKind::kNumber, about("number that the script uses before the reader chooses another")},
+    ArgumentEntry{"x", ValueKind::kNumber, about("number that the script uses until the reader selects another")},
     ArgumentEntry{"from", ValueKind::kNumber, about("smallest number; above 0 with `log`")},
     ArgumentEntry{"to", ValueKind::kNumber, about("largest number")}};
 constexpr std::array kGuessArguments = {
-    ArgumentEntry{"name", ValueKind::kText, about("name of the guess, for `outcome`; each name is used once")},
-    ArgumentEntry{"value", ValueKind::kNumber, about("your guess, or nil while you have made none")},
-    ArgumentEntry{"unit", ValueKind::kText, about("unit behind the numbers")}};
+    ArgumentEntry{"name", ValueKind::kText, about("name of the prediction, for `outcome`; each name is used once")},
+    ArgumentEntry{"value", ValueKind::kNumber, about("your prediction, or nil if you have none yet")},
+    ArgumentEntry{"unit", ValueKind::kText, about("unit after the numbers")}};
 constexpr std::array kOutcomeArguments = {
-    ArgumentEntry{"name", ValueKind::kText, about("name of a guess above")},
-    ArgumentEntry{"value", ValueKind::kNumber, about("number that was found, in the unit of the guess")}};
+    ArgumentEntry{"name", ValueKind::kText, about("name of a prediction stored by `guess`")},
+    ArgumentEntry{"value", ValueKind::kNumber, about("result, in the unit of the prediction")}};
 
 /// The name under which documents find an entry; each is given once per kind.
 template <class Taken>
@@ -272,20 +272,21 @@ int outcome(Call& call) {
 }
 
 constexpr FunctionEntry kReportFunctions[] = {
-    {"report.value", "report", "report.value(name, x, format)", "puts a number or text into the report",
+    {"report.value", "report", "report.value(name, x, format)", "Add a number or text to the report",
      guarded<report_value>, kNoOptions, kReportValueArguments},
-    {"report.table", "report", "report.table(name, {{title, ...}, {cell, ...}, ...})",
-     "puts a table into the report, header first", guarded<report_table>, kNoOptions, kReportTableArguments},
-    {"report.figure", "report", "report.figure(name, fig, caption)", "puts a figure into the report",
+    {"report.table", "report", "report.table(name, {{title, ...}, {cell, ...}, ...})", "Add a table to the report",
+     guarded<report_table>, kNoOptions, kReportTableArguments},
+    {"report.figure", "report", "report.figure(name, fig, caption)", "Add a figure to the report",
      guarded<report_figure>, kNoOptions, kReportFigureArguments},
-    {"report.text", "report", "report.text(name, markdown)", "puts Markdown text into the report", guarded<report_text>,
+    {"report.text", "report", "report.text(name, markdown)", "Add Markdown text to the report", guarded<report_text>,
      kNoOptions, kReportTextArguments},
-    {"report.language", "report", "report.language() -> text", "tells the report's language", guarded<report_language>},
-    {"slider", "report", "slider(name, x, from, to, {options}) -> x", "a number that the reader of a page moves",
-     guarded<slider>, kSliderTables, kSliderArguments},
-    {"guess", "report", "guess(name, value, unit)", "writes down what you expect before you look", guarded<guess>,
+    {"report.language", "report", "report.language() -> text", "Return the language of the report",
+     guarded<report_language>},
+    {"slider", "report", "slider(name, x, from, to, {options}) -> x",
+     "Create a number that the reader of a page can change", guarded<slider>, kSliderTables, kSliderArguments},
+    {"guess", "report", "guess(name, value, unit)", "Store your prediction before you see the result", guarded<guess>,
      kNoOptions, kGuessArguments},
-    {"outcome", "report", "outcome(name, value)", "prints a guess beside what was found", guarded<outcome>, kNoOptions,
+    {"outcome", "report", "outcome(name, value)", "Print a prediction next to the result", guarded<outcome>, kNoOptions,
      kOutcomeArguments},
 };
 

@@ -17,17 +17,17 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr OptionEntry kResidualOptions[] = {
-    option<&ResidualOptions::lags>("lags", about("number of lags that are tested")),
+    option<&ResidualOptions::lags>("lags", about("number of lags to test")),
     option<&ResidualOptions::confidence>("confidence", about("probability of the bounds")),
     {"prediction",
      ValueKind::kFlag,
-     about("errors of the prediction one step ahead, instead of the simulation errors"),
+     about("one-step prediction errors instead of simulation errors"),
      {.initial = "false"}},
     {"quiet", ValueKind::kFlag, about("no text and no figure"), {.initial = "false"}}};
 constexpr OptionEntry kFoldOptions[] = {
     option<&CrossValidationOptions::folds>("folds", about("number of parts")),
     option<&CrossValidationOptions::by_experiment>("by_experiment",
-                                                   about("one experiment left out after the other, instead of parts")),
+                                                   about("leave out one experiment at a time instead of parts")),
     {"InitialState",
      ValueKind::kChoice,
      kStateOption.description,
@@ -171,11 +171,10 @@ int validate_across(Call& call) {
 
 constexpr FunctionEntry kResidualsFunctions[] = {
     {"resid", "validation", "resid(data, G, {options}) -> fig, table",
-     "is the simulation error white and independent of the input? with a verdict in words", guarded<test_residuals>,
-     kResidualsTables, kRecordAndModel},
+     "Analyze residuals: whiteness and independence of the input", guarded<test_residuals>, kResidualsTables,
+     kRecordAndModel},
     {"crossvalidate", "validation", "crossvalidate(data, fit, {options}) -> fig, table",
-     "fits on all parts but one and simulates on that one, part by part", guarded<validate_across>, kFoldsTables,
-     kFoldArguments},
+     "Cross-validate an estimation method", guarded<validate_across>, kFoldsTables, kFoldArguments},
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr double kLargestRigSeed = 0xFFFFFFFF;
 constexpr std::array kRigSeedOptions = {option<&RigChoice::seed>(
     "seed", about("seed of the noise and of random inputs"), {.least = 0, .most = kLargestRigSeed})};
 constexpr std::array kRigSpecimenOptions = {
-    option<&RigChoice::specimen>("specimen", about("number of the apparatus; 0 is the one that `SOURCE.md` describes"),
+    option<&RigChoice::specimen>("specimen", about("number of the unit; 0 is the unit that `SOURCE.md` documents"),
                                  {.least = 0, .most = kLargestRigSeed})};
 constexpr OptionTable kRigTables[] = {kRigSeedOptions, kRigSpecimenOptions}, kRigTruthTables[] = {kRigSpecimenOptions};
 
@@ -102,10 +102,10 @@ int rig_truth(Call& call) {
 
 constexpr FunctionEntry kRigsFunctions[] = {
     {"rig", "data", "rig(name, {options}) -> table",
-     "repeats one of the course's simulated experiments, with other noise for another seed",
-     guarded<memoized_call<rig>>, kRigTables, kRigArguments},
+     "Repeat a simulated experiment of the course, with other noise for another seed", guarded<memoized_call<rig>>,
+     kRigTables, kRigArguments},
     {"rig_truth", "data", "rig_truth(name, {options}) -> table",
-     "what theory says of one of the course's simulated experiments", guarded<rig_truth>, kRigTruthTables,
+     "Return the theoretical values of a simulated experiment of the course", guarded<rig_truth>, kRigTruthTables,
      kRigArguments},
 };
 

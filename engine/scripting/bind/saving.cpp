@@ -43,7 +43,7 @@ constexpr std::array kSaveMatArguments = {
                   about("file name ending in .mat, below the output folder or the script's folder")},
     ArgumentEntry{
         "variables", ValueKind::kTable,
-        about("table of models, data, vectors, matrices, numbers, texts, lists of texts and such tables by name")}};
+        about("table of models, data, vectors, matrices, numbers, texts, lists of texts and tables of these by name")}};
 constexpr std::array kSaveJsonArguments = {
     ArgumentEntry{"path", ValueKind::kText,
                   about("file name ending in .json, below the output folder or the script's folder")},
@@ -254,13 +254,13 @@ int save_json(Call& call) {
 }
 
 constexpr FunctionEntry kSavingFunctions[] = {
-    {"save_csv", "data", "save_csv(path, data, {options})", "writes data, or a table of vectors, as CSV",
+    {"save_csv", "data", "save_csv(path, data, {options})", "Save data or a table of vectors as a CSV file",
      guarded<save_csv>, kSaveCsvTables, kSaveCsvArguments},
     {"save_mat", "data", "save_mat(path, variables, {options})",
-     "writes models, data, vectors, numbers, texts and tables of them as a MAT file", guarded<save_mat>, kSaveMatTables,
+     "Save models, data, vectors, numbers, texts and tables as a MAT file", guarded<save_mat>, kSaveMatTables,
      kSaveMatArguments},
-    {"save_json", "data", "save_json(path, variables)", "the same as a JSON file, for Python and others",
-     guarded<save_json>, kNoOptions, kSaveJsonArguments},
+    {"save_json", "data", "save_json(path, variables)", "Save the same values as a JSON file", guarded<save_json>,
+     kNoOptions, kSaveJsonArguments},
 };
 
 }  // namespace

@@ -20,15 +20,15 @@ constexpr std::array kChirpOptions = {OptionEntry{
     "shape", ValueKind::kChoice, about("shape of the wave"), {.initial = "\"sine\"", .choices = kChirpShapes}}};
 constexpr std::array kMultisineOptions = {
     option<&RandomPhaseOptions::lines>(
-        "lines", about("sines, in whole turns in a period, from 1 to below N/2; line k lies at k/(N Ts) hertz")),
-    option<&RandomPhaseOptions::odd>("odd",
-                                     about("true keeps the odd lines only; the even lines then show even distortion")),
-    option<&RandomPhaseOptions::detection>("detection", about("lines in each group of which one, chosen at random, has "
-                                                              "no input and so shows odd distortion; 0 for no groups")),
+        "lines", about("lines with sines, in cycles per period, from 1 to below N/2; line k is at k/(N Ts) hertz")),
+    option<&RandomPhaseOptions::odd>("odd", about("odd lines only; the even lines then show even distortion")),
+    option<&RandomPhaseOptions::detection>("detection",
+                                           about("number of lines per group. One line of each group, chosen at random, "
+                                                 "has no input and shows odd distortion; 0 for no groups")),
     option<&RandomPhaseOptions::amplitude>("amplitude", about("root mean square of the signal")),
-    option<&RandomPhaseOptions::low_crest>("low_crest", about("true moves the phases until the peaks are low")),
+    option<&RandomPhaseOptions::low_crest>("low_crest", about("phases with low peaks")),
     OptionEntry{"periods", ValueKind::kCount, about("number of periods"), {.initial = "1", .least = 1}},
-    OptionEntry{"seed", ValueKind::kCount, about("seed of the phases; by default they follow `rng`")}};
+    OptionEntry{"seed", ValueKind::kCount, about("seed of the phases; by default that of `rng`")}};
 constexpr OptionTable kSineTables[] = {kSineOptions}, kChirpTables[] = {kChirpOptions},
                       kMultisineTables[] = {kMultisineOptions};
 
@@ -54,7 +54,7 @@ constexpr std::array kChirpArguments = {ArgumentEntry{"f0", ValueKind::kNumber, 
 constexpr std::array kMultisineArguments = {
     ArgumentEntry{"{f1, f2, ...}", ValueKind::kVector, about("frequencies in hertz, all different")},
     ArgumentEntry{"T", ValueKind::kNumber,
-                  about("duration in seconds; a whole number of periods of every sine repeats without a jump")},
+                  about("duration in seconds; an integer number of periods of every sine repeats without a jump")},
     kSignalPeriod, ArgumentEntry{"N", ValueKind::kCount, about("number of samples of a period")}};
 
 /// {low, high} of a signal with two levels.
@@ -132,21 +132,18 @@ int make_multisine(Call& call) {
 }
 
 constexpr FunctionEntry kSignalsFunctions[] = {
-    {"prbs", "signals", "prbs(n, p, {low, high}) -> u",
-     "pseudo-random binary sequence of n stages, each bit held for p samples", guarded<make_prbs>, kNoOptions,
-     kPrbsArguments},
-    {"rbs", "signals", "rbs(N, p, {low, high}) -> u",
-     "N samples of a random binary signal, each value held for p samples", guarded<make_rbs>, kNoOptions,
-     kRbsArguments},
-    {"step_signal", "signals", "step_signal(N, first, {low, high}) -> u",
-     "N samples that change from low to high at sample `first`", guarded<make_step>, kNoOptions, kStepSignalArguments},
-    {"sine", "signals", "sine(f, T, Ts, {options}) -> u", "a sine of f hertz for T seconds", guarded<make_sine>,
-     kSineTables, kSineArguments},
-    {"chirp", "signals", "chirp(f0, f1, T, Ts, {options}) -> u",
-     "a sine or square wave whose frequency (hertz) runs from f0 to f1", guarded<make_chirp>, kChirpTables,
-     kChirpArguments},
+    {"prbs", "signals", "prbs(n, p, {low, high}) -> u", "Create a pseudo-random binary sequence of n stages",
+     guarded<make_prbs>, kNoOptions, kPrbsArguments},
+    {"rbs", "signals", "rbs(N, p, {low, high}) -> u", "Create a random binary signal of N samples", guarded<make_rbs>,
+     kNoOptions, kRbsArguments},
+    {"step_signal", "signals", "step_signal(N, first, {low, high}) -> u", "Create a step of N samples",
+     guarded<make_step>, kNoOptions, kStepSignalArguments},
+    {"sine", "signals", "sine(f, T, Ts, {options}) -> u", "Create a sine wave", guarded<make_sine>, kSineTables,
+     kSineArguments},
+    {"chirp", "signals", "chirp(f0, f1, T, Ts, {options}) -> u", "Create a sine or square wave with changing frequency",
+     guarded<make_chirp>, kChirpTables, kChirpArguments},
     {"multisine", "signals", "multisine({f1, f2, ...}, T, Ts) -> u; multisine(N, {options}) -> u, grid",
-     "a sum of sines: with low peaks, or one period of random phases", guarded<make_multisine>, kMultisineTables,
+     "Create a sum of sines with low peaks, or a period with random phases", guarded<make_multisine>, kMultisineTables,
      kMultisineArguments},
 };
 

@@ -25,14 +25,14 @@ constexpr std::array kLsimOptions = {
     OptionEntry{"x0", ValueKind::kVector,
                 about("state at the first sample, in the controllable canonical form of a transfer function")}};
 constexpr std::array kSvfOptions = {
-    OptionEntry{"Ts", ValueKind::kNumber, about("sampling time; it must be given"), {.unit = "s"}},
+    OptionEntry{"Ts", ValueKind::kNumber, about("sampling time; required"), {.unit = "s"}},
     OptionEntry{"hold",
                 ValueKind::kChoice,
-                about("behavior of the signal between its samples: straight lines (\"foh\"), as measured outputs have, "
-                      "or constant (\"zoh\"), as held inputs are"),
+                about("intersample behavior of the signal: linear interpolation (\"foh\") for measured outputs, or "
+                      "zero-order hold (\"zoh\") for held inputs"),
                 {.initial = "\"foh\"", .choices = kHolds}}};
 constexpr std::array kModelNameOptions = {
-    OptionEntry{"labels", ValueKind::kAny, about("names of the models in the legend, a list with one for each")}};
+    OptionEntry{"labels", ValueKind::kAny, about("names of the models in the legend, a list with one per model")}};
 constexpr std::array kRegionOptions = {
     OptionEntry{"confidence",
                 ValueKind::kAny,
@@ -40,7 +40,7 @@ constexpr std::array kRegionOptions = {
                 {.initial = "0.99"}}};
 constexpr std::array kHistogramOptions = {
     option<&HistogramOptions::bins>("bins", about("number of bins; 0 chooses it from the scatter of the values")),
-    option<&HistogramOptions::truth>("truth", about("value that a line marks")),
+    option<&HistogramOptions::truth>("truth", about("value to mark with a line")),
     OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
     OptionEntry{"label", ValueKind::kText, about("name of the bars in the legend")},
     OptionEntry{
@@ -56,7 +56,7 @@ constexpr ArgumentEntry kOneModel = {"G", ValueKind::kModel, about("model")},
 constexpr std::array kLsimArguments = {
     ArgumentEntry{"G", ValueKind::kModel, about("model with at least as many poles as zeros")},
     ArgumentEntry{"u", ValueKind::kVector,
-                  about("vector of N samples; for several inputs a matrix with a column each")},
+                  about("vector of N samples; for several inputs a matrix with one column per input")},
     ArgumentEntry{"t_or_Ts", ValueKind::kVector,
                   about("sampling time in seconds, or a vector of N increasing instants, which may be irregular")}};
 constexpr std::array kSvfArguments = {
@@ -289,27 +289,27 @@ int draw_histogram(Call& call) {
 
 constexpr const char* kFigures = "figures";
 constexpr FunctionEntry kSimulationFunctions[] = {
-    {"lsim", "simulation", "lsim(G, u, t_or_Ts, {options}) -> y",
-     "response of a model to an input, exact at the samples", guarded<simulate>, kLsimTables, kLsimArguments},
+    {"lsim", "simulation", "lsim(G, u, t_or_Ts, {options}) -> y", "Simulate the response of a model to an input",
+     guarded<simulate>, kLsimTables, kLsimArguments},
     {"svf", "simulation", "svf(x, n, lambda, {options}) -> matrix",
-     "outputs of the state-variable filter, highest derivative first", guarded<filter_states>, kSvfTables,
-     kSvfArguments},
+     "Compute filtered derivatives with the state-variable filter", guarded<filter_states>, kSvfTables, kSvfArguments},
     {"step", "simulation", "step(G, t) -> y, t, sd; step(G1, G2, ..., {options}) -> fig",
-     "response to a unit step, as numbers at given instants or as a figure",
-     guarded<time_response<step_response, step_plot, true>>, kRegionTables, kTimeResponseArguments},
+     "Compute or plot the response to a unit step", guarded<time_response<step_response, step_plot, true>>,
+     kRegionTables, kTimeResponseArguments},
     {"impulse", "simulation", "impulse(G, t) -> y, t; impulse(G1, G2, ..., {options}) -> fig",
-     "response to a unit impulse, as numbers or as a figure",
-     guarded<time_response<impulse_response, impulse_plot, false>>, kNamedTables, kTimeResponseArguments},
-    {"freqresp", "simulation", "freqresp(G, w) -> complex vector", "frequency response at w (rad/s)",
+     "Compute or plot the response to a unit impulse", guarded<time_response<impulse_response, impulse_plot, false>>,
+     kNamedTables, kTimeResponseArguments},
+    {"freqresp", "simulation", "freqresp(G, w) -> complex vector", "Frequency response at w (rad/s)",
      guarded<frequency_response_of>, kNoOptions, kFreqrespArguments},
-    {"bode", kFigures, "bode(G1, G2, ..., w, {options}) -> fig", "magnitude and phase over frequency",
+    {"bode", kFigures, "bode(G1, G2, ..., w, {options}) -> fig", "Plot magnitude and phase over frequency",
      guarded<draw_bode>, kRegionTables, kBodeArguments},
-    {"nyquist", kFigures, "nyquist(G1, G2, ..., w, {options}) -> fig", "frequency response in the complex plane",
-     guarded<draw_models<nyquist_plot, false>>, kNamedTables, kNyquistArguments},
-    {"pzmap", kFigures, "pzmap(G1, G2, ..., {options}) -> fig", "poles and zeros in the complex plane",
+    {"nyquist", kFigures, "nyquist(G1, G2, ..., w, {options}) -> fig",
+     "Plot the frequency response in the complex plane", guarded<draw_models<nyquist_plot, false>>, kNamedTables,
+     kNyquistArguments},
+    {"pzmap", kFigures, "pzmap(G1, G2, ..., {options}) -> fig", "Plot poles and zeros in the complex plane",
      guarded<draw_poles_and_zeros>, kRegionTables, kPzmapArguments},
-    {"histogram", kFigures, "histogram(values, {options}) -> fig", "how often values fall into each interval",
-     guarded<draw_histogram>, kHistogramTables, kHistogramArguments},
+    {"histogram", kFigures, "histogram(values, {options}) -> fig", "Plot a histogram", guarded<draw_histogram>,
+     kHistogramTables, kHistogramArguments},
 };
 
 }  // namespace

@@ -20,15 +20,12 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr OptionEntry kStudyOptions[] = {
-    {"system", ValueKind::kModel, about("the true model in continuous time")},
+    {"system", ValueKind::kModel, about("true model in continuous time")},
     {"input", ValueKind::kVector, about("samples of its input")},
     {"controller", ValueKind::kModel,
      about("controller of a closed loop u = C (r - y), instead of `input`: a model, or a number")},
     {"reference", ValueKind::kVector, about("samples of the reference of the closed loop")},
-    {"ComputingDelay",
-     ValueKind::kCount,
-     about("number of samples that the controller takes to answer"),
-     {.initial = "0"}},
+    {"ComputingDelay", ValueKind::kCount, about("delay of the controller in samples"), {.initial = "0"}},
     {"Ts", ValueKind::kNumber, about("sampling time"), {.unit = "s"}},
     option<&MonteCarloStudy::hold>("hold", kHoldOption.description, {.initial = "\"zoh\"", .choices = kHolds}),
     option<&MonteCarloStudy::sigma>("sigma", about("standard deviation of the noise"), {.least = 0}),
@@ -36,7 +33,7 @@ constexpr OptionEntry kStudyOptions[] = {
                                   {.unit = "dB"}),
     option<&MonteCarloStudy::runs>("runs", about("number of repeated experiments"), {.least = 2}),
     option<&MonteCarloStudy::seed>(
-        "seed", about("seed of the noise: run k = 0, 1, ... adds what `rng(seed + k)` and `randn` give"),
+        "seed", about("seed of the noise: run k = 0, 1, ... adds the numbers of `rng(seed + k)` and `randn`"),
         {.most = kLargestSeed}),
     option<&MonteCarloStudy::threads>("threads", about("number of threads, 0 for all cores")),
     {"estimators", ValueKind::kTable, about("estimators by name, with their arguments after the data")}};
@@ -257,8 +254,8 @@ int run_study(Call& call) {
 
 constexpr FunctionEntry kStudiesFunctions[] = {
     {"montecarlo", "validation", "montecarlo{options} -> M",
-     "the same experiment many times with fresh noise: bias and scatter of estimators",
-     guarded<memoized_call<run_study>>, kStudyTables},
+     "Repeat an experiment with new noise: bias and scatter of estimators", guarded<memoized_call<run_study>>,
+     kStudyTables},
 };
 
 }  // namespace

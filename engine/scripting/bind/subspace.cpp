@@ -13,14 +13,13 @@ namespace {
 
 constexpr std::array kWeightings = {"MOESP", "N4SID", "CVA"};  // in the order of SubspaceWeighting
 constexpr std::array kSubspaceOptions = {
-    option<&SubspaceOptions::block_rows>(
-        "BlockRows",
-        about("samples of past, and of future, that are used, more than the order; 0 for a number that suits the order "
-              "and the length of the data"),
-        {.member = "block_rows"}),
-    option<&SubspaceOptions::weighting>("Weighting", about("how directions are weighed against the noise"),
+    option<&SubspaceOptions::block_rows>("BlockRows",
+                                         about("number of past and of future samples, more than the order; 0 for a "
+                                               "number that suits the order and the length of the data"),
+                                         {.member = "block_rows"}),
+    option<&SubspaceOptions::weighting>("Weighting", about("weighting of the directions against the noise"),
                                         {.initial = "\"MOESP\"", .choices = kWeightings}),
-    option<&SubspaceOptions::feedthrough>("Feedthrough", about("a direct term D, which is zero otherwise"))};
+    option<&SubspaceOptions::feedthrough>("Feedthrough", about("direct term D; zero otherwise"))};
 constexpr OptionTable kSubspace[] = {kSubspaceOptions};
 
 constexpr std::array kSubspaceArguments = {
@@ -49,7 +48,7 @@ int estimate_n4sid(Call& call) {
 
 constexpr FunctionEntry kSubspaceFunctions[] = {
     {"n4sid", "discrete time", "n4sid(data, order, {options}) -> G",
-     marked("estimator", "a state-space model by subspace identification, without iterating"),
+     marked("estimator", "Estimate a state-space model by subspace identification"),
      guarded<memoized_call<estimate_n4sid>>, kSubspace, kSubspaceArguments},
 };
 

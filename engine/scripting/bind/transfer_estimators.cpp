@@ -36,18 +36,15 @@ constexpr OptionTable kTransferFunction[] = {kFirstFilterOptions, kStartOptions,
 
 constexpr std::array kFilteredArguments = {
     kDataArgument,
-    ArgumentEntry{
-        "orders", ValueKind::kOrders,
-        about("na poles, nb coefficients of B (at most na + 1), nk samples of delay; with several inputs nb and nk "
-              "are tables with an entry for each input, with several outputs also for each channel")},
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("na poles, nb coefficients of B (at most na + 1), nk samples of delay. With several inputs, nb "
+                        "and nk are tables with one entry per input; with several outputs, one entry per channel")},
     kFilterFrequency};
 constexpr std::array kRefinedArguments = {
-    kDataArgument,
-    ArgumentEntry{
-        "orders", ValueKind::kOrders,
-        about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay; with several inputs, each "
-              "with poles of its own, they are tables with an entry for each input, with several outputs also "
-              "for each channel, those of output 1 first")}};
+    kDataArgument, ArgumentEntry{"orders", ValueKind::kOrders,
+                                 about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay. With "
+                                       "several inputs, each with separate poles, they are tables with one entry per "
+                                       "input; with several outputs, one entry per channel, output 1 first")}};
 constexpr std::array kTransferFunctionArguments = {kDataArgument, kPoleCount, kZeroCount};
 
 /// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta.
@@ -159,29 +156,29 @@ constexpr NamedReader kTransferEstimatorsReaders[] = {{"lssvf", read_filtered<ls
 
 constexpr FunctionEntry kTransferEstimatorsFunctions[] = {
     {"lssvf", "continuous time", "lssvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "A y = B u + e by least squares on state-variable filtered signals"),
+     marked("estimator", "Estimate A y = B u + e by least squares on state-variable filtered signals"),
      guarded<estimate_by_least_squares>, kFiltered, kFilteredArguments},
     {"ivsvf", "continuous time", "ivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "the same by instrumental variables, without lssvf's bias"),
+     marked("estimator", "Estimate A y = B u + e by instrumental variables, without the bias of lssvf"),
      guarded<estimate_filtered<ivsvf, true, false>>, kFiltered, kFilteredArguments},
     {"lsgpmf", "continuous time", "lsgpmf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "least squares on Poisson moment functionals"), guarded<estimate_filtered<lssvf, false, true>>,
-     kMoments, kFilteredArguments},
+     marked("estimator", "Estimate A y = B u + e by least squares on Poisson moment functionals"),
+     guarded<estimate_filtered<lssvf, false, true>>, kMoments, kFilteredArguments},
     {"ivgpmf", "continuous time", "ivgpmf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "instrumental variables on Poisson moment functionals"),
+     marked("estimator", "Estimate A y = B u + e by instrumental variables on Poisson moment functionals"),
      guarded<estimate_filtered<ivsvf, true, true>>, kMoments, kFilteredArguments},
     {"srivc", "continuous time", "srivc(data, {nb, nf, nk}, {options}) -> G",
-     marked("estimator", "y = B/F u + e by refined instrumental variables"),
+     marked("estimator", "Estimate y = B/F u + e by refined instrumental variables"),
      guarded<memoized_call<estimate_refined<read_refined<srivc>>>>, kRefined, kRefinedArguments},
     {"coe", "continuous time", "coe(data, {nb, nf, nk}, {options}) -> G",
-     marked("estimator", "y = B/F u + e with the smallest simulation error"),
+     marked("estimator", "Estimate y = B/F u + e with the smallest simulation error"),
      guarded<memoized_call<estimate_refined<read_refined<coe>>>>, kRefined, kRefinedArguments},
     {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {options}) -> G",
-     marked("estimator", "srivc by numbers of poles and zeros, the delay estimated"),
+     marked("estimator", "Estimate a transfer function with delay by refined instrumental variables"),
      guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction,
      kTransferFunctionArguments},
     {"tfcoe", "continuous time", "tfcoe(data, np, nz, {options}) -> G",
-     marked("estimator", "coe by numbers of poles and zeros, the delay estimated"),
+     marked("estimator", "Estimate a transfer function with delay by output error"),
      guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction,
      kTransferFunctionArguments},
 };

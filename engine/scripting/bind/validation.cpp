@@ -21,7 +21,7 @@ namespace {
 
 constexpr OptionEntry kStepsOption = {
     "k", ValueKind::kNumber,
-    about("number of samples ahead for which outputs are predicted, as by `predict`, instead of simulated")};
+    about("number of samples ahead for predicted outputs, as in `predict`, instead of simulated outputs")};
 constexpr std::array kComparisonOptions = {kLabelsOption, kStepsOption};
 constexpr std::array kFitOptions = {kStepsOption};
 constexpr OptionTable kCompareTables[] = {kComparisonOptions, kComparisonStart},
@@ -239,14 +239,14 @@ int measure_fit(Call& call) {
 
 constexpr FunctionEntry kValidationFunctions[] = {
     {"test_your_model", "step tests", "test_your_model(G, data, {options}) -> fig",
-     "measured response and the model's over each other", guarded<test_model>, kCompareTables, kTestArguments},
+     "Compare the measured response with that of a model", guarded<test_model>, kCompareTables, kTestArguments},
     {"compare", "validation", "compare(data, G1, G2, ..., {options}) -> fig",
-     "measured and simulated, or predicted, outputs with their fits", guarded<compare_models>, kCompareTables,
+     "Compare measured with simulated or predicted outputs", guarded<compare_models>, kCompareTables,
      kCompareArguments},
-    {"fit", "validation", "fit(data, G, {options}) -> percent",
-     "fit of the simulated, or predicted, output, 100 % is perfect", guarded<fit>, kFitTables, kRecordAndModel},
+    {"fit", "validation", "fit(data, G, {options}) -> percent", "Fit of the simulated or predicted output in percent",
+     guarded<fit>, kFitTables, kRecordAndModel},
     {"fit_measures", "validation", "fit_measures(data, G, {options}) -> table",
-     "fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>, kMeasuresTables,
+     "Compute fit, R_T^2, RMSE, FPE, AIC, BIC and YIC of the simulated output", guarded<measure_fit>, kMeasuresTables,
      kRecordAndModel},
 };
 

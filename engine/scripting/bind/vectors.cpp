@@ -19,15 +19,16 @@ constexpr std::array kOutsideModes = {"refuse", "hold"};
 constexpr std::array kInterp1Options = {OptionEntry{
     "outside",
     ValueKind::kChoice,
-    about("values beyond the first and the last point: none (\"refuse\"), or those of these points (\"hold\")"),
+    about(
+        "values beyond the first and the last point: an error (\"refuse\"), or the values of these points (\"hold\")"),
     {.initial = "\"refuse\"", .choices = kOutsideModes}}};
 constexpr OptionTable kInterp1Tables[] = {kInterp1Options};
 
 constexpr std::array kMakeVectorArguments = {
     ArgumentEntry{"x1, x2, ...", ValueKind::kVector, about("numbers or vectors, in braces")}};
 constexpr std::array kMakeMatrixArguments = {
-    ArgumentEntry{"{...}, {...}", ValueKind::kVector, about("tables of numbers, the rows, all equally long")},
-    ArgumentEntry{"v1, v2", ValueKind::kVector, about("vectors, the columns, all equally long")}};
+    ArgumentEntry{"{...}, {...}", ValueKind::kVector, about("tables of numbers, the rows, of equal length")},
+    ArgumentEntry{"v1, v2", ValueKind::kVector, about("vectors, the columns, of equal length")}};
 constexpr std::array kZerosArguments = {
     ArgumentEntry{"n", ValueKind::kCount, about("number of values, or of rows where m is given")},
     ArgumentEntry{"m", ValueKind::kCount, about("number of columns, by default 1")}};
@@ -42,13 +43,13 @@ constexpr std::array kLogspaceArguments = {
     ArgumentEntry{"n", ValueKind::kCount, about("number of values, by default 50")}};
 constexpr std::array kRangeArguments = {
     ArgumentEntry{"first", ValueKind::kNumber, about("first value")},
-    ArgumentEntry{"last", ValueKind::kNumber, about("end of the values, included when the steps reach it")},
+    ArgumentEntry{"last", ValueKind::kNumber, about("end of the values, included if the steps reach it")},
     ArgumentEntry{"step", ValueKind::kNumber, about("step between values, by default 1; negative to count down")}};
 constexpr std::array kOneVectorArguments = {
     ArgumentEntry{"v", ValueKind::kVector, about("vector, or a table of numbers such as {1, 2, 3}")}};
 constexpr std::array kUnwrapArguments = {
-    ArgumentEntry{"x", ValueKind::kVector, about("vector, an angle that jumps where it leaves its range")},
-    ArgumentEntry{"period", ValueKind::kNumber, about("a whole turn: 360 for degrees, by default 2*pi")}};
+    ArgumentEntry{"x", ValueKind::kVector, about("vector, an angle that jumps at the ends of its range")},
+    ArgumentEntry{"period", ValueKind::kNumber, about("one full turn: 360 for degrees, by default 2*pi")}};
 constexpr std::array kDotArguments = {
     ArgumentEntry{"a", ValueKind::kVector, about("vector, or a table of numbers")},
     ArgumentEntry{"b", ValueKind::kVector, about("vector of the same size, or a table of numbers")}};
@@ -56,9 +57,9 @@ constexpr std::array kPolyvalArguments = {
     ArgumentEntry{"p", ValueKind::kVector, about("vector of coefficients, at least one, highest power first")},
     ArgumentEntry{"x", ValueKind::kVector, about("number or vector, where the polynomial is evaluated")}};
 constexpr std::array kInterp1Arguments = {
-    ArgumentEntry{"x", ValueKind::kVector, about("vector of at least two values that increase")},
+    ArgumentEntry{"x", ValueKind::kVector, about("vector of at least two increasing values")},
     ArgumentEntry{"y", ValueKind::kVector, about("vector of the same size, the values at x")},
-    ArgumentEntry{"x_new", ValueKind::kVector, about("number or vector, where values are wanted")}};
+    ArgumentEntry{"x_new", ValueKind::kVector, about("number or vector, the points for new values")}};
 
 int make_vector(Call& call) {
     if (call.count() != 1 || (to_vector(call.state(), 1) == nullptr && call.type(1) != LUA_TTABLE))
@@ -198,34 +199,34 @@ int interp1(Call& call) {
 }
 
 constexpr FunctionEntry kVectorsFunctions[] = {
-    {"vector", "vectors", "vector{x1, x2, ...} -> v", "a column of numbers; vectors among the values are joined",
-     guarded<make_vector>, kNoOptions, kMakeVectorArguments},
+    {"vector", "vectors", "vector{x1, x2, ...} -> v", "Create a column of numbers", guarded<make_vector>, kNoOptions,
+     kMakeVectorArguments},
     {"matrix", "vectors", "matrix{{...}, {...}} or matrix{v1, v2} -> A",
-     "a matrix from its rows (tables) or its columns (vectors)", guarded<make_matrix>, kNoOptions,
-     kMakeMatrixArguments},
-    {"zeros", "vectors", "zeros(n, m) -> v", "n zeros, or an n x m matrix of zeros", guarded<constant<0>>, kNoOptions,
-     kZerosArguments},
-    {"ones", "vectors", "ones(n, m) -> v", "n ones, or an n x m matrix of ones", guarded<constant<1>>, kNoOptions,
-     kZerosArguments},
-    {"eye", "vectors", "eye(n) -> A", "the n x n identity matrix", guarded<eye>, kNoOptions, kEyeArguments},
-    {"linspace", "vectors", "linspace(first, last, n) -> v", "n equally spaced values from first to last",
+     "Create a matrix from rows (tables) or columns (vectors)", guarded<make_matrix>, kNoOptions, kMakeMatrixArguments},
+    {"zeros", "vectors", "zeros(n, m) -> v", "Create n zeros, or an n x m matrix of zeros", guarded<constant<0>>,
+     kNoOptions, kZerosArguments},
+    {"ones", "vectors", "ones(n, m) -> v", "Create n ones, or an n x m matrix of ones", guarded<constant<1>>,
+     kNoOptions, kZerosArguments},
+    {"eye", "vectors", "eye(n) -> A", "Create the n x n identity matrix", guarded<eye>, kNoOptions, kEyeArguments},
+    {"linspace", "vectors", "linspace(first, last, n) -> v", "Create n equally spaced values from first to last",
      guarded<linspace>, kNoOptions, kLinspaceArguments},
-    {"logspace", "vectors", "logspace(first, last, n) -> v", "n values from 10^first to 10^last with equal ratios",
-     guarded<logspace>, kNoOptions, kLogspaceArguments},
+    {"logspace", "vectors", "logspace(first, last, n) -> v",
+     "Create n values from 10^first to 10^last with equal ratios", guarded<logspace>, kNoOptions, kLogspaceArguments},
     {"range", "vectors", "range(first, last) or range(first, step, last) -> v",
-     "values from first to last, step by step (MATLAB's first:step:last)", guarded<range>, kNoOptions, kRangeArguments},
-    {"cumsum", "vectors", "cumsum(v) -> w", "running sum", guarded<cumulative_sum>, kNoOptions, kOneVectorArguments},
-    {"diff", "vectors", "diff(v) -> w", "differences of neighbours, one element fewer", guarded<difference>, kNoOptions,
+     "Create values from first to last with a step (MATLAB's first:step:last)", guarded<range>, kNoOptions,
+     kRangeArguments},
+    {"cumsum", "vectors", "cumsum(v) -> w", "Cumulative sum", guarded<cumulative_sum>, kNoOptions, kOneVectorArguments},
+    {"diff", "vectors", "diff(v) -> w", "Differences of neighbors, one element fewer", guarded<difference>, kNoOptions,
      kOneVectorArguments},
-    {"unwrap", "vectors", "unwrap(x, period) -> y", "an angle without its jumps by whole turns", guarded<unwrap_angle>,
+    {"unwrap", "vectors", "unwrap(x, period) -> y", "Remove the jumps of an angle by full turns", guarded<unwrap_angle>,
      kNoOptions, kUnwrapArguments},
-    {"dot", "vectors", "dot(a, b) -> x", "scalar product", guarded<dot>, kNoOptions, kDotArguments},
-    {"norm", "vectors", "norm(v) -> x", "Euclidean length", guarded<norm>, kNoOptions, kOneVectorArguments},
-    {"sort", "vectors", "sort(v) -> sorted, places", "ascending order, and where each element stood", guarded<sort>,
-     kNoOptions, kOneVectorArguments},
-    {"polyval", "vectors", "polyval(p, x) -> y", "value of a polynomial, highest power first", guarded<polyval>,
+    {"dot", "vectors", "dot(a, b) -> x", "Scalar product", guarded<dot>, kNoOptions, kDotArguments},
+    {"norm", "vectors", "norm(v) -> x", "Euclidean length of a vector", guarded<norm>, kNoOptions, kOneVectorArguments},
+    {"sort", "vectors", "sort(v) -> sorted, places", "Sort in ascending order, with the original positions",
+     guarded<sort>, kNoOptions, kOneVectorArguments},
+    {"polyval", "vectors", "polyval(p, x) -> y", "Evaluate a polynomial, highest power first", guarded<polyval>,
      kNoOptions, kPolyvalArguments},
-    {"interp1", "vectors", "interp1(x, y, x_new, {options}) -> y_new", "linear interpolation", guarded<interp1>,
+    {"interp1", "vectors", "interp1(x, y, x_new, {options}) -> y_new", "Linear interpolation", guarded<interp1>,
      kInterp1Tables, kInterp1Arguments},
 };
 

@@ -15,11 +15,11 @@ namespace {
 constexpr std::array kMarkPlaceOptions = {OptionEntry{"x", ValueKind::kNumber, about("position on the x axis")},
                                           OptionEntry{"y", ValueKind::kNumber, about("position on the y axis")}};
 constexpr std::array kReferenceOptions = {
-    OptionEntry{"label", ValueKind::kText, about("text beside the line")},
+    OptionEntry{"label", ValueKind::kText, about("text next to the line")},
     option<&ReferenceLine::dash>(
         "dash", about("dash pattern: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns"))};
 constexpr std::array kAnnotationOptions = {
-    OptionEntry{"text", ValueKind::kText, about("text beside the point")},
+    OptionEntry{"text", ValueKind::kText, about("text next to the point")},
     option<&Annotation::marker>("marker", about("true draws a mark at the point"))};
 constexpr std::array kArrowOptions = {
     OptionEntry{"x0", ValueKind::kNumber, about("x at the beginning of the arrow")},

@@ -18,33 +18,33 @@ inline constexpr std::array kPanelOptions = {
     OptionEntry{"y_range", ValueKind::kVector, about("ends of the y axis, {low, high}")},
     option<&Panel::log_x>("x_log", about("true for a logarithmic x axis")),
     option<&Panel::log_y>("y_log", about("true for a logarithmic y axis")),
-    option<&Panel::equal_axes>("equal_axes", about("true makes a unit equally long on both axes")),
+    option<&Panel::equal_axes>("equal_axes", about("equal units on both axes")),
     option<&Panel::legend>("legend",
-                           about("place of the legend; \"direct\" writes each name beside its curve, or makes a legend "
-                                 "where a name finds no clear space"),
+                           about("place of the legend; \"direct\" writes each name next to its curve, or creates a "
+                                 "legend if there is no clear space"),
                            {.initial = "\"automatic\"", .choices = kLegendPlaces}),
     OptionEntry{"curves", ValueKind::kTable,
                 about("list of curves, {x =, y =, label =, style =, colour =, dash =, line_width =, marker =}; with "
-                      "y_upper = a band from y to y_upper")},
+                      "y_upper, a band from y to y_upper")},
     OptionEntry{"references", ValueKind::kTable,
-                about("list of straight lines, {y = level, label =, dash =} or {x = instant, label =, dash =}")},
+                about("list of reference lines, {y = level, label =, dash =} or {x = instant, label =, dash =}")},
     OptionEntry{"annotations", ValueKind::kTable, about("list of marked points, {x =, y =, text =, marker =}")},
     OptionEntry{"arrows", ValueKind::kTable, about("list of arrows, {x0 =, y0 =, x1 =, y1 =, text =, both_heads =}")}};
 
 inline constexpr std::array kCurveLookOptions = {
     OptionEntry{"label", ValueKind::kText, about("name of the curve in the legend")},
-    option<&Curve::style>("style", about("how the values are drawn"), {.initial = "\"line\"", .choices = kCurveStyles}),
-    OptionEntry{"colour", ValueKind::kAny, about("number in the palette, from 0 on, or a name such as \"red\"")},
+    option<&Curve::style>("style", about("style of the curve"), {.initial = "\"line\"", .choices = kCurveStyles}),
+    OptionEntry{"colour", ValueKind::kAny, about("number in the palette, starting at 0, or a name such as \"red\"")},
     OptionEntry{"dash", ValueKind::kCount,
                 about("dash pattern: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns")},
-    OptionEntry{"marker", ValueKind::kCount,
-                about("shape of the points: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the same open, 8 cross, 9 "
-                      "plus, 10 asterisk")},
+    OptionEntry{
+        "marker", ValueKind::kCount,
+        about("marker: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the same open, 8 cross, 9 plus, 10 asterisk")},
     option<&Curve::line_width>("line_width", about("line width"), {.unit = "points"})};
 
 inline constexpr std::array kFigureSizeOptions = {
     option<&Figure::width_cm>("width", about("width of the figure"), {.unit = "cm"}),
-    option<&Figure::height_cm>("height", about("height of the figure; 0 for a height that follows from the panels"),
+    option<&Figure::height_cm>("height", about("height of the figure; 0 for a height that fits the panels"),
                                {.unit = "cm"})};
 
 /// Sets of `panel` what the options name.

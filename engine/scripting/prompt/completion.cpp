@@ -35,7 +35,19 @@ std::vector<std::string_view> chain_at_end(const Tokens& tokens) {
 struct Surroundings {
     std::string function;  ///< "" when the cursor stands in no call
     bool in_braces = false;
+    int argument = 0;  ///< commas of the call before the cursor
 };
+
+/// Commas of the innermost bracket, which opens before `begin`.
+int commas_behind(const Tokens& tokens, std::size_t begin) {
+    int depth = 0, commas = 0;
+    for (std::size_t i = begin; i < tokens.size(); ++i) {
+        if (tokens[i].is("(") || tokens[i].is("{") || tokens[i].is("[")) ++depth;
+        if (tokens[i].is(")") || tokens[i].is("}") || tokens[i].is("]")) --depth;
+        if (tokens[i].is(",") && depth == 0) ++commas;
+    }
+    return commas;
+}
 
 /// The innermost bracket left open, and the name before it: f(, f{ or f(..., {.
 Surroundings surroundings_of(const Tokens& tokens) {
@@ -56,15 +68,10 @@ Surroundings surroundings_of(const Tokens& tokens) {
         if (!after_name) return {};
         for (std::string_view link : chain_at_end(Tokens(tokens.begin(), tokens.begin() + static_cast<long>(i))))
             found.function += (found.function.empty() ? "" : ".") + std::string(link);
+        found.argument = token.is("(") ? commas_behind(tokens, i + 1) : 0;
         return found;
     }
     return {};
-}
-
-const FunctionEntry* find_function(lua_State* L, const std::string& name) {
-    for (const FunctionEntry* entry : context_of(L).functions)
-        if (name == entry->name) return entry;
-    return nullptr;
 }
 
 std::vector<std::string> options_of(const FunctionEntry& entry) {
@@ -141,7 +148,7 @@ Completion complete_member(lua_State* L, Tokens before, std::string_view typed) 
 
 Completion complete_word(lua_State* L, const Tokens& before, std::string_view typed) {
     const Surroundings surroundings = surroundings_of(before);
-    const FunctionEntry* function = surroundings.function.empty() ? nullptr : find_function(L, surroundings.function);
+    const FunctionEntry* function = surroundings.function.empty() ? nullptr : function_called(L, surroundings.function);
     const bool starts_item = !before.empty() && (before.back().is("{") || before.back().is(","));
     std::vector<std::string> names;
     if (function != nullptr && surroundings.in_braces && starts_item) names = options_of(*function);
@@ -178,6 +185,20 @@ int complete_protected(lua_State* L) {
 }
 
 }  // namespace
+
+const FunctionEntry* function_called(lua_State* L, std::string_view name) {
+    for (const FunctionEntry* entry : context_of(L).functions)
+        if (name == entry->name) return entry;
+    return nullptr;
+}
+
+std::optional<CallAtCursor> call_around(lua_State* L, std::string_view text) {
+    Tokens tokens = lua_tokens(text);
+    if (!tokens.empty() && tokens.back().kind == Kind::kUnfinished) tokens.pop_back();
+    const Surroundings surroundings = surroundings_of(tokens);
+    const FunctionEntry* const function = function_called(L, surroundings.function);
+    return function == nullptr ? std::nullopt : std::optional(CallAtCursor{function, surroundings.argument});
+}
 
 std::string Completion::common_rest() const {
     if (candidates.empty()) return {};

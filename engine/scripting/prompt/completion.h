@@ -1,9 +1,12 @@
 #pragma once
 #include <cstddef>
 #include <lua.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "scripting/runtime/function_entry.h"
 
 namespace dynlab::inline scripting {
 
@@ -22,5 +25,13 @@ struct Completion {
 /// data sets and files in load("..."), of functions in help("..."). Values are looked up without calling anything a
 /// script defined: metamethods stay out, only the read-only fields of dynlab's own objects are computed.
 Completion complete(lua_State* L, std::string_view text);
+
+/// The call of a function of dynlab in which the end of a text stands.
+struct CallAtCursor {
+    const FunctionEntry* function;
+    int argument;  ///< which one is being written, from 0
+};
+std::optional<CallAtCursor> call_around(lua_State* L, std::string_view text);
+const FunctionEntry* function_called(lua_State* L, std::string_view name);  ///< nullptr for another name
 
 }  // namespace dynlab::inline scripting

@@ -100,7 +100,7 @@ std::string list_of(const std::vector<Found>& found, std::size_t width) {
 /// What is written here for a function of MATLAB or another program, and the pages of what it calls.
 std::string matlab_answer(const std::string& name, const std::string& hint, const FunctionList& functions,
                           std::size_t width) {
-    std::string text = filled(fmt::format("{} is a word of other programs; here: {}.", name, hint), width) + '\n';
+    std::string text = filled(fmt::format("{} is a name of another program: {}.", name, hint), width) + '\n';
     static const RE2 kCall("([a-z][a-z_0-9.]*)[({]", RE2::Latin1);
     std::string called;
     std::vector<std::string> shown;
@@ -110,7 +110,7 @@ std::string matlab_answer(const std::string& name, const std::string& hint, cons
         text += (shown.empty() ? "\n" : "") + help_row(entry->name, entry->summary, width);
         shown.emplace_back(entry->name);
     }
-    return text + "\nhelp matlab is a phrase book.\n";
+    return text + "\nhelp matlab lists the equivalents of MATLAB.\n";
 }
 
 struct ObjectWords {
@@ -131,13 +131,12 @@ std::optional<std::string> method_answer(const std::string& name, std::size_t wi
     const auto page = find_help_page(known->page);
     const auto at = page ? page->text.find(":" + method) : std::string_view::npos;
     if (at == std::string_view::npos) return std::nullopt;
-    // The call begins with its backtick and ends where the next one begins, or the paragraph does.
-    const auto begin = page->text.rfind('`', at);
-    auto end = page->text.find("\n\n", at);
-    if (const auto next = page->text.find(", `", page->text.find('`', at)); next < end) end = next;
-    std::string words(page->text.substr(begin, end - begin));
+    // The item of the list of methods that begins with the call.
+    const auto begin = page->text.rfind("\n- ", at) + 3;
+    std::string words(
+        page->text.substr(begin, std::min(page->text.find("\n\n", at), page->text.find("\n- ", at)) - begin));
     std::ranges::replace(words, '\n', ' ');
-    return laid_out(fmt::format("{}\n\nhelp {} tells the rest.\n", words, known->page), width);
+    return laid_out(fmt::format("{}\n\nhelp {} shows the complete page.\n", words, known->page), width);
 }
 
 /// The first part of the guide to Lua whose code holds the word.
@@ -157,11 +156,11 @@ std::optional<std::string> lua_answer(const std::string& word, std::size_t width
         const std::string part = guide.substr(begin + 1, end == std::string::npos ? end : end - begin - 1);
         const auto code = part.find("```lua");
         if (code != std::string::npos && contains_word(std::string_view(part).substr(code), word))
-            return laid_out(fmt::format("`{}` belongs to Lua itself.\n\n{}\nhelp lua tells the rest.\n", word, part),
+            return laid_out(fmt::format("`{}` is part of Lua.\n\n{}\nhelp lua shows the complete page.\n", word, part),
                             width);
         begin = end;
     }
-    return laid_out(fmt::format("`{}` belongs to Lua itself; help lua tells the most important of it.\n", word), width);
+    return laid_out(fmt::format("`{}` is part of Lua; help lua shows the basics.\n", word), width);
 }
 
 std::string text_of(const MessageId<>& description) {
@@ -223,21 +222,23 @@ std::string items_of(const FunctionEntry& function) {
     return items;
 }
 
-/// The page with the signature below its title, and the items at the beginning of its part "Arguments", which it is
-/// given where it has none.
-std::string with_row(std::string page, const FunctionEntry& function) {
-    page.insert(page.find('\n') + 1, fmt::format("\n{}: `{}`\n", function.area, signature_text(function)));
+/// The page with the parts that the function's row declares, in the order of a reference page: summary, Syntax,
+/// Description (the text below the title), Input Arguments (at the beginning of the page's own part of this name).
+std::string with_row(const std::string& page, const FunctionEntry& function) {
+    const std::size_t title = page.find('\n') + 1, end = std::min(page.find("\n## "), page.size());
+    std::string text = page.substr(0, title) + fmt::format("\n{}.\n\n## Syntax\n\n", function.summary);
+    const std::string forms = replaced(signature_text(function), "; ", "`\n\n`");
+    text += fmt::format("`{}`\n\n## Description\n{}", forms, page.substr(title, end - title));
+    static constexpr std::string_view kHeading = "\n## Input Arguments\n\n";
     const std::string items = items_of(function);
-    if (items.empty()) return page;
-    static constexpr std::string_view kHeading = "## Arguments\n\n";
-    if (const std::size_t at = page.find(kHeading); at != page.npos) {
-        const std::size_t begin = at + kHeading.size();
-        const bool list = page.compare(begin, 2, "- ") == 0;
-        return page.insert(begin, items + (list ? "" : "\n"));
-    }
-    const std::size_t next = page.find("\n## ");
-    if (next == page.npos) return page + "\n" + std::string(kHeading) + items;
-    return page.insert(next + 1, std::string(kHeading) + items + "\n");
+    std::string rest = page.substr(end);
+    if (rest.starts_with(kHeading))
+        rest.erase(0, kHeading.size());
+    else if (!items.empty())
+        rest.erase(0, 1);
+    else
+        return text + rest;
+    return text + std::string(kHeading) + items + (items.empty() || rest.starts_with("- ") ? "" : "\n") + rest;
 }
 
 [[noreturn]] void refuse_topic(const std::string& name, const FunctionList& functions) {
@@ -281,9 +282,8 @@ std::string help_overview(const FunctionList& functions, std::size_t width) {
         if (entry_of(page.name, functions) == nullptr)
             text += help_row(std::string(page.name), subject_of(page), width);
     return text +
-           "\nhelp(\"lsim\") explains a function, help(\"lua\") is Lua in ten minutes, help(\"matlab\") a phrase book "
-           "for\n"
-           "those who come from MATLAB; help(\"delay\") lists what speaks of a word\n";
+           "\nhelp(\"lsim\") shows a function, help(\"lua\") Lua in ten minutes, help(\"matlab\") the equivalents\n"
+           "of MATLAB; help(\"delay\") lists the pages that contain a word\n";
 }
 
 std::string help_text(const std::string& name, const FunctionList& functions, std::size_t width) {
@@ -298,7 +298,7 @@ std::string help_text(const std::string& name, const FunctionList& functions, st
         return help_text(small, functions, width);
     const std::vector<Found> found = pages_about(name, functions);
     if (name.empty() || found.empty()) refuse_topic(name, functions);
-    return fmt::format("No page is called '{}'; these speak of it:\n\n", name) + list_of(found, width);
+    return fmt::format("No page is called '{}'. These pages contain it:\n\n", name) + list_of(found, width);
 }
 
 std::string help_search(const std::string& word, const FunctionList& functions, std::size_t width) {

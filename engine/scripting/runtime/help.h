@@ -18,24 +18,28 @@ struct HelpPage {
 /// All pages, sorted by name, as reference/*.md and reference/guides/*.md are.
 std::span<const HelpPage> help_pages();
 std::optional<HelpPage> find_help_page(std::string_view name);
-/// The page of a function with its signature, arguments and options, which its row declares; others as they are
-/// (nullptr).
+/// The page of a function with the parts that its row declares (summary, syntax, arguments, options); the text of a
+/// guide or subject (nullptr) unchanged.
 std::string page_text(const HelpPage& page, const FunctionEntry* function);
-/// What stands behind "guide: " or "subject: " in the third line of a page that is no function's.
+/// The text after "guide: " or "subject: " in the third line of a guide or subject.
 std::string subject_of(const HelpPage& page);
 
-constexpr std::size_t kHelpWidth = 80;  ///< columns, where nobody knows better
+constexpr std::size_t kHelpWidth = 80;  ///< columns, if the width of the terminal is unknown
 
-/// The functions by area with their summaries, the guides, then how to get on, in lines of at most `width` columns.
+/// The functions by area with their summaries, the guides and further commands, in lines of at most `width` columns.
 std::string help_overview(const std::vector<const FunctionEntry*>& functions, std::size_t width = kHelpWidth);
-/// What there is to say about a name, laid out in lines of at most `width` columns: the page of a function or subject;
-/// for a function of MATLAB or its toolboxes what is written here; for "iddata.split" or "fig.add" what the page of the
-/// object says of the method; for a word of Lua the part of its guide; else the pages that speak of it. Throws
-/// InvalidArgument with the nearest name where there is nothing.
+/// The answer to a name, laid out in lines of at most `width` columns. In this order:
+/// - the page of a function or subject
+/// - the method of an object ("iddata.split", "fig.add"), from the page of the object
+/// - the equivalent of a function of MATLAB or its toolboxes
+/// - the part of the guide to Lua about a word of Lua
+/// - the pages that contain the word
+///
+/// Throws InvalidArgument with the nearest name if there is no answer.
 std::string help_text(const std::string& name, const std::vector<const FunctionEntry*>& functions,
                       std::size_t width = kHelpWidth);
-/// The functions and subjects in whose names, summaries or pages the words stand, those first in whose names it does.
-/// Throws InvalidArgument where there are none.
+/// The functions and subjects whose names, summaries or pages contain the words; hits in names come first.
+/// Throws InvalidArgument if there are none.
 std::string help_search(const std::string& word, const std::vector<const FunctionEntry*>& functions,
                         std::size_t width = kHelpWidth);
 

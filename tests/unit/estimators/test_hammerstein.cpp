@@ -198,6 +198,16 @@ TEST(hammerstein, tells_when_a_line_would_do) {  // oracle: the simulated system
             << i;
 }
 
+TEST(hammerstein, record_that_begins_at_zero_input_is_told_apart) {  // oracle: the levels put in
+    const Vector u = levels_of(1500, 7), f = characteristic(u);
+    for (const double before : {0.0, f[0]}) {
+        const Vector y = lsim(without_zero().G, f.array() - before, 0.05).array() + before;
+        const Fit fit = hammerstein({Matrix(y), Matrix(u), 0.05}, without_zero().structure, at_edges(kEdges));
+        EXPECT_LT((fit.characteristic->levels - kLevels).cwiseAbs().maxCoeff(), 1e-6);
+        EXPECT_EQ(fit.start.state, before == 0 ? InitialState::kZero : InitialState::kSteady);
+    }
+}
+
 TEST(hammerstein, refuses_what_it_cannot_fit) {  // oracle: definitions
     const System system = without_zero();
     const IdData data = record(system.G, 0.1, 1, 300);

@@ -63,6 +63,33 @@ TEST(validation_plots, only_the_first_of_several_bands_is_named) {
     EXPECT_EQ(named, 1);
 }
 
+/// What the data do not determine spoils no picture. Oracle: the curve's own height.
+TEST(validation_plots, axes_follow_the_curves_where_a_parameter_is_undetermined) {
+    const auto widest_band = [](const Panel& panel) {
+        const Curve* band = band_of(panel);
+        double widest = 0;
+        for (Index k = 0; band != nullptr && k < band->y.size(); ++k)
+            if (std::isfinite(band->y[k])) widest = std::max(widest, 0.5 * (band->y_upper[k] - band->y[k]));
+        return widest;
+    };
+    for (const double variance : {0.3, 1e6}) {
+        const UncertainModel lost(kG, variance * Matrix::Identity(3, 3));
+        const NamedModel model = {Message("G"), kG, ModelConfidence{lost, 0.99}};
+        const Panel step = step_plot({model}).panels[0];
+        const Vector& y = step.curves[0].y;
+        const double height = y.maxCoeff() - y.minCoeff();
+        EXPECT_LE(widest_band(step), height);
+        ASSERT_TRUE(step.y_range.has_value() || band_of(step) == nullptr || widest_band(step) <= 0.5 * height);
+        const auto [low, high] = step.y_range.value_or(std::pair(y.minCoeff(), y.maxCoeff()));
+        EXPECT_GE(low, y.minCoeff() - 0.5 * height - 1e-12);
+        EXPECT_LE(high, y.maxCoeff() + 0.5 * height + 1e-12);
+        const Figure bode = bode_plot({model});
+        EXPECT_LE(widest_band(bode.panels[0]), 40) << "dB";
+        EXPECT_LE(widest_band(bode.panels[1]), 180) << "degrees";
+    }
+    EXPECT_FALSE(step_plot({certain_to(0.95)}).panels[0].y_range.has_value()) << "a narrow band changes no axis";
+}
+
 TEST(validation_plots, bode_bands_stay_readable) {  // oracle: half the curve's height beyond it, or 20 dB
     const Figure figure = bode_plot({certain_to(0.99)});
     figure.validate();

@@ -129,6 +129,24 @@ TEST(missed_structure, delays_are_found) {
     EXPECT_GE(missed_in({.late = true}, MissedCode::kDelay), 8);
 }
 
+TEST(missed_structure, an_input_that_was_logged_late_is_named) {  // oracle: the column shifted by us
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+        Vector u = RandomStream(seed).normal(601);
+        for (Index k = 0; k < u.size(); ++k) u[k] = u[k - k % 8] > 0 ? 1 : -1;
+        const Vector y = lsim(TransferFunction(values({30}), values({1, 6, 30})), u, 0.05) +
+                         0.02 * RandomStream(seed + 100).normal(601);
+        const auto structure = TransferStructure::single(2, 0);
+        const IdData late{Matrix(y.tail(600)), Matrix(u.head(600)), 0.05};
+        const auto missed = missed_of({late, structure});
+        ASSERT_TRUE(missed) << seed;
+        EXPECT_EQ(missed->code, MissedCode::kLate) << seed;
+        EXPECT_NEAR(missed->better_fit_percent, srivc(late.shifted(-1), structure).fit_percent[0], 0.01) << seed;
+        EXPECT_THAT(message_text(sentence_of(*missed)), HasSubstr("data:shift(-1)")) << seed;
+    }
+    for (const Planted& other : {Planted{.direct = true}, Planted{.late = true}, Planted{.more_poles = 1}})
+        EXPECT_EQ(missed_in(other, MissedCode::kLate), 0) << other.direct << other.late;
+}
+
 // Oracle: the fit that the structure leads to, made as a user would make it.
 TEST(missed_structure, missing_pole_is_named_with_the_fit_that_is_reached) {
     const Vector u = prbs(8, 8);

@@ -1,7 +1,13 @@
 #include "platform/box.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <thread>
 
 #include "base/reader.h"
@@ -38,6 +44,45 @@ TEST_F(full_box, holds_nothing_but_what_was_put_in) {
     EXPECT_NE(shell(box_, "echo x > /usr/never").exit_code, 0);
     EXPECT_EQ(shell(box_, "ls -A /tmp; pwd").output, "/tmp\n");
     EXPECT_EQ(shell(box_, "env | grep -c HOME=").output, "1\n");
+}
+
+/// Processes in whose command line this stands.
+int processes_with(const std::string& marker) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        std::ifstream file(entry.path() / "cmdline");
+        const std::string line{std::istreambuf_iterator<char>(file), {}};
+        count += line.find(marker) != std::string::npos;
+    }
+    return count;
+}
+
+/// What the next test kills.
+TEST_F(full_box, DISABLED_sleeps) {
+    shell(box_, std::string("exec sleep ") + std::getenv("DYNLAB_TEST_SLEEP"));
+}
+
+// oracle: the kernel's list of processes, after kills at every stage of a box's start
+TEST_F(full_box, ends_with_the_program_that_made_it) {
+    const std::string marker = "4711." + std::to_string(::getpid());
+    ::setenv("DYNLAB_TEST_SLEEP", marker.c_str(), 1);
+    for (int i = 0; i < 60; ++i) {
+        const pid_t program = ::fork();
+        if (program == 0) {
+            ::close(STDOUT_FILENO);
+            ::execl("/proc/self/exe", "tests", "--gtest_also_run_disabled_tests", "--gtest_filter=*DISABLED_sleeps",
+                    nullptr);
+            ::_exit(1);
+        }
+        for (int k = 0; k < 200 && processes_with(marker) == 0; ++k)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        std::this_thread::sleep_for(std::chrono::microseconds(200 * i));
+        ::kill(program, SIGKILL);
+        ::waitpid(program, nullptr, 0);
+    }
+    for (int i = 0; i < 600 && processes_with(marker) > 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(processes_with(marker), 0);
 }
 
 // oracle: a script that lists what lies beside it, inside and outside

@@ -5,6 +5,7 @@
 
 #include <thread>
 
+#include "platform/temporary_folder.h"
 #include "support/pseudo_terminal.h"
 
 namespace dynlab {
@@ -14,6 +15,18 @@ using namespace std::chrono_literals;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
+
+/// A command that another process waits for. Oracle: the share of its steps.
+TEST(progress, a_command_says_how_far_it_is_in_the_file_of_its_environment) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "progress";
+    write_progress(1, 4);  // nobody asks
+    EXPECT_EQ(progress_in(file), std::nullopt);
+    ::setenv(kFileOfProgress, file.c_str(), 1);
+    write_progress(1, 4);
+    ::unsetenv(kFileOfProgress);
+    EXPECT_EQ(progress_in(file), 0.25);
+}
 
 // Oracle: half of the work in 3 s leaves 3 s; a quarter in 60 s leaves 180 s.
 TEST(progress, line_shows_bar_count_and_time_left) {

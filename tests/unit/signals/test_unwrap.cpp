@@ -43,6 +43,12 @@ TEST(unwrap, periods_are_recognized_and_other_signals_are_not) {  // oracle: wha
     EXPECT_FALSE(wrapped_period(slow * (179 / slow.cwiseAbs().maxCoeff()), periods).has_value());
     const Vector square = noise.unaryExpr([](double v) { return v > 0 ? 180.0 : -180.0; });
     EXPECT_FALSE(wrapped_period(square, periods).has_value());
+    Vector sine(1000), fast = noise;  // both jump from end to end, and unwrapping does not help
+    for (Index k = 0; k < sine.size(); ++k) sine[k] = 175 * std::sin(2.1 * static_cast<double>(k)) + noise[k];
+    EXPECT_FALSE(wrapped_period(sine, periods).has_value());
+    for (Index k = 2; k < fast.size(); ++k) fast[k] = 1.5 * fast[k - 1] - 0.8 * fast[k - 2] + noise[k];
+    fast *= 400 / fast.cwiseAbs().maxCoeff();  // steps of up to half a turn
+    EXPECT_EQ(wrapped_period(wrapped(fast, 360, 0) + noise, periods), 360);
 }
 
 }  // namespace test_unwrap

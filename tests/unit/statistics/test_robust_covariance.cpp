@@ -137,11 +137,37 @@ TEST(robust_covariance, follows_the_units_of_the_parameters) {  // oracle: invar
     EXPECT_LT((scaled.std.cwiseProduct(units) - plain.std).cwiseQuotient(plain.std).norm(), 1e-12);
 }
 
-TEST(robust_covariance, least_squares_form_is_the_general_one) {  // oracle: second route
-    const Matrix Psi = random_matrix(200, 3, 6);
-    const Vector e = ar1(200, 0.5, 7);
+TEST(robust_covariance, least_squares_form_is_the_general_one_for_errors_that_were_not_fitted) {
+    // Oracle: each sample's error in the fit to all others, which is e over one minus the leverage.
+    constexpr Index kN = 200;
+    const Matrix Psi = random_matrix(kN, 3, 6);
+    const Vector y = ar1(kN, 0.5, 7).cwiseProduct(Psi.col(0).cwiseAbs());  // large where it matters: no floor
+    const Vector e = y - Psi * Psi.colPivHouseholderQr().solve(y);
+    Vector left_out(kN);
+    for (Index k = 0; k < kN; ++k) {
+        Matrix others = Psi;
+        Vector rest = y;
+        others.row(k).setZero(), rest[k] = 0;
+        left_out[k] = y[k] - Psi.row(k) * others.colPivHouseholderQr().solve(rest);
+    }
     const Matrix H = (Psi.transpose() * Psi).inverse();
-    EXPECT_LT((robust_covariance(Psi, e).covariance - robust_covariance(H, Psi, e).covariance).norm(), 1e-14);
+    const double robust = robust_covariance(Psi, e).std[0], expected = robust_covariance(H, Psi, left_out).std[0];
+    EXPECT_NEAR(robust, expected, 1e-10 * expected);
+}
+
+// Oracle: the scatter of 2000 least-squares fits to 30 samples, whose errors have no colour and one size.
+TEST(robust_covariance, intervals_of_few_samples_hold_the_truth) {
+    constexpr Index kRuns = 2000;
+    Matrix Psi(30, 2);
+    for (Index k = 0; k < 30; ++k) Psi.row(k) << std::exp(-0.2 * static_cast<double>(k)), k % 6 < 3 ? 1 : -1;
+    const auto solver = Psi.colPivHouseholderQr();
+    Index inside = 0;
+    for (std::uint32_t run = 1; run <= kRuns; ++run) {
+        const Vector y = RandomStream(run).normal(30), theta = solver.solve(y);
+        inside += (theta.cwiseAbs().array() < 1.96 * robust_covariance(Psi, y - Psi * theta).std.array()).count();
+    }
+    EXPECT_GT(static_cast<double>(inside) / (2 * kRuns), 0.92);
+    EXPECT_LT(static_cast<double>(inside) / (2 * kRuns), 0.98);
 }
 
 TEST(robust_covariance, refuses_sizes_that_do_not_fit) {

@@ -446,6 +446,9 @@ TEST(advice, a_crane_at_rest_does_not_begin_in_a_movement) {  // oracle: a secon
             ASSERT_TRUE(advice.has("offset")) << crane.name << seed << codes(advice);
             EXPECT_NEAR(advice.find("offset")->value, 0.012, 0.001) << crane.name << seed;
             EXPECT_EQ(advice.find("offset")->weight, Weight::kNote) << crane.name << seed;
+            if (advice.has("dead_time")) {  // it is the motor's lag
+                EXPECT_THAT(said(advice, "dead_time"), HasSubstr("another pole")) << crane.name << seed;
+            }
         }
 }
 

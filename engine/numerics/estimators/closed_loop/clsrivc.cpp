@@ -97,7 +97,9 @@ Fit two_stage(const IdData& data, const TransferStructure& structure, const FitO
     const IdData projected = with_projected_inputs(data, signals);
     Fit estimate = srivc(projected, structure, options);
     estimate.covariance = output_covariance(projected, structure, estimate.theta);
-    estimate.warnings.clear();
+    estimate.warnings = {Message(
+        "The standard errors take the projection of the input as known: they may be several times too large, or a "
+        "quarter too small.")};
     measure_simulation(estimate, data);
     describe_models(estimate);
     estimate.message =

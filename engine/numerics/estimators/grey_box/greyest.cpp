@@ -26,7 +26,7 @@ constexpr int kWeightings = 20;           // of the outputs, at most
 constexpr double kSettledWeights = 1e-4;  // of their ratios
 constexpr double kLeastError = 1e-12;     // of an output's errors beside what it varies, for its weight
 constexpr double kConfidence = 0.95;
-constexpr double kLost = 0.01, kFollows = 0.5;  // of the variation, left over, and its lag-one correlation: far away
+constexpr double kLost = 1e-4, kFollows = 0.5;  // of the variation, left over, and its lag-one correlation: far away
 constexpr double kFirstShare = 1 / 16., kGrowth = 1.5, kSame = 1e-3;  // of the samples; of what is left: ends agree
 
 /// Values between 0 and 1 that fill the space evenly (Halton 1960): the i-th, in the dimension of this prime.

@@ -51,7 +51,7 @@ struct GreyFit {
 ///     minimise sum over experiments, samples and outputs of (y - simulated y)^2/variance of the output's errors
 /// by Levenberg-Marquardt within the bounds, with sensitivities by the variational equations; the variances are
 /// reestimated until they settle. Efficient for white Gaussian e, independent among outputs. Several starts are
-/// followed a little way, the best of them to the end. Where that leaves more than 1 % of the outputs' variation and
+/// followed a little way, the best of them to the end. Where that leaves more than 0.01 % of the outputs' variation and
 /// the errors follow each other (lag-one correlation above 0.5), fits to longer and longer beginnings of the data lead
 /// to further ends, until two agree. Covariance: variance (J'J)^-1 at the end. Throws InvalidArgument for bad options
 /// or bounds, data of other channels than the model, too few samples, and a simulation from the start values that

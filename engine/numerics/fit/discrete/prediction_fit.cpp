@@ -118,6 +118,9 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
         if (const auto root = undetermined_root(letter, p, y.size())) {
             withdraw_errors(fit, root->names);
             fit.warnings.push_back(root->warning);
+            if (letter == 'C' && model.orders().na > 0)  // the unknown errors before the record act on all of them
+                fit.warnings.push_back(
+                    Message("The standard errors of the other coefficients come out up to a fifth too small."));
         }
     }
     warn_of_doubtful_parameters(fit);

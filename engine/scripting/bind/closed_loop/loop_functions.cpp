@@ -23,39 +23,37 @@ constexpr std::array kLoopOutputOrders = {kNb, kNf, kNk};
 constexpr std::array kSimloopOptions = {
     OptionEntry{"noise", ValueKind::kVector, about("N samples added to the output that the controller reads")},
     option<&LoopController::computing_delay>(
-        "ComputingDelay", about("samples from reading y to the u that answers it, for sampled controllers")),
+        "ComputingDelay", about("delay in samples from reading y to the corresponding u, for sampled controllers")),
     OptionEntry{"hold",
                 ValueKind::kChoice,
-                about("how r behaves between its samples, with a controller in continuous time"),
+                about("intersample behavior of r for a continuous-time controller"),
                 {.initial = "\"zoh\"", .choices = kHolds}}};
 constexpr std::array kRouteNames = {"auxiliary", "direct", "indirect", "two-stage"};  // in the order of LoopRoute
 constexpr OptionEntry kRoute = {"route",
                                 ValueKind::kChoice,
-                                about("the way in which the plant is found"),
+                                about("method to estimate the plant"),
                                 {.initial = "\"auxiliary\"", .choices = kRouteNames}};
 constexpr std::array kRouteOptions = {
-    kRoute,
-    option<&FitOptions::lambda>("lambda",
-                                about("cut-off frequency of the filter of a first estimate by clivsvf; otherwise "
-                                      "the two-stage route gives one"),
-                                {.unit = "rad/s"})};
+    kRoute, option<&FitOptions::lambda>("lambda",
+                                        about("cut-off frequency of the filter of a first estimate by clivsvf; by "
+                                              "default the two-stage route gives the first estimate"),
+                                        {.unit = "rad/s"})};
 constexpr std::array kLoopEquationFilter = {kHoldOfOutput<SvfOptions>}, kLoopOutputFilter = {kHoldOfOutput<FitOptions>};
 constexpr OptionTable kSimloop[] = {kSimloopOptions};
 constexpr OptionTable kLoopEquation[] = {kLoopOptions, kLoopEquationFilter};
 constexpr OptionTable kLoopOutput[] = {kLoopOptions, kRouteOptions, kLoopOutputFilter, kLimitOptions};
 
 constexpr std::array kSimloopArguments = {
-    ArgumentEntry{"G", ValueKind::kModel, about("the plant in continuous time")},
+    ArgumentEntry{"G", ValueKind::kModel, about("plant in continuous time")},
     ArgumentEntry{
         "C", ValueKind::kModel,
-        about("the controller, in discrete time with the sampling time Ts or in continuous time; a number is a "
-              "gain")},
+        about("controller, in discrete time with the sampling time Ts or in continuous time; a number is a gain")},
     ArgumentEntry{"r", ValueKind::kVector, about("N samples of the reference")},
-    ArgumentEntry{"Ts", ValueKind::kNumber, about("seconds between samples")}};
+    ArgumentEntry{"Ts", ValueKind::kNumber, about("sampling time in seconds")}};
 constexpr ArgumentEntry kLoopData = {
     "data", ValueKind::kData,
     about("data object with one input, one output and a reference, iddata(y, u, Ts, {Reference = r}); one or several "
-          "experiments, regularly sampled, from rest")};
+          "experiments, regularly sampled, starting from rest")};
 constexpr std::array kLoopEquationArguments = {
     kLoopData,
     ArgumentEntry{"orders", ValueKind::kOrders,
@@ -127,14 +125,13 @@ constexpr NamedReader kLoopReaders[] = {{"clivsvf", read_clivsvf}, {"clsrivc", r
 
 constexpr FunctionEntry kLoopFunctions[] = {
     {"simloop", "simulation", "simloop(G, C, r, Ts, {options}) -> data, x",
-     "record of a closed loop u = C (r - y), with noise on the output", guarded<simulate_loop>, kSimloop,
-     kSimloopArguments},
+     "Simulate a closed loop u = C (r - y) with output noise", guarded<simulate_loop>, kSimloop, kSimloopArguments},
     {"clivsvf", "continuous time", "clivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "ivsvf for a record in closed loop, with the reference as instrument"),
+     marked("estimator", "Estimate a plant in closed loop, with the reference as instrument"),
      guarded<estimate_clivsvf>, kLoopEquation, kLoopEquationArguments},
     {"clsrivc", "continuous time", "clsrivc(data, {nb, nf, nk}, {options}) -> G",
-     marked("estimator", "srivc for a record in closed loop, by four routes"), guarded<memoized_call<estimate_clsrivc>>,
-     kLoopOutput, kLoopOutputArguments},
+     marked("estimator", "Estimate a plant in closed loop by refined instrumental variables, in four ways"),
+     guarded<memoized_call<estimate_clsrivc>>, kLoopOutput, kLoopOutputArguments},
 };
 
 }  // namespace

@@ -23,27 +23,24 @@ namespace {
 constexpr std::array kInterSamples = {"bl", "zoh", "foh"};  // in the order of InterSample
 constexpr OptionEntry kInterSample = {"InterSample",
                                       ValueKind::kChoice,
-                                      about("how the input went on between the samples: band-limited, a sum of sines "
-                                            "(\"bl\"), held (\"zoh\") or on straight "
-                                            "lines (\"foh\")"),
+                                      about("intersample behavior of the input: band-limited, a sum of sines (\"bl\"), "
+                                            "zero-order hold (\"zoh\") or linear interpolation (\"foh\")"),
                                       {.choices = kInterSamples}};
 constexpr std::array kResponseForms = {"complex", "polar", "dB"};
 constexpr OptionEntry kResponseForm = {
     "form",
     ValueKind::kChoice,
-    about(
-        "what two vectors hold: real and imaginary part (\"complex\"), magnitude and phase in degrees (\"polar\"), or "
-        "decibels and degrees (\"dB\"); by default what the units of columns of `load` say, else \"complex\""),
+    about("meaning of two vectors: real and imaginary part (\"complex\"), magnitude and phase in degrees (\"polar\"), "
+          "or decibels and degrees (\"dB\"); by default given by the units of `load` columns, otherwise \"complex\""),
     {.choices = kResponseForms}};
 constexpr std::array kResponseOptions = {
     kResponseForm,
-    OptionEntry{
-        "variance", ValueKind::kVector,
-        about("mean of |error|^2 of each value, half of it in the real and half in the imaginary part, one for all "
-              "or one each")},
+    OptionEntry{"variance", ValueKind::kVector,
+                about("mean of |error|^2 of each value, half of it in the real and half in the imaginary part; one for "
+                      "all values or one per value")},
     OptionEntry{"Ts",
                 ValueKind::kNumber,
-                about("sampling time, where the response was found from samples; frequencies end at pi/Ts"),
+                about("sampling time, if the response was computed from samples; frequencies end at pi/Ts"),
                 {.unit = "s"}},
     kInterSample,
     option<&FrequencyData::input_name>("InputName", about("name of the input"), {.initial = "\"u1\""}),
@@ -51,30 +48,29 @@ constexpr std::array kResponseOptions = {
     option<&FrequencyData::input_unit>("InputUnit", about("unit of the input")),
     option<&FrequencyData::output_unit>("OutputUnit", about("unit of the output"))};
 constexpr std::array kBlaOptions = {
-    OptionEntry{"period", ValueKind::kCount, about("period of the input in samples, which must be given")},
-    option<&BlaOptions::realisations>("realisations", about("number of realisations in each experiment"), {.least = 1}),
-    option<&BlaOptions::transient>("transient", about("periods left out at the beginning of every realisation"),
+    OptionEntry{"period", ValueKind::kCount, about("period of the input in samples; required")},
+    option<&BlaOptions::realisations>("realisations", about("number of realizations in each experiment"), {.least = 1}),
+    option<&BlaOptions::transient>("transient", about("periods to omit at the beginning of every realization"),
                                    {.member = "transient"}),
     option<&BlaOptions::smooth>(
         "smooth",
-        about(
-            "number of frequencies on either side over which variances are averaged, chosen from the data if absent")),
+        about("number of frequencies on each side over which variances are averaged; by default chosen from the data")),
     option<&BlaOptions::least_input>(
-        "least_input", about("part of the largest amplitude of the input below which a line counts as without input")),
+        "least_input",
+        about("fraction of the largest amplitude of the input below which a line counts as not excited")),
     kInterSample};
 constexpr OptionTable kResponse[] = {kResponseOptions}, kBla[] = {kBlaOptions};
 
 constexpr std::array kResponseArguments = {
-    ArgumentEntry{
-        "H", ValueKind::kAny,
-        about("the response: a complex vector, {re, im} of two vectors, or a list of pairs {{re, im}, ...}; a "
-              "model stands for its own response")},
+    ArgumentEntry{"H", ValueKind::kAny,
+                  about("response: a complex vector, {re, im} of two vectors, a list of pairs {{re, im}, ...}, or a "
+                        "model with this response")},
     ArgumentEntry{"w", ValueKind::kVector,
                   about("frequencies in rad/s, all different and above zero; a column of `load` in Hz is converted")}};
 constexpr std::array kBlaArguments = {
     ArgumentEntry{"data", ValueKind::kData,
-                  about("data object with one input and one output, regularly sampled; each experiment holds one "
-                        "realisation or several of equal length")}};
+                  about("data object with one input and one output, regularly sampled; each experiment contains one "
+                        "realization or several of equal length")}};
 
 std::optional<InterSample> inter_sample_option(const Options& options) {
     if (!options.has(kInterSample.name)) return std::nullopt;
@@ -198,12 +194,11 @@ int approximate(Call& call) {
 }
 
 constexpr FunctionEntry kFrequencyFunctions[] = {
-    {"idfrd", "nonparametric", "idfrd(H, w, {options}) -> F",
-     "a measured frequency response as data, with the variances of its errors", guarded<make_response>, kResponse,
-     kResponseArguments},
+    {"idfrd", "nonparametric", "idfrd(H, w, {options}) -> F", "Create data from a measured frequency response",
+     guarded<make_response>, kResponse, kResponseArguments},
     {"bla", "nonparametric", "bla(data, {options}) -> F, fig",
-     "best linear approximation from periodic records, with the levels of noise and distortion",
-     guarded<memoized_call<approximate>>, kBla, kBlaArguments},
+     "Estimate the best linear approximation with levels of noise and distortion", guarded<memoized_call<approximate>>,
+     kBla, kBlaArguments},
 };
 
 }  // namespace

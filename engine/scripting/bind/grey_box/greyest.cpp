@@ -18,9 +18,8 @@ namespace {
 constexpr std::array kGreyStarts = {"model", "zero", "estimate"};  // in the order of GreyStart
 constexpr std::array kGreyOptions = {
     option<&GreyOptions::initial_state>("InitialState",
-                                        about("the initial state: x0 of the model (\"model\"), zero (\"zero\"), or all "
-                                              "states estimated for each experiment "
-                                              "(\"estimate\")"),
+                                        about("initial state: x0 of the model (\"model\"), zero (\"zero\"), or all "
+                                              "states estimated for each experiment (\"estimate\")"),
                                         {.initial = "\"model\"", .choices = kGreyStarts, .member = "initial_state"}),
     option<&GreyOptions::max_iterations>("MaxIter", about("maximum number of iterations"),
                                          {.least = 0, .member = "max_iterations"}),
@@ -28,22 +27,22 @@ constexpr std::array kGreyOptions = {
                                     {.initial = "1e-6", .member = "tolerance"}),
     option<&GreyOptions::relative_tolerance>(
         "RelTol",
-        about("relative error of an integration step; a parameter that hardly moves the outputs needs a smaller one"),
+        about(
+            "relative error of an integration step; a parameter with little effect on the outputs needs a smaller one"),
         {.initial = "1e-7", .least = 1e-13, .most = 1e-2, .member = "relative_tolerance"}),
     option<&GreyOptions::output_weights>(
-        "OutputWeights", about("a weight for the errors of each output; one over their standard deviation if absent"),
+        "OutputWeights", about("weight of the errors of each output; by default 1/(standard deviation of the errors)"),
         {.member = "output_weights"})};
 constexpr std::array kStartsOption = {OptionEntry{
     "starts",
     ValueKind::kAny,
-    about("number of starts that are tried, the model's own first; or a list of further starts, {{k1 = 0.2}, "
-          "{k1 = 2, k2 = 1}}"),
+    about("number of starts, the model's own first; or a list of further starts, {{k1 = 0.2}, {k1 = 2, k2 = 1}}"),
     {.initial = "1", .member = "starts"}}};
 constexpr OptionTable kGreyest[] = {kGreyOptions, kStartsOption}, kStartsAlone[] = {kStartsOption};
 constexpr std::array kGreyestArguments = {
     ArgumentEntry{"data", ValueKind::kData,
                   about("data object with any number of outputs and experiments, regularly or irregularly sampled")},
-    ArgumentEntry{"m", ValueKind::kAny, about("the model that idgrey made, with a start for each parameter")}};
+    ArgumentEntry{"m", ValueKind::kAny, about("model returned by idgrey, with an initial value for each parameter")}};
 
 /// Option starts: how many, or a list of tables {k1 = 0.5, ...}.
 void read_starts(const Options& options, GreyOptions& wanted) {
@@ -155,8 +154,8 @@ constexpr std::array kEstimateOperators = {
 
 constexpr FunctionEntry kGreyestFunctions[] = {
     {"greyest", "grey box", "greyest(data, m, {options}) -> G",
-     marked("estimator", "parameters of differential equations that physics gives"), guarded<estimate_grey_box>,
-     kGreyest, kGreyestArguments},
+     marked("estimator", "Estimate the parameters of a grey-box model"), guarded<estimate_grey_box>, kGreyest,
+     kGreyestArguments},
 };
 
 constexpr std::array kGreyestTypes = {TypeEntry{&Boxed<GreyEstimate>::type, kEstimateFields, {}, kEstimateOperators}};

@@ -14,21 +14,20 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr std::array kIdgreyOptions = {
-    OptionEntry{"states", ValueKind::kAny,
-                about("names of the states, or how many there are; if absent, as many as x0 has values")},
+    OptionEntry{"states", ValueKind::kAny, about("names of the states, or their number; by default the length of x0")},
     OptionEntry{
         "outputs",
         ValueKind::kAny,
         about("function(t, x, u, p) that returns a table of outputs; if absent, the outputs are the first states"),
         {.member = "outputs"}},
+    OptionEntry{"x0",
+                ValueKind::kAny,
+                about("initial state: for each state a number, the name of a parameter or \"estimate\"; one of them "
+                      "for all states; or function(p) that returns a table"),
+                {.initial = "0"}},
     OptionEntry{
-        "x0",
-        ValueKind::kAny,
-        about("the initial state: for each state a number, the name of a parameter or \"estimate\"; one of them for "
-              "all; or function(p) that returns a table"),
-        {.initial = "0"}},
-    OptionEntry{"inputs", ValueKind::kCount,
-                about("number of inputs, needed where the function cannot be followed and there is not exactly one")}};
+        "inputs", ValueKind::kCount,
+        about("number of inputs, required if the function is not symbolic and does not have exactly one input")}};
 constexpr OptionTable kIdgrey[] = {kIdgreyOptions};
 constexpr std::array kIdgreyArguments = {
     ArgumentEntry{
@@ -36,7 +35,7 @@ constexpr std::array kIdgreyArguments = {
         about("function(t, x, u, p) that returns a table with one derivative for each state, or function(p) that "
               "returns the matrices A, B, C, D of a linear model")},
     ArgumentEntry{"parameters", ValueKind::kTable,
-                  about("the parameters by name, each a start or {start, min =, max =, fixed = true}")}};
+                  about("parameters by name, each an initial value or {start, min =, max =, fixed = true}")}};
 
 /// k2 before k10.
 bool comes_before(const std::string& a, const std::string& b) {
@@ -275,7 +274,7 @@ constexpr std::array kGreyModelOperators = {Member{"__tostring", localized_field
 
 constexpr FunctionEntry kIdgreyFunctions[] = {
     {"idgrey", "grey box", "idgrey(f, {p1 = {start, min =, max =, fixed =}, ...}, {options}) -> m",
-     "a model of differential equations, with parameters to be estimated", guarded<make_grey_model>, kIdgrey,
+     "Create a model of differential equations with unknown parameters", guarded<make_grey_model>, kIdgrey,
      kIdgreyArguments},
 };
 

@@ -20,10 +20,9 @@ namespace {
 constexpr std::array kBootstrapKinds = {"residual", "parametric"};
 constexpr std::array kBootstrapOptions = {
     option<&BootstrapOptions::runs>("runs", about("number of repeated experiments"), {.least = 20, .member = "runs"}),
-    option<&BootstrapOptions::kind>("kind",
-                                    about("new errors: those that the model left, drawn with replacement "
-                                          "(\"residual\"), or normal ones (\"parametric\")"),
-                                    {.initial = "\"residual\"", .choices = kBootstrapKinds}),
+    option<&BootstrapOptions::kind>(
+        "kind", about("new errors: residuals drawn with replacement (\"residual\"), or normal errors (\"parametric\")"),
+        {.initial = "\"residual\"", .choices = kBootstrapKinds}),
     option<&BootstrapOptions::seed>("seed", about("seed of the new errors"), {.most = kLargestSeed}),
     option<&BootstrapOptions::confidence>("confidence", about("probability of the intervals"),
                                           {.member = "confidence"})};
@@ -32,8 +31,8 @@ constexpr OptionEntry kProfileOptions[] = {
     option<&ProfileOptions::points>("points", about("number of points of the grid"), {.least = 5, .member = "points"}),
     {"range",
      ValueKind::kVector,
-     about("ends {low, high} of the grid; by default four standard errors on both sides, or more where the "
-           "interval ends farther out"),
+     about("ends {low, high} of the grid; by default four standard errors to each side, or more if the interval ends "
+           "farther out"),
      {.member = "range"}}};
 constexpr OptionTable kBootstrapTables[] = {kBootstrapOptions, kSimulationStart},
                       kProfileTables[] = {kProfileOptions, kSimulationStart};
@@ -155,10 +154,10 @@ int follow_parameter(Call& call) {
 
 constexpr FunctionEntry kIntervalFunctions[] = {
     {"bootstrap", "validation", "bootstrap(G, data, {options}) -> fig, table",
-     "intervals of parameters, gain and time constants from experiments repeated on the computer",
+     "Compute intervals of parameters, gain and time constants by repeated simulation",
      guarded<memoized_call<repeat_experiment>>, kBootstrapTables, kBootstrapArguments},
     {"profile", "validation", "profile(G, data, name, {options}) -> fig, table",
-     "interval of one parameter from how the fit gets worse beside it", guarded<memoized_call<follow_parameter>>,
+     "Compute the profile-likelihood interval of one parameter", guarded<memoized_call<follow_parameter>>,
      kProfileTables, kProfileArguments},
 };
 

@@ -27,40 +27,38 @@ constexpr std::array kNarxOptions = {
 constexpr std::array kSindyOptions = {
     OptionEntry{
         "library", ValueKind::kAny,
-        about("function(x, u) that returns a list of vectors, the candidates, in place of products of states and "
-              "inputs")},
+        about(
+            "function(x, u) that returns a list of vectors, the candidates, instead of products of states and inputs")},
     OptionEntry{"names", ValueKind::kAny,
-                about("names of the functions of the library in the equations; f1, f2, ... if absent")},
+                about("names of the functions of the library in the equations; by default f1, f2, ...")},
     OptionEntry{"degree",
                 ValueKind::kCount,
                 about("without a library, maximum number of factors in a product of states and inputs"),
                 {.initial = "2", .member = "degree"}},
-    option<&SindyOptions::threshold>(
-        "threshold",
-        about("share of the rate, from 0 to less than 1, below which the contribution of a function (root mean square) "
-              "is dropped"),
-        {.member = "threshold"}),
-    option<&SindyOptions::weak>(
-        "weak", about("integrals of both sides against smooth bumps, which average noise, in place of derivatives"),
-        {.member = "weak"}),
+    option<&SindyOptions::threshold>("threshold",
+                                     about("fraction of the rate, from 0 to less than 1, below which the contribution "
+                                           "of a function (root mean square) is removed"),
+                                     {.member = "threshold"}),
+    option<&SindyOptions::weak>("weak",
+                                about("weak form: integrals of both sides with smooth test functions, which average "
+                                      "noise, instead of derivatives"),
+                                {.member = "weak"}),
     option<&SindyOptions::window>(
         "window", about("without weak, odd number of samples over which a polynomial gives state and derivative"),
         {.member = "window"}),
-    option<&SindyOptions::width>("width", about("half the length of a bump, chosen from the data if absent"),
+    option<&SindyOptions::width>("width", about("half the width of a test function; by default chosen from the data"),
                                  {.unit = "s", .member = "width"})};
 constexpr std::array kDmdcOptions = {
-    option<&DmdcOptions::rank>(
-        "rank", about("number of states; 0 for as many as the singular values tell from rounding"), {.member = "rank"}),
+    option<&DmdcOptions::rank>("rank", about("number of states; 0 for the numerical rank of the singular values"),
+                               {.member = "rank"}),
     option<&DmdcOptions::delays>("delays", about("number of samples in a snapshot; 1 for the outputs of one instant"),
                                  {.least = 1, .member = "delays"})};
 constexpr OptionTable kNarx[] = {kNarxOptions}, kSindy[] = {kSindyOptions}, kDmdc[] = {kDmdcOptions};
 
 constexpr std::array kNarxArguments = {
-    kOneOutputData,
-    ArgumentEntry{
-        "orders", ValueKind::kOrders,
-        about("na past outputs, nb values of the input, the first one nk samples late; with several inputs nb and "
-              "nk may be tables, {2, {1, 2}, {1, 3}}")}};
+    kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
+                                  about("na past outputs, nb values of the input, delay of nk samples; with several "
+                                        "inputs nb and nk can be tables, {2, {1, 2}, {1, 3}}")}};
 constexpr std::array kSindyArguments = {ArgumentEntry{
     "data", ValueKind::kData,
     about("data object whose outputs are all states, 1 to 8; any number of inputs and experiments, regularly "
@@ -152,13 +150,13 @@ int estimate_dmdc(Call& call) {
 
 constexpr FunctionEntry kLearningFunctions[] = {
     {"sindy", "learning from data", "sindy(data, {options}) -> G",
-     marked("estimator", "sparse differential equations from a library of functions, the outputs being the states"),
-     guarded<estimate_sindy>, kSindy, kSindyArguments},
+     marked("estimator", "Estimate sparse differential equations from a library of functions"), guarded<estimate_sindy>,
+     kSindy, kSindyArguments},
     {"dmdc", "learning from data", "dmdc(data, {options}) -> G",
-     marked("estimator", "a state-space model from snapshots, cut to few modes"), guarded<memoized_call<estimate_dmdc>>,
-     kDmdc, kDmdcArguments},
+     marked("estimator", "Estimate a state-space model from snapshots, with few modes"),
+     guarded<memoized_call<estimate_dmdc>>, kDmdc, kDmdcArguments},
     {"narx", "learning from data", "narx(data, {na, nb, nk}, {options}) -> G",
-     marked("estimator", "a polynomial difference equation whose terms are chosen one by one"), guarded<estimate_narx>,
+     marked("estimator", "Estimate a polynomial difference equation and select its terms"), guarded<estimate_narx>,
      kNarx, kNarxArguments},
 };
 

@@ -22,29 +22,25 @@ constexpr std::array kRecursiveEquationOrders = {kNa, kNb, kNk};
 constexpr std::array kRecursiveOutputOrders = {kNb, kNf, kNk};
 
 constexpr std::array kRecursiveOptions = {
-    option<&RecursiveOptions::forgetting>(
-        "forgetting",
-        about("weight of a sample for each one that came later, above 0 and up to 1, which forgets nothing")),
+    option<&RecursiveOptions::forgetting>("forgetting",
+                                          about("factor by which the weight of a sample decreases with each later "
+                                                "sample, above 0 and up to 1; 1 keeps all weights")),
     OptionEntry{"drift", ValueKind::kVector,
-                about("variances of the parameters' random steps from one sample to the next, a number for all or one "
-                      "for each")},
+                about("variances of the random steps of the parameters from one sample to the next, one number for all "
+                      "or one per parameter")},
     option<&RecursiveOptions::noise_variance>(
-        "NoiseVariance",
-        about("variance of the noise against which drift is weighed, taken from the errors so far if absent"),
+        "NoiseVariance", about("variance of the noise, relative to drift; by default computed from the errors so far"),
         {.member = "noise_variance"}),
     option<&RecursiveOptions::history_points>(
-        "HistoryPoints",
-        about("maximum number of instants that the history keeps, evenly spread, the last sample among them"),
+        "HistoryPoints", about("maximum number of equally spaced instants in the history, including the last sample"),
         {.least = 1, .member = "history_points"}),
-    OptionEntry{
-        "model", ValueKind::kModel,
-        about("fixed model for filters and instruments (rivsvf and rsrivc), in the place of the estimate so far")},
+    OptionEntry{"model", ValueKind::kModel,
+                about("fixed model for filters and instruments (rivsvf and rsrivc), instead of the current estimate")},
     kHoldOfOutput<RecursiveOptions>};
 constexpr std::array kHistoryOptions = {
-    OptionEntry{
-        "truth", ValueKind::kTable,
-        about("true parameters by name, numbers or vectors spread evenly from the first sample to the last, {a1 = "
-              "4, b0 = linspace(2, 3, 100)}")},
+    OptionEntry{"truth", ValueKind::kTable,
+                about("true parameters by name, numbers or vectors equally spaced from the first sample to the last, "
+                      "{a1 = 4, b0 = linspace(2, 3, 100)}")},
     OptionEntry{"confidence", ValueKind::kNumber, about("probability of the confidence bands"), {.initial = "0.95"}}};
 constexpr OptionTable kRecursive[] = {kRecursiveOptions}, kHistory[] = {kHistoryOptions};
 
@@ -154,15 +150,15 @@ constexpr NamedReader kRecursiveReaders[] = {{"rlssvf", read_recursive<rlssvf, t
 
 constexpr FunctionEntry kRecursiveFunctions[] = {
     {"rlssvf", "continuous time", "rlssvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "lssvf sample by sample, for parameters that change"),
+     marked("estimator", "Recursive lssvf for time-varying parameters"),
      guarded<memoized_call<estimate_recursively<rlssvf, true>>>, kRecursive, kRecursiveEquationArguments},
     {"rivsvf", "continuous time", "rivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "ivsvf sample by sample, for parameters that change"),
+     marked("estimator", "Recursive ivsvf for time-varying parameters"),
      guarded<memoized_call<estimate_recursively<rivsvf, true>>>, kRecursive, kRecursiveEquationArguments},
     {"rsrivc", "continuous time", "rsrivc(data, {nb, nf, nk}, lambda, {options}) -> G",
-     marked("estimator", "srivc sample by sample, for parameters that change"),
+     marked("estimator", "Recursive srivc for time-varying parameters"),
      guarded<memoized_call<estimate_recursively<rsrivc, false>>>, kRecursive, kRecursiveOutputArguments},
-    {"plot_history", "figures", "plot_history(G, {options}) -> fig", "parameters over time with their confidence bands",
+    {"plot_history", "figures", "plot_history(G, {options}) -> fig", "Plot parameters over time with confidence bands",
      guarded<plot_parameters>, kHistory, kHistoryArguments},
 };
 
