@@ -7,7 +7,7 @@
 #include "numerics/signals/correlation.h"
 #include "numerics/signals/quantisation.h"
 #include "numerics/signals/repair.h"
-#include "numerics/signals/unwrap.h"
+#include "numerics/statistics/wrapped_period.h"
 #include "numerics/validation/advice_record.h"
 #include "numerics/validation/sampling_findings.h"
 
