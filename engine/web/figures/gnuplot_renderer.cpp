@@ -8,8 +8,8 @@ class GnuplotRenderer::Work {};
 GnuplotRenderer::GnuplotRenderer(const Cache*) {}
 GnuplotRenderer::~GnuplotRenderer() = default;
 void GnuplotRenderer::draw(const Figure&, const std::filesystem::path& file, FigureFormat, const Reader&) {
-    throw FigureError("{}: a page in a browser makes no files of figures; show the figure instead, or run the script with dynlab",
-                      file.string());
+    throw FigureError(Message("{}: a page in a browser makes no files of figures; run the script with dynlab for them",
+                              file.string()));
 }
 void GnuplotRenderer::finish() {}
 CacheUse GnuplotRenderer::use() const {

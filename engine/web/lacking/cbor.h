@@ -79,12 +79,18 @@ inline std::size_t cbor_one_byte(unsigned char byte, unsigned char* to, std::siz
     if (room > 0) to[0] = byte;
     return room > 0 ? 1 : 0;
 }
-inline std::size_t cbor_encode_null(unsigned char* to, std::size_t room) { return cbor_one_byte(0xF6, to, room); }
+inline std::size_t cbor_encode_null(unsigned char* to, std::size_t room) {
+    return cbor_one_byte(0xF6, to, room);
+}
 inline std::size_t cbor_encode_bool(bool value, unsigned char* to, std::size_t room) {
     return cbor_one_byte(value ? 0xF5 : 0xF4, to, room);
 }
-inline std::size_t cbor_encode_indef_map_start(unsigned char* to, std::size_t room) { return cbor_one_byte(0xBF, to, room); }
-inline std::size_t cbor_encode_break(unsigned char* to, std::size_t room) { return cbor_one_byte(0xFF, to, room); }
+inline std::size_t cbor_encode_indef_map_start(unsigned char* to, std::size_t room) {
+    return cbor_one_byte(0xBF, to, room);
+}
+inline std::size_t cbor_encode_break(unsigned char* to, std::size_t room) {
+    return cbor_one_byte(0xFF, to, room);
+}
 inline std::size_t cbor_encode_double(double value, unsigned char* to, std::size_t room) {
     if (room < 9) return 0;
     const auto bits = std::bit_cast<std::uint64_t>(value);
@@ -93,7 +99,8 @@ inline std::size_t cbor_encode_double(double value, unsigned char* to, std::size
     return 9;
 }
 
-inline cbor_decoder_result cbor_stream_decode(cbor_data from, std::size_t size, const cbor_callbacks* to, void* context) {
+inline cbor_decoder_result cbor_stream_decode(cbor_data from, std::size_t size, const cbor_callbacks* to,
+                                              void* context) {
     using namespace cbor_heads;
     constexpr int kIndefinite = 31;
     const cbor_decoder_result early{0, CBOR_DECODER_NEDATA}, wrong{0, CBOR_DECODER_ERROR};
@@ -126,25 +133,36 @@ inline cbor_decoder_result cbor_stream_decode(cbor_data from, std::size_t size, 
             read += static_cast<std::size_t>(value);
             break;
         case kList:
-            if (open) to->indef_array_start(context);
-            else to->array_start(context, static_cast<std::size_t>(value));
+            if (open)
+                to->indef_array_start(context);
+            else
+                to->array_start(context, static_cast<std::size_t>(value));
             break;
         case kMap:
-            if (open) to->indef_map_start(context);
-            else to->map_start(context, static_cast<std::size_t>(value));
+            if (open)
+                to->indef_map_start(context);
+            else
+                to->map_start(context, static_cast<std::size_t>(value));
             break;
         case kTag:
             if (open) return wrong;
             to->tag(context, value);
             break;
         default:
-            if (detail == 20 || detail == 21) to->boolean(context, detail == 21);
-            else if (detail == 22) to->null(context);
-            else if (detail == 23) to->undefined(context);
-            else if (detail == 26) to->float4(context, std::bit_cast<float>(static_cast<std::uint32_t>(value)));
-            else if (detail == 27) to->float8(context, std::bit_cast<double>(value));
-            else if (open) to->indef_break(context);
-            else return wrong;
+            if (detail == 20 || detail == 21)
+                to->boolean(context, detail == 21);
+            else if (detail == 22)
+                to->null(context);
+            else if (detail == 23)
+                to->undefined(context);
+            else if (detail == 26)
+                to->float4(context, std::bit_cast<float>(static_cast<std::uint32_t>(value)));
+            else if (detail == 27)
+                to->float8(context, std::bit_cast<double>(value));
+            else if (open)
+                to->indef_break(context);
+            else
+                return wrong;
     }
     return {read, CBOR_DECODER_FINISHED};
 }

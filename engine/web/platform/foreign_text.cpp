@@ -6,9 +6,8 @@
 
 // Other character sets by the browser's TextDecoder. Names in archives are read by the programs that get them.
 
-EM_JS(char*, dynlab_windows_1252, (const char* bytes, int size), {
-    return stringToNewUTF8(new TextDecoder("windows-1252").decode(HEAPU8.subarray(bytes, bytes + size)));
-});
+EM_JS(char*, dynlab_windows_1252, (const char* bytes, int size),
+      { return stringToNewUTF8(new TextDecoder("windows-1252").decode(HEAPU8.subarray(bytes, bytes + size))); });
 EM_JS(char*, dynlab_composed, (const char* text), { return stringToNewUTF8(UTF8ToString(text).normalize("NFC")); });
 
 namespace dynlab::inline platform {

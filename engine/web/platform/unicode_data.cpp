@@ -15,9 +15,8 @@ EM_JS(int, dynlab_character_is, (int character, const char* pattern), {
     return known.get(source).test(String.fromCodePoint(character)) ? 1 : 0;
 });
 
-EM_JS(void, dynlab_compatible_form, (int character, char* to, int room), {
-    stringToUTF8(String.fromCodePoint(character).normalize("NFKD").toLowerCase(), to, room);
-});
+EM_JS(void, dynlab_compatible_form, (int character, char* to, int room),
+      { stringToUTF8(String.fromCodePoint(character).normalize("NFKD").toLowerCase(), to, room); });
 
 namespace dynlab::inline platform {
 namespace {
@@ -61,11 +60,11 @@ bool is_silent(char32_t c) {
 
 Script script_of(char32_t c) {
     static const Script kScripts[] = {
-        {"Arabic", "Arab"},   {"Armenian", "Armn"},  {"Bengali", "Beng"},  {"Cyrillic", "Cyrl"}, {"Devanagari", "Deva"},
-        {"Ethiopic", "Ethi"}, {"Georgian", "Geor"},  {"Greek", "Grek"},    {"Gujarati", "Gujr"}, {"Gurmukhi", "Guru"},
-        {"Hangul", "Hang"},   {"Han", "Hani"},       {"Hebrew", "Hebr"},   {"Hiragana", "Hira"}, {"Katakana", "Kana"},
-        {"Khmer", "Khmr"},    {"Lao", "Laoo"},       {"Latin", "Latn"},    {"Malayalam", "Mlym"}, {"Mongolian", "Mong"},
-        {"Myanmar", "Mymr"},  {"Sinhala", "Sinh"},   {"Tamil", "Taml"},    {"Telugu", "Telu"},   {"Thai", "Thai"},
+        {"Arabic", "Arab"},   {"Armenian", "Armn"}, {"Bengali", "Beng"}, {"Cyrillic", "Cyrl"},  {"Devanagari", "Deva"},
+        {"Ethiopic", "Ethi"}, {"Georgian", "Geor"}, {"Greek", "Grek"},   {"Gujarati", "Gujr"},  {"Gurmukhi", "Guru"},
+        {"Hangul", "Hang"},   {"Han", "Hani"},      {"Hebrew", "Hebr"},  {"Hiragana", "Hira"},  {"Katakana", "Kana"},
+        {"Khmer", "Khmr"},    {"Lao", "Laoo"},      {"Latin", "Latn"},   {"Malayalam", "Mlym"}, {"Mongolian", "Mong"},
+        {"Myanmar", "Mymr"},  {"Sinhala", "Sinh"},  {"Tamil", "Taml"},   {"Telugu", "Telu"},    {"Thai", "Thai"},
         {"Tibetan", "Tibt"}};
     for (const Script& script : kScripts)
         if (is(c, ("\\p{Script=" + script.code + "}").c_str())) return script;
@@ -85,7 +84,8 @@ bool is_capital(char32_t c) {
 }
 
 bool is_ideograph(char32_t c) {
-    return c >= 0x80 && is(c, "[\\p{Script=Hani}\\p{Script=Hira}\\p{Script=Kana}\\p{Script=Hang}\\p{Script=Bopo}\\p{Script=Yiii}]");
+    return c >= 0x80 &&
+           is(c, "[\\p{Script=Hani}\\p{Script=Hira}\\p{Script=Kana}\\p{Script=Hang}\\p{Script=Bopo}\\p{Script=Yiii}]");
 }
 
 }  // namespace dynlab::inline platform
