@@ -285,8 +285,9 @@ std::optional<MissedStructure> missed_shift(const Question& asked, const Explana
     const auto& [record, given, options] = asked;
     if (!given.structure.single_channel() || options.integration || given.models.front().delay() > 0) return {};
     const int poles = given.structure.poles.front();
-    if (!errors_follow_input(record, given) || !late_input(record, poles, given.loss)) return {};
-    return gain_on(record.shifted(-1), asked, present, MissedCode::kLate, "shift", 0);
+    if (!errors_follow_input(record, given)) return {};
+    const auto found = gain_on(record.shifted(-1), asked, present, MissedCode::kLate, "shift", 0);
+    return found && late_input(record, poles, given.loss) ? found : std::nullopt;  // the quick question first
 }
 
 double value_of(MissedCode code, const Fit& fit) {

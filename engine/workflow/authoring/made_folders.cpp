@@ -6,7 +6,8 @@ namespace dynlab::inline workflow {
 namespace {
 
 std::string entry_of_folder(const std::filesystem::path& folder) {
-    const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(folder));
+    const std::filesystem::path place =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(folder.empty() ? "." : folder));
     return EntryName("made_folders", "1").add(place.string()).text();
 }
 
