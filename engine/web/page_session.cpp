@@ -22,7 +22,7 @@
 #include "scripting/prompt/inspection.h"
 #include "scripting/runtime/services.h"
 
-// The engine of a page: a worker (report_templates/html/engine_worker.js) calls the functions at the end of this file
+// The engine of a page: a worker calls the functions at the end of this file
 // with JSON and passes on the JSON that send_news() gives it.
 
 EM_JS(void, dynlab_send_news, (const char* json), { Module.news(UTF8ToString(json)); });

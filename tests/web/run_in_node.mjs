@@ -1,5 +1,5 @@
 // Runs a script in the engine as the worker does, under Node, and prints what the run gives as JSON: for tests.
-// node node_run.mjs ENGINE.js HOME SCRIPT
+// node tests/web/run_in_node.mjs ENGINE.js HOME SCRIPT
 import { createRequire } from "node:module";
 import fs from "node:fs";
 import path from "node:path";
