@@ -14,30 +14,20 @@ struct cbor_decoder_result {
 };
 
 struct cbor_callbacks {
-    void (*uint8)(void*, std::uint8_t);
-    void (*uint16)(void*, std::uint16_t);
-    void (*uint32)(void*, std::uint32_t);
-    void (*uint64)(void*, std::uint64_t);
-    void (*negint64)(void*, std::uint64_t);
-    void (*negint32)(void*, std::uint32_t);
-    void (*negint16)(void*, std::uint16_t);
-    void (*negint8)(void*, std::uint8_t);
-    void (*byte_string_start)(void*);
-    void (*byte_string)(void*, cbor_data, std::size_t);
-    void (*string)(void*, cbor_data, std::size_t);
-    void (*string_start)(void*);
-    void (*indef_array_start)(void*);
-    void (*array_start)(void*, std::size_t);
-    void (*indef_map_start)(void*);
-    void (*map_start)(void*, std::size_t);
-    void (*tag)(void*, std::uint64_t);
-    void (*float2)(void*, float);
-    void (*float4)(void*, float);
+    using Number = void (*)(void*, std::uint64_t);
+    using Bytes = void (*)(void*, cbor_data, std::size_t);
+    using Size = void (*)(void*, std::size_t);
+    using Plain = void (*)(void*);
+    void (*uint8)(void*, std::uint8_t), (*negint8)(void*, std::uint8_t);
+    void (*uint16)(void*, std::uint16_t), (*negint16)(void*, std::uint16_t);
+    void (*uint32)(void*, std::uint32_t), (*negint32)(void*, std::uint32_t);
+    Number uint64, negint64, tag;
+    Bytes byte_string, string;
+    Size array_start, map_start;
+    void (*float2)(void*, float), (*float4)(void*, float);
     void (*float8)(void*, double);
-    void (*undefined)(void*);
-    void (*null)(void*);
     void (*boolean)(void*, bool);
-    void (*indef_break)(void*);
+    Plain byte_string_start, string_start, indef_array_start, indef_map_start, undefined, null, indef_break;
 };
 inline constexpr cbor_callbacks cbor_empty_callbacks{};
 
