@@ -18,7 +18,6 @@
 #include "numerics/statistics/wandering.h"
 
 namespace dynlab::inline numerics {
-
 namespace {
 
 constexpr Index kLookedAt = 3000, kFitted = 100'000;  // samples
