@@ -102,8 +102,9 @@ TEST(feedback, of_late_work_tells_the_reason_in_its_language) {
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     EXPECT_THAT(
         work.read("out/results/late/feedback.md"),
-        HasSubstr("points perdus\u202F: 0,62 (reçu le 2026-03-03 08:00 UTC, 1 j 14 h après la date limite du "
-                  "2026-03-01 18:00 UTC\u202F; 12,5\u202F% des points sont retirés par jour entamé, au plus 50\u202F%)."));
+        HasSubstr(
+            "points perdus\u202F: 0,62 (reçu le 2026-03-03 08:00 UTC, 1 j 14 h après la date limite du "
+            "2026-03-01 18:00 UTC\u202F; 12,5\u202F% des points sont retirés par jour entamé, au plus 50\u202F%)."));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1 d 14 h after the deadline of 2026-03-01 18:00 UTC"));
 }
 

@@ -37,7 +37,7 @@ TEST(option_words, errors_name_the_options_of_scripts) {
               "given"},
              {"oe(d, {1, 2, 1}, {Offset = 'big'})", "option 'Offset' must be one of \"none\", \"remove\""},
              {"hammerstein(d, 2, 0, {InitialState = 'estimate'})",
-              "option 'InitialState' must be one of \"none\", \"steady\", but \"estimate\" was given"},
+              "option 'InitialState' must be one of \"none\", \"steady\", \"auto\", but \"estimate\" was given"},
              {"n4sid(d, 3, {Weighting = 'moesp'})", "option 'Weighting' must be one of \"MOESP\", \"N4SID\", \"CVA\""},
              {"procsrivc(d, 'P1I', {InitialState = 'estimate', Offset = 'estimate'})",
               "with InitialState \"estimate\""},

@@ -127,7 +127,7 @@ RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, c
     const Vector leverages = (Psi * H).cwiseProduct(Psi).rowwise().sum();
     const Vector unfitted = e.array() / (1 - leverages.array()).max(kLeast);
     RobustCovariance result = robust_covariance(H, Psi, unfitted, given_lengths, outputs);
-    if (outputs > 1) return result;
+    if (outputs > 1 || result.whitening.front().order() > 0) return result;  // of coloured errors the floor is too high
     const std::vector<Index> lengths = given_lengths.empty() ? std::vector<Index>{Psi.rows()} : given_lengths;
     const Vector least = variances_of_one_size(H, Psi, unfitted, lengths, result.whitening.front());
     const Vector std = result.std.cwiseMax(least.cwiseSqrt());

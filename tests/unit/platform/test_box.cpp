@@ -51,8 +51,9 @@ int processes_with(const std::string& marker) {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
         std::ifstream file(entry.path() / "cmdline");
-        const std::string line{std::istreambuf_iterator<char>(file), {}};
-        count += line.find(marker) != std::string::npos;
+        bool found = false;
+        for (std::string word; std::getline(file, word, '\0');) found = found || word.find(marker) != std::string::npos;
+        count += found;
     }
     return count;
 }

@@ -30,7 +30,7 @@ constexpr std::array kSindyOptions = {
         about(
             "function(x, u) that returns a list of vectors, the candidates, instead of products of states and inputs")},
     OptionEntry{"names", ValueKind::kAny,
-                about("names of the functions of the library in the equations; by default f1, f2, ...")},
+                about("names of the functions of the library in the equations, otherwise f1, f2 and so on")},
     OptionEntry{"degree",
                 ValueKind::kCount,
                 about("without a library, maximum number of factors in a product of states and inputs"),
