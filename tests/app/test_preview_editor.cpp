@@ -163,7 +163,16 @@ TEST_F(preview_editor, text_cells_look_like_text_until_they_are_edited) {
     EXPECT_EQ(json::parse(browser.evaluate("return document.querySelector('.text-cell :is(h1, h2, h3)').innerText")),
               "A heading");
     EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.text-cell math').length"), "1");
-    browser.click(".text-cell strong");
+    const json place =
+        json::parse(browser.evaluate("const box = document.querySelector('.text-cell strong').getBoundingClientRect();"
+                                     "return [Math.round(box.x + box.width / 2), Math.round(box.y + box.height / 2)]"));
+    browser.act(json::array({{{"type", "pointer"},
+                              {"id", "hand"},
+                              {"actions",
+                               {{{"type", "pointerMove"}, {"x", place[0]}, {"y", place[1]}},
+                                {{"type", "pointerDown"}, {"button", 0}},
+                                {{"type", "pointerUp"}, {"button", 0}}}}}})
+                    .dump());
     EXPECT_TRUE(browser.comes("!document.querySelector('.text-cell')"));
     browser.evaluate("window.cm = document.querySelector('.CodeMirror').CodeMirror");
     EXPECT_THAT(line_of_cursor(browser), HasSubstr("Question 1"));
