@@ -119,6 +119,7 @@ Vector variances_of_one_size(const Matrix& H, const MatrixView& Psi, const Vecto
 RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& given_lengths,
                                    Index outputs) {
     constexpr double kLeast = 0.1;
+    constexpr Index kShort = 100;  // samples
     if (Psi.rows() <= Psi.cols())
         throw InvalidArgument("A robust covariance needs more samples than parameters, and got {} and {}",
                               plural(Psi.rows(), "{} sample", "{} samples"),
@@ -127,7 +128,7 @@ RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, c
     const Vector leverages = (Psi * H).cwiseProduct(Psi).rowwise().sum();
     const Vector unfitted = e.array() / (1 - leverages.array()).max(kLeast);
     RobustCovariance result = robust_covariance(H, Psi, unfitted, given_lengths, outputs);
-    if (outputs > 1 || result.whitening.front().order() > 0) return result;  // of coloured errors the floor is too high
+    if (outputs > 1 || Psi.rows() > kShort) return result;
     const std::vector<Index> lengths = given_lengths.empty() ? std::vector<Index>{Psi.rows()} : given_lengths;
     const Vector least = variances_of_one_size(H, Psi, unfitted, lengths, result.whitening.front());
     const Vector std = result.std.cwiseMax(least.cwiseSqrt());

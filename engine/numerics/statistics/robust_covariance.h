@@ -36,8 +36,9 @@ RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, con
                                    const std::vector<Index>& lengths = {}, Index outputs = 1);
 
 /// The same for an output-error estimate with sensitivities Psi = d simulated/d theta (N x d), with what short records
-/// need: each error counts over one minus its leverage (HC3: MacKinnon and White 1985), and variances of one output are
-/// no smaller than for errors of one size, H X'X H mean(w^2) (Angrist and Pischke 2009, section 8.1).
+/// need: each error is divided by one minus its leverage (HC3: MacKinnon and White 1985), and with one output and up to
+/// 100 samples no variance is smaller than for errors of one size, H X'X H mean(w^2) (Angrist and Pischke 2009, section
+/// 8.1).
 RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& lengths = {},
                                    Index outputs = 1);
 
