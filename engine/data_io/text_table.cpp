@@ -10,6 +10,7 @@
 #include "platform/text/foreign_text.h"
 #include "platform/text/read_number.h"
 #include "platform/text/small_letters.h"
+#include "platform/utf8.h"
 
 namespace dynlab::inline data_io {
 namespace {

@@ -23,6 +23,12 @@ std::optional<char32_t> take_character(std::string_view& utf8) {
     return c < 0 ? std::nullopt : std::optional(static_cast<char32_t>(c));
 }
 
+bool is_utf8(std::string_view text) {
+    while (!text.empty())
+        if (!take_character(text)) return false;
+    return true;
+}
+
 char32_t next_character(std::string_view& utf8) {
     return take_character(utf8).value_or(kNoCharacter);
 }

@@ -12,6 +12,7 @@ inline constexpr char32_t kNoCharacter = 0xFFFD;
 
 /// Takes the first character off `utf8`, which is not empty; nothing, and one byte taken, where it is not UTF-8.
 std::optional<char32_t> take_character(std::string_view& utf8);
+bool is_utf8(std::string_view text);
 /// The same with kNoCharacter for what is not UTF-8; of UTF-16, with kNoCharacter for half a pair.
 char32_t next_character(std::string_view& utf8);
 char32_t next_character(std::u16string_view& utf16);

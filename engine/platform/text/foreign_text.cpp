@@ -92,12 +92,6 @@ int strangeness_of(std::u16string_view units) {
 
 }  // namespace
 
-bool is_utf8(std::string_view text) {
-    while (!text.empty())
-        if (!take_character(text)) return false;
-    return true;
-}
-
 std::string utf8_of_windows_1252(std::string_view bytes) {
     return utf8_of(std::u16string_view(utf16_of_bytes(bytes, "windows-1252")));
 }

@@ -5,8 +5,6 @@
 
 namespace dynlab::inline platform {
 
-bool is_utf8(std::string_view text);
-
 /// UTF-8 of a text in Windows-1252, what Latin-1 is called when it holds quotation marks and dashes.
 std::string utf8_of_windows_1252(std::string_view bytes);
 

@@ -21,12 +21,6 @@ std::string taken(char* text) {
 
 }  // namespace
 
-bool is_utf8(std::string_view text) {
-    while (!text.empty())
-        if (!take_character(text)) return false;
-    return true;
-}
-
 std::string utf8_of_windows_1252(std::string_view bytes) {
     return taken(dynlab_windows_1252(bytes.data(), static_cast<int>(bytes.size())));
 }

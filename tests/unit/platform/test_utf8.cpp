@@ -16,6 +16,11 @@ using namespace std::string_literals;
 
 const std::string kReplacement = "\xEF\xBF\xBD";
 
+TEST(utf8, differs_from_windows_1252) {
+    EXPECT_TRUE(is_utf8("ü"));
+    EXPECT_FALSE(is_utf8("\xFC"));
+}
+
 TEST(utf8, every_character_as_the_c_library_reads_it) {
     const Utf8Locale locale;
     for (char32_t c = 0; c < 0x110000; ++c) {
