@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <regex>
+#include <thread>
 
 #include "support/program.h"
 #include "support/workbench.h"
@@ -109,6 +110,8 @@ TEST_F(workbench, a_script_written_by_hand_is_shown_and_the_rest_of_it_left_alon
     wanted.replace(wanted.find("G1 = srivc"),
                    std::string("G1 = srivc(data, {1, 2, 0}, {lambda = 3}) -- a remark").size(),
                    "G1 = srivc(data, {1, 2, 0}, {lambda = 8.32}) -- a remark");
+    for (int i = 0; i < 500 && text_of("mine.lua") == kSession; ++i)  // the file waits for the hand to let go
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_EQ(text_of("mine.lua"), wanted);
     ASSERT_TRUE(press(browser, "Undo"));
     ASSERT_TRUE(script_has(browser, "{lambda = 3})"));

@@ -156,6 +156,7 @@ TEST_F(workbench_hands, undo_behind_typing_undoes_what_was_typed) {
     const std::string before = script();
     evaluate("named('+ Level').click();");
     ASSERT_TRUE(file_comes({"\"mean\""}));
+    ASSERT_TRUE(browser.comes("!document.getElementById('undo').disabled")) << "the page hears of it after the file";
     ASSERT_TRUE(is_ready(browser));
     evaluate("atEnd('-- typed\\n'); document.getElementById('undo').click();");
     ASSERT_TRUE(browser.comes("!document.getElementById('redo').disabled"));

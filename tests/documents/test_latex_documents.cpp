@@ -146,6 +146,7 @@ std::size_t entries_of(const Cache& cache) {
 }
 
 TEST_F(latex_documents, a_format_that_is_begun_is_taken_or_leaves_nothing) {
+    const test::EnvironmentVariable of_this_test("XDG_CACHE_HOME", folder_.path() / "cache");
     const Cache cache;
     write("report.md", "---\nlang: fr\n---\nUn.\n");
     DocumentSource source;
