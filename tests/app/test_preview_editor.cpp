@@ -246,7 +246,7 @@ TEST_F(preview_editor, the_code_of_a_figure_draws_the_same_figure) {
         "true");
 }
 
-/// Each new way in is closed to other sites, and to whoever has no cookie.
+/// Every new request is refused for other sites, and without the cookie.
 TEST_F(preview_editor, only_the_page_itself_may_ask) {
     write(kHead + kScript);
     const Preview preview(file(), true, {"--edit"});

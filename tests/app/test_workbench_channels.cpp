@@ -129,9 +129,9 @@ const std::string kTwoOutputs =
     "1}), u, 0.05)\nfor k = 1, #y do y[k], z[k] = y[k] + 0.01*randn(), z[k] + 0.01*randn() end\ndata = "
     "iddata(matrix{y, z}, u, 0.05, {OutputName = {\"near\", \"far\"}})\n\n";
 
-/// What fits no longer says so in the workbench's words, and goes or is mended there.
-TEST_F(workbench_channels, a_search_left_over_from_other_channels_is_mended_or_deleted_where_it_is_told) {
-    for (const bool mends : {true, false}) {
+/// A search for other channels is an error in the workbench's words, with a remedy beside it.
+TEST_F(workbench_channels, a_search_left_over_from_other_channels_is_fixed_or_deleted_beside_its_error) {
+    for (const bool fixes : {true, false}) {
         write("mine.lua", kTwoOutputs +
                               "-- %% id=orders1\norders1 = srivcstruc(data, {poles = {1, 2}, zeros = {0, "
                               "0}})\n\n-- %% id=G1\nG1 = tfsrivc(data, 2, 0, {TdMax = 0})\n");
@@ -139,11 +139,11 @@ TEST_F(workbench_channels, a_search_left_over_from_other_channels_is_mended_or_d
         Browser browser;
         browser.open(program->address());
         ASSERT_TRUE(says(browser, "orders1 compares structures of one output, but data has near, far."));
-        ASSERT_TRUE(press(browser, mends ? "Search for far" : "Delete: orders1"));
+        ASSERT_TRUE(press(browser, fixes ? "Search for far" : "Delete: orders1"));
         EXPECT_TRUE(browser.comes("document.getElementById('trouble').hidden"));
         EXPECT_TRUE(view_comes(browser, "compare")) << "the steps behind it are made";
         const std::string script = text_of("mine.lua");
-        if (mends)
+        if (fixes)
             EXPECT_THAT(script, HasSubstr("srivcstruc(data:select(2), {poles"));
         else
             EXPECT_THAT(script, AllOf(Not(HasSubstr("orders1")), HasSubstr("\nG1 = tfsrivc(")));

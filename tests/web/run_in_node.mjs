@@ -12,7 +12,7 @@ const module = await create({
   news: (json) => news.push([performance.now(), JSON.parse(json)]),
   preRun: [(m) => { m.ENV.DYNLAB_HOME = "/dynlab"; m.ENV.DYNLAB_NO_CACHE = "1"; }],
 });
-module.FS.mkdirTree("/work");
+module.FS.mkdirTree("/script");
 for (const set of fs.readdirSync(path.join(home, "data"))) {
   const folder = path.join(home, "data", set);
   if (!fs.statSync(folder).isDirectory()) continue;
@@ -22,7 +22,7 @@ for (const set of fs.readdirSync(path.join(home, "data"))) {
 }
 const ready = performance.now();
 const source = fs.readFileSync(script, "utf8");
-module.ccall("dynlab_run", null, ["string"], [JSON.stringify({ source, file: "/work/" + path.basename(script), seed: null, slider_values: {}, from: 0 })]);
+module.ccall("dynlab_run", null, ["string"], [JSON.stringify({ source, file: "/script/" + path.basename(script), seed: null, slider_values: {}, from: 0 })]);
 const end = performance.now();
 const last = news.map(([, one]) => one).filter((one) => one.results).pop();
 const failed = news.map(([, one]) => one.error).filter(Boolean);

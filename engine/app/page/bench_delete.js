@@ -9,8 +9,8 @@ import { say } from "./bench_words.js";
 const SHOWS = { compare: 2, resid: 2, impulseest: 1, step: 1, impulse: 1, bode: 1, nyquist: 1, pzmap: 1, present: 1 };
 const isIn = (step, line) => line >= step.first_line && line <= step.last_line;
 
-/// A step goes with what shows it alone, and out of the calls that show others, too; what is computed from it would break
-/// the script, so that it is told, with a button for that.
+/// Deletes a step with the calls that show only this step, and takes it out of the calls that show others, too. Where another
+/// step is computed from it, nothing is deleted: the page names that step, with a button that deletes it.
 export function deleteStep(key) {
   return change(() => {
     const own = stepOf(key);

@@ -19,7 +19,7 @@ function orphanedSearch(step) {
           ...(data.inputs > 1 ? [] : data.output_names.map((name, i) => button(say("searchOne", name), () => search(i + 1))))];
 }
 
-/// What is told of it, and the controls behind that.
+/// The words and the controls that the page shows for a mistake.
 export function mistakeWords({ message, place, text, line }) {
   const step = stepAt(line), toLine = line > 0 ? [button(say("showLine"), () => showLine(line))] : [];
   if (!step) return [message, ...toLine];

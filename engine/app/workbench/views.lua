@@ -578,7 +578,7 @@ function views.advice(settings, values)
   return {list = list, readings = read and kinds or {}}
 end
 
---- For whoever presses New model: `settings.first` is the number of the question.
+--- The orders that New model proposes; `settings.first` is the number of the question.
 function views.first(settings, values)
   local known, orders = pcall(first_orders, values[settings.estimation])
   return {number = settings.first, orders = known and orders or {}}
