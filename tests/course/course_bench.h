@@ -43,6 +43,15 @@ class CourseBench {
     /// A copy of another bench's folder: the work that several tests start from is done once.
     CourseBench(const CourseBench& other) { copy_from(other.bench_.path()); }
     static std::string group(int i) { return (i < 10 ? "group-0" : "group-") + std::to_string(i); }
+    /// Tables of earlier versions of the store, which `marks` replaced.
+    static constexpr char kTablesOfScores[] =
+        "CREATE TABLE scores (pair, criterion, given_at, points); CREATE TABLE oral_scores (assignment, group_id, "
+        "criterion, given_at, points); CREATE TABLE overrides (id INTEGER PRIMARY KEY, assignment, group_id, what, "
+        "percent, reason, made_at); ";
+    static constexpr char kTablesOfOralMarks[] =
+        "CREATE TABLE instructor_scores (assignment, group_id, stage, criterion, given_at, points); CREATE TABLE "
+        "student_scores (assignment, student, criterion, given_at, points); CREATE TABLE oral_comments (id INTEGER "
+        "PRIMARY KEY, assignment, group_id, student, comment, made_at); ";
     static void expect_done(const ChildResult& result) { EXPECT_EQ(result.exit_code, 0) << result.error_output; }
 
     Workbench& bench() { return bench_; }

@@ -141,6 +141,27 @@ TEST(manual_marks, a_filled_row_is_never_lost) {
     EXPECT_EQ(marked.points("Anh_901_assignsubmission_file_"), 6);
 }
 
+// oracle: the files of earlier versions; what is in marks.csv already stays
+TEST(manual_marks, of_earlier_versions_are_taken_in_once) {
+    const MarkedClass marked;
+    const auto write = [&](const char* file, const std::string& text) {
+        write_file_atomically(marked.out() / file, text);
+    };
+    write("manual.csv", "submission,check,points,reason\n02-final,x,3,old\nweili-224,y,,not yet\n");
+    write("by_hand.csv", "submission,check,points,comment,of,about,rubric\nweili-225,x,2,typed here,4,Q,\n");
+    EXPECT_EQ(marked.points("02-final"), 4);
+    EXPECT_EQ(marked.points("weili-225"), 3);
+    EXPECT_FALSE(std::filesystem::exists(marked.out() / "manual.csv"));
+    EXPECT_TRUE(std::filesystem::exists(marked.out() / "manual.csv.imported"));
+    EXPECT_THAT(read_file(marked.out() / "by_hand.csv.imported"), HasSubstr("typed here"));
+    write("manual.csv", "submission,check,points,reason\n02-final,x,1,later\n02-final,y,5,later\n");
+    EXPECT_EQ(marked.points("02-final"), 8) << "x stays";
+    EXPECT_TRUE(std::filesystem::exists(marked.out() / "manual.csv.imported-2"));
+    write("manual.csv", "submission,check,points\n02-final,x,many\n");
+    EXPECT_THROW(marked.marks(), EnvironmentError);
+    EXPECT_TRUE(std::filesystem::exists(marked.out() / "manual.csv")) << "to be corrected";
+}
+
 // oracle: what the student reads and the gradebook has, for a work that only its author could show
 TEST(manual_marks, of_an_unreadable_work_reach_feedback_and_gradebook) {
     GradingBench bench("--   x: number\n",

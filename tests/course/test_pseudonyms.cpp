@@ -132,5 +132,28 @@ TEST(pseudonyms, no_seed_is_stored_printed_or_accepted) {
         2);
 }
 
+// oracle: the pairs as the earlier version stored and showed them
+TEST(pseudonyms, of_a_store_with_a_seed_stay_as_they_were_drawn) {
+    CourseBench bench(6);
+    hand_in_all(bench, 6);
+    CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-02 10:00"}));
+    const std::string before = bench.course({"review", "pairs"}).output;
+    CourseBench::expect_done(bench.bench().shell(
+        "for table in assignments allocations; do\n"
+        "sqlite3 k/course.db \"ALTER TABLE $table ADD COLUMN seed INTEGER NOT NULL DEFAULT 4711\"; done\n"
+        "sqlite3 k/course.db 'DROP TABLE marks; DROP TABLE results; DROP TABLE stops; " +
+        std::string(CourseBench::kTablesOfScores) + CourseBench::kTablesOfOralMarks +
+        "ALTER TABLE "
+        "students DROP "
+        "COLUMN "
+        "own_data; ALTER TABLE students DROP COLUMN language; PRAGMA user_version = 4'"));
+    EXPECT_EQ(bench.course({"review", "pairs"}).output, before);
+    EXPECT_THAT(bench.dump(), Not(HasSubstr("seed")));
+    EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-02 11:00"}).output,
+                HasSubstr("0 new, 0 taken back"));
+    EXPECT_EQ(bench.course({"review", "pairs"}).output, before);
+    EXPECT_EQ(bench.course({"verify"}).exit_code, 0);
+}
+
 }  // namespace test_pseudonyms
 }  // namespace dynlab::test

@@ -157,5 +157,41 @@ TEST_F(receipts, the_public_key_is_shown_and_the_secret_is_not) {
     EXPECT_EQ(shell("stat -c %a k/course.key").output, "600\n");
 }
 
+// A course of before has no public key, codes in its store, and receipts with codes. Oracle: OpenSSL's HMAC.
+TEST_F(receipts, of_courses_of_before_are_still_known_to_the_course) {
+    CourseBench::expect_done(shell(
+        "rm k/course.pub && sed '/^public key:/,$d' mine/r.txt | sed '1s/2$/1/' > old.txt && "
+        "code=$(openssl dgst -sha256 -hmac \"$(cat k/course.key)\" old.txt | sed 's/.*= //') && "
+        "echo \"signature: $code\" >> old.txt && cp old.txt k/receipts/crane/*-group-01-first-report.txt && "
+        "sqlite3 k/course.db \"UPDATE versions SET signature = '$code'; DROP VIEW standing; DROP "
+        "VIEW arrived; DROP TABLE arrivals; DROP TABLE extensions; DROP TABLE withdrawals; DROP TABLE holds; DROP "
+        "TABLE pair_wishes; DROP TABLE returns; DROP TABLE seals; DROP TABLE marks; DROP TABLE results; DROP TABLE "
+        "stops; " +
+        std::string(CourseBench::kTablesOfScores) +
+        "ALTER TABLE students DROP COLUMN own_data; ALTER TABLE students DROP COLUMN language; DROP INDEX "
+        "versions_of_pair; DROP INDEX versions_of_hash; DROP INDEX sendings_of_pair; ALTER TABLE assignments DROP "
+        "COLUMN costs; ALTER TABLE assignments DROP COLUMN final_weight; ALTER TABLE assignments ADD COLUMN seed "
+        "INTEGER "
+        "NOT NULL DEFAULT 7; ALTER TABLE allocations ADD COLUMN seed INTEGER NOT NULL DEFAULT 7; PRAGMA user_version = "
+        "2\""));
+    EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("1 file, 1 version: all there and unaltered"));
+    EXPECT_THAT(course_.course({"verify", "old.txt"}).output, HasSubstr("old.txt: genuine"));
+    const ChildResult alone = verify({"old.txt", "--key", "mine/course.pub"});
+    EXPECT_EQ(alone.exit_code, 1);
+    EXPECT_THAT(alone.output, HasSubstr("old.txt: cannot be decided: it has a code instead of a signature"));
+    std::string altered = read("old.txt");
+    altered.replace(altered.find("group-01"), 8, "group-02");
+    write("altered.txt", altered);
+    EXPECT_THAT(course_.course({"verify", "altered.txt"}).output, HasSubstr("NOT genuine"));
+    // What comes from now on is signed, and the key is there again, the same.
+    CourseBench::expect_done(course_.hand_in("group-02.pdf", small_pdf("two"), "2026-03-01 10:00"));
+    EXPECT_EQ(read("k/course.pub"), read("mine/course.pub"));
+    CourseBench::expect_done(shell("cp k/receipts/crane/*-group-02-first-report.txt new.txt"));
+    EXPECT_EQ(verify({"new.txt", "--key", "mine/course.pub"}).exit_code, 0);
+    EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("2 files, 2 versions: all there and unaltered"));
+    CourseBench::expect_done(shell("sqlite3 k/course.db \"UPDATE versions SET late = 7 WHERE id = 1\""));
+    EXPECT_THAT(course_.course({"verify"}).error_output, HasSubstr("version 1: its facts are not those"));
+}
+
 }  // namespace test_receipts
 }  // namespace dynlab::test

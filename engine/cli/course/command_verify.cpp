@@ -65,7 +65,8 @@ void add_verify(CLI::App& app, Action& action) {
         ->type_name("FILE")
         ->check(CLI::ExistingFile);
     command->footer(
-        "Exit code 1: not genuine, or not for the file.\n"
+        "A receipt of a course of before, with a code instead of a signature, can be verified by the course only\n"
+        "(dynlab course verify). Exit code 1: not genuine, or not for the file.\n"
         "Example:  dynlab verify 00012-group-07-first-report.txt report.pdf --key course.pub");
     command->callback([words, &action] { action = [words] { return verify(*words); }; });
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "course/intake/owners.h"
+#include "documents/text_lines.h"
 #include "platform/text/ordinary_words.h"
 #include "platform/utf8.h"
 
@@ -190,6 +190,15 @@ void add_names(const std::string& who, const FullName& name, bool own, std::vect
     for (std::size_t i = first; i < patterns.size(); ++i) patterns[i].own = true;
 }
 
+/// "Müller" may be written "Mueller".
+std::string umlauts_written_out(std::string name) {
+    constexpr std::pair<const char*, const char*> kWritten[] = {{"ä", "ae"}, {"Ä", "Ae"}, {"ö", "oe"}, {"Ö", "Oe"},
+                                                                {"ø", "oe"}, {"Ø", "Oe"}, {"ü", "ue"}, {"Ü", "Ue"},
+                                                                {"å", "aa"}, {"Å", "Aa"}};
+    for (const auto& [letter, written] : kWritten) name = replaced(name, letter, written);
+    return name;
+}
+
 /// A number, an account's name, a group's name with a number in it.
 void add_number(NameKind kind, const std::string& who, const std::string& text, std::vector<NamePattern>& patterns) {
     NamePattern pattern;
@@ -288,7 +297,7 @@ std::vector<NamePattern> patterns_of(const Student& student, bool own) {
     const std::string& who = student.name.empty() ? student.id : student.name;
     std::vector<NamePattern> patterns;
     add_names(who, full_name(student.name), own, patterns);
-    const std::string written_out = spelt_out(student.name);
+    const std::string written_out = umlauts_written_out(student.name);
     if (written_out != student.name) add_names(who, full_name(written_out), own, patterns);
     add_number(NameKind::kNumber, who, student.id, patterns);
     if (!student.group.empty()) add_group(student.group, own, patterns);

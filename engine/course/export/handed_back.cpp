@@ -1,6 +1,7 @@
 #include "course/export/handed_back.h"
 
 #include <fmt/format.h>
+#include <re2/re2.h>
 
 #include <algorithm>
 #include <map>
@@ -14,7 +15,6 @@
 #include "course/grading/grade.h"
 #include "course/intake/owners.h"
 #include "course/intake/roster.h"
-#include "course/intake/submission.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
@@ -36,6 +36,21 @@ struct MarkedStudent : Recipient {
 std::size_t needed_column(const TextTable& table, const char* name, const fs::path& file) {
     if (const auto column = table.column(name)) return *column;
     throw EnvironmentError("{} has no column {}; it is not what dynlab grade writes", file.string(), name);
+}
+
+/// The participant's number and name in "Anna Müller_900000_assignsubmission_file_".
+std::optional<std::pair<std::string, std::string>> moodle_participant(const std::string& submission) {
+    static const RE2 form(R"((.+?)_(\d+)_assignsubmission_file_?.*)", RE2::Latin1);
+    std::string name, number;
+    if (!RE2::FullMatch(submission, form, &name, &number)) return {};
+    return std::pair(number, name);
+}
+
+std::optional<std::string> canvas_number(const std::string& submission) {
+    static const RE2 form(R"([^_]+(?:_LATE)?_(\d+)_\d+_.*)", RE2::Latin1);
+    std::string number;
+    if (!RE2::FullMatch(submission, form, &number)) return {};
+    return number;
 }
 
 fs::path feedback_of(const fs::path& marks, const std::string& submission) {
@@ -68,13 +83,12 @@ std::vector<MarkedStudent> marked_students(const HandBackRequest& request) {
         if (const auto found = known.find(one.id); found != known.end())
             one.group = found->second.group, one.mail = found->second.mail, one.moodle = found->second.moodle,
             one.canvas = found->second.canvas;
-        Submission named{one.submission, {}};
-        const bool alone = senders[one.submission] == 1;
-        if (read_lms_name(named)) {
-            const bool moodle = one.submission.find("_assignsubmission_") != std::string::npos;
-            if (moodle && (alone || same_person(named.person, one.name))) one.number_in_name = named.lms_id;
-            if (!moodle && one.canvas.empty() && alone) one.canvas = named.lms_id;
-        }
+        if (const auto participant = moodle_participant(one.submission);
+            participant && (senders[one.submission] == 1 || same_person(participant->second, one.name)))
+            one.number_in_name = participant->first;
+        if (const auto number = canvas_number(one.submission);
+            number && one.canvas.empty() && senders[one.submission] == 1)
+            one.canvas = *number;
         one.feedback = feedback_of(request.marks, one.submission);
         all.push_back(std::move(one));
     }

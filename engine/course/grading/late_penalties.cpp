@@ -10,6 +10,8 @@
 namespace dynlab::inline course {
 namespace {
 
+constexpr double kNeedsConfirmation = 50;  ///< percent
+
 std::string shown_instant(std::int64_t instant) {
     const std::time_t seconds = instant;
     std::tm time{};

@@ -11,7 +11,8 @@ struct LatePolicy {
 /// Of what was received then; times are shown in the process's time zone.
 Lateness lateness_of(const LatePolicy& policy, std::int64_t received);
 
-/// See kNeedsConfirmation.
+/// A penalty of half the points or more is more often a wrong time (a file that was saved again, a wrong zone) than a
+/// late student.
 bool needs_confirmation(const Lateness& lateness);
 /// Such a penalty is not applied yet: its percentage is 0, and the reason says so.
 Lateness unconfirmed(const Lateness& lateness);

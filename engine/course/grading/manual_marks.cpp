@@ -26,6 +26,14 @@ std::optional<std::size_t> first_column(const TextTable& table, std::initializer
     return {};
 }
 
+/// Under a name that is not taken: nothing that an instructor wrote is lost.
+void put_aside(const fs::path& file) {
+    fs::path aside = file.string() + ".imported";
+    for (int i = 2; fs::exists(aside); ++i) aside = fmt::format("{}.imported-{}", file.string(), i);
+    std::error_code ignored;  // another part of the class may have done it
+    fs::rename(file, aside, ignored);
+}
+
 /// Finds what a row is about.
 class MarkedItems {
   public:
@@ -87,6 +95,9 @@ class MarkedItems {
 MarksFile::MarksFile(const fs::path& results) : file_(results / kMarksFile) {
     if (!fs::exists(file_)) write_file_atomically(file_, csv_text({{"who", "check", "points", "reason"}, {}, {}}));
     read();
+    take_in(results / "manual.csv");
+    take_in(results / "by_hand.csv");
+    read();  // with the lines that were added
 }
 
 void MarksFile::read() {
@@ -115,6 +126,33 @@ void MarksFile::read() {
         }
         rows_.push_back(std::move(row));
     }
+}
+
+/// Marks of a file that earlier versions read; a mark that is here already stays.
+void MarksFile::take_in(const fs::path& former) {
+    if (!fs::exists(former)) return;
+    const TextTable table = read_text_table(former);
+    const auto who = first_column(table, {"submission", "who"}), check = table.column("check"),
+               points = table.column("points"), reason = first_column(table, {"reason", "comment"});
+    if (!who || !check || !points)
+        throw EnvironmentError("{}: the columns submission, check and points are needed; there are {}", former.string(),
+                               listed(table.names));
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        const auto& cells = table.rows[i];
+        if (cells[*points].empty()) continue;
+        const auto value = number_in_cell(cells[*points]);
+        if (!value || !(*value >= 0 && *value <= kMaxPoints))
+            throw EnvironmentError("{}, line {}: points must be a number from 0 to {}, but \"{}\" was given",
+                                   former.string(), table.lines[i], kMaxPoints, cells[*points]);
+        const auto known = std::ranges::find_if(
+            rows_, [&](const Row& row) { return row.who == cells[*who] && row.check == cells[*check]; });
+        const std::string why = reason ? cells[*reason] : "";
+        if (known == rows_.end())
+            add({{0, cells[*who], cells[*check], value, why}});
+        else if (!known->points)
+            fill(cells[*who], cells[*check], value, why);
+    }
+    put_aside(former);
 }
 
 void MarksFile::add(const std::vector<Row>& rows, const std::vector<std::vector<std::string>>& more) {

@@ -20,7 +20,8 @@ inline constexpr char kWholeSubmission[] = "*";
 
 /// The rows of that file: who (a group in any spelling, a student's name or id, or a submission's name), check (or *
 /// for the whole submission), points and reason, which the student reads. dynlab adds rows that are to be filled in and
-/// never takes one away or changes one that is filled.
+/// never takes one away or changes one that is filled. manual.csv and by_hand.csv of earlier versions are taken in
+/// once.
 class MarksFile {
   public:
     struct Row {
@@ -40,6 +41,7 @@ class MarksFile {
               const std::string& reason);
 
   private:
+    void take_in(const std::filesystem::path& former);
     void read();
     void write() const;
 

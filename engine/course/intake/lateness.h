@@ -11,8 +11,4 @@ inline double late_percent(double per_day, double most, std::int64_t late) {
     return std::min(most, per_day * static_cast<double>((late + kDay - 1) / kDay));
 }
 
-/// A penalty of so many percent is more often a wrong time (a file that was saved again, a wrong zone) than a late
-/// student: it is not applied until the instructor corrected or confirmed the time of receipt.
-inline constexpr double kNeedsConfirmation = 50;
-
 }  // namespace dynlab::inline course

@@ -25,6 +25,18 @@ std::string joined_words(const Words& words) {
     return fmt::format("{}", fmt::join(words, ""));
 }
 
+/// As German and its neighbours write names without their dots and rings: ä is ae, å is aa, ø is oe.
+std::string spelt_out(std::string_view text) {
+    constexpr std::u32string_view kDotted = U"äöüÄÖÜøØ", kRinged = U"åÅ";
+    std::string plain;
+    for (const char32_t c : characters_in(composed(text))) {
+        const bool dotted = kDotted.find(c) != std::u32string_view::npos;
+        const bool ringed = kRinged.find(c) != std::u32string_view::npos;
+        plain += dotted ? folded_letter(c) + "e" : ringed ? "aa" : utf8_of(c);
+    }
+    return plain;
+}
+
 bool names_a_group(const std::string& word) {
     static const std::set<std::string> kGroup = {"group", "groups",  "groupe", "gruppe",  "grupo",  "gruppo", "groep",
                                                  "grupp", "grupa",   "team",   "equipe",  "equipo", "grp",    "gr",
@@ -88,17 +100,6 @@ std::vector<std::string> words_of_name(std::string_view given) {
     for (std::string& word : words)
         if (is_number_word(word)) word.erase(0, std::min(word.find_first_not_of('0'), word.size() - 1));
     return words;
-}
-
-std::string spelt_out(std::string_view text) {
-    constexpr std::u32string_view kDotted = U"äöüÄÖÜøØ", kRinged = U"åÅ";
-    std::string plain;
-    for (const char32_t c : characters_in(composed(text))) {
-        const bool dotted = kDotted.find(c) != std::u32string_view::npos;
-        const bool ringed = kRinged.find(c) != std::u32string_view::npos;
-        plain += dotted ? folded_letter(c) + "e" : ringed ? "aa" : utf8_of(c);
-    }
-    return plain;
 }
 
 bool same_person(const std::string& a, const std::string& b) {

@@ -84,9 +84,6 @@ class Owners {
 /// A text in words that can be compared: runs of folded letters, and numbers without leading zeros.
 std::vector<std::string> words_of_name(std::string_view text);
 
-/// As German and its neighbours write names without their dots and rings: ä is ae, å is aa, ø is oe.
-std::string spelt_out(std::string_view text);
-
 /// Whether two names have the same words, in any order.
 bool same_person(const std::string& a, const std::string& b);
 

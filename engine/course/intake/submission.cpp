@@ -25,6 +25,18 @@ namespace fs = std::filesystem;
 
 constexpr char kGradescopeList[] = "submission_metadata.yml";
 
+/// Without what is hidden and what systems add.
+std::vector<fs::path> entries_of(const fs::path& folder) {
+    static const std::set<std::string> kOfSystems = {"__MACOSX", "Thumbs.db", "desktop.ini"};
+    std::vector<fs::path> entries;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with('.') && !kOfSystems.contains(name)) entries.push_back(entry.path());
+    }
+    std::sort(entries.begin(), entries.end());
+    return entries;
+}
+
 bool is_folder(const fs::path& path) {
     return fs::symlink_status(path).type() == fs::file_type::directory;
 }
@@ -53,9 +65,11 @@ bool is_online_text(const fs::path& entry) {
 }
 
 /// Whether dynlab grade made the folder, in a run that was killed early as well: its locks come first, then its
-/// course.
+/// course; earlier versions wrote manual.csv first and gradebook.csv last.
 bool holds_results(const fs::path& folder) {
-    return (fs::exists(folder / ".lock") && entries_of(folder).empty()) || fs::exists(folder / ".course.lock") ||
+    const bool begun =
+        fs::exists(folder / ".lock") && (fs::exists(folder / "manual.csv") || entries_of(folder).empty());
+    return begun || fs::exists(folder / ".course.lock") ||
            (fs::exists(folder / "gradebook.csv") && fs::is_directory(folder / "results"));
 }
 
@@ -199,17 +213,6 @@ class SubmissionReader {
 };
 
 }  // namespace
-
-std::vector<fs::path> entries_of(const fs::path& folder) {
-    static const std::set<std::string> kOfSystems = {"__MACOSX", "Thumbs.db", "desktop.ini"};
-    std::vector<fs::path> entries;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        if (!name.starts_with('.') && !kOfSystems.contains(name)) entries.push_back(entry.path());
-    }
-    std::sort(entries.begin(), entries.end());
-    return entries;
-}
 
 std::optional<std::string> archive_stem(const std::string& name) {
     const std::string lower = in_small_letters(name);

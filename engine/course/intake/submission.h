@@ -61,9 +61,6 @@ std::vector<Message> unpack_submission(const std::filesystem::path& archive, con
 std::vector<Message> unpack_export(const std::filesystem::path& archive, const std::filesystem::path& to,
                                    Isolation level, const std::filesystem::path& program);
 
-/// What is in a folder, sorted, without what is hidden and what systems add.
-std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
-
 /// The name without an archive's ending (.zip, .tar, .tar.gz, .tgz, .tar.xz, .tar.bz2); nothing for other files.
 std::optional<std::string> archive_stem(const std::string& name);
 

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
+#include <variant>
 
 #include "base/error.h"
 #include "base/reader.h"
@@ -21,7 +21,6 @@
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/locks/whole_folder.h"
 #include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
@@ -85,33 +84,91 @@ std::string lab_csv(Course& course, const Assignment& a) {
     return csv_text(table);
 }
 
-using nlohmann::json;
+/// A whole number, a number, a text or null.
+struct StoredCell {
+    std::variant<std::monostate, std::int64_t, double, std::string> value;
+};
 
-json json_of_cell(const SQLite::Column& cell) {
-    if (cell.isInteger()) return cell.getInt64();
-    if (cell.isFloat()) return cell.getDouble();
-    return cell.isNull() ? json() : json(cell.getString());
+/// By the names of the columns.
+using StoredRow = std::map<std::string, StoredCell>;
+
+/// The file of an export.
+struct CourseExport {
+    int format = 1;
+    std::optional<std::int64_t> tables_version;  ///< the first exports did not tell it
+    std::map<std::string, std::vector<StoredRow>> tables;
+};
+
+void write_whole_value(ValueWriter& writer, const StoredCell& cell) {
+    std::visit(
+        [&writer](const auto& value) {
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, std::monostate>)
+                writer.nothing();
+            else
+                write_value(writer, value);
+        },
+        cell.value);
 }
 
-void insert_row(Database& db, const std::string& table, const json& row) {
-    std::vector<std::string> columns;
-    for (const auto& [name, cell] : row.items()) {
-        const bool plain = std::ranges::all_of(name, [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); });
-        if (!plain || name.empty()) throw EnvironmentError("there is no column \"{}\"", printable(name));
-        columns.push_back(name);
+void read_whole_value(ValueReader& reader, StoredCell& cell) {
+    switch (reader.next()) {
+        case ValueReader::Kind::kNothing:
+            cell.value = std::monostate();
+            return reader.nothing();
+        case ValueReader::Kind::kWhole:
+            cell.value = read_fresh<std::int64_t>(reader);
+            return;
+        case ValueReader::Kind::kNumber:
+            cell.value = reader.number();
+            return;
+        default:
+            cell.value = reader.text();
     }
-    const std::vector<std::string> marks(columns.size(), "?");
-    Rows statement = db.query(
-        fmt::format("INSERT INTO {} ({}) VALUES ({})", table, fmt::join(columns, ", "), fmt::join(marks, ", ")));
+}
+
+template <Is<CourseExport> T, class V>
+void describe(T& object, V& member) {
+    auto& [format, tables_version, tables] = object;
+    member("dynlab course", format), member("tables version", tables_version), member("tables", tables);
+}
+
+StoredCell stored_cell(const SQLite::Column& cell) {
+    if (cell.isInteger()) return {cell.getInt64()};
+    if (cell.isFloat()) return {cell.getDouble()};
+    if (cell.isNull()) return {};
+    return {cell.getString()};
+}
+
+const std::string& text_in(const StoredRow& row, const std::string& column) {
+    const auto found = row.find(column);
+    const auto* const text = found == row.end() ? nullptr : std::get_if<std::string>(&found->second.value);
+    if (!text) throw ValueError("a row lacks the text \"{}\"", column);
+    return *text;
+}
+
+std::string column_list(const StoredRow& row) {
+    std::string list;
+    for (const auto& [name, cell] : row) {
+        const bool plain = std::ranges::all_of(name, [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); });
+        if (!plain || name.empty()) throw ValueError("there is no column \"{}\"", printable(name));
+        list += (list.empty() ? "" : ", ") + name;
+    }
+    return list;
+}
+
+void insert_row(Database& db, const std::string& table, const StoredRow& row) {
+    const std::vector<std::string> marks(row.size(), "?");
+    Rows statement =
+        db.query(fmt::format("INSERT INTO {} ({}) VALUES ({})", table, column_list(row), fmt::join(marks, ", ")));
     int parameter = 0;
-    for (const json& cell : row) {
+    for (const auto& [name, cell] : row) {
         ++parameter;
-        if (cell.is_number_integer())
-            statement.give(parameter, cell.get<std::int64_t>());
-        else if (cell.is_number())
-            statement.give(parameter, cell.get<double>());
-        else if (!cell.is_null())
-            statement.give(parameter, cell.get<std::string>());
+        if (const auto* const whole = std::get_if<std::int64_t>(&cell.value))
+            statement.give(parameter, *whole);
+        else if (const auto* const number = std::get_if<double>(&cell.value))
+            statement.give(parameter, *number);
+        else if (const auto* const text = std::get_if<std::string>(&cell.value))
+            statement.give(parameter, *text);
     }
     statement.next();
 }
@@ -119,25 +176,24 @@ void insert_row(Database& db, const std::string& table, const json& row) {
 /// Makes the imported course in `folder`, a new one: with the tables that the exported one had, which opening it then
 /// brings to today's.
 void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::string, std::string>& settings,
-                   const std::vector<fs::path>& handed_in, const json& all) {
-    fs::permissions(folder, fs::perms::owner_all);
+                   const std::vector<fs::path>& handed_in, const CourseExport& all) {
+    fs::create_directories(folder);
     if (fs::exists(from / "course.key")) fs::copy_file(from / "course.key", folder / "course.key");
     Course::create(folder, settings["name"], settings["zone"]);
     {
+        const std::vector<const char*>& steps = course_steps();
+        const auto version = std::clamp<std::int64_t>(all.tables_version.value_or(2), 1, std::ssize(steps));
         const fs::path file = folder / "course.db";
         fs::remove(file);
         Database db(file, Database::Opening::kNew);
         fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
-        const std::vector<const char*>& steps = course_steps();
-        const auto count = std::clamp<std::int64_t>(all.at("tables version").get<std::int64_t>() - kFirstTables + 1, 1,
-                                                    std::ssize(steps));
-        migrate_course(db, Database::Opening::kNew, file.string(), {steps.begin(), steps.begin() + count});
+        migrate_course(db, Database::Opening::kNew, file.string(), {steps.begin(), steps.begin() + version});
         db.execute("PRAGMA foreign_keys = OFF");  // tables come in any order
         Transaction transaction(db);
-        for (const auto& [table, rows] : all.at("tables").items()) {
+        for (const auto& [table, rows] : all.tables) {
             if (!db.query("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?", table).next())
                 throw EnvironmentError("there is no table \"{}\"", printable(table));
-            for (const json& row : rows) insert_row(db, table, row);
+            for (const StoredRow& row : rows) insert_row(db, table, row);
         }
         if (db.query("PRAGMA foreign_key_check").next())
             throw EnvironmentError("a row refers to one that is not there");
@@ -148,6 +204,14 @@ void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::s
     for (const fs::path& kept : handed_in) hashes.push_back(course.keep(read_file(kept)));
     course.settle(hashes);
     Transaction(course.database()).commit();  // seals what the exported course had not sealed
+}
+
+/// Throws ValueError for a file that is not an export.
+CourseExport read_export(const fs::path& file) {
+    auto read = from_json<CourseExport>(read_file(file));
+    for (const char* needed : {"course", "files"})
+        if (!read.tables.contains(needed)) throw ValueError("the table \"{}\" is missing", needed);
+    return read;
 }
 
 }  // namespace
@@ -223,47 +287,56 @@ std::string marks_csv(Course& course, const Assignment& a, Instant now) {
 
 std::string course_json(Course& course) {
     Database& db = course.database();
+    CourseExport all;
     Rows version = db.query("PRAGMA user_version");
     version.next();
-    json all = {{"dynlab course", 1}, {"tables version", version.integer(0)}, {"tables", json::object()}};
+    all.tables_version = version.integer(0);
     for (const std::string& table : course_tables()) {
-        json& rows = all["tables"][table] = json::array();
+        std::vector<StoredRow>& rows = all.tables[table];
         for (Rows row = db.query("SELECT * FROM " + table + " ORDER BY 1, 2"); row.next();) {
-            json& stored = rows.emplace_back(json::object());
-            for (int c = 0; c < row.getColumnCount(); ++c)
-                stored[row.getColumnName(c)] = json_of_cell(row.getColumn(c));
+            StoredRow& stored = rows.emplace_back();
+            for (int c = 0; c < row.getColumnCount(); ++c) stored[row.getColumnName(c)] = stored_cell(row.getColumn(c));
         }
     }
-    return all.dump(1, ' ', false, json::error_handler_t::replace) + '\n';
+    return json_of(all, 1) + '\n';
 }
 
 void import_course(const fs::path& file, const fs::path& from, const fs::path& folder) {
+    CourseExport all;
+    std::map<std::string, std::string> settings;
+    std::vector<fs::path> handed_in;
     try {
-        const json all = parsed_json(read_file(file));
-        std::map<std::string, std::string> settings;
-        for (const json& row : all.at("tables").at("course"))
-            settings[row.at("key").get<std::string>()] = row.at("value").get<std::string>();
-        for (const char* needed : {"name", "zone"})
-            if (!settings.contains(needed)) throw EnvironmentError("the course's {} is missing", needed);
-        std::vector<fs::path> handed_in;
-        for (const json& row : all.at("tables").at("files")) {
-            const auto hash = row.at("hash").get<std::string>();
+        all = read_export(file);
+        for (const StoredRow& row : all.tables["course"]) settings[text_in(row, "key")] = text_in(row, "value");
+        for (const StoredRow& row : all.tables["files"]) {
+            const std::string& hash = text_in(row, "hash");
             handed_in.push_back(from / "files" / hash.substr(0, 2) / hash);
-            if (!fs::exists(handed_in.back()))
-                throw EnvironmentError(
-                    "{} is not the folder of the exported course: the submitted file {} is not in it. Name that folder "
-                    "with --from",
-                    from.string(), hash);
         }
-        make_whole_folder(folder,
-                          [&](const fs::path& growing) { fill_imported(growing, from, settings, handed_in, all); });
     } catch (const ValueError& error) {
         throw EnvironmentError("{}: this is not an export of dynlab course ({})", file.string(), message_of(error));
-    } catch (const EnvironmentError& error) {
-        throw EnvironmentError("{}: {}; nothing was made", file.string(), message_of(error));
-    } catch (const json::exception& error) {
-        throw EnvironmentError("{}: this is not an export of dynlab course ({})", file.string(), error.what());
     }
+    for (const char* needed : {"name", "zone"})
+        if (!settings.contains(needed)) throw EnvironmentError("{}: the course's {} is missing", file.string(), needed);
+    for (const fs::path& kept : handed_in)
+        if (!fs::exists(kept))
+            throw EnvironmentError(
+                "{} is not the folder of the exported course: the submitted file {} is not in it. Name that folder "
+                "with --from. Nothing was made",
+                from.string(), kept.filename().string());
+    const fs::path place = fs::absolute(folder).lexically_normal();
+    const fs::path whole = place.has_filename() ? place : place.parent_path();
+    if (fs::exists(whole) && !(fs::is_directory(whole) && fs::is_empty(whole)))
+        throw EnvironmentError("{} exists already and is not an empty folder; name a new one", folder.string());
+    const fs::path growing = whole.string() + ".unfinished";
+    fs::remove_all(growing);  // of an import that was interrupted
+    try {
+        fill_imported(growing, from, settings, handed_in, all);
+    } catch (const EnvironmentError& error) {
+        fs::remove_all(growing);
+        throw EnvironmentError("{}: {}; nothing was made", file.string(), message_of(error));
+    }
+    if (fs::exists(whole)) fs::remove(whole);
+    fs::rename(growing, whole);
 }
 
 }  // namespace dynlab::inline course

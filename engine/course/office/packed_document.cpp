@@ -60,6 +60,27 @@ std::string without_comments(std::string_view text) {
     return kept;
 }
 
+/// Behind the brace of the first statement "scores = {" or "local scores = {" that begins a line.
+std::size_t begin_of_scores(const std::string& text) {
+    constexpr std::string_view kName = "scores", kLocal = "local", kBlank = " \t\r\n";
+    constexpr std::size_t kMostBefore = 200;  // blanks and "local"
+    std::size_t line = 0;                     // begin of the line that holds the name
+    for (std::size_t at = text.find(kName); at != std::string::npos; at = text.find(kName, at + 1)) {
+        for (std::size_t end = text.find('\n', line); end < at; end = text.find('\n', line)) line = end + 1;
+        if (at - line > kMostBefore) continue;
+        std::string_view before = std::string_view(text).substr(line, at - line);
+        const auto word = before.find_first_not_of(kBlank);
+        before.remove_prefix(std::min(word, before.size()));
+        const bool alone = before.empty() || (before.starts_with(kLocal) && before.size() > kLocal.size() &&
+                                              before.find_first_not_of(kBlank, kLocal.size()) == before.npos);
+        const std::size_t sign = text.find_first_not_of(kBlank, at + kName.size());
+        if (!alone || sign == std::string::npos || text[sign] != '=') continue;
+        const std::size_t brace = text.find_first_not_of(kBlank, sign + 1);
+        if (brace != std::string::npos && text[brace] == '{') return brace + 1;
+    }
+    return std::string::npos;
+}
+
 }  // namespace
 
 OpenedPack open_pack(const fs::path& pack, const std::string& part, const fs::path& to, Isolation level,
@@ -83,11 +104,13 @@ OpenedPack open_pack(const fs::path& pack, const std::string& part, const fs::pa
 }
 
 std::map<std::string, double> scores_in_script(std::string_view script) {
-    static const RE2 table(R"((?m)^\s*(?:local\s+)?scores\s*=\s*\{([^}]*\}))", RE2::Latin1);
     static const RE2 entry(R"((\w+)\s*=\s*(\d{1,4}(?:\.\d{1,4})?)\s*[,;\n}])", RE2::Latin1);
     const std::string text = without_comments(script);
-    std::string body;
-    if (!RE2::PartialMatch(text, table, &body) || body.size() > kMostOfTable) return {};
+    const std::size_t from = begin_of_scores(text);
+    if (from == std::string::npos) return {};
+    const std::size_t close = text.find('}', from);
+    if (close == std::string::npos || close - from > kMostOfTable) return {};
+    const std::string body = text.substr(from, close + 1 - from);
     std::map<std::string, double> scores;
     std::string name;
     double score = 0;

@@ -289,6 +289,7 @@ double late_percent(const Costs& costs, std::int64_t late) {
 }
 
 bool waits_for_confirmation(const Costs& costs, std::int64_t late, bool confirmed) {
+    constexpr double kNeedsConfirmation = 50;
     return !confirmed && late_percent(costs, late) >= kNeedsConfirmation;
 }
 

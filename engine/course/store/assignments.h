@@ -72,7 +72,8 @@ void refuse_without_reviews(const Assignment& assignment);
 
 /// What being late by `late` seconds costs, in percent: late_day for each day or part of a day, late_most at most.
 double late_percent(const Costs& costs, std::int64_t late);
-/// Whether that is a penalty that is not applied yet (intake/lateness.h).
+/// A penalty of half the points or more is more often a wrong time than a late student: it is not applied until the
+/// instructor corrected or confirmed the time of receipt.
 bool waits_for_confirmation(const Costs& costs, std::int64_t late, bool confirmed);
 
 /// "clarity:5, methods:10" as criteria. Throws InvalidArgument.

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "platform/error.h"
 
 namespace dynlab::inline course {
@@ -11,13 +9,7 @@ namespace {
 
 constexpr std::int64_t kApplicationId = 0x64796E6C;  // "dynl"
 
-/// What makes each version out of the one before; never changed once published. Times are seconds since 1970, UTC.
-/// Corrections are rows of their own, the newest of which holds; what was received stays as it was signed. Since
-/// version 7 labs are assignments like reports and talks. `results` is what the checks gave a version, `stops` are
-/// copies that a name stopped. `marks` are of a check, of a criterion, or of the whole submission (item *), by the
-/// instructor or, with a pair, by a reviewer; null points take back. Items of reports and talks are, besides their
-/// criteria, `reviews` and `comment`, which has a text only. A file that was not taken, or whose sender is not known,
-/// is a version of the part `unreadable`: no file comes without a trace.
+/// What each version adds to the one before; never changed once published. Times are seconds since 1970, UTC.
 const std::vector<const char*> kSteps = {
     R"(
 CREATE TABLE course (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -30,8 +22,7 @@ CREATE TABLE memberships (student TEXT NOT NULL REFERENCES students, group_id IN
 CREATE TABLE assignments (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE COLLATE NOCASE,
   kind TEXT NOT NULL CHECK (kind IN ('report', 'presentation')), lesson TEXT NOT NULL, first_due INTEGER NOT NULL,
   review_due INTEGER, final_due INTEGER, grace INTEGER NOT NULL CHECK (grace >= 0),
-  reviews INTEGER NOT NULL CHECK (reviews >= 0), made_at INTEGER NOT NULL, costs TEXT NOT NULL DEFAULT '',
-  final_weight REAL NOT NULL DEFAULT 50);
+  reviews INTEGER NOT NULL CHECK (reviews >= 0), seed INTEGER NOT NULL, made_at INTEGER NOT NULL);
 CREATE TABLE criteria (assignment INTEGER NOT NULL REFERENCES assignments, place INTEGER NOT NULL, name TEXT NOT NULL,
   most REAL NOT NULL CHECK (most > 0), PRIMARY KEY (assignment, place), UNIQUE (assignment, name)) WITHOUT ROWID;
 CREATE TABLE files (hash TEXT PRIMARY KEY, bytes INTEGER NOT NULL, stored_at INTEGER NOT NULL) WITHOUT ROWID;
@@ -39,7 +30,7 @@ CREATE TABLE pseudonyms (assignment INTEGER NOT NULL REFERENCES assignments, gro
   role TEXT NOT NULL CHECK (role IN ('author', 'reviewer')), number INTEGER NOT NULL,
   PRIMARY KEY (assignment, group_id, role), UNIQUE (assignment, role, number)) WITHOUT ROWID;
 CREATE TABLE allocations (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
-  made_at INTEGER NOT NULL, explanation TEXT NOT NULL);
+  seed INTEGER NOT NULL, made_at INTEGER NOT NULL, explanation TEXT NOT NULL);
 CREATE TABLE pairs (id INTEGER PRIMARY KEY, allocation INTEGER NOT NULL REFERENCES allocations,
   assignment INTEGER NOT NULL REFERENCES assignments, reviewer INTEGER NOT NULL REFERENCES groups,
   author INTEGER NOT NULL REFERENCES groups, ended_at INTEGER, ended_reason TEXT, CHECK (reviewer <> author));
@@ -61,10 +52,15 @@ CREATE TABLE oral_scores (assignment INTEGER NOT NULL REFERENCES assignments,
   points REAL NOT NULL CHECK (points >= 0), PRIMARY KEY (assignment, group_id, criterion, given_at)) WITHOUT ROWID;
 CREATE TABLE overrides (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
   group_id INTEGER NOT NULL REFERENCES groups, what TEXT NOT NULL CHECK (what IN ('work', 'reviews')),
-  percent REAL CHECK (percent >= 0), reason TEXT NOT NULL, made_at INTEGER NOT NULL);
+  percent REAL NOT NULL CHECK (percent BETWEEN 0 AND 100), reason TEXT NOT NULL, made_at INTEGER NOT NULL);
 CREATE TABLE journal (id INTEGER PRIMARY KEY, at INTEGER NOT NULL, what TEXT NOT NULL);
+)",
+    R"(
 CREATE TABLE former_names (student TEXT NOT NULL REFERENCES students, name TEXT NOT NULL, mail TEXT NOT NULL,
   until INTEGER NOT NULL, PRIMARY KEY (student, name, mail)) WITHOUT ROWID;
+)",
+    // Corrections are rows of their own, the newest of which holds; what was received stays as it was signed.
+    R"(
 CREATE TABLE arrivals (id INTEGER PRIMARY KEY, version INTEGER NOT NULL REFERENCES versions,
   received_at INTEGER NOT NULL, due_at INTEGER NOT NULL, late INTEGER NOT NULL CHECK (late >= 0),
   reason TEXT NOT NULL, made_at INTEGER NOT NULL, signature TEXT NOT NULL);
@@ -90,9 +86,20 @@ CREATE TABLE instructor_scores (assignment INTEGER NOT NULL REFERENCES assignmen
 CREATE TABLE returns (id INTEGER PRIMARY KEY, group_id INTEGER NOT NULL REFERENCES groups, place TEXT NOT NULL,
   hash TEXT NOT NULL, made_at INTEGER NOT NULL);
 CREATE TABLE seals (id INTEGER PRIMARY KEY, at INTEGER NOT NULL, contents TEXT NOT NULL, signature TEXT NOT NULL);
+ALTER TABLE assignments ADD COLUMN costs TEXT NOT NULL DEFAULT '';
+ALTER TABLE assignments ADD COLUMN final_weight REAL NOT NULL DEFAULT 50;
+ALTER TABLE overrides RENAME TO former_overrides;
+CREATE TABLE overrides (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, what TEXT NOT NULL CHECK (what IN ('work', 'reviews')),
+  percent REAL CHECK (percent >= 0), reason TEXT NOT NULL, made_at INTEGER NOT NULL);
+INSERT INTO overrides SELECT id, assignment, group_id, what, percent, reason, made_at FROM former_overrides;
+DROP TABLE former_overrides;
 CREATE INDEX versions_of_pair ON versions (pair);
 CREATE INDEX versions_of_hash ON versions (hash);
 CREATE INDEX sendings_of_pair ON sendings (pair);
+)",
+    // Points of students at the oral: null takes back what was given.
+    R"(
 CREATE TABLE student_scores (assignment INTEGER NOT NULL REFERENCES assignments,
   student TEXT NOT NULL REFERENCES students, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
   points REAL CHECK (points >= 0), PRIMARY KEY (assignment, student, criterion, given_at)) WITHOUT ROWID;
@@ -100,8 +107,35 @@ CREATE TABLE oral_comments (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL 
   group_id INTEGER NOT NULL REFERENCES groups, student TEXT REFERENCES students, comment TEXT NOT NULL,
   made_at INTEGER NOT NULL);
 )",
-    "",
+    // Pairs and pseudonyms are stored as they were drawn; there is no seed that they follow from.
     R"(
+ALTER TABLE assignments DROP COLUMN seed;
+ALTER TABLE allocations DROP COLUMN seed;
+)",
+    // Labs are assignments like reports and talks. An assignment has a weight in the total, a lab what it is graded
+    // with, a student what a group's own data are drawn from. `results` is what the checks gave a version, `marks` what
+    // the instructor gave instead (item: a check, or * for the whole; null takes back), `refusals` the files that were
+    // not taken. Every score can be taken back: null points. `stops`: copies
+    // that a name stopped.
+    R"(
+ALTER TABLE scores RENAME TO former_scores;
+CREATE TABLE scores (pair INTEGER NOT NULL REFERENCES pairs, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
+  points REAL CHECK (points >= 0), PRIMARY KEY (pair, criterion, given_at)) WITHOUT ROWID;
+INSERT INTO scores SELECT pair, criterion, given_at, points FROM former_scores;
+DROP TABLE former_scores;
+ALTER TABLE oral_scores RENAME TO former_scores;
+CREATE TABLE oral_scores (assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, criterion INTEGER NOT NULL, given_at INTEGER NOT NULL,
+  points REAL CHECK (points >= 0), PRIMARY KEY (assignment, group_id, criterion, given_at)) WITHOUT ROWID;
+INSERT INTO oral_scores SELECT assignment, group_id, criterion, given_at, points FROM former_scores;
+DROP TABLE former_scores;
+ALTER TABLE instructor_scores RENAME TO former_scores;
+CREATE TABLE instructor_scores (assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, stage TEXT NOT NULL CHECK (stage IN ('first', 'final')),
+  criterion INTEGER NOT NULL, given_at INTEGER NOT NULL, points REAL CHECK (points >= 0),
+  PRIMARY KEY (assignment, group_id, stage, criterion, given_at)) WITHOUT ROWID;
+INSERT INTO instructor_scores SELECT assignment, group_id, stage, criterion, given_at, points FROM former_scores;
+DROP TABLE former_scores;
 CREATE TABLE stops (pair INTEGER NOT NULL REFERENCES pairs,
   way TEXT NOT NULL CHECK (way IN ('to reviewer', 'to author')), version INTEGER NOT NULL REFERENCES versions,
   made_at INTEGER NOT NULL, PRIMARY KEY (pair, way, version)) WITHOUT ROWID;
@@ -123,30 +157,50 @@ CREATE TABLE results (id INTEGER PRIMARY KEY, version INTEGER NOT NULL REFERENCE
   checks TEXT NOT NULL, fingerprint TEXT NOT NULL, made_at INTEGER NOT NULL);
 CREATE INDEX results_of_version ON results (version);
 CREATE TABLE marks (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER NOT NULL REFERENCES groups, student TEXT REFERENCES students, item TEXT NOT NULL,
+  points REAL CHECK (points >= 0), reason TEXT NOT NULL, made_at INTEGER NOT NULL,
+  version INTEGER REFERENCES versions);
+CREATE INDEX marks_of_group ON marks (assignment, group_id);
+CREATE TABLE refusals (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
+  group_id INTEGER REFERENCES groups, stage TEXT NOT NULL, name TEXT NOT NULL, hash TEXT REFERENCES files,
+  reason TEXT NOT NULL, received_at INTEGER NOT NULL);
+)",
+    // One store of marks: of a check, of a criterion, or of the whole submission (item *), by the instructor or, with a
+    // pair, by a reviewer; null points take back. Items of reports and talks are, besides their criteria, `reviews` and
+    // `comment`, which has a text only. A file that was not taken, or whose sender is not known, is a version of the
+    // part `unreadable`: no file comes without a trace.
+    R"(
+CREATE TABLE new_marks (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
   group_id INTEGER NOT NULL REFERENCES groups, student TEXT REFERENCES students,
   stage TEXT NOT NULL DEFAULT 'first' CHECK (stage IN ('first', 'final')), pair INTEGER REFERENCES pairs,
   version INTEGER REFERENCES versions, item TEXT NOT NULL, points REAL CHECK (points >= 0), reason TEXT NOT NULL,
   made_at INTEGER NOT NULL);
-INSERT INTO marks (assignment, group_id, item, points, reason, made_at)
+INSERT INTO new_marks (id, assignment, group_id, student, version, item, points, reason, made_at)
+  SELECT m.id, m.assignment, m.group_id, m.student, m.version,
+  CASE WHEN a.kind <> 'lab' AND m.item = 'work' THEN '*' ELSE m.item END, m.points, m.reason, m.made_at
+  FROM marks m JOIN assignments a ON a.id = m.assignment;
+INSERT INTO new_marks (assignment, group_id, item, points, reason, made_at)
   SELECT assignment, group_id, replace(what, 'work', '*'), percent, reason, made_at FROM overrides ORDER BY id;
-INSERT INTO marks (assignment, group_id, pair, version, item, points, reason, made_at)
+INSERT INTO new_marks (assignment, group_id, pair, version, item, points, reason, made_at)
   SELECT p.assignment, p.author, s.pair, (SELECT w.id FROM versions w WHERE w.pair = s.pair AND w.part IN ('review',
   'pack') AND w.received_at <= s.given_at AND NOT ifnull((SELECT x.withdrawn FROM withdrawals x WHERE x.version = w.id
   AND x.made_at < s.given_at ORDER BY x.id DESC LIMIT 1), 0) ORDER BY w.part = 'review' DESC, w.number DESC LIMIT 1),
   c.name, s.points, '', s.given_at FROM scores s JOIN pairs p ON p.id = s.pair
   JOIN criteria c ON c.assignment = p.assignment AND c.place = s.criterion ORDER BY s.given_at;
-INSERT INTO marks (assignment, group_id, stage, item, points, reason, made_at)
+INSERT INTO new_marks (assignment, group_id, stage, item, points, reason, made_at)
   SELECT s.assignment, s.group_id, s.stage, c.name, s.points, '', s.given_at FROM instructor_scores s
   JOIN criteria c ON c.assignment = s.assignment AND c.place = s.criterion ORDER BY s.given_at;
-INSERT INTO marks (assignment, group_id, item, points, reason, made_at)
+INSERT INTO new_marks (assignment, group_id, item, points, reason, made_at)
   SELECT s.assignment, s.group_id, c.name, s.points, '', s.given_at FROM oral_scores s
   JOIN criteria c ON c.assignment = s.assignment AND c.place = s.criterion ORDER BY s.given_at;
-INSERT INTO marks (assignment, group_id, student, item, points, reason, made_at)
+INSERT INTO new_marks (assignment, group_id, student, item, points, reason, made_at)
   SELECT s.assignment, (SELECT m.group_id FROM memberships m WHERE m.student = s.student ORDER BY m.until IS NOT NULL,
   m.since LIMIT 1), s.student, c.name, s.points, '', s.given_at FROM student_scores s
   JOIN criteria c ON c.assignment = s.assignment AND c.place = s.criterion ORDER BY s.given_at;
-INSERT INTO marks (assignment, group_id, student, item, points, reason, made_at)
+INSERT INTO new_marks (assignment, group_id, student, item, points, reason, made_at)
   SELECT assignment, group_id, student, 'comment', NULL, comment, made_at FROM oral_comments ORDER BY id;
+DROP TABLE marks;
+ALTER TABLE new_marks RENAME TO marks;
 CREATE INDEX marks_of_group ON marks (assignment, group_id);
 DROP TABLE overrides;
 DROP TABLE scores;
@@ -154,6 +208,7 @@ DROP TABLE instructor_scores;
 DROP TABLE oral_scores;
 DROP TABLE student_scores;
 DROP TABLE oral_comments;
+DROP TABLE refusals;
 CREATE TABLE new_versions (id INTEGER PRIMARY KEY, assignment INTEGER NOT NULL REFERENCES assignments,
   group_id INTEGER REFERENCES groups, stage TEXT NOT NULL CHECK (stage IN ('first', 'review', 'final')),
   pair INTEGER REFERENCES pairs, part TEXT NOT NULL, number INTEGER NOT NULL CHECK (number > 0),
@@ -194,10 +249,6 @@ std::int64_t pragma(Database& database, const char* name) {
     return rows.integer(0);
 }
 
-std::int64_t newest_of(const std::vector<const char*>& steps) {
-    return kFirstTables + std::ssize(steps) - 1;
-}
-
 }  // namespace
 
 const std::vector<std::string>& course_tables() {
@@ -215,7 +266,7 @@ const std::vector<const char*>& course_steps() {
 void keep_before_migration(Database& database, const std::filesystem::path& file) {
     namespace fs = std::filesystem;
     const std::int64_t version = pragma(database, "user_version");
-    const std::int64_t newest = newest_of(kSteps);
+    const auto newest = static_cast<std::int64_t>(kSteps.size());
     if (pragma(database, "application_id") != kApplicationId || version >= newest) return;
     const fs::path kept = fmt::format("{}.before-version-{}", file.string(), newest);
     if (fs::exists(kept)) return;
@@ -228,11 +279,11 @@ void keep_before_migration(Database& database, const std::filesystem::path& file
 
 bool migrate_course(Database& database, Database::Opening opening, const std::string& file,
                     const std::vector<const char*>& steps) {
-    const std::int64_t newest = newest_of(steps);
+    const auto newest = static_cast<std::int64_t>(steps.size());
     const auto version_of = [&] {
         const std::int64_t version = pragma(database, "user_version"), id = pragma(database, "application_id");
         const bool fresh = opening == Database::Opening::kNew && version == 0;
-        if (!fresh && (id != kApplicationId || version < kFirstTables))
+        if (!fresh && id != kApplicationId)
             throw EnvironmentError("{}: this is not a course; make one with dynlab course init", file);
         if (version > newest)
             throw EnvironmentError(
@@ -248,9 +299,8 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
     database.execute("PRAGMA foreign_keys = OFF");
     Transaction transaction(database);
     database.execute("DROP VIEW IF EXISTS standing; DROP VIEW IF EXISTS arrived");
-    // Another may have done it meanwhile.
-    for (std::int64_t version = std::max(version_of() + 1, kFirstTables); version <= newest; ++version)
-        database.execute(steps[static_cast<std::size_t>(version - kFirstTables)]);
+    for (std::int64_t version = version_of(); version < newest; ++version)  // another may have done it meanwhile
+        database.execute(steps[static_cast<std::size_t>(version)]);
     database.execute(kViews);
     if (database.query("PRAGMA foreign_key_check").next())
         throw EnvironmentError("{}: a row refers to one that is not there; nothing was changed, take a backup", file);

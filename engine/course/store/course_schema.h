@@ -10,8 +10,6 @@ namespace dynlab::inline course {
 /// The tables, in an order in which each refers only to earlier ones.
 const std::vector<std::string>& course_tables();
 
-inline constexpr std::int64_t kFirstTables = 5;  ///< what was earlier was never published, and 6 neither
-
 /// SQL that makes each version of the tables out of the one before, the first one out of nothing.
 const std::vector<const char*>& course_steps();
 

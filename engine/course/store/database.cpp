@@ -30,7 +30,7 @@ std::string reason_of(int code, const char* words) {
         case SQLITE_NOTADB:
             return "this is not a course: the file is not a database";
         case SQLITE_CORRUPT:
-            return "the file is damaged; take a backup";
+            return "the file is damaged; take a backup, or a JSON export with dynlab course import";
         case SQLITE_IOERR:
             return "the disk refused to read or write; nothing was changed, see to it and repeat";
         default:

@@ -30,6 +30,13 @@ std::set<std::string> names_in(const std::string& cell) {
     return names;
 }
 
+/// The same words in any order: platforms write the family's name first, or last.
+bool same_name(const std::string& a, const std::string& b) {
+    std::vector<std::string> words = words_of_name(a), others = words_of_name(b);
+    std::ranges::sort(words), std::ranges::sort(others);
+    return words == others;
+}
+
 /// Names of groups become names of folders and files: of receipts, and of what is returned.
 void refuse_odd_group(const std::string& name) {
     constexpr std::size_t kMaxNameBytes = 100;
@@ -97,7 +104,7 @@ class Import {
             language == rows.text(4) && seed == rows.optional_integer(5))
             return;
         ++change_.changed;
-        if ((!same_person(name, old_name) && !old_name.empty()) || (mail != old_mail && !old_mail.empty()))
+        if ((!same_name(name, old_name) && !old_name.empty()) || (mail != old_mail && !old_mail.empty()))
             db_.run("INSERT INTO former_names VALUES (?, ?, ?, ?) ON CONFLICT DO UPDATE SET until = excluded.until",
                     s.id, old_name, old_mail, now_);
         db_.run(

@@ -20,10 +20,14 @@ bool names_the_folder_itself(const fs::path& path) {
     return fs::symlink_status(path).type() == fs::file_type::directory;
 }
 
-/// Not the text that Moodle adds.
+/// Entries that a person put there, sorted; not what macOS or the platform adds.
 std::vector<fs::path> entries_of_one_person(const fs::path& folder) {
-    std::vector<fs::path> entries = entries_of(folder);
-    std::erase_if(entries, [](const fs::path& entry) { return entry.filename() == "onlinetext.html"; });
+    std::vector<fs::path> entries;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename();
+        if (!name.starts_with('.') && name != "__MACOSX" && name != "onlinetext.html") entries.push_back(entry.path());
+    }
+    std::sort(entries.begin(), entries.end());
     return entries;
 }
 

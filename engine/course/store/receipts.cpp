@@ -13,7 +13,11 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr std::string_view kSignature = "signature: ", kHash = "sha256: ", kPublicKey = "public key: ";
-constexpr std::string_view kReceiptLine = "dynlab receipt 2";
+constexpr std::size_t kCodeDigits = 64;
+
+std::string_view first_line(ReceiptKind kind) {
+    return kind == ReceiptKind::kSigned ? "dynlab receipt 2" : "dynlab receipt 1";
+}
 
 std::string one_line(std::string text) {
     for (char& c : text)
@@ -24,6 +28,7 @@ std::string one_line(std::string text) {
 /// A receipt's file taken apart; the signature is its last line.
 struct ReceiptFile {
     std::string content, signature, public_key;
+    ReceiptKind kind = ReceiptKind::kSigned;
 };
 
 /// Nothing for any other text.
@@ -41,13 +46,20 @@ std::optional<ReceiptFile> read_receipt(std::string_view text) {
         else
             file.content += line + '\n';
     }
-    if (file.content.substr(0, file.content.find('\n')) != kReceiptLine) return {};
+    const std::string_view first = std::string_view(file.content).substr(0, file.content.find('\n'));
+    if (first != first_line(ReceiptKind::kSigned) && first != first_line(ReceiptKind::kCoded)) return {};
+    if (first == first_line(ReceiptKind::kCoded)) file.kind = ReceiptKind::kCoded;
     return file;
 }
 
 const ReceiptVerdict kGenuine{true, "genuine"};
 const ReceiptVerdict kNoReceipt{false, "NOT genuine: this is not a receipt"};
 const ReceiptVerdict kNotGenuine{false, "NOT genuine: altered, or signed by another course"};
+const ReceiptVerdict kNeedsCourse{
+    false,
+    "cannot be decided: it has a code instead of a signature, as earlier courses gave; only the "
+    "course can verify it (dynlab course verify)"};
+
 ReceiptVerdict verify_signature(const ReceiptFile& file, std::string_view public_key) {
     const bool other_key = !file.public_key.empty() && file.public_key != public_key;
     return !other_key && is_signature(file.signature, file.content, public_key) ? kGenuine : kNotGenuine;
@@ -72,11 +84,11 @@ ReceiptVerdict genuine_until_now(const ReceiptFile& file, Course& course) {
 
 }  // namespace
 
-std::string receipt_text(const Receipt& receipt) {
+std::string receipt_text(const Receipt& receipt, ReceiptKind kind) {
     return fmt::format(
         "{}\n{}course: {}\nassignment: {}\ngroup: {}\nhanded in as: {}, {}, version {}\nfile: {}\n"
         "{}{}\nbytes: {}\nreceived: {}\ndue: {}\nlate: {}\n",
-        kReceiptLine, receipt.correction > 0 ? fmt::format("correction: {}\n", receipt.correction) : "",
+        first_line(kind), receipt.correction > 0 ? fmt::format("correction: {}\n", receipt.correction) : "",
         one_line(receipt.course), one_line(receipt.assignment), one_line(receipt.group), receipt.stage, receipt.part,
         receipt.version, one_line(receipt.name), kHash, receipt.hash, receipt.bytes, utc_text(receipt.received),
         utc_text(receipt.due), receipt.late > 0 ? duration_text(receipt.late) : "no");
@@ -90,13 +102,15 @@ std::string signed_receipt(const Receipt& receipt, const SigningKey& key) {
 ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key) {
     const auto file = read_receipt(text);
     if (!file) return kNoReceipt;
-    return verify_signature(*file, public_key);
+    return file->kind == ReceiptKind::kCoded ? kNeedsCourse : verify_signature(*file, public_key);
 }
 
 ReceiptVerdict verify_receipt(std::string_view text, Course& course) {
     const auto file = read_receipt(text);
     if (!file) return kNoReceipt;
-    const bool genuine = verify_signature(*file, course.signing_key().public_key()).genuine;
+    const bool genuine = file->kind == ReceiptKind::kSigned
+                             ? verify_signature(*file, course.signing_key().public_key()).genuine
+                             : equal_in_constant_time(file->signature, hmac_sha256(course.key(), {file->content}));
     return genuine ? genuine_until_now(*file, course) : kNotGenuine;
 }
 
@@ -121,6 +135,9 @@ std::string version_signature(const Course& course, const Receipt& receipt) {
 }
 
 bool is_version_signature(const Course& course, const Receipt& receipt, std::string_view signature) {
+    if (signature.size() == kCodeDigits)
+        return equal_in_constant_time(signature,
+                                      hmac_sha256(course.key(), {receipt_text(receipt, ReceiptKind::kCoded)}));
     return is_signature(signature, receipt_text(receipt), course.signing_key().public_key());
 }
 

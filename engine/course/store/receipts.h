@@ -18,8 +18,12 @@ struct Receipt {
     std::int64_t correction = 0;  ///< which one it is of the first receipt; 0 for that one itself
 };
 
+/// The first line says how a receipt is signed: by Ed25519, so that everybody with the course's public key can verify
+/// it, or, as courses did before, by a code (HMAC) that only the course itself can verify.
+enum class ReceiptKind { kSigned, kCoded };
+
 /// One "key: value" a line, always in the same order, control characters as blanks: equal facts give equal text.
-std::string receipt_text(const Receipt& receipt);
+std::string receipt_text(const Receipt& receipt, ReceiptKind kind = ReceiptKind::kSigned);
 
 /// The receipt as a file: its text, a line "public key: ..." that is not signed, and a line "signature: ...".
 std::string signed_receipt(const Receipt& receipt, const SigningKey& key);
@@ -31,9 +35,9 @@ struct ReceiptVerdict {
 };
 
 /// Whether this text is a receipt that the owner of this public key signed, not a letter changed (line ends and blank
-/// lines aside).
+/// lines aside). Coded receipts are recognised: they need the course.
 ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key);
-/// The same by the course itself. Of a genuine receipt that is not valid any more the reason says
+/// The same by the course itself, coded receipts too. Of a genuine receipt that is not valid any more the reason says
 /// so: its file was withdrawn, its time corrected, or a newer version submitted.
 ReceiptVerdict verify_receipt(std::string_view text, Course& course);
 /// The lines that are signed; empty for what is no receipt.
@@ -45,7 +49,7 @@ std::string key_in_receipt(std::string_view text);
 /// be read.
 bool is_receipt_for(std::string_view text, const std::filesystem::path& file);
 
-/// The signature of a version's facts, as the store keeps it, and whether it is theirs.
+/// The signature or code of a version's facts, as the store keeps it, and whether it is theirs.
 std::string version_signature(const Course& course, const Receipt& receipt);
 bool is_version_signature(const Course& course, const Receipt& receipt, std::string_view signature);
 

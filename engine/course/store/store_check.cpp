@@ -19,11 +19,15 @@ namespace fs = std::filesystem;
 /// Every receipt that the store would give today or gave before.
 std::set<std::string> receipts_given(Course& course) {
     std::set<std::string> texts;
+    const auto add = [&](const Receipt& receipt) {
+        for (const ReceiptKind kind : {ReceiptKind::kSigned, ReceiptKind::kCoded})
+            texts.insert(receipt_text(receipt, kind));
+    };
     for (Rows rows = course.database().query("SELECT id FROM versions"); rows.next();)
-        texts.insert(receipt_text(receipt_of(course, rows.integer(0), 0)));
+        add(receipt_of(course, rows.integer(0), 0));
     std::map<std::int64_t, std::int64_t> number;
     for (Rows rows = course.database().query("SELECT version FROM arrivals ORDER BY id"); rows.next();)
-        texts.insert(receipt_text(receipt_of(course, rows.integer(0), ++number[rows.integer(0)])));
+        add(receipt_of(course, rows.integer(0), ++number[rows.integer(0)]));
     return texts;
 }
 
@@ -57,10 +61,21 @@ void check_signatures(Course& course, StoreCheck& check) {
     }
 }
 
-/// Those that were removed when the course was opened.
+/// Those that were removed when the course was opened, and those of earlier versions: ".HASH.PID-N" beside the files.
 void check_leftovers(const Course& course, StoreCheck& check) {
     for (const fs::path& file : course.removed_leftovers())
         check.leftovers.push_back(Message("removed {}, which a run that was killed had left", file.string()));
+    static const RE2 earlier(R"(\..+\.[0-9]+-[0-9]+)", RE2::Latin1);
+    for (const char* own : {"files", "receipts"}) {
+        const fs::path folder = course.folder() / own;
+        if (!fs::exists(folder)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+            const std::string name = entry.path().filename().string();
+            if (RE2::FullMatch(name, earlier) && name.find(".dynlab-") == std::string::npos)
+                check.leftovers.push_back(Message(
+                    "{} is a temporary file of an earlier dynlab that was killed; remove it", entry.path().string()));
+        }
+    }
 }
 
 }  // namespace
