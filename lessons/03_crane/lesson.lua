@@ -629,7 +629,7 @@ local wide = grey_box(variant(linear, {}), {"gain", "viscous", "coupling", "leng
 local physical = grey_box(variant(friction, {}), {"gain", "viscous", "dry", "coupling", "length", "pivot", "air"}, true)
 
 local nonlinear_rows = {{say("model", "modèle"), say("parameters", "paramètres"), "$x$ (%)", "$\\theta$ (%)", say("error of $\\theta$ (mrad)", "erreur de $\\theta$ (mrad)"),
-                         "steps $x$ (%)", "steps $\\theta$ (%)"}}
+                         say("steps $x$ (%)", "impulsions $x$ (%)"), say("steps $\\theta$ (%)", "impulsions $\\theta$ (%)")}}
 local left_in_angle = {}
 for k, case in ipairs{{linear, false, 5, say("linear", "linéaire")}, {friction, false, 6, say("+ dry friction", "+ frottement sec")},
                       {wide, true, 6, say("+ large swings, air", "+ grands angles, air")},

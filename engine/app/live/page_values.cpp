@@ -111,41 +111,11 @@ int give_label(Call& call) {
     return call.give(message_text(label_called(call.text(1, "name")), call.owner<PageValues>().reader));
 }
 
-/// What a reading of a step response says, by its kind, and how well it fits.
-Message sentence_of_reading(const std::string& kind, const Vector& numbers, double fit) {
-    const Index wanted = kind == "second" ? 6 : 5;
-    if (numbers.size() != wanted)
-        throw InvalidArgument("a reading \"{}\" has {} numbers, but {} were given", kind, wanted, numbers.size());
-    const auto at = [&](Index i) { return significant(numbers(i), 4); };
-    const Number percent = decimals(fit, 1);
-    if (kind == "first")
-        return Message(
-            "K = change of y/change of u = {}/{} = {}.  T: 63 % of the change after {}.  Within 5 % after 3 T = {}.  "
-            "Fit {} %.",
-            at(0), at(1), at(2), at(3), at(4), percent);
-    if (kind == "delayed")
-        return Message(
-            "28 % after {}, 63 % after {}:  T = 1.5 (t63 - t28) = {},  Td = t63 - T = {}.  K = {}.  Fit {} %.", at(0),
-            at(1), at(2), at(3), at(4), percent);
-    if (kind != "second") throw InvalidArgument("there is no reading \"{}\"", kind);
-    return Message(
-        "Overshoot D = {} % after T1 = {}:  z = sqrt(ln(D)^2/(ln(D)^2 + pi^2)) = {},  w0 = pi/(T1 sqrt(1 - z^2)) = {} "
-        "rad/s.  K = {}.  Within 5 % after about 3/(z w0) = {}.  Fit {} %.",
-        significant(numbers(0), 3), at(1), at(2), at(3), at(4), at(5), percent);
-}
-
-int reading_words(Call& call) {
-    const Message words = sentence_of_reading(call.text(1, "kind"), call.vector(2, "numbers"), call.number(3, "fit"));
-    return call.give(message_text(words, call.owner<PageValues>().reader));
-}
-
 constexpr std::array kPageFunctions = {
     FunctionEntry{"workbench.show", "workbench", "workbench.show(name, value)", "gives the page a value",
                   guarded<show>},
     FunctionEntry{"workbench.label", "workbench", "workbench.label(name) -> text", "a text for a figure of the page",
                   guarded<give_label>},
-    FunctionEntry{"workbench.reading_words", "workbench", "workbench.reading_words(kind, numbers, fit)",
-                  "says what was read off a step response", guarded<reading_words>},
 };
 
 }  // namespace

@@ -23,7 +23,6 @@ class PageValues {
 /// (rows), tables (a list where the keys are 1, 2, ...), and figures as documents/html/plot_data.h says.
 /// Texts called "error" are what pcall gave, and are shown in the document's language.
 /// `workbench.label(name)`: a text for the page's own figures.
-/// `workbench.reading_words(kind, numbers, fit)`: what a reading of a step response says.
 FunctionEntries page_functions();
 
 }  // namespace dynlab::inline app
