@@ -35,7 +35,6 @@ ChecksJob sample_checks() {
     job.hidden_folder = "/box/hidden";
     job.time_ms = 10000;
     job.most_ms = 60000;
-    job.clock_multiple = 5;
     job.only = 1;
     const CheckedSubmission work{{{"main", sample_run()}},
                                  {{"pages", Severity::kHint, 7, "", Message("Too many pages."), Message("Cut.")}},
@@ -57,7 +56,7 @@ TEST(boxed_jobs, come_back) {
     expect_to_come_back(sample_run());
     expect_to_come_back(sample_checks());
     expect_to_come_back(ChecksJob());
-    expect_to_come_back(RunJob{"/box/submission/analysis.lua", 7, {{"gain", "number"}}, 60000, 5, 1ull << 30});
+    expect_to_come_back(RunJob{"/box/submission/analysis.lua", 7, {{"gain", "number"}}, 60000, 1ull << 30});
     expect_to_come_back(UnpackJob{"/box/archive", "/box/to", 200ull << 20, 2000, true});
     expect_to_come_back(
         Unpacked{{Message("\"{}\" leads outside of the archive", "../x")}, Message("the archive is damaged")});

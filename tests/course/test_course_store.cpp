@@ -149,9 +149,10 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
              "2026-03-15 12:00"},
             "only deadlines may move, to later ones");
     refused({"drop", "group-77"}, "there is no group");
-    for (const char* group : {"../../up", "a/b", "..", "in\ntwo", ".hidden", "\u202Eback"}) {
+    for (const char* group : {"../../up", "a/b", "..", "in\ntwo", ".hidden", "\u202Eback", "CON", "com1.txt", "a:b",
+                              "a*b?", "trail.", "moodle.zip", "Mail.csv", "lab\uFEFF", "\u3164"}) {
         bench.bench().write("odd.csv", fmt::format("id,name,group\ns77,Zoe,\"{}\"\n", group));
-        refused({"import", "odd.csv"}, "cannot name a folder");
+        refused({"import", "odd.csv"}, "cannot ");
     }
 }
 

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "course/course_bench.h"
+#include "course/export/mailing.h"
 #include "course/export/returned_files.h"
 #include "course/office/receive.h"
 #include "course/review/review_pairs.h"
 #include "course/store/senders.h"
 #include "platform/error.h"
+#include "platform/temporary_folder.h"
 
 namespace dynlab::test {
 namespace test_returns {
@@ -56,6 +58,37 @@ TEST(returns, bring_what_is_new_for_whom) {
     EXPECT_EQ(shell("find all -name '*.pdf' | wc -l"), "3\n");
     EXPECT_THAT(course.course({"deliver", "crane", "--out", "all"}).error_output, HasSubstr("exists already"));
     done({"verify"});
+}
+
+// oracle: the exit codes, and the files that the outbox and the receipts are
+TEST(returns, two_deliveries_into_one_folder_are_one) {
+    CourseBench course(12, 2);
+    for (int i = 1; i <= 12; ++i)
+        course.hand_in(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)), "2026-03-01 10:00",
+                       {"--no-checks"});
+    ASSERT_EQ(course.course({"review", "assign", "--at", "2026-03-02 10:00"}).exit_code, 0);
+    ASSERT_EQ(course.course({"review", "send", "--at", "2026-03-02 11:00"}).exit_code, 0);
+    for (int round = 1; round <= 4; ++round) {
+        const ChildResult both = course.bench().shell(
+            "rm -rf out; for k in 1 2; do \"$DYNLAB\" course --course k deliver crane --all --out out >/dev/null 2>&1 "
+            "& eval "
+            "p$k=$!; done; wait $p1; a=$?; wait $p2; echo $((a + $?)); find out -type f -name '*.*' | wc -l; ls -A");
+        EXPECT_THAT(both.output, ::testing::ContainsRegex("^1\n37\n")) << round;
+        EXPECT_THAT(both.output, ::testing::Not(HasSubstr(".new-")));
+    }
+}
+
+// oracle: what unzip and Windows take as a name
+TEST(returns, names_of_people_are_plain_in_the_zip) {
+    MoodleFeedback feedback;
+    const TemporaryFolder folder;
+    feedback.add({"s1", "A\x1b[31m\nB<C>:?*\xEF\xBB\xBF", "", "", "900001"}, "feedback.pdf", "x");
+    feedback.write(folder.path() / "moodle.zip");
+    EXPECT_EQ(Workbench()
+                  .shell("python3 -c \"import zipfile; print(zipfile.ZipFile('" +
+                         (folder.path() / "moodle.zip").string() + "').namelist())\"")
+                  .output,
+              "['A  31m B C      _900001_assignfeedback_file_/feedback.pdf']\n");
 }
 
 // oracle: Moodle numbers participants for each assignment: the names of its folders, and its worksheet

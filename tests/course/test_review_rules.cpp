@@ -142,6 +142,36 @@ TEST_F(review_rules, scores_of_a_withdrawn_review_count_again_once_it_is_restore
     EXPECT_EQ(work_of(pair.author), Mark(0));
 }
 
+// oracle: the pairs that the course has in the end
+TEST_F(review_rules, pairs_that_change_while_copies_are_made_are_sent_as_they_are_in_the_end) {
+    Term term(CourseBench(5, 2));
+    term.course_.database().run("UPDATE memberships SET since = ?", term.at("2026-01-01 12:00"));
+    for (int i = 1; i <= 5; ++i) term.submit("first", CourseBench::group(i), "2026-03-01 10:00");
+    assign_reviews(term.course_, term.crane_, term.at("2026-03-02 10:00"), false);
+    bool changed = false;
+    send_copies(
+        term.course_, term.crane_, Way::kToReviewers, term.at("2026-03-02 11:00"),
+        [&](const CopyRequest& request) {
+            if (!std::exchange(changed, true)) {  // what a second terminal does meanwhile
+                const ReviewPair taken = term.pair_of(request.group == "group-01" ? "group-02" : "group-01");
+                wish_pair(term.course_, term.crane_, taken.reviewer_name, taken.author_name, "forbid",
+                          "they share a flat", term.at("2026-03-02 11:00"));
+                assign_reviews(term.course_, term.crane_, term.at("2026-03-02 11:00"), true);
+                EXPECT_TRUE(term.pair_of(taken.reviewer_name, true).ended);
+            }
+            std::ofstream(request.copy) << "copy " << request.pdf;
+            return CopyOutcome{true, {}, {}};
+        },
+        true);
+    std::set<std::string> wanted, sent;
+    for (const ReviewPair& pair : term.pairs())
+        if (!pair.ended) wanted.insert(pair.reviewer_name + "/" + pair.report_pseudonym() + ".pdf");
+    const std::filesystem::path outbox = term.course_.folder() / "outbox/crane/to-review";
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(outbox))
+        if (entry.is_regular_file()) sent.insert(entry.path().lexically_relative(outbox).string());
+    EXPECT_EQ(sent, wanted);
+}
+
 // oracle: the next version has no scores until they are given
 TEST_F(review_rules, scores_of_a_withdrawn_version_do_not_count_for_the_next_one) {
     const ReviewPair pair = pair_of("group-01");

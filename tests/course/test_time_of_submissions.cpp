@@ -5,6 +5,8 @@
 #include <thread>
 
 #include "base/reader.h"
+#include "course/boxes/boxed_work.h"
+#include "course/boxes/job_descriptions.h"
 #include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
 
@@ -64,6 +66,39 @@ TEST(time_of_submissions, the_limit_that_ended_one_is_told_with_its_figure) {
     bench.hand_in("a", "while true do end\n");
     bench.grade({"--timeout", "1"});
     EXPECT_THAT(GradingBench::trouble(bench.result("a")), HasSubstr("the script used more than 1 s of processor time"));
+}
+
+// oracle: the same answer in a script that is stopped in Lua's own code
+TEST(time_of_submissions, answers_before_a_long_call_of_lua_s_functions_count) {
+    GradingBench bench(kAnswers, kChecks, kSolution);
+    const std::string work = "local s = string.rep('a', 2e8) for i = 1, 100 do s:upper() end";
+    bench.hand_in("loop", "answer('x', 42) while true do end\n");
+    bench.hand_in("upper", "answer('x', 42) " + work + "\n");
+    bench.hand_in("coroutine", "answer('x', 42) coroutine.wrap(function() " + work + " end)()\n");
+    bench.hand_in("caught", "answer('x', 42) " + work + " pcall(function() " + work + " end)\n");
+    ASSERT_EQ(bench.grade({"--timeout", "2"}).exit_code, 0);
+    for (const char* name : {"loop", "upper", "coroutine", "caught"}) {
+        EXPECT_EQ(GradingBench::score(bench.result(name)), 1) << name;
+        EXPECT_THAT(GradingBench::trouble(bench.result(name)),
+                    HasSubstr("the script used more than 2 s of processor time"));
+    }
+}
+
+// oracle: a box that may take no time by the clock ends before any processor time is used
+TEST(time_of_submissions, a_run_that_the_clock_ended_is_known_from_one_that_used_its_time) {
+    const Workbench bench;
+    bench.write("in/analysis.lua", "while true do end\n");
+    const auto run = [&](const TimeLimits& limits) {
+        Box box(strongest_isolation());
+        RunJob job;
+        job.script = box.add(bench.path("in"), "/box/submission") / "analysis.lua";
+        job.time_ms = 60000, job.memory_bytes = 1ull << 30;
+        return run_boxed(box, DYNLAB_PROGRAM, job, limits);
+    };
+    EXPECT_TRUE(run({std::chrono::milliseconds(60000), 0}).waited);
+    const auto used = run({std::chrono::milliseconds(100), 100});
+    EXPECT_FALSE(used.output);
+    EXPECT_FALSE(used.waited);
 }
 
 // oracle: the worked solution's own run, which is not made again for the second submission

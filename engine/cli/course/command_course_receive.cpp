@@ -190,7 +190,7 @@ int verify_course(const CourseArguments& where, const std::vector<std::string>& 
     bool well = true;
     for (const std::string& file : receipts) {
         const ReceiptVerdict verdict = verify_receipt(read_file(file), course);
-        std::cout << fmt::format("{}: {}\n", file, verdict.reason);
+        std::cout << terminal_text(fmt::format("{}: {}\n", file, verdict.reason));
         well = well && verdict.genuine;
     }
     if (receipts.empty()) {

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
+#include "platform/terminal/terminal_text.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline cli {
@@ -11,8 +12,9 @@ namespace {
 int list_lessons() {
     for (const Lesson& lesson : lessons()) {
         const ScriptHeader header = read_percent_script(lesson.script()).header;
-        std::cout << fmt::format("{:<22} {}\n", lesson.slug, header.title);
-        if (!header.subtitle.empty()) std::cout << fmt::format("{:<22} {}\n", "", header.subtitle);
+        std::string lines = fmt::format("{:<22} {}\n", lesson.slug, header.title);
+        if (!header.subtitle.empty()) lines += fmt::format("{:<22} {}\n", "", header.subtitle);
+        std::cout << terminal_text(lines);
     }
     std::cout << "\nRead one with its solution: dynlab report 02.  Work on one: dynlab new 02 my-work.\n";
     return kDone;

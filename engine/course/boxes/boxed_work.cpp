@@ -5,7 +5,7 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr auto kStartTime = std::chrono::milliseconds(500);
+constexpr auto kStartTime = std::chrono::milliseconds(1500);  // and a last call of a function of Lua
 
 }  // namespace
 
@@ -46,6 +46,7 @@ BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& 
     BoxedResult<std::string> result;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.reason = reason_of_end(child, time);
+    result.waited = child.time_limit() == TimeLimit::kClock;
     if (result.reason.empty()) result.output = child.output;
     return result;
 }

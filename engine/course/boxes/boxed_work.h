@@ -17,6 +17,7 @@ struct BoxedResult {
     std::optional<Result> output;  ///< what the work returned; nothing when it did not finish
     Message reason;                ///< then: "it used more than 10 s of processor time", "it crashed (signal 11)", ...
     double seconds = 0;            ///< wall clock, box and start included
+    bool waited = false;           ///< the clock's limit ended it, before its processor time was used
 };
 
 /// Why a process that should have done its work within `time` has not: "it used more than 10 s of processor time", ...;
@@ -41,7 +42,7 @@ BoxedResult<typename Job::Result> run_boxed(Box& box, const std::filesystem::pat
                                             const TimeLimits& time,
                                             std::uint64_t output_bytes = Box::Limits{}.output_bytes) {
     const BoxedResult<std::string> child = run_boxed_bytes(box, program, Job::kWork, cbor_of(job), time, output_bytes);
-    BoxedResult<typename Job::Result> result{{}, child.reason, child.seconds};
+    BoxedResult<typename Job::Result> result{{}, child.reason, child.seconds, child.waited};
     if (!child.output) return result;
     try {
         result.output = from_cbor<typename Job::Result>(*child.output, boxed_limits(output_bytes));

@@ -1,6 +1,11 @@
 #include "course/boxes/graded_run.h"
 
+#include <signal.h>
+#include <unistd.h>
+
 #include <chrono>
+#include <ctime>
+#include <stdexcept>
 
 #include "course/boxes/told_reason.h"
 #include "documents/error.h"
@@ -19,6 +24,36 @@ namespace {
 constexpr std::size_t kPrinted = 4000;         // characters that are kept of the end
 constexpr std::size_t kMostOutput = 4u << 20;  // of printed text
 constexpr int kOpenFiles = 64;
+constexpr int kClockMultiple = 1000;  // the box's own limit by the clock comes first
+
+/// Lua's own functions look at no clock: from its limit of processor time on the script is stopped at its next step, so
+/// that what it answered before counts. One at a time; on the thread that runs the script.
+class StopAtLimit {
+  public:
+    StopAtLimit(Runtime& runtime, std::chrono::milliseconds limit) {
+        stopped_ = &runtime;
+        struct sigaction action = {};
+        action.sa_handler = [](int) { stopped_->stop_at_next_step(); };
+        action.sa_flags = SA_RESTART;
+        ::sigaction(SIGVTALRM, &action, nullptr);
+        sigevent event = {};
+        event.sigev_notify = SIGEV_THREAD_ID;
+        event.sigev_signo = SIGVTALRM;
+        event._sigev_un._tid = ::gettid();
+        if (::timer_create(CLOCK_PROCESS_CPUTIME_ID, &event, &timer_) != 0) throw std::runtime_error("no timer");
+        constexpr long kAgain = 20'000'000;  // ns: a coroutine may have begun since
+        const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(limit);
+        const itimerspec times = {{0, kAgain}, {seconds.count(), std::chrono::nanoseconds(limit - seconds).count()}};
+        ::timer_settime(timer_, 0, &times, nullptr);
+    }
+    ~StopAtLimit() { ::timer_delete(timer_); }
+    StopAtLimit(const StopAtLimit&) = delete;
+    StopAtLimit& operator=(const StopAtLimit&) = delete;
+
+  private:
+    static inline Runtime* stopped_ = nullptr;
+    timer_t timer_ = {};
+};
 
 /// The script as the lesson wants it: its own promises of answers do not count.
 PercentScript read_for_grading(const RunJob& job) {
@@ -34,7 +69,7 @@ RunOptions options_of(const RunJob& job, const PercentScript& script) {
     options.out_folder = std::filesystem::temp_directory_path();
     options.memory_limit_bytes = job.memory_bytes;
     options.output_limit_bytes = kMostOutput;
-    options.time = TimeLimits{std::chrono::milliseconds(job.time_ms), job.clock_multiple};
+    options.time = TimeLimits{std::chrono::milliseconds(job.time_ms), kClockMultiple};
     options.graded = true;
     return options;
 }
@@ -78,6 +113,7 @@ GradedRun run_for_grading(const RunJob& job) {
         Runtime runtime(options, renderer);
         runtime.services().language = &language;
         const auto start = processor_time();
+        const StopAtLimit stop(runtime, std::chrono::milliseconds(job.time_ms));
         GradedRun run = graded_run(runtime.run(script), script);
         if (run.error) run.error = told_outside(*run.error, job.script.parent_path());
         run.lesson = script.header.lesson;

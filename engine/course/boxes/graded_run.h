@@ -31,7 +31,6 @@ struct RunJob {
     std::uint32_t seed = 1;
     std::vector<ExpectedAnswer> answers;  ///< as the lesson declares them
     std::int64_t time_ms = 0;             ///< most milliseconds of processor time
-    int clock_multiple = 0;               ///< the clock's limit, see TimeLimits
     std::uint64_t memory_bytes = 0;       ///< most bytes of the script
     bool recalls = false;                 ///< long calls, from the cache of its environment: never of a submission
 };

@@ -11,7 +11,7 @@ namespace dynlab::inline course {
 /// checks/check_descriptions.h, that of a report's version in review/version_description.h.
 
 DYNLAB_DESCRIBE(GradedRun, answers, figures, values, printed, error, seconds, lesson, began)
-DYNLAB_DESCRIBE(RunJob, script, seed, answers, time_ms, clock_multiple, memory_bytes, recalls)
+DYNLAB_DESCRIBE(RunJob, script, seed, answers, time_ms, memory_bytes, recalls)
 DYNLAB_DESCRIBE(Unpacked, left_out, error)
 DYNLAB_DESCRIBE(UnpackJob, archive, to, bytes, files, keep_times)
 

@@ -16,6 +16,7 @@
 #include "platform/keys/secure_random.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
+#include "platform/terminal/terminal_text.h"
 #include "workflow/student_copy.h"
 
 namespace dynlab::inline course {
@@ -107,7 +108,10 @@ std::vector<BundleOwner> bundle_owners(std::vector<Student>& students, const std
     std::map<std::string, std::size_t> places;
     for (Student& student : students) {
         const std::string& name = bundle_owner(student);
-        if (name.find('/') != std::string::npos) throw EnvironmentError("there is a / in the name of {}", name);
+        if (name.find('/') != std::string::npos || terminal_line(name) != name)
+            throw EnvironmentError(
+                "\"{}\" cannot name a file: it contains / or characters that cannot be seen. Correct the roster",
+                terminal_line(name));
         const auto known = seeds.find(name);
         student.seed = known == seeds.end() ? seeds[name] = drawn_seed(taken) : known->second;
         const auto [place, added] = places.try_emplace(name, owners.size());

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "course/boxes/zip_file.h"
+#include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline course {
 
@@ -20,10 +21,9 @@ TextTable mailing_list(const std::vector<Mailing>& mailings) {
 
 bool MoodleFeedback::add(const Recipient& to, const std::string& file, const std::string& content) {
     if (to.moodle.empty()) return false;
-    std::string name = to.shown();
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return std::string_view("_/\\").find(c) != std::string_view::npos; },
-        ' ');
+    std::string name = terminal_line(to.shown());
+    std::ranges::replace_if(
+        name, [](char c) { return std::string_view("_/\\:*?\"<>|").find(c) != std::string_view::npos; }, ' ');
     contents_[fmt::format("{}_{}_assignfeedback_file_/{}", name, to.moodle, file)] = content;
     return true;
 }

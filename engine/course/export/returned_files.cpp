@@ -14,6 +14,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
+#include "platform/locks/whole_folder.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -96,20 +97,19 @@ class Returner {
     }
 
     void lay_out() {
-        const fs::path growing = request_.folder.string() + ".unfinished";
-        fs::remove_all(growing);
-        std::vector<Mailing> mailings;
-        MoodleFeedback moodle;
-        for (const auto& [group, files] : groups_) {
-            fs::create_directories(growing / group.name);
-            for (const FileToReturn& file : files)
-                write_file_atomically(growing / group.name / file.name(), file.content);
-            address(group, files, mailings, moodle);
-        }
-        write_file_atomically(growing / "mail.csv", csv_text(mailing_list(mailings)));
-        if (request_.moodle) moodle.write(growing / "moodle.zip");
-        fs::permissions(growing, fs::perms::owner_all);
-        fs::rename(growing, request_.folder);
+        make_whole_folder(request_.folder, [this](const fs::path& growing) {
+            fs::permissions(growing, fs::perms::owner_all);
+            std::vector<Mailing> mailings;
+            MoodleFeedback moodle;
+            for (const auto& [group, files] : groups_) {
+                fs::create_directories(growing / group.name);
+                for (const FileToReturn& file : files)
+                    write_file_atomically(growing / group.name / file.name(), file.content);
+                address(group, files, mailings, moodle);
+            }
+            write_file_atomically(growing / "mail.csv", csv_text(mailing_list(mailings)));
+            if (request_.moodle) moodle.write(growing / "moodle.zip");
+        });
     }
 
     void address(const Group& group, const std::vector<FileToReturn>& files, std::vector<Mailing>& mailings,

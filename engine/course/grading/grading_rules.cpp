@@ -29,6 +29,7 @@ namespace fs = std::filesystem;
 constexpr auto kCheckTime = std::chrono::milliseconds(10000);     // of one check
 constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all, where each needs a box of its own
 constexpr auto kDocumentTime = std::chrono::milliseconds(15000);  // beyond the script's own
+constexpr int kClockMultiple = 20;  // a script cannot wait: only a busy machine makes its run last
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
 constexpr std::uintmax_t kMostSource = 1u << 20;    // bytes of a script that checks may read
 constexpr std::uint64_t kMostAnswers = 4ull << 20;  // bytes of a run's result
@@ -137,12 +138,17 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     job.answers = answers_;
     job.memory_bytes = kScriptMemory;
     job.time_ms = setup_.time.processor.count();
-    job.clock_multiple = setup_.time.clock_multiple;
     job.recalls = setup_.call_memory.has_value();
     if (job.recalls)
         box.set_environment("XDG_CACHE_HOME",
                             box.add_writable(*setup_.call_memory, "/box/caches/dynlab").parent_path());
-    const auto result = run_boxed(box, setup_.program, job, setup_.time, kMostAnswers);
+    const TimeLimits limits{setup_.time.processor, kClockMultiple};
+    const auto result = run_boxed(box, setup_.program, job, limits, kMostAnswers);
+    if (result.waited)
+        throw EnvironmentError(
+            "the machine was too busy: the script had not used its {} s of processor time after {} s. Grade it again "
+            "when less is running, or with fewer --jobs",
+            limits.seconds(TimeLimit::kProcessor), limits.seconds(TimeLimit::kClock));
     GradedRun run = result.output.value_or(GradedRun());
     if (!result.output) run.error = Message("The script was ended: {}.", result.reason);
     const auto solution = solution_seconds_.find(name);

@@ -21,6 +21,7 @@
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/locks/whole_folder.h"
 #include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {
@@ -173,11 +174,10 @@ void insert_row(Database& db, const std::string& table, const StoredRow& row) {
     statement.next();
 }
 
-/// Makes the imported course in `folder`, a new one: with the tables that the exported one had, which opening it then
-/// brings to today's.
+/// Makes the imported course in `folder`, an empty one: with the tables that the exported one had, which opening it
+/// then brings to today's.
 void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::string, std::string>& settings,
                    const std::vector<fs::path>& handed_in, const CourseExport& all) {
-    fs::create_directories(folder);
     if (fs::exists(from / "course.key")) fs::copy_file(from / "course.key", folder / "course.key");
     Course::create(folder, settings["name"], settings["zone"]);
     {
@@ -323,20 +323,14 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
                 "{} is not the folder of the exported course: the submitted file {} is not in it. Name that folder "
                 "with --from. Nothing was made",
                 from.string(), kept.filename().string());
-    const fs::path place = fs::absolute(folder).lexically_normal();
-    const fs::path whole = place.has_filename() ? place : place.parent_path();
-    if (fs::exists(whole) && !(fs::is_directory(whole) && fs::is_empty(whole)))
-        throw EnvironmentError("{} exists already and is not an empty folder; name a new one", folder.string());
-    const fs::path growing = whole.string() + ".unfinished";
-    fs::remove_all(growing);  // of an import that was interrupted
-    try {
-        fill_imported(growing, from, settings, handed_in, all);
-    } catch (const EnvironmentError& error) {
-        fs::remove_all(growing);
-        throw EnvironmentError("{}: {}; nothing was made", file.string(), message_of(error));
-    }
-    if (fs::exists(whole)) fs::remove(whole);
-    fs::rename(growing, whole);
+    make_whole_folder(folder, [&](const fs::path& growing) {
+        fs::permissions(growing, fs::perms::owner_all);
+        try {
+            fill_imported(growing, from, settings, handed_in, all);
+        } catch (const EnvironmentError& error) {
+            throw EnvironmentError("{}: {}; nothing was made", file.string(), message_of(error));
+        }
+    });
 }
 
 }  // namespace dynlab::inline course

@@ -26,6 +26,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
+#include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -116,7 +117,7 @@ class HandInReceiver {
     }
 
     static void make_trace(Candidate& candidate, const char* trouble, const Message& reason) {
-        candidate.part = kUnreadable, candidate.name = candidate.file->name;
+        candidate.part = kUnreadable, candidate.name = terminal_line(candidate.file->name);
         candidate.inspection = unreadable_inspection(trouble, reason);
         candidate.silent = true, candidate.unreadable = false, candidate.pair = {};
     }
@@ -133,7 +134,7 @@ class HandInReceiver {
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
             throw EnvironmentError("the file has more than {} MB", kMostBytes >> 20);
         RecognisedFile found = recognise(file, outcome_.assignment, request_.stage);
-        candidate.part = found.part, candidate.name = found.name, candidate.remark = found.remark;
+        candidate.part = found.part, candidate.name = terminal_line(found.name), candidate.remark = found.remark;
         candidate.unreadable = found.text;
         if (!found.trouble.empty()) candidate.inspection = unreadable_inspection(found.trouble, found.reason);
         if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
@@ -253,7 +254,7 @@ class HandInReceiver {
         packed_.push_back({document.file, whole.name + "/" + document.name, whole.source + "/" + document.name,
                            whole.sender, whole.folder});
         Candidate candidate;
-        candidate.name = packed_.back().name;
+        candidate.name = terminal_line(packed_.back().name);
         candidate.file = &packed_.back(), candidate.group = pack.group, candidate.pair = pack.pair;
         candidate.at = pack.at, candidate.timed = pack.timed;
         candidate.part = part, candidate.from_pack = true, candidate.made = document.made;

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "base/reader.h"
 #include "course/review/peer_review.h"
 #include "course/store/assignments.h"
 #include "course/store/newest_versions.h"
@@ -11,6 +12,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
+#include "platform/keys/secure_random.h"
 #include "platform/temporary_folder.h"
 
 namespace dynlab::inline course {
@@ -36,14 +38,34 @@ class CopySender {
     }
 
     SendOutcome run() {
-        for (const ReviewPair& pair : review_pairs(course_, assignment_))
-            if (!pair.ended) send(pair);
+        while (send_pairs_not_seen()) {
+        }
         empty_outbox_of_others();
         if (!to_reviewers()) count_reviews();
+        for (std::vector<Message>* const list : {&outcome_.hits, &outcome_.hints})
+            std::ranges::sort(*list, {}, [](const Message& message) { return message_text(message); });
         return std::move(outcome_);
     }
 
   private:
+    /// Pairs may be changed while copies are made: whether there was one that had not been looked at yet. They come in
+    /// random order, so that neither the times nor the places of the files in the outbox tell whose they are.
+    bool send_pairs_not_seen() {
+        std::vector<ReviewPair> pairs = review_pairs(course_, assignment_);
+        shuffle_items(pairs, secure_below);
+        bool any = false;
+        for (const ReviewPair& pair : pairs) {
+            if (pair.ended || !seen_.insert(pair.id).second) continue;
+            send(pair);
+            any = true;
+        }
+        return any;
+    }
+
+    bool has_ended(const ReviewPair& pair) const {
+        return course_.database().query("SELECT 1 FROM pairs WHERE id = ? AND ended_at IS NOT NULL", pair.id).next();
+    }
+
     bool to_reviewers() const { return way_ == Way::kToReviewers; }
     const char* way_name() const { return to_reviewers() ? "to reviewer" : "to author"; }
 
@@ -62,7 +84,7 @@ class CopySender {
         if (named || sha256_of(copy) != hash)
             throw EnvironmentError("the copy for {} is not as it was made; nothing more was sent: dynlab course verify",
                                    file.string());
-        kept_.insert(file);
+        kept_[file] = pair.id;
         fs::create_directories(file.parent_path());
         if (!fs::exists(file) || read_file(file) != copy) course_.write({{file, copy}});
     }
@@ -70,6 +92,9 @@ class CopySender {
     /// What was taken back, withdrawn or held after it was laid there.
     void empty_outbox_of_others() {
         if (!fs::exists(outcome_.folder)) return;
+        const Transaction nobody_changes_pairs(course_.database());
+        for (const ReviewPair& pair : review_pairs(course_, assignment_))
+            if (pair.ended) std::erase_if(kept_, [&pair](const auto& kept) { return kept.second == pair.id; });
         std::vector<fs::path> others;
         for (const auto& entry : fs::recursive_directory_iterator(outcome_.folder))
             if (entry.is_regular_file() && !kept_.contains(entry.path())) others.push_back(entry.path());
@@ -165,9 +190,11 @@ class CopySender {
     /// `accepted`: the group whose hits were accepted; else empty.
     void record(const ReviewPair& pair, const StandingFile& version, const std::string& content,
                 const std::string& accepted) {
+        if (has_ended(pair)) return;  // while the copy was made
         const std::string hash = course_.keep(content);
         course_.settle({hash});
         Transaction transaction(course_.database());
+        if (has_ended(pair)) return;
         course_.record_file(hash, static_cast<std::int64_t>(content.size()), now_);
         course_.database().run("INSERT INTO sendings (pair, way, version, hash, made_at) VALUES (?, ?, ?, ?, ?)",
                                pair.id, way_name(), version.id, hash, now_);
@@ -190,7 +217,8 @@ class CopySender {
     std::set<std::string> accepted_;  ///< groups
     std::vector<Student> people_;
     std::set<std::int64_t> stopped_, doubted_, noted_;  ///< versions
-    std::set<fs::path> kept_;                           ///< what is to lie in the outbox
+    std::set<std::int64_t> seen_;                       ///< pairs
+    std::map<fs::path, std::int64_t> kept_;             ///< what is to lie in the outbox, and its pair
     SendOutcome outcome_;
 };
 

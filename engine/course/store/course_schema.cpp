@@ -1,6 +1,7 @@
 #include "course/store/course_schema.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "platform/error.h"
 
@@ -270,11 +271,12 @@ void keep_before_migration(Database& database, const std::filesystem::path& file
     if (pragma(database, "application_id") != kApplicationId || version >= newest) return;
     const fs::path kept = fmt::format("{}.before-version-{}", file.string(), newest);
     if (fs::exists(kept)) return;
-    const fs::path growing = kept.string() + ".unfinished";
-    fs::remove(growing);
-    database.run("VACUUM INTO ?", growing.string());
-    fs::permissions(growing, fs::perms::owner_read | fs::perms::owner_write);
-    fs::rename(growing, kept);
+    // Of two programs that open the course at once each copies it for itself.
+    const fs::path copy = fmt::format("{}.{}.unfinished", kept.string(), ::getpid());
+    fs::remove(copy);
+    database.run("VACUUM INTO ?", copy.string());
+    fs::permissions(copy, fs::perms::owner_read | fs::perms::owner_write);
+    fs::rename(copy, kept);
 }
 
 bool migrate_course(Database& database, Database::Opening opening, const std::string& file,

@@ -24,6 +24,7 @@
 #include "platform/keys/secure_random.h"
 #include "platform/locks/abandoned_folders.h"
 #include "platform/system_call.h"
+#include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -262,7 +263,7 @@ void Course::remember(const std::string& key, const std::string& value) {
 }
 
 void Course::note(const std::string& what, Instant at) {
-    database_.run("INSERT INTO journal (at, what) VALUES (?, ?)", at, what);
+    database_.run("INSERT INTO journal (at, what) VALUES (?, ?)", at, terminal_line(what));
 }
 
 }  // namespace dynlab::inline course

@@ -37,17 +37,31 @@ bool same_name(const std::string& a, const std::string& b) {
     return words == others;
 }
 
-/// Names of groups become names of folders and files: of receipts, and of what is returned.
+/// Names that Windows has for devices, or that stand beside the groups' folders where files are delivered.
+bool is_reserved(const std::string& name) {
+    static const std::set<std::string> reserved = {"con", "prn", "aux", "nul", "mail.csv", "moodle.zip"};
+    const std::string small = in_small_letters(name), stem = small.substr(0, small.find('.'));
+    const bool port = stem.size() == 4 && (stem.starts_with("com") || stem.starts_with("lpt")) && stem[3] >= '1';
+    return reserved.contains(small) || reserved.contains(stem) || (port && stem[3] <= '9');
+}
+
+/// Names of groups become names of folders and files: of receipts, and of what is delivered, also on Windows.
 void refuse_odd_group(const std::string& name) {
     constexpr std::size_t kMaxNameBytes = 100;
     if (name.size() > kMaxNameBytes)
         throw EnvironmentError("the group's name \"{}...\" is too long: at most {} bytes, but it has {}",
                                terminal_text(name.substr(0, 40)), kMaxNameBytes, name.size());
-    if (!name.starts_with('.') && name.find_first_of("/\\\n\r\t") == name.npos && terminal_text(name) == name) return;
+    if (is_reserved(name))
+        throw EnvironmentError(
+            "a group cannot be called \"{}\": a device or a list has this name. Correct the roster; nothing was "
+            "changed",
+            name);
+    const bool plain = name.find_first_of("/\\:*?\"<>|\n\r\t") == name.npos && terminal_text(name) == name;
+    if (plain && !name.starts_with('.') && !name.ends_with('.')) return;
     throw EnvironmentError(
-        "the group's name \"{}\" cannot name a folder: it must not begin with a full stop, nor hold /, \\ or "
-        "characters that cannot be seen. Correct the roster, where the id names the group of who has none; nothing was "
-        "changed",
+        "the group's name \"{}\" cannot name a folder: it must not begin or end with a full stop, and must not contain "
+        "/ \\ : * ? \" < > | or characters that cannot be seen. Correct the roster, where the id names the group of a "
+        "student without one; nothing was changed",
         terminal_text(name));
 }
 

@@ -8,6 +8,7 @@
 
 #include "platform/error.h"
 #include "platform/hash.h"
+#include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -17,12 +18,6 @@ constexpr std::size_t kCodeDigits = 64;
 
 std::string_view first_line(ReceiptKind kind) {
     return kind == ReceiptKind::kSigned ? "dynlab receipt 2" : "dynlab receipt 1";
-}
-
-std::string one_line(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-    return text;
 }
 
 /// A receipt's file taken apart; the signature is its last line.
@@ -89,9 +84,9 @@ std::string receipt_text(const Receipt& receipt, ReceiptKind kind) {
         "{}\n{}course: {}\nassignment: {}\ngroup: {}\nhanded in as: {}, {}, version {}\nfile: {}\n"
         "{}{}\nbytes: {}\nreceived: {}\ndue: {}\nlate: {}\n",
         first_line(kind), receipt.correction > 0 ? fmt::format("correction: {}\n", receipt.correction) : "",
-        one_line(receipt.course), one_line(receipt.assignment), one_line(receipt.group), receipt.stage, receipt.part,
-        receipt.version, one_line(receipt.name), kHash, receipt.hash, receipt.bytes, utc_text(receipt.received),
-        utc_text(receipt.due), receipt.late > 0 ? duration_text(receipt.late) : "no");
+        terminal_line(receipt.course), terminal_line(receipt.assignment), terminal_line(receipt.group), receipt.stage,
+        receipt.part, receipt.version, terminal_line(receipt.name), kHash, receipt.hash, receipt.bytes,
+        utc_text(receipt.received), utc_text(receipt.due), receipt.late > 0 ? duration_text(receipt.late) : "no");
 }
 
 std::string signed_receipt(const Receipt& receipt, const SigningKey& key) {

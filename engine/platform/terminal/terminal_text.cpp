@@ -17,8 +17,10 @@ bool is_plain_to_a_shell(unsigned char c) {
 }  // namespace
 
 bool is_terminal_control(char32_t c) {
+    const bool invisible = (c >= 0x2060 && c <= 0x2064) || c == 0x180E || c == 0xFEFF || c == 0x115F || c == 0x1160 ||
+                           c == 0x3164 || c == 0xFFA0 || (c >= 0xE0000 && c <= 0xE007F);
     return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x061C || (c >= 0x200B && c <= 0x200F) ||
-           (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) || c == kNoCharacter;
+           (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) || c == kNoCharacter || invisible;
 }
 
 std::string terminal_text(std::string_view utf8) {
@@ -32,6 +34,13 @@ std::string terminal_text(std::string_view utf8) {
             result += before.substr(0, before.size() - utf8.size());
     }
     return result;
+}
+
+std::string terminal_line(std::string_view utf8) {
+    std::string line = terminal_text(utf8);
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+    return line;
 }
 
 std::string shell_word(const std::string& word) {

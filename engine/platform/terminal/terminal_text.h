@@ -12,6 +12,10 @@ bool is_terminal_control(char32_t c);
 /// excepted, and broken UTF-8 become '?'.
 std::string terminal_text(std::string_view utf8);
 
+/// The same on one line: line ends and tabs become spaces. For names in lists and logs, whose lines a line end in a
+/// name would forge.
+std::string terminal_line(std::string_view utf8);
+
 /// A word of a command that is shown to be copied: as it is where a shell takes it so, else in single quotes.
 std::string shell_word(const std::string& word);
 

@@ -248,6 +248,7 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
             lua_setupvalue(L, -2, 1);
         }
         lua_sethook(L, count_hook, LUA_MASKCOUNT, kInstructionsBetweenPolls);
+        context.active = L;
         context.running = true;
         status = lua_pcall(L, shows ? 1 : 0, 0, 1);
         context.running = false;
@@ -257,6 +258,11 @@ void Runtime::run_source(const std::string& source, const PromptStatement* state
         const std::string& text = statement != nullptr ? statement->source : context.source;
         record_error(status == LUA_ERRMEM ? memory_error(context) : syntax_error(lua_tostring(L, -1), text));
     }
+}
+
+/// As Lua's own interpreter does on SIGINT.
+void Runtime::stop_at_next_step() {
+    if (context_->running) lua_sethook(context_->active, count_hook, LUA_MASKCOUNT, 1);
 }
 
 PlacedMessage Runtime::error_of_run(int status) const {

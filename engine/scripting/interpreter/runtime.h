@@ -49,6 +49,9 @@ class Runtime {
     /// instead), and what it declares local at its outermost level stays visible to later statements.
     RunRecord run_statement(const PromptStatement& statement, const std::string& name);
 
+    /// The script that runs looks at Ctrl-C and its limits at its next step. For signal handlers, on its thread.
+    void stop_at_next_step();
+
     std::size_t peak_memory_bytes() const;
     std::size_t memory_bytes() const;  ///< in use now, after a full collection
     lua_State* state();                ///< for layers that hand values over (answers, prompt)

@@ -48,8 +48,9 @@ struct RuntimeContext {
     Services services;
 
     lua_State* main = nullptr;
-    std::string script_name;  ///< as messages show it
-    std::string source;       ///< of the running script
+    lua_State* active = nullptr;  ///< the coroutine that runs, or main
+    std::string script_name;      ///< as messages show it
+    std::string source;           ///< of the running script
     /// Where tic() was called last, and the script began.
     std::chrono::steady_clock::time_point tic{}, began = std::chrono::steady_clock::now();
     lua_Debug main_chunk{};  ///< activation record of the running main chunk

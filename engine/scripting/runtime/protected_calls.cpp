@@ -61,7 +61,10 @@ int resume_coroutine(lua_State* L, lua_State* co, int count) {
     }
     lua_xmove(L, co, count);
     int result_count = 0;
+    lua_State*& active = context_of(L).active;
+    active = co;
     const int status = lua_resume(co, L, count, &result_count);
+    active = L;
     if (status != LUA_OK && status != LUA_YIELD) {
         pass_stop_on(L);
         if (status == LUA_ERRMEM) push_memory_error(co);
