@@ -15,28 +15,28 @@
 -- ---
 
 -- %% [markdown]
--- A trolley runs along a rail, pulled by a motor; a pendulum hangs from it. One voltage moves both, so one model has two outputs:
--- where the trolley is and how far the load swings. You are given five records, among them one in which the crane was driven
--- where no linear model follows (@fig:crane shows what is measured). The crane is *simulated*: a program solves its equations, with noise. Find a model, say what it is worth, and write it down so that somebody who was not there can
--- do the same again.
+-- A motor pulls a trolley along a rail, and a pendulum hangs from the trolley. One voltage moves both, so the model has two outputs: the position of
+-- the trolley and the angle of the load (@fig:crane). You get five data sets. In one of them, part of the motion is beyond any linear model. The
+-- crane is *simulated*: a program solves its equations, with noise. Find a model, assess its quality, and describe your work so that a reader can
+-- repeat it.
 --
 -- ::: {.drawing name=crane}
 -- The crane: the motor's voltage $u$, the position $x$ of the trolley and the angle $\theta$ of the rod, all positive as drawn {#fig:crane}
 -- :::
 --
--- Work in this script, cell by cell; your text goes to `report.md`, which has the sections that a report must have and notes on what
--- belongs into each. You submit the report: at most six pages, seven with the appendix.
+-- Work in this script, cell by cell, and write your text in `report.md`. It has the required sections of a report, with notes on the content of each.
+-- You submit the report: at most six pages, seven with the appendix.
 --
--- # The records
+-- # The data
 --
--- | record | what was done |
+-- | data set | experiment |
 -- |-----------|-----------------------|
 -- | `estimation`, `validation` | rest, then a pseudo-random binary voltage of ±2 V, in two different orders |
--- | `steps` | rest, then pushes of ±2 V and ±4 V with pauses between them |
--- | `free_swing` | motor at 0 V, the load let go by hand |
--- | `limits` | pseudo-random voltage, then driven by hand to both ends of the rail, then pseudo-random again |
+-- | `steps` | rest, then pulses of ±2 V and ±4 V with pauses between them |
+-- | `free_swing` | motor at 0 V, the load released by hand |
+-- | `limits` | pseudo-random voltage, then manual motion to both ends of the rail, then pseudo-random again |
 --
--- Each has `t` (s), `u` (V), `x` (m) and `theta` (rad), 0.02 s apart; the voltage is held between two samples.
+-- Each has `t` (s), `u` (V), `x` (m) and `theta` (rad), every 0.02 s. The voltage is constant between two samples.
 
 -- %% id=records
 local crane = load("crane")
@@ -52,7 +52,7 @@ print(estimation)
 idplot(estimation)
 
 -- %% [markdown]
--- **Question 1.** Show the raw records. What can be seen in them before anything is computed?
+-- **Question 1.** Plot the raw data. What can you see before you compute anything?
 
 -- %% id=raw
 -- BEGIN SOLUTION
@@ -93,10 +93,10 @@ report.figure("raw", figure{rows = 3, height = 6.4, panels = panels(crane.estima
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 2.** Noise, resolution, levels at rest: what do the first second of a record and the differences between its samples tell?
+-- **Question 2.** What do the first second of the data and the differences between samples show about noise, resolution, and levels at rest?
 --
--- **Question 3.** Which part of `limits` can no linear model describe, and why? Find its first and last instant in the record, and
--- compare with what `advice` says of the record and of its field `discard`.
+-- **Question 3.** Which part of `limits` can no linear model describe, and why? Find its first and last instant, and compare with the output of
+-- `advice` and with its field `discard`.
 
 -- %% id=preparation
 -- BEGIN SOLUTION
@@ -149,10 +149,10 @@ report.figure("limits", figure{rows = 3, height = 6.4, panels = limit_panels},
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 4.** What in the path from voltage to position can no finite record fully reveal? Write the equations of the
--- crane as physics has them, and read off which poles and zeros position and angle have in common.
+-- **Question 4.** What in the path from voltage to position can no finite data set fully reveal? Write the equations of the crane from physics. Which
+-- poles and zeros do position and angle have in common?
 --
--- **Question 5.** Compare structures for each output on estimation and validation record (`srivcstruc`).
+-- **Question 5.** Compare structures for each output on estimation and validation data (`srivcstruc`).
 
 -- %% id=structure
 -- BEGIN SOLUTION
@@ -205,9 +205,9 @@ report.value("delay_fit", fit(direct(against, against.theta), delayed), "%.2f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 6.** Estimate the model you decided on. Do the two outputs, estimated separately, agree on the dynamics they
--- share? What do they give together (`CommonDenominator`)? A millimetre and a milliradian cannot be added: by what
--- should each output's errors be divided (`OutputWeights`)?
+-- **Question 6.** Estimate the model that you chose. Do the two outputs, estimated separately, agree on the dynamics they share? What is the joint
+-- estimate (`CommonDenominator`)? You cannot add millimeters and milliradians: by which number do you divide the errors of each output
+-- (`OutputWeights`)?
 
 -- %% id=estimate
 -- BEGIN SOLUTION
@@ -277,8 +277,8 @@ report.value("passes", position.report.iterations, "%d")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 7.** What else did you try, and why did you reject it? Compare the simulation of an ARX model, and what becomes of your
--- model when it is estimated from `limits`, whole and without the section that you discarded.
+-- **Question 7.** What else did you try, and why did you reject it? Compare the simulation of an ARX model. Also estimate your model from `limits`,
+-- from all of it and without the part that you discarded. How does it change?
 
 -- %% id=discarded
 -- BEGIN SOLUTION
@@ -302,9 +302,9 @@ report.table("sources", {
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 8.** Validate: the simulated outputs against the record that was not used, and the residuals. How does the model do on the
--- pushes of `steps`, and what does the free swing say of the pendulum? `motion` shows crane and model side by side as they move (on the page of
--- `dynlab preview analysis.lua`, not in the report).
+-- **Question 8.** Validate your model: compare the simulated outputs with the validation data, and test the residuals. How well does the model
+-- describe the pulses of `steps`, and what does the free swing show about the pendulum? `motion` shows crane and model side by side in motion (on the
+-- page of `dynlab preview analysis.lua`, not in the report).
 
 -- %% id=validation
 -- BEGIN SOLUTION
@@ -429,10 +429,10 @@ report.value("free_moved", 1e3*(max(swing.x) - min(swing.x)), "%.1f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 9.** One record is one realization. The simulated crane of this course can be run again: `rig("crane", {seed = 2})` repeats all five
--- experiments with another order of bits and other noise. Guess first (`guess`, `outcome`): which fit of the angle is typical? Then repeat your whole procedure
--- forty times. How far do fit, parameters and frequency scatter, do the standard errors show this scatter, and how far is your model from the
--- best that any linear model of this structure can do?
+-- **Question 9.** One data set is one realization. You can run the simulated crane again: `rig("crane", {seed = 2})` repeats all five experiments
+-- with another order of bits and other noise. First, enter a prediction (`guess`, `outcome`): which fit of the angle is typical? Then repeat your
+-- whole procedure forty times. How large is the scatter of fit, parameters and frequency? Do the standard errors show this scatter? How close is your
+-- model to the best linear model of this structure?
 
 -- %% id=repetition_guess
 -- BEGIN SOLUTION
@@ -527,9 +527,9 @@ report.value("pendulum_error", largest_error(study.pendulum, truth.natural_frequ
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 10.** Which nonlinearity is left? Simulate the equations of question 4 with dry friction, with $\sin\theta$ in place of $\theta$
--- (and air drag), and with both; estimate their few parameters as the linear model's, by the smallest simulation error. Which
--- one explains the position, which one the angle, and what is left in the end?
+-- **Question 10.** Which nonlinearity remains? Simulate the equations of question 4 with dry friction, with $\sin\theta$ instead of $\theta$ (and air
+-- drag), and with both. Estimate their parameters like those of the linear model, by the smallest simulation error. Which nonlinearity explains the
+-- position, which explains the angle, and what remains at the end?
 
 -- %% id=nonlinear
 -- BEGIN SOLUTION
@@ -657,8 +657,8 @@ report.value("grey_length", physical.length, "%.3f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 11 (appendix).** Suggest a way to bring the trolley to a given place quickly while the load swings little: a block diagram,
--- a controller designed on your model (`lqr`, `place`), and its closed loop on the nonlinear crane (`drive_crane`).
+-- **Question 11 (appendix).** Propose a controller that moves the trolley quickly to a given place with little swing of the load. Draw a block
+-- diagram, design the controller from your model (`lqr`, `place`), and simulate its closed loop with the nonlinear crane (`drive_crane`).
 
 -- %% id=control
 -- BEGIN SOLUTION
@@ -749,25 +749,31 @@ report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
 -- %% [markdown]
 -- # Peer review
 --
--- After the deadline of the first version you receive the report of another group, without its names, and write a review of one to two pages; your own names appear on neither. `dynlab new review my-review` makes the form. It asks five questions:
+-- After the deadline of the first version, you receive the anonymous report of another group, and write a review of one to two pages. Your names
+-- appear neither in your report nor in your review. `dynlab new review my-review` creates the form with five questions:
 --
--- 1. Are data and data collection described clearly enough for somebody else to repeat the experiments?
+-- 1. Are data and data collection described clearly enough for a reader to repeat the experiments?
 -- 2. Is the solution of every step of the workflow described?
--- 3. Do the conclusions follow from data, experiments and results? Do you agree with them, and what do you propose to change?
+-- 3. Do the conclusions follow from data, experiments and results? Do you agree with them, and which changes do you propose?
 -- 4. What is the greatest strength of the content?
 -- 5. How can clarity, readability and technical accuracy be improved?
 --
--- Answer in the form of a discussion: give reasons, and propose other methods. Criticize constructively, keep a friendly tone, say exactly what to improve, and avoid what could hurt. Vague or harsh comments are ignored. There are three deadlines, set by your instructor: the first version of the report, the review, and
--- the final version, which takes the reviews into account.
+-- Write your answers as a discussion: give reasons, and propose other methods. Criticize constructively, keep a friendly tone, say exactly what to
+-- improve, and avoid hurtful remarks. Vague or harsh comments are ignored. Your instructor sets three deadlines: the first version of the report, the
+-- review, and the final version, which takes the reviews into account.
 --
--- # What you submit besides the report
+-- # What you submit in addition to the report
 --
--- The report is read by people. If the script is graded too, submit results with `answer(name, value)`: `discarded`, first and last instant (s) of the section
--- of `limits` that belongs to no linear model; `rest_angle`, what the potentiometer reads (rad) while the load hangs still; your recommended models from
--- voltage to position, `G_position`, integrator included, and from voltage to angle, `G_angle`; `fits`, how well (%) they simulate position and angle of the
--- validation record; and `free_swing`, the frequency (rad/s) with which the load swings while the motor rests. It will be run on the records
--- of another crane, and the models that it finds there are held against experiments that nobody has seen. The checks look for
--- the figures `raw` and `validation`.
+-- People read the report. If the script is graded too, submit results with `answer(name, value)`:
+--
+-- * `discarded`: the first and the last instant (s) of the part of `limits` that no linear model can describe;
+-- * `rest_angle`: the reading of the potentiometer (rad) while the load is at rest;
+-- * `G_position` and `G_angle`: your recommended models from voltage to position, including the integrator, and from voltage to angle;
+-- * `fits`: the fits (%) of their simulated position and angle to the validation data;
+-- * `free_swing`: the frequency (rad/s) of the load while the motor is off.
+--
+-- Grading also runs your script on data of another crane, and compares the resulting models with hidden experiments. The checks look for the figures
+-- `raw` and `validation`.
 
 -- %% id=hand_in
 -- BEGIN SOLUTION
