@@ -200,11 +200,11 @@ report.value("left_on_steps", angle_left(pushes, physics), "%.1f")
 -- :::
 --
 -- The four variants share their equations and differ in the fixed parameters (@tbl:variants). The linear variant explains the angle about as well as
--- the black box of question 1, with the same number of parameters, five, for both outputs. On `validation`, dry friction explains a part of the error
--- of the position and almost nothing of the angle. The sine and the air drag explain the angle. On `steps`, the trolley rests between the pulses.
--- There, dry friction explains most of the error of the position and most of the error of the angle, because a trolley that stops in a different way
--- excites the load differently. The fit of the angle rises from `steps_fit_1`{.value} % to `steps_fit_2`{.value} % with dry friction, to
--- `steps_fit_3`{.value} % with wide swings and air drag, and to `steps_fit_4`{.value} % with both.
+-- the black box of question 1. It has as many parameters, five, for both outputs. On `validation`, dry friction explains a part of the error of the
+-- position and almost nothing of the angle. The sine and the air drag explain the angle. On `steps`, the trolley rests between the pulses. There, dry
+-- friction explains most of the error of the position and of the angle, because a trolley that stops in a different way excites the load differently.
+-- The fit of the angle rises from `steps_fit_1`{.value} % to `steps_fit_2`{.value} % with dry friction, to `steps_fit_3`{.value} % with wide swings
+-- and air drag, and to `steps_fit_4`{.value} % with both.
 --
 -- With both, the error of the angle is `left_physics`{.value} mrad on `validation` and `left_on_steps`{.value} mrad on `steps`. The noise of the
 -- sensor is `noise`{.value} mrad. Nothing remains to be explained on `validation`, and little on `steps`. Lesson 3.2 used the same equations with a
@@ -300,7 +300,7 @@ report.value("wide_creep", wide.dry/deltas[2], "%.0f")
 -- error is `wide_left_steps`{.value} mrad, and the model from `steps` has `wide_left_crossed`{.value} mrad on `validation`. The two data sets seem to
 -- describe two cranes, but they do not. Below 5 mm/s, the friction of this model is viscous, with `wide_creep`{.value} per second, so a trolley that
 -- should rest creeps and excites the load. With 0.5 mm/s, each model simulates both data sets with an error near the noise. With half of that, the
--- error of the model from `estimation` on `steps` falls a little further, to `half_left_steps`{.value} mrad, and the parameters do not change. So 0.5
+-- error of the model from `estimation` on `steps` falls a little further, to `half_left_steps`{.value} mrad. The parameters do not change. So 0.5
 -- mm/s is narrow enough, and 5 mm/s was not. A term that you write for convenience is part of your model. Halve its width and compare the results on
 -- data for which the term matters. `validation`, in which the trolley almost never stops, cannot show it.
 --
@@ -506,9 +506,9 @@ report.value("sensor", tank_truth.noise_std, "%.3f")
 -- and run down later. With $\beta = 50$, the bias of $q$ is `steep_q`{.value}. The free run does not show the difference (`gentle_error`{.value} V
 -- with $\beta = 5$): again a convenient term is part of the model.
 --
--- Choose the initial values with care: at the mean voltage of 2.6 V, the tanks are somewhat over half full, so $k_4 \approx k_1\sqrt{13}/2.6$. If the
--- upper tank never overflows at the initial values, for example with 0.05 also for $k_4$, a search from there alone does not find the rim. `greyest`
--- detects that the residuals are correlated, and continues from other initial values. `starts = 20` tries more of them.
+-- Choose the initial values with care: at the mean voltage of 2.6 V, the tanks are somewhat over half full, so $k_4 \approx k_1\sqrt{13}/2.6$.
+-- Suppose that the upper tank never overflows at the initial values, for example with 0.05 also for $k_4$. Then a search from there alone does not
+-- find the rim. `greyest` detects that the residuals are correlated, and continues from other initial values. `starts = 20` tries more of them.
 -- END SOLUTION
 --
 -- ## Learning without equations
@@ -541,7 +541,7 @@ local unspoilt = narx_of(noiseless, {4, 1})
 -- END SOLUTION
 --
 -- **Question 9.** SINDy finds differential equations [@brunton2016]. It writes the derivatives of the states as sums of a few functions from a
--- library that you provide. The upper level is not measured, so use the reading and its derivative as the states (the slope of a line through some
+-- library that you provide. The upper level is not measured. Use the reading and its derivative as the states (the slope of a line through some
 -- samples on both sides). Try a library of polynomials and one with the roots of Torricelli's law. Which coefficients does @eq:tanks predict for the
 -- second one? Linearize in the slope.
 
