@@ -42,7 +42,7 @@ local data = iddata(exchanger.y, exchanger.u, Ts,
                     {InputName = "valve opening", InputUnit = "%",
                      OutputName = "outlet temperature", OutputUnit = "°C"})
 print(data)
-report.figure("exchanger_record", idplot(data), "The heat exchanger's record")
+report.figure("exchanger_record", idplot(data), "The data of the heat exchanger")
 
 -- %% id=exchanger_paper echo=false
 local low, high = math.floor(min(exchanger.y)), math.ceil(max(exchanger.y))
@@ -131,7 +131,7 @@ local function simulated(G, data, u0)
     local y = lsim(G, data.u - u0, data.Ts)
     return y + mean(data.y - y)
 end
--- every fifth sample as a dot, the model as a line, and below what is left
+-- every fifth sample as a dot, the model as a line, and the error below
 local function test_figure(G, data, u0, label)
     local t, y = data.t, simulated(G, data, u0)
     local some, span = linspace(t[1], t[#t], #t//5 + 1), {t[1], t[#t]}
@@ -143,7 +143,7 @@ local function test_figure(G, data, u0, label)
     return subplot(2, 1, {above, below}):set{height = 8.5}
 end
 local held_against = test_figure(reading, data, exchanger.u[1], "temperature (°C)")
-report.figure("exchanger_test", held_against, "The reading against the measurement")
+report.figure("exchanger_test", held_against, "The reading and the measurement")
 -- END SOLUTION
 
 -- %% id=exchanger_test_report echo=false
@@ -161,7 +161,7 @@ report.value("fit_read", fit(data, reading), "%.1f")
 -- constant output reaches 0 %. The error looks like noise.
 -- END SOLUTION
 --
--- ## Estimation by optimisation
+-- ## Estimation by optimization
 --
 -- **Question 4.** Estimate the parameters of your model from all samples with `procsrivc`, which minimizes the sum of squared differences between the
 -- measured and the simulated output. Compare them with your reading. The process is at rest before the step, so set `InitialState = "steady"`.
@@ -235,7 +235,7 @@ local Ts2 = suspension.t[2] - suspension.t[1]
 local data2 = iddata(suspension.y, suspension.u, Ts2,
                      {InputName = "voltage", InputUnit = "V",
                       OutputName = "position", OutputUnit = "mm"})
--- the record begins with the step; the rest before it is drawn as well
+-- the data begin with the step; also draw the rest before it
 local before = vector{-0.2, 0}
 local position = plot(data2.t, data2.y, before, zeros(2),
                       {colour = 0, ylabel = "position (mm)"})
@@ -243,7 +243,7 @@ local voltage = plot(data2.t, data2.u, before, zeros(2), {0, 0}, {0, 1},
                      {colour = 0, y_range = {-0.1, 1.2},
                       xlabel = "time (s)", ylabel = "voltage (V)"})
 report.figure("suspension_record", subplot(2, 1, {position, voltage}),
-              "The suspension's record")
+              "The data of the suspension")
 
 -- %% id=suspension_paper echo=false
 local top = math.ceil(max(data2.y) + 0.2)
@@ -253,7 +253,7 @@ local paper2 = plot(data2.t, data2.y,
                      xlabel = "time (s)", ylabel = "position (mm)"})
 report.figure("suspension_paper", paper2:rule(0.02, 0.2), "The suspension on graph paper")
 
--- any second-order system with a damping ratio of 0.2, in units of its own
+-- any second-order system with a damping ratio of 0.2, in normalized units
 local wave = range(0, 0.05, 20)
 local height = lsim(tf({1}, {1, 0.4, 1}), ones(#wave), 0.05)
 local peak, at = max(height)
@@ -326,7 +326,7 @@ report.value("w2", reading2.w0, "%.2f")
 -- %% id=suspension_test
 -- BEGIN SOLUTION
 report.figure("suspension_test", test_figure(reading2, data2, 0, "position (mm)"),
-              "The second-order model against the measurement")
+              "The second-order model and the measurement")
 -- END SOLUTION
 
 -- %% [markdown]
@@ -389,7 +389,7 @@ local two_points, one_point = step_delayed(data_far), step_first_order(data_far)
 local steady = {InitialState = "steady", Offset = "estimate"}
 local G1D = procsrivc(data_far, "P1D", steady)
 local G1F = procsrivc(data_far, "P1", steady)
-local none = procsrivc(data, "P1D", steady)    -- the dead time of the first record
+local none = procsrivc(data, "P1D", steady)    -- the dead time of the first data set
 local t, u0 = data_far.t, exchanger.u[1]
 local far_figure = plot(t, y_far, "measured",
                         t, simulated(G1D, data_far, u0), "with a dead time",
@@ -633,7 +633,7 @@ end
 -- ![The suspension (dots) and a second-order model (line) with the $K$, $z$ and $\omega_0$ of the cell above: the final level moves with $K$, the first peak with $z$ (up and down) and $\omega_0$ (sideways).](figure:second_by_hand){#fig:second_by_hand}
 
 -- %% [markdown]
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
 -- * The shape decides the structure. Steepest at the start and no overshoot: first order. Horizontal start and overshoot: second order with complex

@@ -90,7 +90,7 @@ local theta_normal = solve(Phi:t()*Phi, Phi:t()*y)
 local fit = lsq(Phi, y)                   -- QR
 local descent = gradient_descent(Phi, y, {MaxIter = 100000})
 
--- the same descent with x in units of its own spread
+-- the same descent with x divided by its spread
 local spread = sqrt(mean(x^2))
 local scaled = gradient_descent(matrix{x/spread, ones(N)}, y)
 local theta_scaled = vector{scaled.theta[1]/spread, scaled.theta[2]}
@@ -392,7 +392,7 @@ for run = 1, few_runs do
 end
 few_ct, few_dt = vector(few_ct), vector(few_dt)
 
--- estimates of a1 from longer records, and the value to which they tend
+-- estimates of a1 from longer data, and the value to which they tend
 local function study(runs, samples, sigma)
     local u_long = prbs(11, 4):range(1, samples)
     if samples == 400 then u_long = prbs(7, 4):range(1, samples) end
@@ -509,7 +509,7 @@ end
 -- successive values of the output more alike.
 
 -- %% [markdown]
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
 -- * To fit a model that is linear in its parameters, solve one linear system. The normal equations, QR and gradient descent lead to the same

@@ -75,11 +75,11 @@ end
 local purposes = {
     {"estimation", say("PRBS, ±2 V", "SBPA, ±2 V"), say("structure and parameters", "structure et paramètres")},
     {"validation", say("PRBS, ±2 V, other bits", "SBPA, ±2 V, autres bits"), "validation"},
-    {"steps", say("pushes of ±2 V and ±4 V", "impulsions de ±2 V et ±4 V"), say("what friction costs", "ce que coûte le frottement")},
-    {"free_swing", say("0 V, load let go by hand", "0 V, charge lâchée à la main"), say("the load alone", "la charge seule")},
-    {"limits", say("PRBS, ±12 V by hand, PRBS", "SBPA, ±12 V à la main, SBPA"),
-     say("to be discarded in part", "à écarter en partie")}}
-local experiments = {{say("record", "enregistrement"), say("input", "entrée"), say("duration (s)", "durée (s)"),
+    {"steps", say("pulses of ±2 V and ±4 V", "impulsions de ±2 V et ±4 V"), say("effect of friction", "ce que coûte le frottement")},
+    {"free_swing", say("0 V, load released by hand", "0 V, charge lâchée à la main"), say("the load alone", "la charge seule")},
+    {"limits", say("PRBS, ±12 V manually, PRBS", "SBPA, ±12 V à la main, SBPA"),
+     say("to discard in part", "à écarter en partie")}}
+local experiments = {{say("data set", "enregistrement"), say("input", "entrée"), say("duration (s)", "durée (s)"),
                       say("used for", "utilité")}}
 for k, row in ipairs(purposes) do
     local t = crane[row[1]].t
@@ -88,7 +88,7 @@ end
 report.table("experiments", experiments)
 
 report.figure("raw", figure{rows = 3, height = 6.4, panels = panels(crane.estimation)},
-              say("The estimation record as measured: the position wanders, as the integral of the voltage does; the load answers with swings of its own frequency.",
+              say("The measured estimation data: the position drifts, like the integral of the voltage, and the load swings at its natural frequency.",
                   "L'enregistrement d'estimation tel que mesuré : la position dérive comme l'intégrale de la tension ; la charge oscille à sa pulsation propre."))
 -- END SOLUTION
 
@@ -144,7 +144,7 @@ end
 limit_panels[2].references[3] = {y = 0.5}
 limit_panels[2].references[4] = {y = -0.5}
 report.figure("limits", figure{rows = 3, height = 6.4, panels = limit_panels},
-              say("The record `limits`. Between the vertical lines more than ±10 V are commanded and the trolley meets the buffers at ±0.5 m (horizontal lines).",
+              say("The data `limits`. Between the vertical lines, the commanded voltage exceeds ±10 V and the trolley meets the buffers at ±0.5 m (horizontal lines).",
                   "L'enregistrement `limits`. Entre les traits verticaux, on commande plus de ±10 V et le chariot rencontre les butées à ±0,5 m (traits horizontaux)."))
 -- END SOLUTION
 
@@ -346,7 +346,7 @@ local function against_model(record, height, with_differences)
 end
 local validation_figure, x_error, theta_error = against_model(against, 8.8, true)
 report.figure("validation", validation_figure,
-              say("The validation record, which was not used for estimation: measured and simulated from the voltage alone, and the difference. The angle is worst where it swings widest.",
+              say("The validation data: measured and simulated from the voltage alone, and the difference. The error of the angle is largest where the load swings furthest.",
                   "L'enregistrement de validation, qui n'a pas servi à l'estimation : mesuré, simulé à partir de la seule tension, et l'écart. C'est aux grands angles que l'erreur de l'angle est la plus forte."))
 report.value("x_error", 1e3*std(x_error), "%.1f")
 report.value("theta_error", 1e3*std(theta_error), "%.1f")
@@ -380,7 +380,7 @@ end
 local steps = crane.steps
 local steps_figure, steps_x_error, steps_theta_error = against_model(steps, 4.7)
 report.figure("steps", steps_figure,
-              say("The record `steps`: after pushes of ±2 V and ±4 V the trolley stands still, held by friction; the simulated one is set in motion by its load.",
+              say("The data `steps`: after pulses of ±2 V and ±4 V, friction holds the trolley at rest. In the simulation, the load sets it in motion.",
                   "L'enregistrement `steps` : après des impulsions de ±2 V et ±4 V, le frottement tient le chariot ; le chariot simulé, lui, est entraîné par sa charge."))
 report.value("steps_fit_x", fit(integrated(steps, steps.x), model.x, resting), "%.1f")
 report.value("steps_fit_theta", fit(direct(steps, steps.theta), model.theta, resting), "%.1f")
@@ -487,16 +487,16 @@ local function spread(list, format)
     local v = vector(list)
     return {string.format(format, mean(v)), string.format(format, std(v)), string.format(format, min(v)), string.format(format, max(v))}
 end
-local repeated_rows = {{"", say("mean", "moyenne"), say("std. dev.", "écart type"), say("least", "min."), say("most", "max.")}}
+local repeated_rows = {{"", say("mean", "moyenne"), say("std. dev.", "écart type"), say("min", "min."), say("max", "max.")}}
 local function add(text, list, format)
     repeated_rows[#repeated_rows + 1] = {text, table.unpack(spread(list, format))}
 end
 add(say("position: recommended model, fit (%)", "position : modèle recommandé, adéquation (%)"), study.x, "%.2f")
 add(say("position: best single linear model (%)", "position : meilleur modèle linéaire unique (%)"), study.best_x, "%.2f")
-add(say("position: fitted to the very record (%)", "position : ajusté à l'enregistrement même (%)"), study.own_x, "%.2f")
+add(say("position: fitted to the same data (%)", "position : ajusté à l'enregistrement même (%)"), study.own_x, "%.2f")
 add(say("angle: recommended model, fit (%)", "angle : modèle recommandé, adéquation (%)"), study.theta, "%.2f")
 add(say("angle: best single linear model (%)", "angle : meilleur modèle linéaire unique (%)"), study.best_theta, "%.2f")
-add(say("angle: fitted to the very record (%)", "angle : ajusté à l'enregistrement même (%)"), study.own_theta, "%.2f")
+add(say("angle: fitted to the same data (%)", "angle : ajusté à l'enregistrement même (%)"), study.own_theta, "%.2f")
 add(say("swing of the model's poles (rad/s)", "oscillation, pôles du modèle (rad/s)"), study.swing, "%.3f")
 add(say("pendulum of the position's zeros (rad/s)", "pendule, zéros de la position (rad/s)"), study.pendulum, "%.3f")
 report.table("repetition", repeated_rows)
@@ -742,7 +742,7 @@ end
 report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
     compared(metres, "x", {references = {{y = goal}}}), compared(radians, "theta", {legend = "none"}),
     compared(volts, "u", {legend = "none", xlabel = seconds})}},
-    say("The nonlinear crane on its way to 0.3 m: state feedback brings the load to rest with the trolley; under proportional control it goes on swinging.",
+    say("The nonlinear crane on its way to 0.3 m: state feedback brings the load to rest with the trolley. With proportional control, it continues to swing.",
         "La grue non linéaire en route vers 0,3 m : le retour d'état arrête la charge avec le chariot ; sous commande proportionnelle elle oscille encore."))
 -- END SOLUTION
 

@@ -1,5 +1,5 @@
 -- ---
--- title: From a record to a model, and back again
+-- title: From data to a model, and back again
 -- subtitle: Lesson 3.1 – the workflow of identification on two simulated processes and a real one
 -- lesson: 03_workflow
 -- template: lesson
@@ -57,13 +57,13 @@
 
 -- %% id=workflow echo=false
 report.table("workflow", {
-    {"step", "what it must answer", "tools", "go back when"},
-    {"experiment", "Does the input move the process at all frequencies of interest?", "prbs, multisine", "a question cannot be answered from the record"},
-    {"data", "Rest, offset, drift, noise, dead time, faults?", "idplot, advice, delayest", "something unexpected is seen"},
-    {"preparation", "What is left when levels and drift are taken off?", "detrend, idfilt, split", "the model spends parameters on a level"},
-    {"structure", "How many poles and zeros, what delay?", "srivcstruc, selcstruc", "two structures explain the data alike"},
-    {"estimation", "Which parameters, and how sure are they?", "srivc, tfsrivc, arx", "standard errors are as large as the values"},
-    {"validation", "Does it hold on data that it has not seen?", "compare, resid, step, bode", "it does not"},
+    {"step", "question", "tools", "go back if"},
+    {"experiment", "Does the input move the process at all frequencies of interest?", "prbs, multisine", "the data cannot answer a question"},
+    {"data", "Rest, offset, drift, noise, dead time, faults?", "idplot, advice, delayest", "you see something unexpected"},
+    {"preparation", "What remains without levels and drift?", "detrend, idfilt, split", "the model spends parameters on a level"},
+    {"structure", "How many poles and zeros, which delay?", "srivcstruc, selcstruc", "two structures explain the data equally well"},
+    {"estimation", "Which parameters, and how certain are they?", "srivc, tfsrivc, arx", "standard errors are as large as the values"},
+    {"validation", "Does the model describe new data?", "compare, resid, step, bode", "it does not"},
 })
 
 -- %% [markdown]
@@ -96,14 +96,14 @@ report.figure("linear_record", idplot(est):set{height = 6}, "The first record")
 -- BEGIN SOLUTION
 advice(est)
 local Td, delay_figure, delay = delayest(est)
--- for comparison: models with three poles and a zero, their delay held
+-- for comparison: models with three poles and a zero and a fixed delay
 local at, held = {}, {}
 for samples = 0, 12 do
     local left = est.y - lsim(srivc(est, {2, 3, samples}), est.u, Ts)
     table.insert(at, samples*Ts)
     table.insert(held, mean(left^2))
 end
-delay_figure:add(at, held, {label = "srivc, delay held", style = "points"})
+delay_figure:add(at, held, {label = "srivc, fixed delay", style = "points"})
 report.figure("linear_delay", delay_figure:set{height = 5.5}, "Error by delay")
 -- END SOLUTION
 
@@ -178,7 +178,7 @@ local function choice(V, key, sign)
     end
     return best
 end
-local criteria = {{"fit, first record", "fit_percent", 1}, {"fit, second record", "validation_fit", 1}, {"AIC", "aic", -1},
+local criteria = {{"fit, first data set", "fit_percent", 1}, {"fit, second data set", "validation_fit", 1}, {"AIC", "aic", -1},
                   {"FPE", "fpe", -1}, {"BIC", "bic", -1}, {"YIC", "yic", -1}}
 report.table("linear_orders", orders_table(V))
 report.value("linear_poles", V.best.poles, "%d")
@@ -329,7 +329,7 @@ local simpler = srivc(est, {1, 2, 0})
 local shown = compare(val:range(1, 400), G, simpler,
                       {labels = {"3 poles, 1 zero", "2 poles"}})
 report.figure("linear_compare", shown:set{height = 6, x_range = {0, 20}},
-              "Second record")
+              "Second data set")
 local residuals = resid(val, G)
 report.figure("linear_resid", residuals, "Residuals on the second record")
 -- END SOLUTION
@@ -456,7 +456,7 @@ local low, low_val = volts(heat.y, heat.u), volts(heat.y_val, heat.u_val)
 local high = volts(heat.y_high, heat.u_high)
 local two_records = idplot(low, high, {labels = {"about 4 V", "about 7 V"}})
 report.figure("heat_record", two_records:set{height = 7, legend = "direct"},
-              "Two of the records")
+              "Two of the data sets")
 
 -- %% [markdown]
 -- ![Two of the three data sets: temperature (above) and heater voltage (below)](figure:heat_record){#fig:heat_record}
@@ -506,7 +506,7 @@ outcome("fit about 7 V", fit(start(high), G1))
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 local rounds = {{"round, input", "subtracted", "4 V", "4 V again", "7 V", "$p$ (white)", "$p$ (input)"}}
--- fits on the three prepared records and the residual tests on the second
+-- fits to the three prepared data sets and the residual tests on the second
 local function add_round(name, preparation, model, records)
     local cells = tested(name, records[2], model)
     table.insert(rounds, {name, preparation, string.format("%.1f", fit(records[1], model)),
@@ -542,7 +542,7 @@ end
 local G2 = tfsrivc(start(watts(low)), 2, 0,
                    {TdMax = 20, InitialState = "none", Offset = "estimate"})
 
-local measured = start(high).y        -- both models on the record about 7 V
+local measured = start(high).y        -- both models on the data around 7 V
 local function simulated(G, data)
     local y = lsim(G, start(data).u, 1)
     return y + mean(measured - y)
@@ -971,7 +971,7 @@ local _, noise_test = resid(second, HN, {prediction = true, quiet = true})
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 local verdict = {{"model", "fit, second half (%)", "$p$ (error white)", "$p$ (free of the input)"}}
-for _, entry in ipairs{{"1 pole, 3 samples", H1}, {"2 poles, 2 samples", H2}, {"3 poles, own delay", H3}} do
+for _, entry in ipairs{{"1 pole, 3 samples", H1}, {"2 poles, 2 samples", H2}, {"3 poles, free delay", H3}} do
     local cells = tested(entry[1], second, entry[2])
     table.insert(verdict, cells)
     if entry[2] == H3 then report.value("dryer_three_p", cells[4], "%s") end
@@ -1019,7 +1019,7 @@ report.value("dryer_robust", max(H2.robust_std/H2.std), "%.1f")
 -- END SOLUTION
 
 -- %% [markdown]
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
 -- * Look before you estimate: levels, drift, dead time, and anything unexpected. The plot and the formula for the heat of a resistor, not a search

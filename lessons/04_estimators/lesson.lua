@@ -1,5 +1,5 @@
 -- ---
--- title: Continuous-time models from noisy records
+-- title: Continuous-time models from noisy data
 -- subtitle: Lesson 4 – LSSVF, IVSVF and TFSRIVC on a system that is known
 -- lesson: 04_estimators
 -- template: lesson
@@ -99,7 +99,7 @@ local signals = {InputName = "input u", OutputName = "output y"}
 local data0, data = iddata(x, u, Ts, signals), iddata(y, u, Ts, signals)
 report.figure("record", idplot(data, {labels = {"measured"}})
               :add(data.t, x, {label = "without noise", line_width = 1.8}),
-              "The record")
+              "The data")
 local snr = 20*math.log(std(x)/sigma, 10)
 print(string.format("signal-to-noise ratio: %.1f dB", snr))
 
@@ -385,7 +385,7 @@ local weights = plot(w, colour(0.3), "λ = 0.3", w, colour(3), "λ = 3",
                      {x_log = true, y_log = true, height = 5.5, dash = {1, 0, 2, 3},
                       xlabel = "frequency (rad/s)", ylabel = "weight |A/E|",
                       legend = "direct"})
-report.figure("colour", weights, "How the filter colours the equation error")
+report.figure("colour", weights, "How the filter colors the equation error")
 -- END SOLUTION
 
 -- %% [markdown]
@@ -506,7 +506,7 @@ report.value("tf_over", low.TFSRIVC.reported_std[1]/low.TFSRIVC.std[1], "%.2f")
 report.value("tf_bound", low.TFSRIVC.std[1]/low.TFSRIVC.cramer_rao_std[1], "%.2f")
 report.value("iv_more", 100*(low.IVSVF.std[1]/low.TFSRIVC.std[1] - 1), "%.0f")
 report.value("std_error", 100/math.sqrt(2*(low.runs - 1)), "%.0f")
--- both methods saw the same records, so the ratio of their scatters is known better than either of them
+-- both methods use the same data, so the ratio of their scatters is more certain than each of them
 local iv, tf_ = low.IVSVF.theta:col(1), low.TFSRIVC.theta:col(1)
 local correlation = mean((iv - mean(iv))*(tf_ - mean(tf_)))/(std(iv)*std(tf_))
 report.value("iv_more_error", 100*math.sqrt((1 - math.min(correlation, 1)^2)/(low.runs - 1)), "%.0f")
@@ -700,7 +700,7 @@ local discrete = study(sigma, {
 })
 print(string.format("d2c refused %d of the %d arx models", refused, discrete.runs))
 
--- the estimates of a1 by arx from 100 records, as far as d2c can convert them
+-- the estimates of a1 by arx from 100 data sets, if d2c can convert them
 local function arx_a1(period, snr)
     local found = {}
     local function estimate(d)
@@ -850,7 +850,7 @@ end
 -- ![A study of the known system in the workbench: controls, the cloud of estimates with the ellipse, and the script](workbench.png){#fig:workbench}
 
 -- %% [markdown]
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
 -- * State-variable filters turn a differential equation into a linear regression without differentiation. LSSVF solves this regression by least

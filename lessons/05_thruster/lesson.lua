@@ -80,7 +80,7 @@ local function prepared(name)
     return iddata(thrust(record), width(record), Ts, signals)
 end
 
-local experiments = {{say("records", "enregistrements"), say("shape", "forme"), say("amplitude (µs)", "amplitude (µs)"),
+local experiments = {{say("data", "enregistrements"), say("shape", "forme"), say("amplitude (µs)", "amplitude (µs)"),
                       say("frequency (Hz)", "fréquence (Hz)"), say("duration (s)", "durée (s)")}}
 for _, shape in ipairs(shapes) do
     local record = thruster[shape .. "_300"]
@@ -98,7 +98,7 @@ for column, shape in ipairs(shapes) do
                               curves = {{x = record.t, y = record.force, colour = 0, line_width = 0.6}}}
 end
 report.figure("raw", figure{rows = 2, columns = 2, width = 14.4, height = 5.4, panels = raw_panels},
-              say("The records of the largest amplitude: widths (above) and thrust (below)",
+              say("The data of the largest amplitude: widths (above) and thrust (below)",
                   "Les enregistrements de plus grande amplitude : largeurs (en haut) et poussée (en bas)"))
 
 local at_rest = {}
@@ -132,9 +132,9 @@ report.value("snr_rest", 20*math.log(std(thrust(thruster.sine_300))/std(rest_rea
 
 -- %% id=switchings_guess
 -- BEGIN SOLUTION
--- STARTER: guess(say("time without an answer", "temps sans réponse"), nil, "ms")
+-- STARTER: guess(say("time without a response", "temps sans réponse"), nil, "ms")
 local guessed = 20
-guess(say("time without an answer", "temps sans réponse"), guessed, "ms")
+guess(say("time without a response", "temps sans réponse"), guessed, "ms")
 -- END SOLUTION
 
 -- %% id=switchings
@@ -158,7 +158,7 @@ for k = before + 1, #since do
     if not onset and answer_mean[k] > 0.01*max(answer_mean) then onset = since[k] end
 end
 
-outcome(say("time without an answer", "temps sans réponse"), onset)
+outcome(say("time without a response", "temps sans réponse"), onset)
 
 local band = 8  -- Hz
 local function low_pass(v) return idfilt(v, {0, 2*math.pi*band}, {zero_phase = true, Ts = Ts}) end
@@ -185,7 +185,7 @@ report.figure("switching", figure{width = 14.4, height = 4.6, columns = 2, panel
      x_log = true, y_log = true, x_range = {0.5, 60},
      references = {{x = band, label = say("filter", "filtre")}},
      curves = {{x = response.w/(2*math.pi), y = response.magnitude, colour = 1, dash = 0, line_width = 0.8}}}}},
-    say("Mean answer to a switching; frequency response of square_300", "Réponse moyenne à une commutation ; réponse fréquentielle de square_300"))
+    say("Mean response to a switching; frequency response of square_300", "Réponse moyenne à une commutation ; réponse fréquentielle de square_300"))
 -- END SOLUTION
 
 -- %% [markdown]
@@ -445,7 +445,7 @@ report.figure("curve", figure{rows = 2, width = 8.8, height = 6.7, panels = {
     curve_panel{legend = "above", x_range = {-300, 300}},
     curve_panel{legend = "none", x_range = {-120, 120}, y_range = {-4, 4}, references = {{x = -truth.dead_band}, {x = truth.dead_band}},
                 xlabel = say("width, from neutral (µs)", "largeur, depuis le neutre (µs)")}}},
-    say("Thrust over pulse width, and about neutral", "Poussée selon la largeur d'impulsion, et autour du neutre"))
+    say("Thrust over pulse width, and around neutral", "Poussée selon la largeur d'impulsion, et autour du neutre"))
 
 for _, shape in ipairs(shapes) do
     for _, kind in ipairs(order_list) do
@@ -495,7 +495,7 @@ local upper = piece_of("square_300", "sine", 9, 10.6, say("models from sine chir
 local lower = piece_of("sine_200", "square", 9, 10.6, say("models from square chirps, on sine_200", "modèles des carrés, sur sine_200"))
 upper.legend, lower.xlabel = "above", seconds
 report.figure("validation", figure{rows = 2, width = 14.4, height = 5.9, panels = {upper, lower}},
-              say("Validation both ways", "Validation dans les deux sens"))
+              say("Validation in both directions", "Validation dans les deux sens"))
 -- END SOLUTION
 
 -- %% id=motion

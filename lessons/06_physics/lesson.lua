@@ -336,7 +336,7 @@ local labels = {InputUnit = "V", OutputUnit = "V",
 local estimation = iddata(tanks.y, tanks.u, 4, labels)
 local validation = iddata(tanks.y_val, tanks.u_val, 4, labels)
 report.figure("tanks", idplot(estimation):set{height = 6},
-              say("The tanks' record", "L'enregistrement des réservoirs"))
+              say("The data of the tanks", "L'enregistrement des réservoirs"))
 
 -- %% [markdown]
 -- ![The estimation data: reading (above) and voltage (below)](figure:tanks){#fig:tanks_record}
@@ -695,7 +695,7 @@ report.value("kept_others", mean(vector(kept)), "%.3f")
 -- does not compensate for this here. Try NARX and SINDy if the equations are unknown, next to a linear model, and compare all models in free run.
 -- END SOLUTION
 --
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
 -- * The errors of a linear model have causes. A grey box tests them separately: each is a term that you can switch on and off, estimate, and compare

@@ -85,7 +85,7 @@ for column, record in ipairs{track, drive.regulation} do
 end
 panels[1].title, panels[2].title = "tracking", "regulation"
 report.figure("signals", figure{rows = 3, columns = 2, height = 8, panels = panels},
-              "The first eight seconds of two records")
+              "The first eight seconds of two data sets")
 -- END SOLUTION
 
 -- %% id=signals_report echo=false
@@ -237,7 +237,7 @@ report.figure("correlation", figure{rows = 2, height = 9, panels = {
     {ylabel = "correlation of v", y_range = {-0.3, 0.1}, legend = "above", curves = {open_band, loop_band, open_mean, loop_mean}, references = {{x = 0}, {y = 0}}},
     {ylabel = "of what is new in v", y_range = {-0.06, 0.02}, legend = "none", curves = {news_band, news_mean}, references = {{x = 0}, {y = 0}},
      xlabel = "time by which the voltage is later (s)"}}},
-    "What is left over, and the voltage")
+    "Residuals and the voltage")
 local function at_lag(name, seconds)
     for k = 1, #lags do
         if math.abs(lags[k]*Ts - seconds) < 1e-9 then return curves[name].mean[k] end
@@ -589,7 +589,7 @@ local names = {InputName = say("power", "puissance"), InputUnit = "%",
                OutputUnit = "K"}
 local slow = iddata(heater.y, heater.u, 1, names)
 report.figure("heater", idplot(slow),
-              say("The record of the heater", "L'enregistrement du chauffe-eau"))
+              say("The data of the heater", "L'enregistrement du chauffe-eau"))
 
 -- %% [markdown]
 -- ![The data of the heater](figure:heater){#fig:heater_record}
@@ -866,7 +866,7 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- methods with similar results can change places.
 -- END SOLUTION
 --
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
 -- * In a closed loop, the input contains the disturbance. Methods that are right in the open loop are biased there. Neither their standard errors nor

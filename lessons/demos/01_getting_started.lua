@@ -1,5 +1,5 @@
 -- ---
--- title: From a record to a model that can be trusted
+-- title: From data to a model that you can trust
 -- template: lesson
 -- ---
 

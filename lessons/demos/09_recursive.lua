@@ -1,5 +1,5 @@
 -- ---
--- title: Parameters that drift while the record is taken
+-- title: Parameters that drift during the experiment
 -- template: lesson
 -- ---
 
