@@ -495,8 +495,8 @@ report.value("sensor", tank_truth.noise_std, "%.3f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=six #tbl:six}
--- The six parameters ± standard error, for two steepnesses $\beta$ of the rims. The last columns are, for each $\beta$, the mean over ten repetitions
--- of the error divided by its standard error.
+-- The six parameters ± standard error, for two values of the steepness $\beta$ of the rims. The last columns are, for each $\beta$, the mean over ten
+-- repetitions of the error divided by its standard error.
 -- :::
 --
 -- The free-run error is `physics_error`{.value} V, and the sensor alone has a noise of `sensor`{.value} V: nothing remains. The data now determine
