@@ -107,7 +107,8 @@ TEST(text_prose, is_measured_by_rules_that_find_what_they_look_for) {
     EXPECT_EQ(sentences[4], (std::vector<std::string>{"an", "item", "continued"}));
     EXPECT_EQ(sentences[5], (std::vector<std::string>{"see", "x", "and", "a", "link"}));
     EXPECT_EQ(refused_in(sentences), std::vector<std::string>{"told"});
-    if (can_spell()) EXPECT_EQ(misspelled_in(page), std::set<std::string>{"colour"});
+    if (!can_spell()) GTEST_SKIP() << "hunspell with hunspell-en-us is not installed";
+    EXPECT_EQ(misspelled_in(page), std::set<std::string>{"colour"});
 }
 
 }  // namespace test_text_prose
