@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -162,36 +163,45 @@ inline std::vector<std::string> refused_in(const std::vector<std::vector<std::st
     return found;
 }
 
+inline bool has_word(const std::string& text, const std::string& word) {
+    const auto letter = [&](std::size_t at) {
+        return at < text.size() && std::isalpha(static_cast<unsigned char>(text[at]));
+    };
+    for (std::size_t at = 0; (at = text.find(word, at)) != text.npos; ++at)
+        if ((at == 0 || !letter(at - 1)) && !letter(at + word.size())) return true;
+    return false;
+}
+
 inline bool can_spell() {
     return std::system("echo word | hunspell -d en_US -i UTF-8 -l >/dev/null 2>&1") == 0;  // NOLINT(cert-env33-c)
 }
 
-/// Words of the page that neither the American dictionary nor the list of the field's words has. Symbols with digits or
-/// Greek letters are no words.
-inline std::set<std::string> misspelled_in(const std::string& page) {
-    const std::filesystem::path text = std::filesystem::path(testing::TempDir()) / "prose_to_spell.txt";
+/// "PAGE: WORD" for words that neither the American dictionary nor the list of the field's words has; one run of
+/// hunspell for all pages. Symbols with digits, primes or Greek letters are no words.
+inline std::set<std::string> misspelled_in(const std::map<std::string, std::string>& pages) {
+    std::map<std::string, std::string> texts;
+    for (const auto& [name, page] : pages)
+        for (const ProseBlock& block : blocks_of_prose(page)) texts[name] += replaced(block.text, "'s", "") + "\n\n";
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "prose_to_spell.txt";
     {
-        std::ofstream out(text);
-        for (const ProseBlock& block : blocks_of_prose(page)) out << replaced(block.text, "'s", "") << "\n\n";
+        std::ofstream out(file);
+        for (const auto& [name, text] : texts) out << text;
     }
     const std::string command =
-        "hunspell -d en_US -i UTF-8 -p " DYNLAB_SOURCE_DIR "/tests/support/words_of_the_field.txt -l " + text.string();
-    const std::unique_ptr<FILE, int (*)(FILE*)> words(popen(command.c_str(), "r"), pclose);
-    std::set<std::string> unknown;
-    std::string word;
-    for (int c = std::fgetc(words.get()); c != EOF; c = std::fgetc(words.get())) {
-        if (c != '\n') {
-            word += static_cast<char>(c);
-            continue;
-        }
+        "hunspell -d en_US -i UTF-8 -p " DYNLAB_SOURCE_DIR "/tests/support/words_of_the_field.txt -l " + file.string();
+    const std::unique_ptr<FILE, int (*)(FILE*)> output(popen(command.c_str(), "r"), pclose);
+    std::string words;
+    for (int c = std::fgetc(output.get()); c != EOF; c = std::fgetc(output.get())) words += static_cast<char>(c);
+    std::filesystem::remove(file);
+    std::set<std::string> found;
+    for (const std::string& word : words_between_spaces(words)) {
         const bool is_symbol = std::ranges::any_of(word, [](unsigned char b) {
-            return std::isdigit(b) != 0 || b == 0xCE || b == 0xCF;  // Greek letters in UTF-8
+            return std::isdigit(b) != 0 || b == '\'' || b == 0xCE || b == 0xCF;  // Greek letters in UTF-8
         });
-        if (!is_symbol) unknown.insert(word);
-        word.clear();
+        for (const auto& [name, text] : texts)
+            if (!is_symbol && has_word(text, word)) found.insert(name + ": " + word);
     }
-    std::filesystem::remove(text);
-    return unknown;
+    return found;
 }
 
 }  // namespace dynlab::test
