@@ -269,7 +269,7 @@ report.table("linear_agreed", agreed_rows)
 report.value("repetitions", repetitions, "%d")
 report.value("agreed_recommended", agreed.recommended, "%d")
 report.value("agreed_bic", agreed["BIC"], "%d")
-report.value("agreed_validation", agreed["fit, second record"], "%d")
+report.value("agreed_validation", agreed["fit, second data set"], "%d")
 -- END SOLUTION
 
 -- %% [markdown]
