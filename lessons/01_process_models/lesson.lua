@@ -389,7 +389,7 @@ local two_points, one_point = step_delayed(data_far), step_first_order(data_far)
 local steady = {InitialState = "steady", Offset = "estimate"}
 local G1D = procsrivc(data_far, "P1D", steady)
 local G1F = procsrivc(data_far, "P1", steady)
-local none = procsrivc(data, "P1D", steady)    -- the dead time of the first data set
+local none = procsrivc(data, "P1D", steady)    -- dead time of the first data set
 local t, u0 = data_far.t, exchanger.u[1]
 local far_figure = plot(t, y_far, "measured",
                         t, simulated(G1D, data_far, u0), "with a dead time",
