@@ -28,7 +28,7 @@ local function judge(message) return {share = 0, message = message} end
 
 -- Of each number its own relative distance; tolerances one by one, twice as far earns half.
 local function each(x, wanted, tolerances, names)
-    if #x ~= #wanted then return judge(string.format("Wanted are %d numbers: %s.", #wanted, names)) end
+    if #x ~= #wanted then return judge(string.format("The answer must have %d numbers: %s.", #wanted, names)) end
     local all = {}
     for i = 1, #wanted do all[i] = near(x[i], wanted[i], {rel = tolerances[i], half = 2*tolerances[i]}) end
     return all_of(table.unpack(all))
@@ -50,7 +50,7 @@ local function second_order(G)
 end
 
 local discrete = {when = function(a) return a.Ts > 0 end,
-                  say = "A continuous-time model is wanted, but this one is in discrete time."}
+                  say = "The model must be in continuous time, but it is in discrete time."}
 local function of_model(name, mistakes)
     local list = {}
     for i, mistake in ipairs{discrete, table.unpack(mistakes)} do
@@ -63,9 +63,9 @@ check { id = "settling_time", points = 1, about = "Heat exchanger: the 5 % settl
     test = function(a) return near(a.settling_time, 3*T, {rel = 0.12, half = 0.2}) end,
     mistakes = {
         {when = function(a) return near(a.settling_time, 3*T + step_instant, {rel = 0.06}) end,
-         say = "This is the time from the beginning of the record; the valve was opened later, and the clock starts there."},
+         say = "This is the time from the beginning of the data; count from the opening of the valve."},
         {when = function(a) return near(a.settling_time, 3*T/heat_Ts, {rel = 0.12}) end,
-         say = "This is counted in samples; seconds are wanted."},
+         say = "This is counted in samples; use seconds."},
         {when = function(a) return near(a.settling_time, T, {rel = 0.12}) end,
          say = "This is the time constant; the settling time is three times as long."},
     },
@@ -79,13 +79,13 @@ check { id = "exchanger_reading", points = 2, about = "Heat exchanger: gain and 
         {when = function(a) return alike(a.exchanger_reading, vector{K, 3*T}, 0.2) end,
          say = "T is the settling time itself; the time constant is a third of it."},
         {when = function(a) return alike(a.exchanger_reading, vector{K, T/heat_Ts}, 0.15) end,
-         say = "T is counted in samples; seconds are wanted."},
+         say = "T is counted in samples; use seconds."},
         {when = function(a) return near(a.exchanger_reading[1], level, {rel = 0.02}) end,
-         say = "K is the ratio of two levels; it must be that of the two changes, which begin at the working point."},
+         say = "K is the ratio of two levels; it must be the ratio of the two changes from the operating point."},
         {when = function(a) return a.exchanger_reading[1] < 0 end,
-         say = "The gain has the wrong sign: the temperature rises when the valve is opened."},
+         say = "The gain has the wrong sign: the temperature rises when the valve opens."},
         {when = function(a) return near(a.exchanger_reading[1], 1/K, {rel = 0.05}) end,
-         say = "K is turned round: output over input."},
+         say = "K is inverted: it is output over input."},
     },
     hint = "K is the ratio of the two changes, T a third of the 5 % settling time." }
 
@@ -93,12 +93,12 @@ check { id = "exchanger_model", points = 2, about = "Heat exchanger: the estimat
     -- The standard errors are below 0.5 %; 2 % leaves room for other ways of taking the working point off.
     test = function(a)
         local found = first_order(a.G_exchanger)
-        if not found then return judge("The shape of the response is that of a model with one pole and no more.") end
+        if not found then return judge("The response has the shape of a model with only one pole.") end
         return each(found, vector{K, T}, {0.02, 0.03}, "K and T")
     end,
     mistakes = of_model("G_exchanger", {
         {when = function(G) return near(dcgain(G), level, {rel = 0.05}) end,
-         say = "The model takes the working point for a part of the response: take both levels off, or let them be estimated."},
+         say = "The model treats the operating point as a part of the response: subtract both levels, or estimate them."},
         {when = function(G) return dcgain(G) < 0 end, say = "The gain has the wrong sign."},
         {when = function(G) return near(dcgain(G), 1/K, {rel = 0.1}) end,
          say = "Input and output are interchanged."},
@@ -111,13 +111,13 @@ check { id = "overshoot", points = 1, about = "Suspension: the first overshoot",
     test = function(a) return near(a.overshoot, overshoot, {rel = 0.06, half = 0.12}) end,
     mistakes = {
         {when = function(a) return near(a.overshoot, 100*overshoot, {rel = 0.1}) end,
-         say = "This is in percent; a ratio is wanted, below 1."},
+         say = "This is in percent; give a ratio below 1."},
         {when = function(a) return near(a.overshoot, 1 + overshoot, {rel = 0.05}) end,
-         say = "This is the height of the peak over the starting level; the overshoot begins at the final value."},
+         say = "This is the height of the peak above the initial level; measure the overshoot from the final value."},
         {when = function(a) return near(a.overshoot, K2*overshoot, {rel = 0.1}) end,
-         say = "This is in the unit of the output; it must be divided by the change from start to end."},
+         say = "This is in the unit of the output; divide it by the change from start to end."},
     },
-    hint = "How far is the first peak above the final value, in parts of the whole change?" }
+    hint = "How far is the first peak above the final value, as a ratio of the whole change?" }
 
 check { id = "suspension_reading", points = 2, about = "Suspension: gain, damping and frequency read off the figure",
     test = function(a) return each(a.suspension_reading, vector{K2, z2, w2}, {0.03, 0.12, 0.06}, "K, z and omega_0") end,
@@ -125,21 +125,21 @@ check { id = "suspension_reading", points = 2, about = "Suspension: gain, dampin
         {when = function(a) return alike(a.suspension_reading, vector{K2, w2, z2}, 0.2) end,
          say = "The order is K, z, omega_0."},
         {when = function(a) return near(a.suspension_reading[3], w2/(2*math.pi), {rel = 0.05}) end,
-         say = "The frequency is in Hz; rad/s is wanted."},
+         say = "The frequency is in Hz; use rad/s."},
         {when = function(a) return near(a.suspension_reading[3], w2*suspension_Ts, {rel = 0.06}) end,
-         say = "The instant of the overshoot is counted in samples; seconds are wanted."},
+         say = "The instant of the overshoot is counted in samples; use seconds."},
         {when = function(a)
              local log = math.log(100*overshoot)
              return near(a.suspension_reading[2], log/math.sqrt(log^2 + math.pi^2), {rel = 0.05})
          end,
-         say = "D1 went into the formula in percent; it must be a ratio."},
+         say = "You used D1 in percent in the formula; it must be a ratio."},
     },
-    hint = "The formulas of question 6 take D1 as a ratio and the instant of the overshoot in seconds." }
+    hint = "The formulas of question 6 use D1 as a ratio and the instant of the overshoot in seconds." }
 
 check { id = "suspension_model", points = 2, about = "Suspension: the estimated model",
     test = function(a)
         local found = second_order(a.G_suspension)
-        if not found then return judge("An overshoot wants two poles, and these are enough.") end
+        if not found then return judge("An overshoot requires two poles, and two are enough.") end
         return each(found, vector{K2, z2, w2}, {0.01, 0.04, 0.01}, "K, z and omega_0")
     end,
     mistakes = of_model("G_suspension", {
@@ -149,7 +149,7 @@ check { id = "suspension_model", points = 2, about = "Suspension: the estimated 
     }),
     hint = "procsrivc(data, \"P2U\"): a pair of complex poles and no zero." }
 
-check { id = "figures", points = 1, about = "Both readings are held against the measurement",
+check { id = "figures", points = 1, about = "Figures that compare both readings with the measurement",
     test = function() return all_of(has_figure("exchanger_test"), has_figure("suspension_test")) end,
     hint = "report.figure(\"exchanger_test\", test_your_model(G, data), \"...\"), and the same for the suspension." }
 
@@ -157,26 +157,26 @@ check { id = "figures", points = 1, about = "Both readings are held against the 
 check { id = "exchanger_follows", points = 4, rerun = "heat_exchanger", about = "Another heat exchanger: your script finds its model",
     test = function(a, b)
         local other, fact = first_order(b.G_exchanger), truth(b)
-        if not other then return judge("The model of the other exchanger has not one pole.") end
+        if not other then return judge("The model of the other exchanger does not have one pole.") end
         return all_of(differs(dcgain(a.G_exchanger), dcgain(b.G_exchanger)),
                       each(other, vector{fact.gain, fact.time_constant}, {0.03, 0.04}, "K and T"))
     end,
     mistakes = {
         {when = function(a, b) return near(dcgain(a.G_exchanger), dcgain(b.G_exchanger), {rel = 1e-9}) end,
-         say = "The model does not change with the record: it must be estimated, not typed in."},
+         say = "The model does not change with the data: estimate it; do not type it in."},
     },
-    hint = "Compute everything that the model needs from what load gives, its sampling time too." }
+    hint = "Compute everything that the model needs, including the sampling time, from the data that load returns." }
 
 check { id = "suspension_follows", points = 4, rerun = "suspension", about = "Another suspension: your script finds its model",
     test = function(a, b)
         local other, fact = second_order(b.G_suspension), truth(b)
-        if not other then return judge("The model of the other suspension has not two poles.") end
+        if not other then return judge("The model of the other suspension does not have two poles.") end
         return all_of(differs(dcgain(a.G_suspension), dcgain(b.G_suspension)),
                       each(other, vector{fact.gain, fact.damping_ratio, fact.natural_frequency}, {0.02, 0.05, 0.02},
                            "K, z and omega_0"))
     end,
     mistakes = {
         {when = function(a, b) return near(dcgain(a.G_suspension), dcgain(b.G_suspension), {rel = 1e-9}) end,
-         say = "The model does not change with the record: it must be estimated, not typed in."},
+         say = "The model does not change with the data: estimate it; do not type it in."},
     },
-    hint = "Compute everything that the model needs from what load gives." }
+    hint = "Compute everything that the model needs from the data that load returns." }

@@ -15,20 +15,21 @@
 -- ---
 
 -- %% [markdown]
--- A step is the simplest experiment one can make with a process: move the input from one level to another, wait, and record. The shape of
--- the response suggests a model, and a ruler and a pencil are enough to read its parameters. This lesson does it for two processes,
--- a heat exchanger and a mechanical suspension, first by hand on the figure and then by optimisation on all the samples, and asks
--- what is gained by the second. At the end it adds a dead time, repeats the experiment two hundred times, and moves to another operating point.
+-- A step is the simplest experiment you can run on a process: move the input from one level to another, wait, and measure. The shape of the response
+-- suggests a model. A ruler and a pencil are enough to read its parameters. This lesson models two processes, a heat exchanger and a mechanical
+-- suspension. You first read the parameters from the figure by hand. Then you estimate them from all samples by optimization, and find out what you
+-- gain. At the end, the lesson adds a dead time, repeats the experiment two hundred times, and moves to another operating point.
 --
--- Both records are simulated, with the noise and the rounding of real sensors. That is why the experiment can be repeated, and why the true
--- parameters can be looked up when everything is done.
+-- Both data sets are simulated, with the noise and the rounding of real sensors. You can therefore repeat the experiment, and look up the true
+-- parameters at the end.
 --
 -- # A heat exchanger
 --
--- ## The record
+-- ## The data
 --
--- In the simulated heat exchanger water flows through a heated vessel; the input $u$ is the opening of the heating valve and the output $y$ the temperature of the
--- water at the outlet (@fig:heat_exchanger). The process is at rest at a working point when the valve is opened a little further, 60 s after the record begins (@fig:exchanger_record).
+-- In the simulated heat exchanger, water flows through a heated vessel. The input $u$ is the opening of the heating valve, and the output $y$ is the
+-- temperature of the water at the outlet (@fig:heat_exchanger). The process is at rest at an operating point. The valve opens a little further 60 s
+-- after the measurement begins (@fig:exchanger_record).
 --
 -- ::: {.drawing name=heat_exchanger}
 -- The heat exchanger: the valve is opened by $u$, and the temperature $y$ is measured where the water leaves the vessel {#fig:heat_exchanger}
@@ -41,7 +42,7 @@ local data = iddata(exchanger.y, exchanger.u, Ts,
                     {InputName = "valve opening", InputUnit = "%",
                      OutputName = "outlet temperature", OutputUnit = "°C"})
 print(data)
-report.figure("exchanger_record", idplot(data), "The heat exchanger's record")
+report.figure("exchanger_record", idplot(data), "The data of the heat exchanger")
 
 -- %% id=exchanger_paper echo=false
 local low, high = math.floor(min(exchanger.y)), math.ceil(max(exchanger.y))
@@ -52,20 +53,20 @@ local paper = plot(exchanger.t, exchanger.y,
 report.figure("exchanger_paper", paper:rule(10, 0.2), "The response on graph paper")
 
 -- %% [markdown]
--- ![The record of the heat exchanger: outlet temperature (above) and opening of the valve (below). Neither begins at zero.](figure:exchanger_record){#fig:exchanger_record}
+-- ![The data of the heat exchanger: outlet temperature (above) and opening of the valve (below). Neither begins at zero.](figure:exchanger_record){#fig:exchanger_record}
 --
 -- ## Which model?
 --
 -- **Question 1.** Propose a form of transfer function $G(s)$ for the heat exchanger and explain your choice.
 --
 -- BEGIN SOLUTION
--- The temperature leaves its resting value at once and with its steepest slope, then approaches a new level without overshoot and
--- without a turning point (@fig:exchanger_record). That is how a first-order system responds to a step, and no dead time can be seen:
+-- The temperature leaves its initial value at once and with its steepest slope. Then it approaches a new level without overshoot and without an
+-- inflection point (@fig:exchanger_record). A first-order system responds to a step in this way, and no dead time is visible:
 --
 -- $$ G(s) = \frac{K}{1 + T s} . $$ {#eq:solution-first}
 --
--- Two things of the record are *not* in @eq:solution-first: the response starts from a temperature that is not zero, and the valve was not closed
--- before the step. A transfer function describes changes around the working point, so both levels have to be subtracted or estimated.
+-- Two features of the data are *not* in @eq:solution-first: the response starts from a temperature other than zero, and the valve was open before the
+-- step. A transfer function describes changes around the operating point, so you must subtract or estimate both levels.
 -- END SOLUTION
 --
 -- ## The graphical method
@@ -74,9 +75,9 @@ report.figure("exchanger_paper", paper:rule(10, 0.2), "The response on graph pap
 --
 -- $$ K = \frac{y(\infty) - y(0)}{u(\infty) - u(0)} , $$ {#eq:gain}
 --
--- and the 5 % settling time $T_r$, the time *from the step* until the response stays within 5 % of its total change around the final
--- value, gives $T = T_r/3$, because $e^{-3} \approx 0.05$. Noise makes single samples leave the 5 % band again long after the response has settled, so
--- draw a smooth curve through the noise first, as the eye does with a pencil. `step_first_order` reads in the same way, from a moving average.
+-- and the 5 % settling time $T_r$ gives $T = T_r/3$, because $e^{-3} \approx 0.05$. $T_r$ is the time *from the step* until the response stays within
+-- 5 % of its total change around the final value. Because of the noise, single samples leave the 5 % band long after the response has settled.
+-- Therefore, first draw a smooth curve through the noise. `step_first_order` does the same with a moving average.
 --
 -- ![The response of the heat exchanger, sample by sample, on graph paper: small squares are 10 s wide and 0.2 °C high, large ones 50 s and 1 °C. The valve moves at 60 s.](figure:exchanger_paper){#fig:exchanger_paper}
 
@@ -113,11 +114,12 @@ report.value("T_raw", last_outside/3, "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Reading the gain and the 5 % settling time: the measured and the smoothed response, the levels before the step and at the end, which are $K\,\Delta u$ apart, the band of ±5 % of the change, and the time $T_r$ from the step until the smoothed response enters it for good](figure:exchanger_construction){#fig:exchanger_construction}
+-- ![Reading the gain and the 5 % settling time. The figure shows the measured and the smoothed response, and the levels before the step and at the end, which are $K\,\Delta u$ apart. It also shows the band of ±5 % of the change, and the time $T_r$ from the step until the smoothed response stays in this band.](figure:exchanger_construction){#fig:exchanger_construction}
 --
 -- @fig:exchanger_construction shows the construction. The levels before the step and at the end are averages, because single samples are noisy. The
--- reading is $K =$ `K_read`{.value}\ °C/% and, from $T_r =$ `Tr_read`{.value}\ s (the instant `instant_read`{.value}\ s of the record), $T =$ `T_read`{.value}\ s. Without
--- smoothing, the last sample outside the band comes `Tr_raw`{.value}\ s after the step, which would give $T =$ `T_raw`{.value}\ s.
+-- result is $K =$ `K_read`{.value}\ °C/% and, from $T_r =$ `Tr_read`{.value}\ s (at `instant_read`{.value}\ s of the measurement), $T =$
+-- `T_read`{.value}\ s. Without smoothing, the last sample outside the band comes `Tr_raw`{.value}\ s after the step, which would give $T =$
+-- `T_raw`{.value}\ s.
 -- END SOLUTION
 --
 -- **Question 3.** Compute the response of your model to the recorded input and compare it with the measured one (`test_your_model`).
@@ -129,7 +131,7 @@ local function simulated(G, data, u0)
     local y = lsim(G, data.u - u0, data.Ts)
     return y + mean(data.y - y)
 end
--- every fifth sample as a dot, the model as a line, and below what is left
+-- every fifth sample as a dot, the model as a line, and the error below
 local function test_figure(G, data, u0, label)
     local t, y = data.t, simulated(G, data, u0)
     local some, span = linspace(t[1], t[#t], #t//5 + 1), {t[1], t[#t]}
@@ -141,7 +143,7 @@ local function test_figure(G, data, u0, label)
     return subplot(2, 1, {above, below}):set{height = 8.5}
 end
 local held_against = test_figure(reading, data, exchanger.u[1], "temperature (°C)")
-report.figure("exchanger_test", held_against, "The reading against the measurement")
+report.figure("exchanger_test", held_against, "The reading and the measurement")
 -- END SOLUTION
 
 -- %% id=exchanger_test_report echo=false
@@ -152,17 +154,17 @@ report.value("fit_read", fit(data, reading), "%.1f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Above, the measured temperature (dots, every fifth sample) and the simulated response of the model that was read off the figure (line); below, the error, measured minus simulated, in °C](figure:exchanger_test){#fig:exchanger_test}
+-- ![Above: the measured temperature (dots, every fifth sample) and the simulated response of the model read off the figure (line). Below: the error, measured minus simulated, in °C.](figure:exchanger_test){#fig:exchanger_test}
 --
 -- The simulated response follows the measurement (@fig:exchanger_test) with a fit of `fit_read`{.value} %. The fit is
 -- $100\,(1 - \lVert y - \hat y\rVert / \lVert y - \bar y\rVert)$, with the simulated output $\hat y$ and the mean $\bar y$ of the measured one: 100 % would be perfect, and a
 -- constant output reaches 0 %. The error looks like noise.
 -- END SOLUTION
 --
--- ## Estimation by optimisation
+-- ## Estimation by optimization
 --
--- **Question 4.** Estimate the parameters of your model from all the samples, by minimising the sum of squared differences between the measured
--- and the simulated output (`procsrivc`), and compare with the reading. The process is at rest before the step, so tell the method: `InitialState = "steady"`.
+-- **Question 4.** Estimate the parameters of your model from all samples with `procsrivc`, which minimizes the sum of squared differences between the
+-- measured and the simulated output. Compare them with your reading. The process is at rest before the step, so set `InitialState = "steady"`.
 
 -- %% id=exchanger_estimate
 -- BEGIN SOLUTION
@@ -195,32 +197,33 @@ report.value("K_any_ratio", G1_free.std[1]/G1.std[1], "%.1f")
 -- The heat exchanger: parameters by both methods (± one standard error, which only the estimate has).
 -- :::
 --
--- The time constants of @tbl:exchanger differ by `T_apart`{.value} s, which is `T_apart_errors`{.value} standard errors of the estimate. The difference is due to the reading, which
--- uses two levels and one instant of the record; its own error is not known from one record, and section "How exact is a reading?" finds it by
--- repetition. The estimate uses all the samples and comes with standard errors that say which digits are significant.
+-- The time constants of @tbl:exchanger differ by `T_apart`{.value} s, which is `T_apart_errors`{.value} standard errors of the estimate. The
+-- difference is due to the reading, which uses only two levels and one instant. One experiment does not show the error of a reading. Section "How
+-- exact is a reading?" finds it by repetition. The estimate uses all samples, and its standard errors show which digits are significant.
 --
--- What is known need not be estimated: with `InitialState = "estimate"` the method would also look for a temperature at which the record begins, and
--- the standard error of $K$ would be `K_any_std`{.value} instead of `K_std`{.value}, `K_any_ratio`{.value} times as large, because a slow return from a wrong start looks like a
--- different gain.
+-- Do not estimate known quantities. With `InitialState = "estimate"`, the method would also estimate the initial temperature. The standard error of
+-- $K$ would then be `K_any_std`{.value} instead of `K_std`{.value}, `K_any_ratio`{.value} times as large. The reason is that a slow return from a
+-- wrong initial temperature looks like a different gain.
 -- END SOLUTION
 
 -- %% [markdown]
 -- ## The same without typing
 --
--- `dynlab app heat_exchanger` opens the record in a workbench in the browser (@fig:workbench). Under **Read by hand** press **First order**: a model lies over
--- the response, and its two marked points can be dragged; the formulas below the picture hold the numbers of the moment. Then choose `procsrivc` as **Method** and
--- press **New model**; choose one pole, `P1`, take the delay `D` out, and under **Options** choose `steady` for `InitialState`. Each click writes
--- or changes a line of the script beside the pictures, `heat_exchanger_session.lua`, which `dynlab run` and `dynlab report` take as it is.
+-- `dynlab app heat_exchanger` opens the data in a workbench in the browser (@fig:workbench). Under **Read by hand**, press **First order**. The
+-- response of a model appears over the measured response. Drag its two marked points: the formulas below the figure show the current numbers. Then
+-- select `procsrivc` as **Method** and press **New model**. Select one pole, `P1`, remove the delay `D`, and under **Options** select `steady` for
+-- `InitialState`. Each click writes or changes a line of the script next to the figures, `heat_exchanger_session.lua`. `dynlab run` and
+-- `dynlab report` accept this script.
 --
--- ![The workbench after these clicks: the controls, the pictures, and the script that they have written](workbench.png){#fig:workbench}
+-- ![The workbench after these clicks: the controls, the figures, and the resulting script](workbench.png){#fig:workbench}
 
 -- %% [markdown]
 -- # A mechanical suspension
 --
--- ## The record
+-- ## The data
 --
--- The second process, simulated as well, is a mass on a spring with a damper, pushed by an electric actuator. The input is a unit step of the
--- actuator's voltage at time zero, the output the position of the mass (@fig:suspension, @fig:suspension_record).
+-- The second process is also simulated: a mass on a spring with a damper, pushed by an electric actuator. The input is a unit step of the actuator's
+-- voltage at time zero, and the output is the position of the mass (@fig:suspension, @fig:suspension_record).
 --
 -- ::: {.drawing name=suspension}
 -- The suspension: the voltage $u$ makes the actuator push, and the position $y$ of the mass is measured {#fig:suspension}
@@ -232,7 +235,7 @@ local Ts2 = suspension.t[2] - suspension.t[1]
 local data2 = iddata(suspension.y, suspension.u, Ts2,
                      {InputName = "voltage", InputUnit = "V",
                       OutputName = "position", OutputUnit = "mm"})
--- the record begins with the step; the rest before it is drawn as well
+-- the data begin with the step; also draw the rest before it
 local before = vector{-0.2, 0}
 local position = plot(data2.t, data2.y, before, zeros(2),
                       {colour = 0, ylabel = "position (mm)"})
@@ -240,7 +243,7 @@ local voltage = plot(data2.t, data2.u, before, zeros(2), {0, 0}, {0, 1},
                      {colour = 0, y_range = {-0.1, 1.2},
                       xlabel = "time (s)", ylabel = "voltage (V)"})
 report.figure("suspension_record", subplot(2, 1, {position, voltage}),
-              "The suspension's record")
+              "The data of the suspension")
 
 -- %% id=suspension_paper echo=false
 local top = math.ceil(max(data2.y) + 0.2)
@@ -250,7 +253,7 @@ local paper2 = plot(data2.t, data2.y,
                      xlabel = "time (s)", ylabel = "position (mm)"})
 report.figure("suspension_paper", paper2:rule(0.02, 0.2), "The suspension on graph paper")
 
--- any second-order system with a damping ratio of 0.2, in units of its own
+-- any second-order system with a damping ratio of 0.2, in normalized units
 local wave = range(0, 0.05, 20)
 local height = lsim(tf({1}, {1, 0.4, 1}), ones(#wave), 0.05)
 local peak, at = max(height)
@@ -266,7 +269,7 @@ report.figure("second_order", figure{
     "A second-order step response")
 
 -- %% [markdown]
--- ![The record of the suspension: position of the mass (above) and voltage of the actuator, a unit step at time zero (below)](figure:suspension_record){#fig:suspension_record}
+-- ![The data of the suspension: position of the mass (above) and voltage of the actuator, a unit step at time zero (below)](figure:suspension_record){#fig:suspension_record}
 --
 -- **Question 5.** Propose a form of transfer function and explain your choice.
 --
@@ -277,15 +280,16 @@ report.figure("second_order", figure{
 -- $$ G(s) = \frac{K\,\omega_0^2}{s^2 + 2 z \omega_0 s + \omega_0^2}, \qquad 0 < z < 1 . $$ {#eq:solution-second}
 -- END SOLUTION
 --
--- **Question 6.** Determine the parameters from the figure. The gain follows from @eq:gain. The relative height of the first overshoot,
--- reached the time $T_1$ after the step,
+-- **Question 6.** Determine the parameters from the figure. The gain follows from @eq:gain. The relative height of the first overshoot, which the
+-- response reaches at the time $T_1$ after the step,
 --
 -- $$ D_1 = \frac{y(T_1) - y(\infty)}{y(\infty) - y(0)}, \qquad z = \sqrt{\frac{(\ln D_1)^2}{(\ln D_1)^2 + \pi^2}}, \qquad
 --    \omega_0 = \frac{\pi}{T_1\sqrt{1 - z^2}} , $$ {#eq:overshoot}
 --
--- gives the damping ratio and the undamped natural frequency. @fig:second_order shows what is read where, @fig:suspension_paper is to be read on.
+-- gives the damping ratio and the undamped natural frequency. @fig:second_order shows where to read each number. Read them from
+-- @fig:suspension_paper.
 --
--- ![What is read off the step response of a second-order system, here with $z = 0.2$: the gain $K$ from the two levels, the first overshoot $D_1$ from the height of the first maximum, and the time $T_1$ until it; dotted, the band of ± 5 % in which the response has settled](figure:second_order){#fig:second_order}
+-- ![Numbers to read from the step response of a second-order system, here with $z = 0.2$. The two levels give the gain $K$, and the height of the first maximum gives the first overshoot $D_1$. $T_1$ is the time of this maximum. The dotted lines are the band of ± 5 % in which the response has settled.](figure:second_order){#fig:second_order}
 --
 -- ![The beginning of the response of the suspension, sample by sample, on graph paper: small squares are 0.02 s wide and 0.2 mm high, large ones 0.1 s and 1 mm. The voltage steps at time zero.](figure:suspension_paper){#fig:suspension_paper}
 
@@ -322,18 +326,18 @@ report.value("w2", reading2.w0, "%.2f")
 -- %% id=suspension_test
 -- BEGIN SOLUTION
 report.figure("suspension_test", test_figure(reading2, data2, 0, "position (mm)"),
-              "The second-order model against the measurement")
+              "The second-order model and the measurement")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Above, the measured position (dots, every fifth sample) and the simulated response of the second-order model that was read off the figure (line); below, the error in mm](figure:suspension_test){#fig:suspension_test}
+-- ![Above: the measured position (dots, every fifth sample) and the simulated response of the second-order model read off the figure (line). Below: the error in mm.](figure:suspension_test){#fig:suspension_test}
 --
--- The simulated response follows every oscillation (@fig:suspension_test). What is left is hardly more than the noise of the sensor.
+-- The simulated response follows every oscillation (@fig:suspension_test). The error is little more than the noise of the sensor.
 -- END SOLUTION
 --
--- **Question 8.** Estimate the parameters from all the samples and compare. (In the workbench, `dynlab app suspension`: **Second order** to read by hand, `P2` with `U` for
--- an under-damped pair to estimate.)
+-- **Question 8.** Estimate the parameters from all the samples and compare. (In the workbench, `dynlab app suspension`, use **Second order** to read
+-- by hand, and `P2` with `U` to estimate an under-damped pair.)
 
 -- %% id=suspension_estimate
 -- BEGIN SOLUTION
@@ -362,18 +366,18 @@ report.table("suspension", {
 -- The suspension: parameters by both methods (± one standard error).
 -- :::
 --
--- The methods agree within the error of the reading (@tbl:suspension). The reading relies on a single point, the top of the first overshoot, where the response is flat and its
--- instant is hard to see; the estimate uses the whole response.
+-- The methods agree within the error of the reading (@tbl:suspension). The reading uses a single point, the top of the first overshoot. The response
+-- is flat there, so its instant is hard to see. The estimate uses the whole response.
 -- END SOLUTION
 --
 -- # A dead time
 --
--- **Question 9.** Suppose that the thermometer of the heat exchanger sits further down the pipe, so that the water needs 20 s to reach it. Simulate
--- this record and read it with `step_delayed`, which takes the times $t_1$ and $t_2$ from the step until 28.3 % and 63.2 % of the change: for
+-- **Question 9.** Suppose that the thermometer of the heat exchanger is further down the pipe, so that the water needs 20 s to reach it. Simulate
+-- these data and read them with `step_delayed`. It uses the times $t_1$ and $t_2$ from the step until 28.3 % and 63.2 % of the change. For
 --
 -- $$ G(s) = \frac{K\,e^{-Ds}}{1 + Ts} , \qquad T = \tfrac{3}{2}\,(t_2 - t_1), \qquad D = t_2 - T . $$ {#eq:delayed}
 --
--- Where do these formulas come from? What does a model without a dead time make of this record?
+-- Where do these formulas come from? What happens if the model has no dead time?
 
 -- %% id=dead_time
 -- BEGIN SOLUTION
@@ -385,7 +389,7 @@ local two_points, one_point = step_delayed(data_far), step_first_order(data_far)
 local steady = {InitialState = "steady", Offset = "estimate"}
 local G1D = procsrivc(data_far, "P1D", steady)
 local G1F = procsrivc(data_far, "P1", steady)
-local none = procsrivc(data, "P1D", steady)    -- the dead time of the first record
+local none = procsrivc(data, "P1D", steady)    -- dead time of the first data set
 local t, u0 = data_far.t, exchanger.u[1]
 local far_figure = plot(t, y_far, "measured",
                         t, simulated(G1D, data_far, u0), "with a dead time",
@@ -421,23 +425,25 @@ report.value("T_extra", 20/3, "%.0f")
 -- $t_1 = D + T/3$ and $t_2 = D + T$, and @eq:delayed solves these two equations.
 --
 -- ::: {.table name=dead_time #tbl:dead_time}
--- The record with a dead time of 20 s, by models with and without one.
+-- The data with a dead time of 20 s: models with and without a dead time.
 -- :::
 --
 -- ![The beginning of the response with a dead time (dots), and the estimated models with (full) and without (dashed) a dead time. Without it the model starts too early and rises too slowly.](figure:dead_time){#fig:dead_time}
 --
--- A model without a dead time makes up for it by a larger time constant (@tbl:dead_time, @fig:dead_time): the settling time becomes $3T + D$, so the reading grows by $D/3$, here `T_extra`{.value} s,
--- and the estimate grows, too. Its standard error does not warn: it holds for the right structure only. Can the first record have a dead time that nobody saw? Estimated, it
--- is `Td_none`{.value}\ ±\ `Td_none_std`{.value}\ s: not significantly different from zero.
+-- A model without a dead time compensates with a larger time constant (@tbl:dead_time, @fig:dead_time). The settling time becomes $3T + D$, so the
+-- reading grows by $D/3$, here `T_extra`{.value} s. The estimate grows too. Its standard error gives no warning, because it is valid only for the
+-- right structure. Could the first data set contain a hidden dead time? The estimate is `Td_none`{.value}\ ±\ `Td_none_std`{.value}\ s, which is not
+-- significantly different from zero.
 -- END SOLUTION
 --
 -- # How exact is a reading?
 --
--- **Question 10.** `rig("heat_exchanger", {seed = k})` makes the experiment again, with other noise, on the heat exchanger that the course has for all; the `specimen`
--- of a group's own record, which `SOURCE.md` beside the record tells, can be given as well. Read and estimate two hundred records. How large is the
--- error of the reading? Are the standard errors of the estimate right? Look up the truth now with `rig_truth`.
+-- **Question 10.** `rig("heat_exchanger", {seed = k})` repeats the experiment with other noise, on the heat exchanger shared by the whole class. If
+-- your group has its own data, `SOURCE.md` next to the data gives the number of your unit. Pass it as the option `specimen`. Read and estimate two
+-- hundred data sets. How large is the error of the reading? Are the standard errors of the estimate right? Look up the truth now with `rig_truth`.
 --
--- Guess first: how many times further than the estimates do the readings scatter? `outcome` prints the guess beside what you find.
+-- First, enter a prediction: how many times wider is the scatter of the readings than the scatter of the estimates? `outcome` prints your prediction
+-- next to the result.
 
 -- %% id=noise_guess
 -- BEGIN SOLUTION
@@ -486,22 +492,24 @@ report.value("sharper", std(T_reading)/std(T_estimate), "%.0f")
 -- BEGIN SOLUTION
 -- ![The time constants of two hundred repeated experiments, read off the figure (above) and estimated (below); dashed: the truth. Both axes are equal.](figure:noise_study){#fig:noise_study}
 --
--- The true time constant is `true_T`{.value}\ s. The readings have the mean `reading_mean`{.value}\ s and scatter by `reading_std`{.value}\ s (@fig:noise_study); the estimates
--- have the mean `estimate_mean`{.value}\ ±\ `estimate_mean_std`{.value}\ s and scatter by `estimate_std`{.value}\ s, which is what they report (`reported`{.value}\ s on average). So the reading is
--- `sharper`{.value} times less exact, and, by `reading_off`{.value}\ s on average, a little too short: noise and smoothing let the response enter the band early. Its
--- difference from the estimate in @tbl:exchanger is within this error: both methods agree.
+-- The true time constant is `true_T`{.value}\ s. The readings have the mean `reading_mean`{.value}\ s and the standard deviation
+-- `reading_std`{.value}\ s (@fig:noise_study). The estimates have the mean `estimate_mean`{.value}\ ±\ `estimate_mean_std`{.value}\ s and the
+-- standard deviation `estimate_std`{.value}\ s. This agrees with their reported standard errors (`reported`{.value}\ s on average). So the reading is
+-- `sharper`{.value} times less exact. It is also too short by `reading_off`{.value}\ s on average, because noise and smoothing let the response enter
+-- the band early. Its difference from the estimate in @tbl:exchanger is within this error: both methods agree.
 -- END SOLUTION
 
 -- %% [markdown]
 -- # Another operating point
 --
--- **Question 11.** Where the losses to the room are neglected, the heat balance of the vessel is
+-- **Question 11.** If you neglect the losses to the room, the heat balance of the vessel is
 --
 -- $$ C\,\frac{\mathrm{d}y}{\mathrm{d}t} = \dot m\,c\,(y_\text{in} - y) + \frac{P}{100}\,u , $$ {#eq:balance}
 --
--- with the heat capacity $C$ of the vessel, the flow $\dot m$ (kg/s) of water of specific heat $c$ that enters at $y_\text{in}$, and the power $P$ of the open valve.
--- What becomes of $K$, $T$ and $K/T$ when the same step is made from 50 % to 70 %, and what when the flow is halved? Simulate the second case until
--- four of its time constants after the step, and read it. Why is the reading too small now, and the estimate not?
+-- where $C$ is the heat capacity of the vessel and $P$ is the power of the open valve. The water has the flow $\dot m$ (kg/s), the specific heat $c$
+-- and the inlet temperature $y_\text{in}$. How do $K$, $T$ and $K/T$ change if the same step goes from 50 % to 70 %? How do they change if the flow
+-- is halved? Simulate the second case until four of its time constants after the step, and read the response. Why is the reading too small now, and
+-- the estimate is not?
 
 -- %% id=half_flow
 -- BEGIN SOLUTION
@@ -534,23 +542,25 @@ report.value("half_missing", 100*math.exp(-4), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Compared with @eq:solution-first, @eq:balance has $K = P/(100\,\dot m\,c)$ and $T = C/(\dot m\,c)$. The balance is linear in $u$: from 50 % to 70 % the temperature moves on a
--- higher level, but by the same amount and as fast. It is not linear in $\dot m$, which multiplies $y$: at half the flow $K$ and $T$ are doubled, and $K/T = P/(100\,C)$ stays,
--- because the slope just after the step is a matter of power and heat capacity alone. A model holds for the operating point at which it was found.
+-- Compared with @eq:solution-first, @eq:balance has $K = P/(100\,\dot m\,c)$ and $T = C/(\dot m\,c)$. The balance is linear in $u$: from 50 % to 70
+-- %, the temperature is on a higher level, but it changes by the same amount and as fast. The balance is not linear in $\dot m$, which multiplies
+-- $y$. At half the flow, $K$ and $T$ are doubled. $K/T = P/(100\,C)$ does not change, because the slope just after the step depends only on power and
+-- heat capacity. A model is valid for the operating point of its data.
 --
 -- ::: {.table name=half_flow #tbl:half_flow}
--- The heat exchanger with the flow of the record and with half of it.
+-- The heat exchanger with the original flow and with half of it.
 -- :::
 --
--- Four time constants are `half_span`{.value} s now, and `half_missing`{.value} % of the change are still to come when the record ends. The reading takes the last samples for the final level, so its gain and its time
--- constant are too small (@tbl:half_flow); the estimate needs no final level, since the curvature of the response tells where it is going.
+-- Four time constants are `half_span`{.value} s now, and `half_missing`{.value} % of the change are missing when the data end. The reading takes the
+-- last samples as the final level, so its gain and its time constant are too small (@tbl:half_flow). The estimate needs no final level, because the
+-- curvature of the response shows where it is going.
 -- END SOLUTION
 
 -- %% [markdown]
 -- # Try it: parameters by hand
 --
--- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the two models below move under your hand: drag the marked points, or
--- move the sliders under the cells. Which parameter moves which part of the curve? How near to the measurement do you come by eye?
+-- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`), you can change the two models below. Drag the marked points,
+-- or move the sliders under the cells. Which parameter moves which part of the curve? How close to the measurement do you come by eye?
 
 -- %% id=first_order_by_hand
 do
@@ -585,8 +595,8 @@ end
 -- %% [markdown]
 -- ![The heat exchanger (dots) and a first-order model (line) with the $K$ and $T$ of the cell above: the final level moves with $K$, the point where 63 % of the change is reached with $T$ and $K$.](figure:first_by_hand){#fig:first_by_hand}
 --
--- In @fig:first_by_hand the gain stretches the curve upwards and the time constant sideways. In @fig:second_by_hand the first peak, as a share of the final level, depends on the
--- damping ratio alone, its instant on the natural frequency and, a little, on the damping.
+-- In @fig:first_by_hand the gain stretches the curve upwards and the time constant sideways. In @fig:second_by_hand, the first peak, as a share of
+-- the final level, depends only on the damping ratio. Its instant depends on the natural frequency and, a little, on the damping.
 
 -- %% id=second_order_by_hand
 do
@@ -623,25 +633,32 @@ end
 -- ![The suspension (dots) and a second-order model (line) with the $K$, $z$ and $\omega_0$ of the cell above: the final level moves with $K$, the first peak with $z$ (up and down) and $\omega_0$ (sideways).](figure:second_by_hand){#fig:second_by_hand}
 
 -- %% [markdown]
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
--- * The shape decides the structure: steepest at once and no overshoot, first order; horizontal start and overshoot, second order with complex poles; nothing at first, a dead time.
--- * Working points are not part of a transfer function: subtract the levels before the step, or let the method estimate them. What is known, such as a start at
---   rest, is better told than estimated.
--- * Reading a figure gives good values in a minute and start values for everything else. Optimisation uses all samples, is more exact and
---   says how exact it is, provided that the structure is right.
--- * Trust a model only after comparing its simulated output with the measured one. How far a number can be trusted is shown by repeating the experiment.
+-- * The shape decides the structure. Steepest at the start and no overshoot: first order. Horizontal start and overshoot: second order with complex
+--   poles. No change at first: a dead time.
+-- * Operating points are not part of a transfer function: subtract the levels before the step, or let the method estimate them. Give known facts,
+--   such as a start at rest, to the method instead of estimating them.
+-- * Reading a figure gives good values in a minute and start values for everything else. Optimization uses all samples, is more exact, and reports
+--   its accuracy, provided that the structure is right.
+-- * Trust a model only after comparing its simulated output with the measured one. Repeating the experiment shows how far you can trust a number.
 -- END SOLUTION
 --
 -- # What you submit
 --
 -- ::: {.note}
--- Where this lesson is graded, `answer(name, value)` hands your results in; `dynlab check` tells what is missing. What you read off the figures may
--- be typed in as you read it: `settling_time`, $T_r$ in seconds after the step; `exchanger_reading`, the vector $K$, $T$; `overshoot`, $D_1$ as a
--- ratio; `suspension_reading`, the vector $K$, $z$, $\omega_0$. The two estimated models, `G_exchanger` and `G_suspension`, are to be computed from the
--- record, because your script will be run on records of other exchangers and suspensions as well. Hand over the figures that compare your
--- readings with the measurements by `report.figure`, under the names `exchanger_test` and `suspension_test`.
+-- If this lesson is graded, submit results with `answer(name, value)`. `dynlab check` lists missing answers. You may type in the numbers that you
+-- read off the figures:
+--
+-- * `settling_time`: $T_r$ in seconds after the step;
+-- * `exchanger_reading`: the vector $K$, $T$;
+-- * `overshoot`: $D_1$ as a ratio;
+-- * `suspension_reading`: the vector $K$, $z$, $\omega_0$.
+--
+-- Compute the two estimated models, `G_exchanger` and `G_suspension`, from the data, because grading runs your script on data of other exchangers and
+-- suspensions as well. Pass the figures that compare your readings with the measurements to `report.figure`, under the names `exchanger_test` and
+-- `suspension_test`.
 -- :::
 
 -- %% id=hand_in

@@ -1,6 +1,6 @@
 -- expects: exchanger_reading: a third of it
 -- expects: overshoot: in percent
--- expects: suspension_reading: D1 went into the formula in percent
+-- expects: suspension_reading: You used D1 in percent in the formula
 -- expects: figures: no figure "suspension_test"
 -- The settling time stands for the time constant, the overshoot is taken in percent, and one comparison is missing.
 local h, s = load("heat_exchanger"), load("suspension")

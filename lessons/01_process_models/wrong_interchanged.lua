@@ -1,4 +1,4 @@
--- expects: exchanger_reading: turned round
+-- expects: exchanger_reading: K is inverted
 -- expects: exchanger_model: Input and output are interchanged
 -- expects: exchanger_follows: On a record that you have not seen
 -- expects: suspension_model: wrong sign

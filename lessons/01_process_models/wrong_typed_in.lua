@@ -1,5 +1,5 @@
--- expects: exchanger_follows: does not change with the record
--- expects: suspension_follows: does not change with the record
+-- expects: exchanger_follows: The model does not change with the data
+-- expects: suspension_follows: The model does not change with the data
 -- Right models, copied from somebody else's sheet.
 local h, s = load("heat_exchanger"), load("suspension")
 local G1, G2 = tf({0.5015}, {76.24, 1}), tf({1666.7}, {1, 5, 166.67})

@@ -1,5 +1,5 @@
 -- expects: exchanger_reading: the ratio of two levels
--- expects: exchanger_model: takes the working point
+-- expects: exchanger_model: The model treats the operating point as a part of the response
 -- expects: exchanger_follows: On a record that you have not seen
 -- The levels before the step are left in the signals.
 local h, s = load("heat_exchanger"), load("suspension")

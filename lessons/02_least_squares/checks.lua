@@ -41,7 +41,7 @@ end
 
 local function judge(message) return {share = 0, message = message} end
 local function numbers(x, count, names)
-    if #x ~= count then return judge(string.format("Wanted are %d numbers: %s.", count, names)) end
+    if #x ~= count then return judge(string.format("The answer must have %d numbers: %s.", count, names)) end
     return {share = 1}
 end
 local function each(x, wanted, tolerance, names)
@@ -56,13 +56,13 @@ check { id = "line", points = 2, about = "The straight line up to 2020",
     test = function(a) return each(a.line, line.theta, 1e-3, "the slope and the time at the mean year") end,
     mistakes = {
         {when = function(a) return alike(a.line, whole, 1e-5) end,
-         say = "2024 is in the fit; it was to be kept aside for the test."},
+         say = "The fit includes 2024; reserve it for the test."},
         {when = function(a) return alike(a.line, vector{middle, slope}, 1e-3) end,
          say = "The order is slope, time at the mean year."},
         {when = function(a) return alike(a.line, vector{slope, middle - slope*centre}, 1e-3) end,
-         say = "The second number is the time in the year 0; that at the mean year is wanted."},
+         say = "The second number is the time in the year 0; give the time at the mean year."},
         {when = function(a) return near(a.line[1], 10*slope, {rel = 1e-2}) end,
-         say = "The slope is per decade; seconds per year are wanted."},
+         say = "The slope is per decade; give seconds per year."},
         {when = function(a) return alike(a.line, vector{-slope, middle}, 1e-3) end,
          say = "The slope has the wrong sign: the times fall."},
     },
@@ -72,7 +72,7 @@ check { id = "rmse", points = 1, about = "The root mean square of the residuals"
     test = function(a) return near(a.rmse, rmse, {rel = 1e-3}) end,
     mistakes = {
         {when = function(a) return near(a.rmse, rmse*math.sqrt(N/(N - 2)), {rel = 1e-3}) end,
-         say = "You divide by N - 2, which estimates the noise; the RMSE divides by N."},
+         say = "You divided by N - 2, which estimates the noise; the RMSE divides by N."},
         {when = function(a) return near(a.rmse, rmse^2, {rel = 1e-3}) end,
          say = "This is the mean square: the root is missing."},
         {when = function(a) return near(a.rmse, rmse*math.sqrt(N), {rel = 1e-3}) end,
@@ -101,7 +101,7 @@ check { id = "paris", points = 2, about = "The forecast for 2024 and its interva
         {when = function(a) return (a.paris[3] - a.paris[2])/2 < 0.7*half_width end,
          say = "The interval is too narrow: it must allow for one new race, not only for the uncertainty of the line."},
         {when = function(a) return near(a.paris[1], games.time[N + 1], {abs = 1e-6}) end,
-         say = "This is what was run in Paris, not what the line foretells."},
+         say = "This is the actual result of Paris, not the forecast of the line."},
     },
     hint = "forecast(line, 2024, 0.95) with the line that polyfit_report fits to the Games up to 2020." }
 
@@ -109,27 +109,27 @@ check { id = "continuous", points = 2, about = "The continuous-time model from t
     test = function(a) return each(a.ct, ct, 1e-3, "a and b") end,
     mistakes = {
         {when = function(a) return alike(a.ct, vector{-ct[1], ct[2]}, 1e-3) end,
-         say = "The sign of a is turned round: the regressor of the output has a minus."},
+         say = "a has the wrong sign: the regressor of the output has a minus."},
         {when = function(a) return alike(a.ct, vector{ct[2], ct[1]}, 1e-3) end, say = "The order is a, b."},
         {when = function(a) return alike(a.ct, ct_noisy, 1e-3) end,
          say = "These are the estimates from the noisy samples."},
         {when = function(a) return alike(a.ct, vector{1/ct[1], ct[2]/ct[1]}, 1e-3) end,
-         say = "These are time constant and gain; a and b of b/(s + a) are wanted."},
+         say = "These are time constant and gain; give a and b of b/(s + a)."},
     },
-    hint = "The columns of Phi are -y and u; the derivative stands on the left." }
+    hint = "The columns of Phi are -y and u; the derivative is on the left-hand side." }
 
 check { id = "discrete", points = 2, about = "The discrete-time model from the exact samples",
     test = function(a) return each(a.dt, dt, 1e-3, "a1 and b1") end,
     mistakes = {
         {when = function(a) return alike(a.dt, vector{-dt[1], dt[2]}, 1e-3) end,
-         say = "The sign of a1 is turned round: the regressor of the output has a minus."},
+         say = "a1 has the wrong sign: the regressor of the output has a minus."},
         {when = function(a) return alike(a.dt, vector{dt[2], dt[1]}, 1e-3) end, say = "The order is a1, b1."},
         {when = function(a) return alike(a.dt, dt_noisy, 1e-3) end,
          say = "These are the estimates from the noisy samples."},
         {when = function(a) return alike(a.dt, ct, 1e-3) end,
          say = "These are the parameters of the continuous-time model."},
     },
-    hint = "Each sample is regressed on the sample and the input before it: three equations." }
+    hint = "Regress each sample on the previous sample and input: three equations." }
 
 check { id = "noisy", points = 2, about = "Both models from the noisy samples",
     test = function(a)
@@ -137,7 +137,7 @@ check { id = "noisy", points = 2, about = "Both models from the noisy samples",
     end,
     mistakes = {
         {when = function(a) return alike(a.ct_noisy, continuous(samples.y_noisy, samples.ydot), 1e-3) end,
-         say = "The derivative is the exact one; the noisy one belongs to the noisy output."},
+         say = "You used the exact derivative; the noisy output needs the noisy derivative."},
         {when = function(a) return alike(a.ct_noisy, ct, 1e-3) or alike(a.dt_noisy, dt, 1e-3) end,
          say = "These are the estimates from the exact samples."},
     },
@@ -152,19 +152,19 @@ check { id = "monte_carlo", points = 2, about = "A thousand estimates: least squ
     end,
     mistakes = {
         {when = function(a) return near(a.monte_carlo[1], dt[1], {abs = scatter}) end,
-         say = "The mean is the truth: either the noise is missing, or it is the same on both sides of the regression."},
+         say = "The mean equals the truth: either the noise is missing, or it is the same on both sides of the regression."},
         {when = function(a) return near(a.monte_carlo[2], scatter/math.sqrt(1000), {rel = 0.4}) end,
-         say = "This is the standard error of the mean; the scatter of single estimates is wanted."},
+         say = "This is the standard error of the mean; give the scatter of single estimates."},
     },
     hint = "Simulate, add noise to the output, estimate as in question 6, a thousand times; then mean and std." }
 
-check { id = "figures", points = 1, about = "Residuals, forecast and histogram are drawn",
+check { id = "figures", points = 1, about = "Figures of the residuals, the forecast and the histogram",
     test = function() return all_of(has_figure("residuals"), has_figure("forecast"), has_figure("monte_carlo")) end,
     hint = "report.figure(\"residuals\", fig, \"...\") and the same for forecast and monte_carlo." }
 
 local typed = {
     {when = function(a, b) return near(a.ct, b.ct, {rel = 1e-9}) end,
-     say = "The parameters do not change with the samples: they must be computed, not typed in."},
+     say = "The parameters do not change with the samples: compute them; do not type them in."},
 }
 
 check { id = "follows_samples", points = 4, rerun = "step_response", about = "Another system: both models follow its samples",
@@ -174,7 +174,7 @@ check { id = "follows_samples", points = 4, rerun = "step_response", about = "An
                       each(b.dt, vector{-fact.f, fact.g}, 1e-3, "a1 and b1"))
     end,
     mistakes = typed,
-    hint = "Compute ct and dt from what load(\"step_response\") gives, the sampling time included." }
+    hint = "Compute ct and dt, including the sampling time, from the data that load(\"step_response\") returns." }
 
 check { id = "follows_study", points = 2, rerun = "step_response", about = "Another system: the study repeats its experiment",
     test = function(a, b)
@@ -182,4 +182,4 @@ check { id = "follows_study", points = 2, rerun = "step_response", about = "Anot
         return all_of(differs(a.monte_carlo, b.monte_carlo),
                       near(b.monte_carlo[1], biased(-fact.f, fact.g), {abs = 0.5*scatter, half = scatter}))
     end,
-    hint = "Simulate the study's records with the discrete-time model that you have just estimated." }
+    hint = "Simulate the data of the study with the discrete-time model that you have just estimated." }

@@ -17,12 +17,11 @@
 -- ---
 
 -- %% [markdown]
--- Least squares is the workhorse of this course: the estimators of the later lessons either minimise a sum of squares or start from the
--- least-squares solution and correct it. This lesson uses it twice. First on a *static* model, a straight line through the men's 100 m winning
--- times of the Olympic Games, where we also ask how far such a line can be trusted. Then on a *dynamic* model, the step
--- response of a first-order system known at four instants only, where we meet the reason why the rest of the course exists:
--- noise in the regressors makes plain least squares systematically wrong. The winning times are real; the step response is simulated,
--- so that its true parameters are known.
+-- Least squares is the workhorse of this course. The estimators of later lessons either minimize a sum of squares, or start from the least-squares
+-- solution and correct it. This lesson uses least squares twice. The first model is *static*: a straight line through the men's 100 m winning times
+-- of the Olympic Games. You also find out how far you can trust such a line. The second model is *dynamic*: the step response of a first-order
+-- system, known at only four instants. It shows why the rest of the course exists: noise in the regressors makes plain least squares systematically
+-- wrong. The winning times are real. The step response is simulated, so its true parameters are known.
 --
 -- To review the normal equations and gradient descent, see Guillaume Saint-Cirgue's [page on simple linear regression](https://machinelearnia.com/regression-lineaire-simple/) (in French, with a video of ten minutes).
 --
@@ -30,9 +29,8 @@
 --
 -- ## The data
 --
--- The record holds the year of the Games, the winner's official time in seconds, and how it was measured: by hand until 1964,
--- electronically since. The Games of 1916, 1940 and 1944 were not held because of the two world wars. The first two
--- steps are to load the data and to look at them before anything is computed.
+-- The data are the year of the Games, the winner's official time in seconds, and how it was measured: by hand until 1964, electronically since. The
+-- Games of 1916, 1940 and 1944 were not held because of the two world wars. First load the data and look at them, before you compute anything.
 
 -- %% id=times
 local games = load("winning_times")
@@ -47,10 +45,9 @@ report.figure("times", plot(year, time, {style = "points", height = 6,
 -- **Question 1.** Describe what you see in @fig:times. Where does a straight line look reasonable, and where not?
 --
 -- BEGIN SOLUTION
--- The times fall (@fig:times), fast at first and then slowly. The first value, 12.0 s in 1896, stands far above all others: one race, a
--- handful of runners, a stopwatch. From 1900 on the fall is close to even, about a tenth of a second in nine years. It cannot go
--- on like this for ever, because a line eventually reaches zero; within the range of the data it is a fair description and a usable
--- short-term forecast, no more.
+-- The times fall (@fig:times), fast at first and then slowly. The first value, 12.0 s in 1896, is far above all others: one race, a handful of
+-- runners, a stopwatch. From 1900 on, the fall is almost steady, about a tenth of a second in nine years. It cannot continue forever, because a line
+-- eventually reaches zero. Within the range of the data, the line is a fair description and a usable short-term forecast, no more.
 -- END SOLUTION
 --
 -- ## The model
@@ -59,15 +56,15 @@ report.figure("times", plot(year, time, {style = "points", height = 6,
 --
 -- $$ \text{time} = a \cdot \text{year} + b , $$ {#eq:line}
 --
--- and keep the result of 2024 aside: the line is fitted to the Games up to 2020 and then asked for 2024. With $N$ Games the model
--- becomes the overdetermined system $y = \Phi\theta + e$, one row per Games,
+-- and set the 2024 result aside: we fit the line to the Games up to 2020 and then use it to forecast 2024. With $N$ Games, the model becomes the
+-- overdetermined system $y = \Phi\theta + e$, one row per Games,
 --
 -- $$ y = \begin{pmatrix} y_1 \\ \vdots \\ y_N \end{pmatrix}, \qquad
 --    \Phi = \begin{pmatrix} x_1 & 1 \\ \vdots & \vdots \\ x_N & 1 \end{pmatrix}, \qquad
 --    \theta = \begin{pmatrix} a \\ b \end{pmatrix}. $$ {#eq:regression}
 --
--- Years near 2000 make the two columns of $\Phi$ almost parallel. Measuring the year from the mean year $m$, $x_i = \text{year}_i - m$,
--- leaves $a$ as it is, turns $b$ into the time at the mean year, and makes the columns orthogonal.
+-- Years near 2000 make the two columns of $\Phi$ almost parallel. Measuring the year from the mean year $m$, $x_i = \text{year}_i - m$, does not
+-- change $a$. It turns $b$ into the time at the mean year, and makes the columns orthogonal.
 
 -- %% id=regression
 local N = #year - 1                       -- 2024 is kept for the test
@@ -84,9 +81,8 @@ print(string.format("condition number: %.3g raw, %.3g centred",
 -- %% [markdown]
 -- ## Three methods, one answer
 --
--- **Question 2.** The least-squares estimate minimises $J(\theta) = \lVert y - \Phi\theta \rVert^2$. Compute it in three ways: by the
--- normal equations $\Phi^T\Phi\,\theta = \Phi^T y$, by an orthogonal (QR) factorisation of $\Phi$, and by gradient descent. Do they
--- agree?
+-- **Question 2.** The least-squares estimate minimizes $J(\theta) = \lVert y - \Phi\theta \rVert^2$. Compute it in three ways: by the normal
+-- equations $\Phi^T\Phi\,\theta = \Phi^T y$, by an orthogonal (QR) factorization of $\Phi$, and by gradient descent. Do they agree?
 
 -- %% id=three_roads
 -- BEGIN SOLUTION
@@ -94,7 +90,7 @@ local theta_normal = solve(Phi:t()*Phi, Phi:t()*y)
 local fit = lsq(Phi, y)                   -- QR
 local descent = gradient_descent(Phi, y, {MaxIter = 100000})
 
--- the same descent with x in units of its own spread
+-- the same descent with x divided by its spread
 local spread = sqrt(mean(x^2))
 local scaled = gradient_descent(matrix{x/spread, ones(N)}, y)
 local theta_scaled = vector{scaled.theta[1]/spread, scaled.theta[2]}
@@ -136,16 +132,15 @@ report.value("steps_scaled", scaled.iterations, "%d")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=roads #tbl:roads}
--- The same line by three methods; last but one, the largest relative difference of $a$ or $b$ from the values that QR gives.
+-- The same line by three methods. The last column but one is the largest relative difference of $a$ or $b$ from the QR values.
 -- :::
 --
--- All methods of @tbl:roads give the same line. The normal equations and QR get there in one step. Gradient descent starts from zero
--- and walks downhill: with the years as they are it needs `steps`{.value} steps, because the valley is `condition`{.value} times
--- steeper across than along; with $x$ in units of its own spread the valley is round, and `steps_scaled`{.value} steps are enough. For two
--- parameters it is the slow way. For models with millions of parameters, where no matrix $\Phi^T\Phi$ can be stored, only methods that use
--- gradients remain (stochastic gradient descent, conjugate gradients, L-BFGS), and scaling matters just as much. The
--- line falls by `a_decade`{.value} s per decade: $\hat a =$ `a`{.value} s/year with a standard error of `a_std`{.value} s/year, and
--- $\hat b =$ `b`{.value} s in the mean year `centre`{.value}.
+-- All methods of @tbl:roads give the same line. The normal equations and QR need one step. Gradient descent starts from zero and walks downhill. With
+-- the original years, it needs `steps`{.value} steps, because the valley is `condition`{.value} times steeper across than along. If $x$ is divided by
+-- its spread, the valley is round, and `steps_scaled`{.value} steps are enough. For two parameters, gradient descent is slow. For models with
+-- millions of parameters, however, no computer can store the matrix $\Phi^T\Phi$. Only methods that use gradients remain (stochastic gradient
+-- descent, conjugate gradients, L-BFGS), and scaling matters just as much. The line falls by `a_decade`{.value} s per decade: $\hat a =$ `a`{.value}
+-- s/year with a standard error of `a_std`{.value} s/year, and $\hat b =$ `b`{.value} s in the mean year `centre`{.value}.
 -- END SOLUTION
 --
 -- ## Residuals
@@ -154,7 +149,7 @@ report.value("steps_scaled", scaled.iterations, "%d")
 --
 -- $$ \text{RMSE} = \sqrt{\frac{1}{N} \sum_{i=1}^{N} \varepsilon_i^2} \; . $$ {#eq:rmse}
 --
--- Are they what a good model would leave?
+-- Do they look like the residuals of a good model?
 
 -- %% id=residuals
 -- BEGIN SOLUTION
@@ -175,12 +170,12 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Residuals of the straight line: measured minus fitted time. Neighbours tend to have the same sign, and 1896 stands alone.](figure:residuals){#fig:residuals}
+-- ![Residuals of the straight line: measured minus fitted time. Neighboring residuals tend to have the same sign, and 1896 is an outlier.](figure:residuals){#fig:residuals}
 --
--- The RMSE is `rmse`{.value} s. @fig:residuals shows that this one number conceals two different effects. The Games of 1896 alone leave
--- `first_residual`{.value} s; without them the RMSE over the others is `rmse_later`{.value} s. And the signs are not random: residuals
--- below zero cluster in the 1930s and 1960s, and the last two are above zero because the line now falls faster than the times do. A good
--- model would leave residuals without any pattern, so a straight line is a first approximation and not the truth.
+-- The RMSE is `rmse`{.value} s. @fig:residuals shows that this one number conceals two different effects. The residual of the Games of 1896 is
+-- `first_residual`{.value} s. Without them, the RMSE over the others is `rmse_later`{.value} s. The signs are not random either: residuals below zero
+-- cluster in the 1930s and 1960s. The last two are above zero, because the line now falls faster than the times. A good model has residuals without
+-- any pattern, so a straight line is a first approximation and not the truth.
 -- END SOLUTION
 --
 -- ## A forecast for Paris 2024
@@ -190,9 +185,9 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 -- $$ \hat a x_0 + \hat b \;\pm\; t_{0.975,\,N-2}\; s\,\sqrt{1 + \frac{1}{N} + \frac{x_0^2}{\sum_i x_i^2}} \; , \qquad
 --    s^2 = \frac{1}{N-2}\sum_{i=1}^{N} \varepsilon_i^2 , $$ {#eq:interval}
 --
--- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution, `tinv(0.975, N - 2)`. Compare it with what happened.
+-- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution, `tinv(0.975, N - 2)`. Compare it with the actual result.
 --
--- Guess first: how far from the forecast are the ends of that interval? `outcome` prints your guess next to the result.
+-- First, enter a prediction: how far from the forecast are the ends of that interval? `outcome` prints your prediction next to the result.
 
 -- %% id=forecast_guess
 -- BEGIN SOLUTION
@@ -227,12 +222,13 @@ report.value("miss", actual - paris.value, "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![The fitted line with its 95 % confidence band (inner) and 95 % prediction band (outer), the forecast for 2024 and the time that was run. The prediction band is wide enough for single races, the confidence band holds for the line only.](figure:forecast){#fig:forecast}
+-- ![The fitted line with its 95 % confidence band (inner) and 95 % prediction band (outer), the forecast for 2024 and the actual time. The prediction band is wide enough for single races. The confidence band is for the line only.](figure:forecast){#fig:forecast}
 --
 -- The forecast from the `N_games`{.value} Games to 2020 is `paris`{.value} s, with a 95 % prediction interval from `paris_low`{.value} to
--- `paris_high`{.value} s (@fig:forecast). Noah Lyles won in `actual`{.value} s, `miss`{.value} s slower than the forecast but well inside
--- the interval. The interval is wide because it must allow for one new race (the 1 in @eq:interval), not only for the uncertainty of the line, and because the
--- early, scattered Games inflate the estimated noise. It also rests on assumptions that the residuals have already put in doubt.
+-- `paris_high`{.value} s (@fig:forecast). Noah Lyles won in `actual`{.value} s, `miss`{.value} s slower than the forecast but well inside the
+-- interval. The interval is wide for two reasons. It must include the scatter of one new race (the 1 in @eq:interval), not only the uncertainty of
+-- the line. And the early, scattered Games increase the estimated noise. The interval also depends on assumptions that the residuals have already put
+-- in doubt.
 -- END SOLUTION
 
 -- %% [markdown]
@@ -240,8 +236,8 @@ report.value("miss", actual - paris.value, "%.2f")
 --
 -- ## The data
 --
--- The second record is the simulated response of a first-order system at rest to a unit step, at four instants (@fig:samples), together with its time derivative. Both
--- are given twice: exact, and with white noise of standard deviation 0.05.
+-- The second data set is the simulated response of a first-order system at rest to a unit step. It has four samples (@fig:samples), with the time
+-- derivative. Both signals are given twice: exact, and with white noise of standard deviation 0.05.
 
 -- %% id=step
 local record = load("step_response")
@@ -262,8 +258,8 @@ report.figure("samples", four, "Four samples of a step response")
 --
 -- $$ \dot y(t) = -a\,y(t) + b\,u(t) . $$ {#eq:ct}
 --
--- Write @eq:ct at the four instants as a linear regression, estimate $a$ and $b$ from the exact signals, and compare the simulated
--- output of the model with the samples.
+-- Write @eq:ct at the four instants as a linear regression, and estimate $a$ and $b$ from the exact signals. Compare the simulated output of the
+-- model with the samples.
 
 -- %% id=continuous
 -- BEGIN SOLUTION
@@ -289,9 +285,9 @@ report.value("ct_miss", max(abs(step(Gc, t) - record.y)), "%.0e")
 -- BEGIN SOLUTION
 -- ![Step response of the continuous-time model (line) and the four samples (points), through which it passes](figure:ct_fit){#fig:ct}
 --
--- With $\Phi$ made of the columns $-y$ and $u$, and $\dot y$ on the left, least squares gives $\hat a =$ `a_ct`{.value} and
--- $\hat b =$ `b_ct`{.value}. The model's step response passes through the four samples (@fig:ct): the largest distance is
--- `ct_miss`{.value}, which is the rounding of the stored data.
+-- $\Phi$ has the columns $-y$ and $u$, and $\dot y$ is on the left-hand side. Least squares gives $\hat a =$ `a_ct`{.value} and $\hat b =$
+-- `b_ct`{.value}. The model's step response passes through the four samples (@fig:ct): the largest distance is `ct_miss`{.value}, which is the
+-- rounding of the stored data.
 -- END SOLUTION
 --
 -- ## A discrete-time model
@@ -332,16 +328,16 @@ report.value("dt_miss", max(abs(simulated - record.y)), "%.0e")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Three equations are left for two unknowns, because each needs the sample before. The estimates $\hat a_1 =$ `a1_dt`{.value} and
--- $\hat b_1 =$ `b1_dt`{.value} again reproduce the samples when the model is simulated (@fig:dt, largest distance `dt_miss`{.value}). For an input
--- that is constant between the samples both models describe the same system,
+-- Three equations remain for two unknowns, because each equation needs the previous sample. The estimates $\hat a_1 =$ `a1_dt`{.value} and
+-- $\hat b_1 =$ `b1_dt`{.value} again reproduce the samples in simulation (@fig:dt, largest distance `dt_miss`{.value}). For an input that is constant
+-- between the samples, both models describe the same system,
 --
 -- $$ a_1 = -e^{-aT_s} , \qquad b_1 = \frac{b}{a}\left(1 - e^{-aT_s}\right) , $$ {#eq:solution-sampled}
 --
--- which is `a1_from_ct`{.value} and `b1_from_ct`{.value} for the
--- continuous-time estimates. The continuous-time parameters are easier to interpret: $1/a$ is the time constant, whatever the sampling.
+-- which is `a1_from_ct`{.value} and `b1_from_ct`{.value} for the continuous-time estimates. The continuous-time parameters are easier to interpret:
+-- $1/a$ is the time constant for any sampling time.
 --
--- ![The simulated output of the discrete-time model, drawn as held between the samples, the samples, and the response of the continuous-time model. Both models agree at the samples; only the second knows what happens between them.](figure:dt_fit){#fig:dt}
+-- ![The simulated output of the discrete-time model, held between the samples, the samples, and the response of the continuous-time model. Both models agree at the samples. Only the second model describes the response between the samples.](figure:dt_fit){#fig:dt}
 -- END SOLUTION
 --
 -- ## The same with noise
@@ -375,14 +371,15 @@ report.table("noisy", {
 -- Estimates from the exact and from the noisy samples.
 -- :::
 --
--- Noise on four samples changes every parameter (@tbl:noisy), the discrete-time ones by several percent. Is this bad luck of one record,
--- or is least squares wrong on average?
+-- Noise on four samples changes every parameter (@tbl:noisy), the discrete-time ones by several percent. Is this bad luck in one experiment, or is
+-- least squares wrong on average?
 -- END SOLUTION
 --
--- **Question 8.** One noisy record cannot distinguish bad luck from a method that is wrong on average. Make many: first the same four samples, five thousand times with
--- fresh noise; then a longer record of the same system, simulated by the model of question 6: 400 samples with the input `prbs(7, 4)` and white noise of standard deviation 0.3 on the output,
--- and repeat the discrete-time fit a thousand times. Where is the mean of the estimates of $a_1$, compared with the truth and with the
--- scatter of the single estimates? How do both depend on the noise $\sigma$ and on the number of samples $N$?
+-- **Question 8.** One noisy experiment cannot distinguish bad luck from a method that is wrong on average. Repeat it many times. First use the same
+-- four samples, five thousand times with new noise. Then simulate longer data of the same system with the model of question 6: 400 samples with the
+-- input `prbs(7, 4)` and white noise of standard deviation 0.3 on the output. Repeat the discrete-time fit a thousand times. Where is the mean of the
+-- estimates of $a_1$, compared with the truth and with the scatter of the single estimates? How do both depend on the noise $\sigma$ and on the
+-- number of samples $N$?
 
 -- %% id=monte_carlo
 -- BEGIN SOLUTION
@@ -395,7 +392,7 @@ for run = 1, few_runs do
 end
 few_ct, few_dt = vector(few_ct), vector(few_dt)
 
--- estimates of a1 from longer records, and the value to which they tend
+-- estimates of a1 from longer data, and the value to which they tend
 local function study(runs, samples, sigma)
     local u_long = prbs(11, 4):range(1, samples)
     if samples == 400 then u_long = prbs(7, 4):range(1, samples) end
@@ -448,36 +445,39 @@ report.table("law", law)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- *Four samples:* over `few_runs`{.value} repetitions the discrete-time estimates of $a_1$ have the mean `few_dt`{.value}\ ±\ `few_dt_error`{.value} (± its standard
--- error) and scatter by `few_dt_std`{.value}; the truth is `mc_truth`{.value}. For $a$ in continuous time the mean is `few_ct`{.value}\ ±\ `few_ct_error`{.value} and the scatter
--- `few_ct_std`{.value}. There is hardly any bias here (for $a_1$, `few_dt_share`{.value} % of the scatter), so the errors in @tbl:noisy are bad luck, and not even much of
--- it: that of $\hat a_1$ is `few_dt_luck`{.value} times the scatter.
+-- *Four samples:* over `few_runs`{.value} repetitions, the discrete-time estimates of $a_1$ have the mean `few_dt`{.value}\ ±\ `few_dt_error`{.value}
+-- (± its standard error) and the scatter `few_dt_std`{.value}. The truth is `mc_truth`{.value}. For $a$ in continuous time, the mean is
+-- `few_ct`{.value}\ ±\ `few_ct_error`{.value} and the scatter is `few_ct_std`{.value}. There is almost no bias here (for $a_1$,
+-- `few_dt_share`{.value} % of the scatter). The errors in @tbl:noisy are therefore bad luck, and not even much of it: the error of $\hat a_1$ is
+-- `few_dt_luck`{.value} times the scatter.
 --
--- ![A thousand least-squares estimates of $a_1$, each from 400 samples with $\sigma = 0.3$; dashed: the true value, and the mean of the estimates. Hardly a single estimate reaches the truth.](figure:monte_carlo){#fig:mc}
+-- ![A thousand least-squares estimates of $a_1$, each from 400 samples with $\sigma = 0.3$; dashed: the true value, and the mean of the estimates. Almost no estimate reaches the truth.](figure:monte_carlo){#fig:mc}
 --
--- *Long records with more noise:* the mean of `runs`{.value} estimates, each from `samples`{.value} samples, is `mc_mean`{.value} while the truth is `mc_truth`{.value}
--- (@fig:mc). The single estimates scatter by `mc_std`{.value} only, so the mean misses the truth by `mc_ratio`{.value} times their
--- scatter. That is not bad luck: the estimate is *biased*. The reason
--- lies in the regression itself: the noisy output appears in $\Phi$ as well, so $\Phi$ and the equation error are correlated. With white noise on
--- the output, $\Phi^T\Phi/N$ is larger than that of the exact signals, $R$, by $\sigma^2$ in the place of $y^2$, and the estimates tend to
+-- *Long data with more noise:* the mean of `runs`{.value} estimates, each from `samples`{.value} samples, is `mc_mean`{.value}. The truth is
+-- `mc_truth`{.value} (@fig:mc). The scatter of the single estimates is only `mc_std`{.value}, so the mean misses the truth by `mc_ratio`{.value}
+-- times their scatter. That is not bad luck: the estimate is *biased*. The cause is the regression itself. The noisy output also appears in $\Phi$,
+-- so $\Phi$ and the equation error are correlated. White noise on the output adds $\sigma^2$ to the element $y^2$ of $\Phi^T\Phi/N$. If $R$ is this
+-- matrix for the exact signals, the estimates tend to
 --
 -- $$ \hat\theta \;\to\; (R + \sigma^2 E)^{-1} R\,\theta , \qquad E = \begin{pmatrix} 1 & 0 \\ 0 & 0 \end{pmatrix} , $$ {#eq:solution-limit}
 --
 -- which is `mc_limit`{.value} for $a_1$ here.
 --
 -- ::: {.table name=law #tbl:law}
--- Mean, bias and scatter of $\hat a_1$ over 300 records each, and the bias that @eq:solution-limit expects.
+-- Mean, bias and scatter of $\hat a_1$ over 300 data sets each, and the bias from @eq:solution-limit.
 -- :::
 --
--- @tbl:law shows how both depend on the experiment. The scatter is proportional to $\sigma/\sqrt N$ as long as the noise is small; the bias grows with $\sigma^2$ and does not depend on $N$.
--- With little noise and four samples the scatter hides the bias; with much noise and long records only the bias is left, and more data make the wrong answer merely more certain.
+-- @tbl:law shows how both depend on the experiment. The scatter is proportional to $\sigma/\sqrt N$ if the noise is small. The bias grows with
+-- $\sigma^2$ and does not depend on $N$. With little noise and four samples, the scatter hides the bias. With much noise and long data, only the bias
+-- remains, and more data only make the wrong answer more certain.
 -- END SOLUTION
 
 -- %% [markdown]
 -- # Try it: bias against scatter
 --
--- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the sliders under the next cell move the noise $\sigma$, the number of samples $N$ and the
--- sampling time $T_s$ of a hundred records of the system $1/(s + 1)$. Which of them moves the bias of $\hat a_1$, and which the scatter?
+-- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`), use the sliders under the next cell. They change the noise
+-- $\sigma$, the number of samples $N$ and the sampling time $T_s$ of a hundred data sets of the system $1/(s + 1)$. Which slider changes the bias of
+-- $\hat a_1$, and which changes the scatter?
 
 -- %% id=bias_by_hand
 do
@@ -505,29 +505,33 @@ end
 -- %% [markdown]
 -- ![The errors of a hundred least-squares estimates of $a_1$ for the $\sigma$, $N$ and $T_s$ of the cell above; dashed: zero, and their mean](figure:bias_by_hand){#fig:bias_by_hand}
 --
--- In @fig:bias_by_hand more samples make the bars narrower and leave their mean where it is; more noise moves both. Faster sampling makes neighbouring values of the
--- output more alike.
+-- In @fig:bias_by_hand, more samples make the histogram narrower and do not change its mean. More noise changes both. Faster sampling makes
+-- successive values of the output more alike.
 
 -- %% [markdown]
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
--- * A model that is linear in its parameters is fitted by solving one linear system; the normal equations, QR and gradient descent
---   lead to the same point. Centred and scaled regressors keep the problem well conditioned.
--- * A forecast without an interval says little. The interval is right only as far as the model and its assumptions are, and the residuals show that.
--- * A dynamic model is fitted by the same formula once its signals form the columns of $\Phi$; in continuous time the time derivative is needed,
---   in discrete time the past output.
--- * Noise on the regressors biases simple least squares, in proportion to $\sigma^2$. The scatter falls with $1/\sqrt N$, the bias does not: more data do not help;
---   instrumental variables and output-error methods, the subject of lesson 4, do. Whether a miss is bias or luck, repetitions tell.
+-- * To fit a model that is linear in its parameters, solve one linear system. The normal equations, QR and gradient descent lead to the same
+--   solution. Centered and scaled regressors keep the problem well conditioned.
+-- * A forecast without an interval says little. The interval is right only if the model and its assumptions are right, and the residuals test them.
+-- * The same formula fits a dynamic model when its signals form the columns of $\Phi$. In continuous time you need the time derivative, and in
+--   discrete time the past output.
+-- * Noise on the regressors biases simple least squares, in proportion to $\sigma^2$. The scatter falls with $1/\sqrt N$, and the bias does not. More
+--   data do not help, but instrumental variables and output-error methods do (lesson 4). Repetitions show whether an error is bias or bad luck.
 -- END SOLUTION
 --
 -- # What you submit
 --
 -- ::: {.note}
--- If this lesson is graded, submit results with `answer(name, value)`: `line`, the slope and the time at the mean year; `rmse` of its residuals; `paris`,
--- the forecast for 2024 and the lower and upper end of its 95 % prediction interval; `ct` ($a$, $b$) and `dt` ($a_1$, $b_1$) from the exact samples,
--- `ct_noisy` and `dt_noisy` from the noisy ones; `monte_carlo`, mean and standard deviation of your thousand estimates of $a_1$. Your script will
--- be run on four samples of another system, too. The figures that are looked for are `residuals`, `forecast` and `monte_carlo`.
+-- If this lesson is graded, submit results with `answer(name, value)`:
+--
+-- * `line`: the slope and the time at the mean year; `rmse`: of its residuals;
+-- * `paris`: the forecast for 2024 and the lower and upper end of its 95 % prediction interval;
+-- * `ct` ($a$, $b$) and `dt` ($a_1$, $b_1$) from the exact samples, `ct_noisy` and `dt_noisy` from the noisy ones;
+-- * `monte_carlo`: mean and standard deviation of your thousand estimates of $a_1$.
+--
+-- Grading also runs your script on four samples of another system. The checks look for the figures `residuals`, `forecast` and `monte_carlo`.
 -- :::
 
 -- %% id=hand_in

@@ -1,5 +1,5 @@
--- expects: continuous: The sign of a is turned round
--- expects: discrete: The sign of a1 is turned round
+-- expects: continuous: a has the wrong sign
+-- expects: discrete: a1 has the wrong sign
 -- expects: noisy: away from what was expected
 -- expects: follows_samples: On a record that you have not seen
 -- The output stands in the regressors without its minus, so that a and a1 come out with the other sign.

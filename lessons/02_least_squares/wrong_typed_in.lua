@@ -1,4 +1,4 @@
--- expects: follows_samples: must be computed, not typed in
+-- expects: follows_samples: The parameters do not change with the samples
 -- expects: follows_study: It is the same on another record
 -- All the right numbers, none of them computed.
 local games = load("winning_times")

@@ -65,26 +65,26 @@ for k = 1, #limits.t do
     end
 end
 
-check { id = "discarded", points = 1, about = "The section of limits that belongs to no linear model",
+check { id = "discarded", points = 1, about = "The part of limits that no linear model can describe",
     -- It must be covered; a margin is wise, up to 2 s before (8 swings are left) and 5 s after.
     test = function(a)
-        if #a.discarded ~= 2 then return judge("Wanted are two instants: the first and the last of the section.") end
+        if #a.discarded ~= 2 then return judge("The answer must have two instants: the first and the last of the part.") end
         local from, to = a.discarded[1], a.discarded[2]
-        if from > first + 0.1 then return judge("The section begins before that: look at voltage and position.") end
-        if to < last - 0.1 then return judge("The section does not end there yet: look at voltage and position.") end
+        if from > first + 0.1 then return judge("The part begins earlier: look at voltage and position.") end
+        if to < last - 0.1 then return judge("The part ends later: look at voltage and position.") end
         if from < first - 2 or to > last + 5 then
-            return {share = 0.5, message = "More is discarded than necessary: good data are lost."}
+            return {share = 0.5, message = "You discarded more than necessary: good data are lost."}
         end
         return true
     end,
     mistakes = {
         {when = function(a) return a.discarded[2] > limits.t[#limits.t] end,
-         say = "The instants are counted in samples; seconds are wanted."},
+         say = "The instants are counted in samples; use seconds."},
         {when = function(a) return a.discarded[1] > a.discarded[2] end, say = "The order is first instant, last instant."},
         {when = function(a) return math.abs(a.discarded[2] - last_voltage) < 0.3 end,
-         say = "After the last saturated voltage the trolley still stands against a buffer while voltage is applied."},
+         say = "After the last saturated voltage, the trolley is still at a buffer while voltage is applied."},
     },
-    hint = "Where is more than 10 V commanded, and where does the trolley stand at ±0.5 m?" }
+    hint = "Where does the commanded voltage exceed 10 V, and where is the trolley at ±0.5 m?" }
 
 local zero = mean(crane.estimation.theta:range(1, rest))
 check { id = "rest_angle", points = 1, about = "The potentiometer's zero",
@@ -92,27 +92,27 @@ check { id = "rest_angle", points = 1, about = "The potentiometer's zero",
     test = function(a) return near(a.rest_angle, zero, {abs = 1e-3, half = 2e-3}) end,
     mistakes = {
         {when = function(a) return near(a.rest_angle, zero*180/math.pi, {rel = 0.1}) end,
-         say = "This is in degrees; radians are wanted."},
+         say = "This is in degrees; use radians."},
         {when = function(a) return near(a.rest_angle, 1000*zero, {rel = 0.1}) end,
-         say = "This is in mrad; rad are wanted."},
+         say = "This is in mrad; use rad."},
         {when = function(a) return a.rest_angle == 0 end,
-         say = "The potentiometer does not read zero while the load hangs still."},
+         say = "The potentiometer does not read zero while the load is at rest."},
     },
     hint = "The mean of the first second, in which nothing moves." }
 
 local in_discrete_time = {when = function(a) return a.G_angle.Ts > 0 end,
-    say = "A continuous-time model is wanted; a difference equation from arx predicts well and simulates badly."}
+    say = "The model must be in continuous time. A difference equation from arx predicts well and simulates badly."}
 
 check { id = "position_model", points = 3, about = "From voltage to position",
     -- A motor with one lag reaches 97.6 %, with the load's reaction 99.3 %; without the integrator nothing is reached.
     test = function(a)
         if estimated_on_validation(a.G_position) then
-            return judge("This model was estimated on the validation record.")
+            return judge("This model was estimated from the validation data.")
         end
         return points_between(fit_position(crane.validation, a.G_position), 85, 97)
     end,
     mistakes = {
-        {when = function(a) return a.G_position.Ts > 0 end, say = "A continuous-time model is wanted."},
+        {when = function(a) return a.G_position.Ts > 0 end, say = "The model must be in continuous time."},
         {when = function(a) return fit_position(crane.validation, -a.G_position) > 50 end,
          say = "The gain has the wrong sign."},
         {when = function(a)
@@ -120,13 +120,13 @@ check { id = "position_model", points = 3, about = "From voltage to position",
          end,
          say = "The integrator is missing: this model goes from the integral of the voltage to the position."},
     },
-    hint = "A constant voltage makes a constant speed, so there is a pole at the origin; impose it." }
+    hint = "A constant voltage gives a constant speed, so there is a pole at the origin; impose it." }
 
 check { id = "angle_model", points = 3, about = "From voltage to angle",
     -- Two poles reach 88.8 %, three 91.8 %; single linear models do not get beyond that, because larger swings are slower.
     -- There are cranes, one in a hundred, on which three poles do not reach 87 %.
     test = function(a)
-        if estimated_on_validation(a.G_angle) then return judge("This model was estimated on the validation record.") end
+        if estimated_on_validation(a.G_angle) then return judge("This model was estimated from the validation data.") end
         local reached = fit_angle(crane.validation, angle_from(crane.estimation))
         return points_between(fit_angle(crane.validation, a.G_angle), 60, math.min(87, reached - 1))
     end,
@@ -135,28 +135,28 @@ check { id = "angle_model", points = 3, about = "From voltage to angle",
         {when = function(a) return fit_angle(crane.validation, -a.G_angle) > 50 end,
          say = "The sign is wrong: the load stays behind when the trolley starts."},
         {when = function(a) return fit_angle(crane.validation, a.G_angle*(math.pi/180)) > 50 end,
-         say = "The model gives degrees; radians are wanted."},
+         say = "The model gives degrees; use radians."},
         {when = function(a) return estimated_on_limits(a.G_angle) end,
-         say = "This model was estimated from all of limits, the section with saturation and buffers included."},
+         say = "This model was estimated from all of limits, including the part with saturation and buffers."},
         {when = function(a) return math.abs(dcgain(a.G_angle)) > 1e-2 end,
-         say = "A constant voltage does not hold the load aside: the zero at the origin is missing."},
+         say = "A constant voltage does not keep the load deflected: the zero at the origin is missing."},
     },
-    hint = "Three poles, and the zero at the origin that physics asks for." }
+    hint = "Three poles, and the zero at the origin that follows from physics." }
 
-check { id = "common_poles", points = 1, about = "Position and angle have the swing in common",
+check { id = "common_poles", points = 1, about = "Position and angle share the swing",
     -- Estimated apart from each other, the two agree within 1 %.
     test = function(a)
         local x, theta = swing_of(a.G_position), swing_of(a.G_angle)
-        if not x then return judge("No pair of poles of the position swings: the load's reaction on the trolley is missing.") end
-        if not theta then return judge("No pair of poles of the angle swings.") end
+        if not x then return judge("No pair of poles of the position oscillates: the load's reaction on the trolley is missing.") end
+        if not theta then return judge("No pair of poles of the angle oscillates.") end
         return near(x, theta, {rel = 0.03, half = 0.06})
     end,
-    hint = "Estimate both with CommonDenominator = true, or see whether they agree by themselves." }
+    hint = "Estimate both with CommonDenominator = true, or check whether separate estimates agree." }
 
-check { id = "fits", points = 2, about = "How well the models simulate the validation record",
+check { id = "fits", points = 2, about = "How well the models simulate the validation data",
     -- One point of difference is left to other ways of taking the levels off.
     test = function(a)
-        if #a.fits ~= 2 then return judge("Wanted are two numbers: the fit of the position and that of the angle.") end
+        if #a.fits ~= 2 then return judge("The answer must have two numbers: the fit of the position and the fit of the angle.") end
         local own = vector{fit_position(crane.validation, a.G_position), fit_angle(crane.validation, a.G_angle)}
         return near(a.fits, own, {abs = 1, half = 2})
     end,
@@ -164,16 +164,16 @@ check { id = "fits", points = 2, about = "How well the models simulate the valid
         {when = function(a)
              local own = vector{fit_position(crane.estimation, a.G_position), fit_angle(crane.estimation, a.G_angle)}
              return near(a.fits, own, {abs = 0.3})
-         end, say = "These are the fits to the record that the models were estimated on."},
+         end, say = "These are the fits to the data from which the models were estimated."},
         {when = function(a)
              local own = vector{fit_angle(crane.validation, a.G_angle), fit_position(crane.validation, a.G_position)}
              return near(a.fits, own, {abs = 1})
          end, say = "The order is position, angle."},
         {when = function(a) return a.fits[2] > fit_angle(crane.validation, a.G_angle) + 3 end,
-         say = "The angle is not simulated as well as this: it looks like the fit of predicting one step."},
-        {when = function(a) return max(a.fits) <= 1 end, say = "Percent are wanted."},
+         say = "No model simulates the angle so well: this looks like the fit of the one-step prediction."},
+        {when = function(a) return max(a.fits) <= 1 end, say = "The result must be in percent."},
     },
-    hint = "fit(data, G) simulates the validation record, levels taken off, from rest." }
+    hint = "fit(data, G) simulates the validation data from rest, after you subtract the levels." }
 
 local function natural(a) return truth(a, "crane").natural_frequency end
 check { id = "free_swing", points = 2, about = "The frequency of the load while the motor rests",
@@ -181,22 +181,22 @@ check { id = "free_swing", points = 2, about = "The frequency of the load while 
     test = function(a) return near(a.free_swing, natural(a), {rel = 0.015, half = 0.04}) end,
     mistakes = {
         {when = function(a) return near(a.free_swing, natural(a)/(2*math.pi), {rel = 0.03}) end,
-         say = "This is in Hz; rad/s are wanted."},
+         say = "This is in Hz; use rad/s."},
         {when = function(a) return near(a.free_swing, 2*math.pi/natural(a), {rel = 0.03}) end,
-         say = "This is the period; the frequency in rad/s is wanted."},
+         say = "This is the period; give the frequency in rad/s."},
         {when = function(a) return near(a.free_swing, natural(a)*180/math.pi, {rel = 0.03}) end,
-         say = "This is in degrees per second; rad/s are wanted."},
+         say = "This is in degrees per second; use rad/s."},
         {when = function(a) return near(a.free_swing, natural(a)*Ts, {rel = 0.03}) end,
-         say = "This is in rad per sample; rad/s are wanted."},
+         say = "This is in rad per sample; use rad/s."},
     },
-    hint = "Count the swings of free_swing and divide by the time they take; 2 pi in each." }
+    hint = "Count the swings of free_swing and divide by their time; each swing is 2 pi." }
 
-check { id = "figures", points = 1, about = "Raw record and validation are drawn",
+check { id = "figures", points = 1, about = "Figures of the raw data and of the validation",
     test = function() return all_of(has_figure("raw"), has_figure("validation")) end,
     hint = "report.figure(\"raw\", fig, \"...\") and report.figure(\"validation\", fig, \"...\")." }
 
 -- On other cranes (cable, load, friction and motor changed) the recommended procedure reached 98.6 % and 91.5 % or more.
-check { id = "crane_follows", points = 6, rerun = "crane", about = "Another crane: your models simulate an experiment that nobody has seen",
+check { id = "crane_follows", points = 6, rerun = "crane", about = "Another crane: your models simulate a hidden experiment",
     test = function(a, b)
         local unseen = hidden("crane").validation
         return all_of(differs(swing_of(a.G_angle) or 0, swing_of(b.G_angle) or 0),
@@ -205,15 +205,15 @@ check { id = "crane_follows", points = 6, rerun = "crane", about = "Another cran
     end,
     mistakes = {
         {when = function(a, b) return near(swing_of(a.G_angle), swing_of(b.G_angle), {rel = 1e-9}) end,
-         say = "The models do not change with the records: they must be estimated, not typed in."},
+         say = "The models do not change with the data: estimate them; do not type them in."},
         {when = function(_, b) return b.G_angle.Ts > 0 end,
          say = "A difference equation from arx predicts the next sample and simulates badly."},
     },
-    hint = "Compute everything from what load(\"crane\") gives; look nothing up in a figure." }
+    hint = "Compute everything from the data that load(\"crane\") returns; do not read numbers off a figure." }
 
 check { id = "swing_follows", points = 2, rerun = "crane", about = "Another crane: your script finds its load's frequency",
     test = function(a, b)
         return all_of(differs(a.free_swing, b.free_swing),
                       near(b.free_swing, truth(b).natural_frequency, {rel = 0.015, half = 0.04}))
     end,
-    hint = "Find the crossings by program; the sensor's zero is another on every crane." }
+    hint = "Find the crossings with code; every crane has another sensor zero." }

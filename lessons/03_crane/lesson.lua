@@ -15,28 +15,28 @@
 -- ---
 
 -- %% [markdown]
--- A trolley runs along a rail, pulled by a motor; a pendulum hangs from it. One voltage moves both, so one model has two outputs:
--- where the trolley is and how far the load swings. You are given five records, among them one in which the crane was driven
--- where no linear model follows (@fig:crane shows what is measured). The crane is *simulated*: a program solves its equations, with noise. Find a model, say what it is worth, and write it down so that somebody who was not there can
--- do the same again.
+-- A motor pulls a trolley along a rail, and a pendulum hangs from the trolley. One voltage moves both, so the model has two outputs: the position of
+-- the trolley and the angle of the load (@fig:crane). You get five data sets. In one of them, part of the motion is beyond any linear model. The
+-- crane is *simulated*: a program solves its equations, with noise. Find a model, assess its quality, and describe your work so that a reader can
+-- repeat it.
 --
 -- ::: {.drawing name=crane}
 -- The crane: the motor's voltage $u$, the position $x$ of the trolley and the angle $\theta$ of the rod, all positive as drawn {#fig:crane}
 -- :::
 --
--- Work in this script, cell by cell; your text goes to `report.md`, which has the sections that a report must have and notes on what
--- belongs into each. You submit the report: at most six pages, seven with the appendix.
+-- Work in this script, cell by cell, and write your text in `report.md`. It has the required sections of a report, with notes on the content of each.
+-- You submit the report: at most six pages, seven with the appendix.
 --
--- # The records
+-- # The data
 --
--- | record | what was done |
+-- | data set | experiment |
 -- |-----------|-----------------------|
 -- | `estimation`, `validation` | rest, then a pseudo-random binary voltage of ±2 V, in two different orders |
--- | `steps` | rest, then pushes of ±2 V and ±4 V with pauses between them |
--- | `free_swing` | motor at 0 V, the load let go by hand |
--- | `limits` | pseudo-random voltage, then driven by hand to both ends of the rail, then pseudo-random again |
+-- | `steps` | rest, then pulses of ±2 V and ±4 V with pauses between them |
+-- | `free_swing` | motor at 0 V, the load released by hand |
+-- | `limits` | pseudo-random voltage, then manual motion to both ends of the rail, then pseudo-random again |
 --
--- Each has `t` (s), `u` (V), `x` (m) and `theta` (rad), 0.02 s apart; the voltage is held between two samples.
+-- Each has `t` (s), `u` (V), `x` (m) and `theta` (rad), every 0.02 s. The voltage is constant between two samples.
 
 -- %% id=records
 local crane = load("crane")
@@ -52,7 +52,7 @@ print(estimation)
 idplot(estimation)
 
 -- %% [markdown]
--- **Question 1.** Show the raw records. What can be seen in them before anything is computed?
+-- **Question 1.** Plot the raw data. What can you see before you compute anything?
 
 -- %% id=raw
 -- BEGIN SOLUTION
@@ -75,11 +75,11 @@ end
 local purposes = {
     {"estimation", say("PRBS, ±2 V", "SBPA, ±2 V"), say("structure and parameters", "structure et paramètres")},
     {"validation", say("PRBS, ±2 V, other bits", "SBPA, ±2 V, autres bits"), "validation"},
-    {"steps", say("pushes of ±2 V and ±4 V", "impulsions de ±2 V et ±4 V"), say("what friction costs", "ce que coûte le frottement")},
-    {"free_swing", say("0 V, load let go by hand", "0 V, charge lâchée à la main"), say("the load alone", "la charge seule")},
-    {"limits", say("PRBS, ±12 V by hand, PRBS", "SBPA, ±12 V à la main, SBPA"),
-     say("to be discarded in part", "à écarter en partie")}}
-local experiments = {{say("record", "enregistrement"), say("input", "entrée"), say("duration (s)", "durée (s)"),
+    {"steps", say("pulses of ±2 V and ±4 V", "impulsions de ±2 V et ±4 V"), say("effect of friction", "ce que coûte le frottement")},
+    {"free_swing", say("0 V, load released by hand", "0 V, charge lâchée à la main"), say("the load alone", "la charge seule")},
+    {"limits", say("PRBS, ±12 V manually, PRBS", "SBPA, ±12 V à la main, SBPA"),
+     say("to discard in part", "à écarter en partie")}}
+local experiments = {{say("data set", "enregistrement"), say("input", "entrée"), say("duration (s)", "durée (s)"),
                       say("used for", "utilité")}}
 for k, row in ipairs(purposes) do
     local t = crane[row[1]].t
@@ -88,15 +88,15 @@ end
 report.table("experiments", experiments)
 
 report.figure("raw", figure{rows = 3, height = 6.4, panels = panels(crane.estimation)},
-              say("The estimation record as measured: the position wanders, as the integral of the voltage does; the load answers with swings of its own frequency.",
+              say("The measured estimation data: the position drifts, like the integral of the voltage, and the load swings at its natural frequency.",
                   "L'enregistrement d'estimation tel que mesuré : la position dérive comme l'intégrale de la tension ; la charge oscille à sa pulsation propre."))
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 2.** Noise, resolution, levels at rest: what do the first second of a record and the differences between its samples tell?
+-- **Question 2.** What do the first second of the data and the differences between samples show about noise, resolution, and levels at rest?
 --
--- **Question 3.** Which part of `limits` can no linear model describe, and why? Find its first and last instant in the record, and
--- compare with what `advice` says of the record and of its field `discard`.
+-- **Question 3.** Which part of `limits` can no linear model describe, and why? Find its first and last instant, and compare with the output of
+-- `advice` and with its field `discard`.
 
 -- %% id=preparation
 -- BEGIN SOLUTION
@@ -144,15 +144,15 @@ end
 limit_panels[2].references[3] = {y = 0.5}
 limit_panels[2].references[4] = {y = -0.5}
 report.figure("limits", figure{rows = 3, height = 6.4, panels = limit_panels},
-              say("The record `limits`. Between the vertical lines more than ±10 V are commanded and the trolley meets the buffers at ±0.5 m (horizontal lines).",
+              say("The data `limits`. Between the vertical lines, the commanded voltage exceeds ±10 V and the trolley meets the buffers at ±0.5 m (horizontal lines).",
                   "L'enregistrement `limits`. Entre les traits verticaux, on commande plus de ±10 V et le chariot rencontre les butées à ±0,5 m (traits horizontaux)."))
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 4.** What in the path from voltage to position can no finite record fully reveal? Write the equations of the
--- crane as physics has them, and read off which poles and zeros position and angle have in common.
+-- **Question 4.** What in the path from voltage to position can no finite data set fully reveal? Write the equations of the crane from physics. Which
+-- poles and zeros do position and angle have in common?
 --
--- **Question 5.** Compare structures for each output on estimation and validation record (`srivcstruc`).
+-- **Question 5.** Compare structures for each output on estimation and validation data (`srivcstruc`).
 
 -- %% id=structure
 -- BEGIN SOLUTION
@@ -205,9 +205,9 @@ report.value("delay_fit", fit(direct(against, against.theta), delayed), "%.2f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 6.** Estimate the model you decided on. Do the two outputs, estimated separately, agree on the dynamics they
--- share? What do they give together (`CommonDenominator`)? A millimetre and a milliradian cannot be added: by what
--- should each output's errors be divided (`OutputWeights`)?
+-- **Question 6.** Estimate the model that you chose. Do the two outputs, estimated separately, agree on the dynamics they share? What is the joint
+-- estimate (`CommonDenominator`)? You cannot add millimeters and milliradians: by which number do you divide the errors of each output
+-- (`OutputWeights`)?
 
 -- %% id=estimate
 -- BEGIN SOLUTION
@@ -277,8 +277,8 @@ report.value("passes", position.report.iterations, "%d")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 7.** What else did you try, and why did you reject it? Compare the simulation of an ARX model, and what becomes of your
--- model when it is estimated from `limits`, whole and without the section that you discarded.
+-- **Question 7.** What else did you try, and why did you reject it? Compare the simulation of an ARX model. Also estimate your model from `limits`,
+-- from all of it and without the part that you discarded. How does it change?
 
 -- %% id=discarded
 -- BEGIN SOLUTION
@@ -302,9 +302,9 @@ report.table("sources", {
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 8.** Validate: the simulated outputs against the record that was not used, and the residuals. How does the model do on the
--- pushes of `steps`, and what does the free swing say of the pendulum? `motion` shows crane and model side by side as they move (on the page of
--- `dynlab preview analysis.lua`, not in the report).
+-- **Question 8.** Validate your model: compare the simulated outputs with the validation data, and test the residuals. How well does the model
+-- describe the pulses of `steps`, and what does the free swing show about the pendulum? `motion` shows crane and model side by side in motion (on the
+-- page of `dynlab preview analysis.lua`, not in the report).
 
 -- %% id=validation
 -- BEGIN SOLUTION
@@ -346,7 +346,7 @@ local function against_model(record, height, with_differences)
 end
 local validation_figure, x_error, theta_error = against_model(against, 8.8, true)
 report.figure("validation", validation_figure,
-              say("The validation record, which was not used for estimation: measured and simulated from the voltage alone, and the difference. The angle is worst where it swings widest.",
+              say("The validation data: measured and simulated from the voltage alone, and the difference. The error of the angle is largest where the load swings furthest.",
                   "L'enregistrement de validation, qui n'a pas servi à l'estimation : mesuré, simulé à partir de la seule tension, et l'écart. C'est aux grands angles que l'erreur de l'angle est la plus forte."))
 report.value("x_error", 1e3*std(x_error), "%.1f")
 report.value("theta_error", 1e3*std(theta_error), "%.1f")
@@ -380,7 +380,7 @@ end
 local steps = crane.steps
 local steps_figure, steps_x_error, steps_theta_error = against_model(steps, 4.7)
 report.figure("steps", steps_figure,
-              say("The record `steps`: after pushes of ±2 V and ±4 V the trolley stands still, held by friction; the simulated one is set in motion by its load.",
+              say("The data `steps`: after pulses of ±2 V and ±4 V, friction holds the trolley at rest. In the simulation, the load sets it in motion.",
                   "L'enregistrement `steps` : après des impulsions de ±2 V et ±4 V, le frottement tient le chariot ; le chariot simulé, lui, est entraîné par sa charge."))
 report.value("steps_fit_x", fit(integrated(steps, steps.x), model.x, resting), "%.1f")
 report.value("steps_fit_theta", fit(direct(steps, steps.theta), model.theta, resting), "%.1f")
@@ -429,10 +429,10 @@ report.value("free_moved", 1e3*(max(swing.x) - min(swing.x)), "%.1f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 9.** One record is one realization. The simulated crane of this course can be run again: `rig("crane", {seed = 2})` repeats all five
--- experiments with another order of bits and other noise. Guess first (`guess`, `outcome`): which fit of the angle is typical? Then repeat your whole procedure
--- forty times. How far do fit, parameters and frequency scatter, do the standard errors show this scatter, and how far is your model from the
--- best that any linear model of this structure can do?
+-- **Question 9.** One data set is one realization. You can run the simulated crane again: `rig("crane", {seed = 2})` repeats all five experiments
+-- with another order of bits and other noise. First, enter a prediction (`guess`, `outcome`): which fit of the angle is typical? Then repeat your
+-- whole procedure forty times. How large is the scatter of fit, parameters and frequency? Do the standard errors show this scatter? How close is your
+-- model to the best linear model of this structure?
 
 -- %% id=repetition_guess
 -- BEGIN SOLUTION
@@ -487,16 +487,16 @@ local function spread(list, format)
     local v = vector(list)
     return {string.format(format, mean(v)), string.format(format, std(v)), string.format(format, min(v)), string.format(format, max(v))}
 end
-local repeated_rows = {{"", say("mean", "moyenne"), say("std. dev.", "écart type"), say("least", "min."), say("most", "max.")}}
+local repeated_rows = {{"", say("mean", "moyenne"), say("std. dev.", "écart type"), say("min", "min."), say("max", "max.")}}
 local function add(text, list, format)
     repeated_rows[#repeated_rows + 1] = {text, table.unpack(spread(list, format))}
 end
 add(say("position: recommended model, fit (%)", "position : modèle recommandé, adéquation (%)"), study.x, "%.2f")
 add(say("position: best single linear model (%)", "position : meilleur modèle linéaire unique (%)"), study.best_x, "%.2f")
-add(say("position: fitted to the very record (%)", "position : ajusté à l'enregistrement même (%)"), study.own_x, "%.2f")
+add(say("position: fitted to the same data (%)", "position : ajusté à l'enregistrement même (%)"), study.own_x, "%.2f")
 add(say("angle: recommended model, fit (%)", "angle : modèle recommandé, adéquation (%)"), study.theta, "%.2f")
 add(say("angle: best single linear model (%)", "angle : meilleur modèle linéaire unique (%)"), study.best_theta, "%.2f")
-add(say("angle: fitted to the very record (%)", "angle : ajusté à l'enregistrement même (%)"), study.own_theta, "%.2f")
+add(say("angle: fitted to the same data (%)", "angle : ajusté à l'enregistrement même (%)"), study.own_theta, "%.2f")
 add(say("swing of the model's poles (rad/s)", "oscillation, pôles du modèle (rad/s)"), study.swing, "%.3f")
 add(say("pendulum of the position's zeros (rad/s)", "pendule, zéros de la position (rad/s)"), study.pendulum, "%.3f")
 report.table("repetition", repeated_rows)
@@ -527,9 +527,9 @@ report.value("pendulum_error", largest_error(study.pendulum, truth.natural_frequ
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 10.** Which nonlinearity is left? Simulate the equations of question 4 with dry friction, with $\sin\theta$ in place of $\theta$
--- (and air drag), and with both; estimate their few parameters as the linear model's, by the smallest simulation error. Which
--- one explains the position, which one the angle, and what is left in the end?
+-- **Question 10.** Which nonlinearity remains? Simulate the equations of question 4 with dry friction, with $\sin\theta$ instead of $\theta$ (and air
+-- drag), and with both. Estimate their parameters like those of the linear model, by the smallest simulation error. Which nonlinearity explains the
+-- position, which explains the angle, and what remains at the end?
 
 -- %% id=nonlinear
 -- BEGIN SOLUTION
@@ -657,8 +657,8 @@ report.value("grey_length", physical.length, "%.3f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 11 (appendix).** Suggest a way to bring the trolley to a given place quickly while the load swings little: a block diagram,
--- a controller designed on your model (`lqr`, `place`), and its closed loop on the nonlinear crane (`drive_crane`).
+-- **Question 11 (appendix).** Propose a controller that moves the trolley quickly to a given place with little swing of the load. Draw a block
+-- diagram, design the controller from your model (`lqr`, `place`), and simulate its closed loop with the nonlinear crane (`drive_crane`).
 
 -- %% id=control
 -- BEGIN SOLUTION
@@ -742,32 +742,38 @@ end
 report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
     compared(metres, "x", {references = {{y = goal}}}), compared(radians, "theta", {legend = "none"}),
     compared(volts, "u", {legend = "none", xlabel = seconds})}},
-    say("The nonlinear crane on its way to 0.3 m: state feedback brings the load to rest with the trolley; under proportional control it goes on swinging.",
+    say("The nonlinear crane on its way to 0.3 m: state feedback brings the load to rest with the trolley. With proportional control, it continues to swing.",
         "La grue non linéaire en route vers 0,3 m : le retour d'état arrête la charge avec le chariot ; sous commande proportionnelle elle oscille encore."))
 -- END SOLUTION
 
 -- %% [markdown]
 -- # Peer review
 --
--- After the deadline of the first version you receive the report of another group, without its names, and write a review of one to two pages; your own names appear on neither. `dynlab new review my-review` makes the form. It asks five questions:
+-- After the deadline of the first version, you receive the anonymous report of another group, and write a review of one to two pages. Your names
+-- appear neither in your report nor in your review. `dynlab new review my-review` creates the form with five questions:
 --
--- 1. Are data and data collection described clearly enough for somebody else to repeat the experiments?
+-- 1. Are data and data collection described clearly enough for a reader to repeat the experiments?
 -- 2. Is the solution of every step of the workflow described?
--- 3. Do the conclusions follow from data, experiments and results? Do you agree with them, and what do you propose to change?
+-- 3. Do the conclusions follow from data, experiments and results? Do you agree with them, and which changes do you propose?
 -- 4. What is the greatest strength of the content?
 -- 5. How can clarity, readability and technical accuracy be improved?
 --
--- Answer in the form of a discussion: give reasons, and propose other methods. Criticize constructively, keep a friendly tone, say exactly what to improve, and avoid what could hurt. Vague or harsh comments are ignored. There are three deadlines, set by your instructor: the first version of the report, the review, and
--- the final version, which takes the reviews into account.
+-- Write your answers as a discussion: give reasons, and propose other methods. Criticize constructively, keep a friendly tone, say exactly what to
+-- improve, and avoid hurtful remarks. Vague or harsh comments are ignored. Your instructor sets three deadlines: the first version of the report, the
+-- review, and the final version, which takes the reviews into account.
 --
--- # What you submit besides the report
+-- # What you submit in addition to the report
 --
--- The report is read by people. If the script is graded too, submit results with `answer(name, value)`: `discarded`, first and last instant (s) of the section
--- of `limits` that belongs to no linear model; `rest_angle`, what the potentiometer reads (rad) while the load hangs still; your recommended models from
--- voltage to position, `G_position`, integrator included, and from voltage to angle, `G_angle`; `fits`, how well (%) they simulate position and angle of the
--- validation record; and `free_swing`, the frequency (rad/s) with which the load swings while the motor rests. It will be run on the records
--- of another crane, and the models that it finds there are held against experiments that nobody has seen. The checks look for
--- the figures `raw` and `validation`.
+-- People read the report. If the script is graded too, submit results with `answer(name, value)`:
+--
+-- * `discarded`: the first and the last instant (s) of the part of `limits` that no linear model can describe;
+-- * `rest_angle`: the reading of the potentiometer (rad) while the load is at rest;
+-- * `G_position` and `G_angle`: your recommended models from voltage to position, including the integrator, and from voltage to angle;
+-- * `fits`: the fits (%) of their simulated position and angle to the validation data;
+-- * `free_swing`: the frequency (rad/s) of the load while the motor is off.
+--
+-- Grading also runs your script on data of another crane, and compares the resulting models with hidden experiments. The checks look for the figures
+-- `raw` and `validation`.
 
 -- %% id=hand_in
 -- BEGIN SOLUTION

@@ -88,9 +88,13 @@
 --
 -- # Ce que vous rendez en plus du rapport
 --
--- Le rapport est lu par des gens. Là où le script est noté aussi, il rend avec `answer(nom, valeur)` : `discarded`, premier et dernier instant (s) de la section
--- de `limits` qui n'appartient à aucun modèle linéaire ; `rest_angle`, ce qu'indique le potentiomètre (rad) quand la charge pend immobile ; vos modèles recommandés,
--- de la tension à la position, `G_position`, intégrateur compris, et de la tension à l'angle, `G_angle` ; `fits`, l'adéquation (%) avec laquelle ils simulent position et
--- angle de l'enregistrement de validation ; et `free_swing`, la pulsation (rad/s) à laquelle la charge oscille quand le moteur est au repos. Le script sera exécuté sur
--- les enregistrements d'une autre grue, et les modèles qu'il y trouve seront comparés à des expériences que personne n'a vues. Les figures que
--- l'on cherche s'appellent `raw` et `validation`.
+-- Des lecteurs lisent le rapport. Si le script est noté aussi, rendez vos résultats avec `answer(nom, valeur)` :
+--
+-- * `discarded` : le premier et le dernier instant (s) de la partie de `limits` qu'aucun modèle linéaire ne peut décrire ;
+-- * `rest_angle` : ce qu'indique le potentiomètre (rad) quand la charge est au repos ;
+-- * `G_position` et `G_angle` : vos modèles recommandés, de la tension à la position, intégrateur compris, et de la tension à l'angle ;
+-- * `fits` : l'adéquation (%) avec laquelle ils simulent position et angle des données de validation ;
+-- * `free_swing` : la pulsation (rad/s) de la charge quand le moteur est arrêté.
+--
+-- L'évaluation exécute aussi votre script sur les données d'une autre grue, et compare les modèles obtenus avec des expériences cachées. Les
+-- vérifications cherchent les figures `raw` et `validation`.

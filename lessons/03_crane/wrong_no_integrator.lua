@@ -1,7 +1,7 @@
 -- expects: position_model: The integrator is missing
 -- expects: fits: away from what was expected
 -- expects: crane_follows: On a record that you have not seen
--- expects: discarded: still stands against a buffer
+-- expects: discarded: After the last saturated voltage, the trolley is still at a buffer while voltage is applied
 -- The position's model is left without its integrator, and only the saturated voltage is discarded.
 local c = load("crane")
 local e, v, l, s = c.estimation, c.validation, c.limits, c.free_swing

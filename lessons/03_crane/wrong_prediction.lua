@@ -1,6 +1,6 @@
 -- expects: angle_model: predicts well and simulates badly
--- expects: common_poles: No pair of poles of the angle swings
--- expects: fits: predicting one step
+-- expects: common_poles: No pair of poles of the angle oscillates
+-- expects: fits: No model simulates the angle so well
 -- expects: crane_follows: predicts the next sample
 -- The angle by arx, praised for predicting the next sample.
 local c = load("crane")

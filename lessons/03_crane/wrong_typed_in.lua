@@ -1,4 +1,4 @@
--- expects: crane_follows: they must be estimated, not typed in
+-- expects: crane_follows: The models do not change with the data
 -- expects: swing_follows: It is the same on another record
 -- Everything read off a fellow student's report.
 local c = load("crane")

@@ -1,5 +1,5 @@
 -- ---
--- title: From a record to a model, and back again
+-- title: From data to a model, and back again
 -- subtitle: Lesson 3.1 – the workflow of identification on two simulated processes and a real one
 -- lesson: 03_workflow
 -- template: lesson
@@ -16,20 +16,22 @@
 -- ---
 
 -- %% [markdown]
--- Estimating parameters is the short part of identification: one line of code. The long part is everything around it – which
--- experiment, which part of the record, which structure – and above all the question whether the result may be believed. When it
--- may not, one goes back and changes something, and that is not a failure of the work but the work itself [@ljung1999, chapter 17].
+-- Estimating parameters is the short part of identification: one line of code. The long part is everything around it: which experiment, which part of
+-- the data, which structure, and above all, can you believe the result? If you cannot, go back and change something. This is not a failure of the
+-- work but the work itself [@ljung1999, chapter 17].
 --
--- This lesson goes round the loop of @fig:workflow three times (@tbl:workflow lists the question that each step answers): with a simulated linear system; with a simulated heat-transfer rig, on which the obvious
--- model fails twice; and with the record of a real hair dryer. The truth of the two simulated processes can be looked up at the end; nobody knows the dryer's.
--- Watch Brian Douglas's video [*Linear System Identification, Part 2*](https://www.youtube.com/watch?v=qC_C04SEV1E) (18 minutes) first: it goes round the same loop, with a simulated linear system and with a heat exchanger.
+-- This lesson goes around the loop of @fig:workflow three times. @tbl:workflow lists the question that each step answers. The first process is a
+-- simulated linear system. The second is a simulated heat-transfer plant, for which the obvious model fails twice. The third is a real hair dryer.
+-- You can look up the truth of the two simulated processes at the end. The truth of the dryer is unknown. First watch Brian Douglas's video [*Linear
+-- System Identification, Part 2*](https://www.youtube.com/watch?v=qC_C04SEV1E) (18 minutes). It goes around the same loop, with a simulated linear
+-- system and with a heat exchanger.
 --
 -- The work is planned for two sessions of three hours:
 --
 -- | session | questions, with minutes | aim |
 -- |--------------|-------------------------|------------------------|
--- | A structure that can be believed | 1 (15), 2 (30), 3 (20), 4 (20), 5 (30), 6 (20), 7 (15), 8 (15), 9 (15) | choose an order, validate, and let a failed validation say what to change |
--- | What the model leaves | 10 (20), 11 (30), 12 (30), 13 (15), 14 (25), 15 (20), 16 (40) | find and remove a drift, judge parameters, and reach a verdict where no truth is known |
+-- | A structure that you can believe | 1 (15), 2 (30), 3 (20), 4 (20), 5 (30), 6 (20), 7 (15), 8 (15), 9 (15) | choose an order, validate, and use a failed validation to find what to change |
+-- | What remains in the residuals | 10 (20), 11 (30), 12 (30), 13 (15), 14 (25), 15 (20), 16 (40) | find and remove a drift, assess parameters, and reach a conclusion without knowing the truth |
 --
 -- ::: block-diagram
 -- - experiment = block 1 1: experiment
@@ -50,31 +52,31 @@
 -- - b2 -> data
 -- - b1 -> experiment
 --
--- The loop of identification: a model that is not believed sends one back to the step that is to blame. {#fig:workflow}
+-- The identification loop: a model that you do not believe sends you back to the step that caused the problem. {#fig:workflow}
 -- :::
 
 -- %% id=workflow echo=false
 report.table("workflow", {
-    {"step", "what it must answer", "tools", "go back when"},
-    {"experiment", "Does the input move the process at all frequencies of interest?", "prbs, multisine", "a question cannot be answered from the record"},
-    {"data", "Rest, offset, drift, noise, dead time, faults?", "idplot, advice, delayest", "something unexpected is seen"},
-    {"preparation", "What is left when levels and drift are taken off?", "detrend, idfilt, split", "the model spends parameters on a level"},
-    {"structure", "How many poles and zeros, what delay?", "srivcstruc, selcstruc", "two structures explain the data alike"},
-    {"estimation", "Which parameters, and how sure are they?", "srivc, tfsrivc, arx", "standard errors are as large as the values"},
-    {"validation", "Does it hold on data that it has not seen?", "compare, resid, step, bode", "it does not"},
+    {"step", "question", "tools", "go back if"},
+    {"experiment", "Does the input move the process at all frequencies of interest?", "prbs, multisine", "the data cannot answer a question"},
+    {"data", "Rest, offset, drift, noise, dead time, faults?", "idplot, advice, delayest", "you see something unexpected"},
+    {"preparation", "What remains without levels and drift?", "detrend, idfilt, split", "the model spends parameters on a level"},
+    {"structure", "How many poles and zeros, which delay?", "srivcstruc, selcstruc", "two structures explain the data equally well"},
+    {"estimation", "Which parameters, and how certain are they?", "srivc, tfsrivc, arx", "standard errors are as large as the values"},
+    {"validation", "Does the model describe new data?", "compare, resid, step, bode", "it does not"},
 })
 
 -- %% [markdown]
 -- ::: {.table name=workflow #tbl:workflow}
--- The loop of identification: every step has its own question, its tools, and a reason to go back to an earlier step.
+-- The identification loop: every step has a question, its tools, and a reason to go back to an earlier step.
 -- :::
 --
 -- # A simulated system
 --
 -- ## Experiment and data
 --
--- The first record (@fig:linear_record) comes from a simulated system, sampled every 0.05 s from rest; its output carries white noise. The input is a
--- pseudo-random binary sequence of 127 bits of 0.4 s. A second record was made with another sequence; it is put away for validation.
+-- The first data set (@fig:linear_record) comes from a simulated system, sampled every 0.05 s from rest, with white noise on the output. The input is
+-- a pseudo-random binary sequence of 127 bits of 0.4 s. A second data set with another sequence is reserved for validation.
 
 -- %% id=linear_data
 local record = load("linear_system")
@@ -85,23 +87,23 @@ local val = iddata(record.y_val, record.u_val, Ts, names)
 report.figure("linear_record", idplot(est):set{height = 6}, "The first record")
 
 -- %% [markdown]
--- ![The first record: output (above) and binary input (below)](figure:linear_record){#fig:linear_record}
+-- ![The first data set: output (above) and binary input (below)](figure:linear_record){#fig:linear_record}
 --
--- **Question 1.** Look before you estimate, and let `advice` look as well. Is there an offset or a drift? Over which frequencies does the
--- input excite the system? Is there a dead time (`delayest`)?
+-- **Question 1.** Look at the data before you estimate, and run `advice`. Is there an offset or a drift? Over which frequencies does the input excite
+-- the system? Is there a dead time (`delayest`)?
 
 -- %% id=linear_look
 -- BEGIN SOLUTION
 advice(est)
 local Td, delay_figure, delay = delayest(est)
--- for comparison: models with three poles and a zero, their delay held
+-- for comparison: models with three poles and a zero and a fixed delay
 local at, held = {}, {}
 for samples = 0, 12 do
     local left = est.y - lsim(srivc(est, {2, 3, samples}), est.u, Ts)
     table.insert(at, samples*Ts)
     table.insert(held, mean(left^2))
 end
-delay_figure:add(at, held, {label = "srivc, delay held", style = "points"})
+delay_figure:add(at, held, {label = "srivc, fixed delay", style = "points"})
 report.figure("linear_delay", delay_figure:set{height = 5.5}, "Error by delay")
 -- END SOLUTION
 
@@ -121,21 +123,21 @@ report.value("linear_td_std", delay.std, "%.3f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The record starts from rest at zero and swings about zero (mean `linear_mean`{.value}): nothing has to be subtracted, and `advice` has no
--- objection either. A binary sequence has
--- about the same power from its fundamental, `linear_low`{.value} rad/s, to some `linear_high`{.value} rad/s, where its power has fallen to
--- one half. The output shows swings of about two seconds, well inside this band, so the experiment excites what it is to show.
--- The delay is estimated at `linear_td`{.value}\ ±\ `linear_td_std`{.value}\ s (@fig:linear_delay): it is not significantly different from zero,
--- and a delay that is not there needs no parameter. The line and the separate points of @fig:linear_delay agree. Far from the minimum, the error of a model with a wrong delay has several
--- local minima over the other parameters; `delayest` follows the solutions of neighbouring delays from both sides until none gets lower.
+-- The data start from rest at zero and oscillate around zero (mean `linear_mean`{.value}). Nothing has to be subtracted, and `advice` reports no
+-- problem. A binary sequence has about the same power from its fundamental, `linear_low`{.value} rad/s, to about `linear_high`{.value} rad/s, where
+-- its power has fallen to one half. The output oscillates with a period of about two seconds, well inside this band, so the experiment excites the
+-- relevant dynamics. The estimated delay is `linear_td`{.value}\ ±\ `linear_td_std`{.value}\ s (@fig:linear_delay). It is not significantly different
+-- from zero, so the model needs no delay parameter. The line and the separate points of @fig:linear_delay agree. Far from the minimum, the error of a
+-- model with a wrong delay has several local minima over the other parameters. `delayest` follows the solutions of adjacent delays from both sides
+-- until none gets lower.
 --
--- ![Mean square error of a model at each delay. Line: `delayest`; separate points, for comparison: `srivc` with the delay held at whole samples; circle: the estimated delay.](figure:linear_delay){#fig:linear_delay}
+-- ![Mean square error of a model at each delay. Line: `delayest`; separate points, for comparison: `srivc` with the delay fixed at whole samples; circle: the estimated delay.](figure:linear_delay){#fig:linear_delay}
 -- END SOLUTION
 --
 -- ## Structure
 --
--- **Question 2.** How many poles and zeros? Let `srivcstruc` estimate all structures up to five poles and three zeros on the first record
--- and simulate them on the second. What does each criterion choose, and what do you choose?
+-- **Question 2.** How many poles and zeros? Let `srivcstruc` estimate all structures up to five poles and three zeros from the first data set and
+-- simulate them on the second. Which structure does each criterion choose, and which do you choose?
 
 -- %% id=linear_orders
 -- BEGIN SOLUTION
@@ -176,7 +178,7 @@ local function choice(V, key, sign)
     end
     return best
 end
-local criteria = {{"fit, first record", "fit_percent", 1}, {"fit, second record", "validation_fit", 1}, {"AIC", "aic", -1},
+local criteria = {{"fit, first data set", "fit_percent", 1}, {"fit, second data set", "validation_fit", 1}, {"AIC", "aic", -1},
                   {"FPE", "fpe", -1}, {"BIC", "bic", -1}, {"YIC", "yic", -1}}
 report.table("linear_orders", orders_table(V))
 report.value("linear_poles", V.best.poles, "%d")
@@ -203,25 +205,34 @@ report.value("linear_yic_fit", choice(V, "yic", -1).validation_fit, "%.1f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=linear_orders #tbl:linear_orders}
--- All structures, with the fit to the first record and to the second (validation). Large is good for $R_T^2$ and the fits, small for YIC and BIC. A parameter is undetermined when its standard error is larger than its value.
+-- All structures, with the fit to the first data set and to the second (validation). Large $R_T^2$ and fits are good, and small YIC and BIC are good.
+-- A parameter is undetermined if its standard error is larger than its value.
 -- :::
 --
--- The measures: the *fit* is $100\,(1 - \lVert y - \hat y\rVert/\lVert y - \bar y\rVert)$ % for the simulated output $\hat y$; $R_T^2 = 1 - \sigma_\varepsilon^2/\sigma_y^2$ is the
--- explained share of the variance; BIC is $\ln V + d \ln(N)/N$ for the mean square $V$ of the errors, $d$ parameters and $N$ samples, AIC the same with 2 in the place of $\ln N$; YIC (Young's
--- information criterion [@young2011]) is $\ln(\sigma_\varepsilon^2/\sigma_y^2) + \ln\bigl(\tfrac1d\sum_i \hat\sigma_i^2/\hat\theta_i^2\bigr)$: it grows with the relative variance of the parameters.
+-- The measures are:
 --
--- Read @tbl:linear_orders from simple to complicated and ask what each step gains. From one pole to two, and on to three poles and a zero,
--- each new parameter adds points of fit on the record that the models have not seen. From there on nothing is gained: the best
--- model of all on the second record, with `linear_largest_poles`{.value} poles and `linear_largest_zeros`{.value} zeros, is ahead by `linear_largest_gain`{.value}
--- points, and its parameters are undetermined or cancel each other. The criteria do not agree:
+-- * The *fit* is $100\,(1 - \lVert y - \hat y\rVert/\lVert y - \bar y\rVert)$ % for the simulated output $\hat y$.
+-- * $R_T^2 = 1 - \sigma_\varepsilon^2/\sigma_y^2$ is the explained share of the variance.
+-- * BIC is $\ln V + d \ln(N)/N$ for the mean square $V$ of the errors, $d$ parameters and $N$ samples. AIC is the same with 2 instead of $\ln N$.
+-- * YIC (Young's information criterion [@young2011]) is
+--   $\ln(\sigma_\varepsilon^2/\sigma_y^2) + \ln\bigl(\tfrac1d\sum_i \hat\sigma_i^2/\hat\theta_i^2\bigr)$. It grows with the relative variance of the
+--   parameters.
 --
--- * the fit to the record itself hardly ever falls when a parameter is added: it goes on to `linear_fit_poles`{.value} poles and `linear_fit_zeros`{.value} zeros;
--- * AIC, whose price for a parameter is low, chooses `linear_aic_poles`{.value} poles and `linear_aic_zeros`{.value}, but the next best structure is only `linear_aic_gap`{.value} behind;
--- * BIC, whose price grows with the length of the record, clearly stops at `linear_bic_poles`{.value} poles and `linear_bic_zeros`{.value} zero;
--- * YIC, which weighs the error that is left against the uncertainty of the parameters, stops at `linear_yic_poles`{.value} poles,
---   although that model reaches only `linear_yic_fit`{.value} % on the second record. It is meant for choosing among models whose $R_T^2$ is good already.
+-- Read @tbl:linear_orders from simple to complicated, and look at the gain of each step. From one pole to two, and on to three poles and a zero, each
+-- new parameter increases the fit to the validation data. After that, nothing is gained. The best model on the second data set, with
+-- `linear_largest_poles`{.value} poles and `linear_largest_zeros`{.value} zeros, is ahead by `linear_largest_gain`{.value} points. Its parameters are
+-- undetermined or cancel each other. The criteria do not agree:
 --
--- The choice is `linear_poles`{.value} poles and `linear_zeros`{.value} zero: the simplest model that a second record cannot distinguish from more complicated ones.
+-- * The fit to the estimation data almost never falls with another parameter. It chooses `linear_fit_poles`{.value} poles and
+--   `linear_fit_zeros`{.value} zeros.
+-- * AIC has a low price for a parameter. It chooses `linear_aic_poles`{.value} poles and `linear_aic_zeros`{.value}, but the next best structure is
+--   only `linear_aic_gap`{.value} behind.
+-- * BIC has a price that grows with the length of the data. It clearly stops at `linear_bic_poles`{.value} poles and `linear_bic_zeros`{.value} zero.
+-- * YIC weighs the remaining error against the uncertainty of the parameters. It stops at `linear_yic_poles`{.value} poles, although this model
+--   reaches only `linear_yic_fit`{.value} % on the second data set. YIC is for choosing among models that already have a good $R_T^2$.
+--
+-- The choice is `linear_poles`{.value} poles and `linear_zeros`{.value} zero: the simplest model that the second data set cannot distinguish from
+-- more complicated ones.
 -- END SOLUTION
 --
 -- **Question 3.** Was this luck? `rig("linear_system", {seed = k})` repeats both experiments with other noise. Count how often each
@@ -258,7 +269,7 @@ report.table("linear_agreed", agreed_rows)
 report.value("repetitions", repetitions, "%d")
 report.value("agreed_recommended", agreed.recommended, "%d")
 report.value("agreed_bic", agreed["BIC"], "%d")
-report.value("agreed_validation", agreed["fit, second record"], "%d")
+report.value("agreed_validation", agreed["fit, second data set"], "%d")
 -- END SOLUTION
 
 -- %% [markdown]
@@ -267,15 +278,15 @@ report.value("agreed_validation", agreed["fit, second record"], "%d")
 -- Three poles and one zero, chosen from up to four poles and two zeros.
 -- :::
 --
--- @tbl:linear_agreed ranks the criteria. A second record used naively – the largest validation fit wins – finds this structure only `agreed_validation`{.value} times,
--- because one of the larger models is nearly always slightly ahead. Used properly, to find the simplest model that is not clearly worse, it
--- selects this structure `agreed_recommended`{.value} times out of `repetitions`{.value}.
+-- @tbl:linear_agreed ranks the criteria. If the largest validation fit decides, you get this structure only `agreed_validation`{.value} times,
+-- because one of the larger models is nearly always slightly ahead. If you choose the simplest model that is not clearly worse, you get this
+-- structure `agreed_recommended`{.value} times out of `repetitions`{.value}.
 -- END SOLUTION
 --
 -- ## Estimation
 --
--- **Question 4.** Estimate the model of your structure by `srivc`, and for comparison the difference equation of the same order by `arx`. How good is
--- each at simulating the second record, how good at predicting the next sample?
+-- **Question 4.** Estimate the model of your structure by `srivc`, and for comparison the difference equation of the same order by `arx`. How well
+-- does each model simulate the second data set, and how well does it predict the next sample?
 
 -- %% id=linear_estimate
 -- BEGIN SOLUTION
@@ -299,17 +310,18 @@ report.value("arx_long_val", fit(val, arx(est, {long_order, long_order, 1})), "%
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- SRIVC simulates the second record with a fit of `linear_val`{.value} %, as good as the first (`linear_fit`{.value} %); what is left has a standard
--- deviation of `linear_noise`{.value}. The `arx` model predicts the next sample with `arx_predict`{.value} % and simulates with `arx_val`{.value} %.
--- It is not the order that is wrong but the assumption about the noise, which `arx` sends through the poles of the system while here it is
--- added behind it. With `arx_long_order`{.value} poles the bias shrinks and the simulation reaches `arx_long_val`{.value} %, still less than a model of three poles
--- whose assumption is right. Check which fit a program reports: predicting one step ahead is easy, and it hides all this.
+-- The SRIVC model simulates the second data set with a fit of `linear_val`{.value} %, as well as the first (`linear_fit`{.value} %). The residuals
+-- have a standard deviation of `linear_noise`{.value}. The `arx` model predicts the next sample with `arx_predict`{.value} % and simulates with
+-- `arx_val`{.value} %. The order is right, but the assumption about the noise is wrong: `arx` assumes that the noise passes through the poles of the
+-- system. Here it is added at the output. With `arx_long_order`{.value} poles, the bias shrinks and the simulation reaches `arx_long_val`{.value} %.
+-- This is still less than a model of three poles with the right assumption. Check which fit a program reports: predicting one step ahead is easy, and
+-- it hides this difference.
 -- END SOLUTION
 --
 -- ## Validation
 --
--- **Question 5.** Validate your model and one that is simpler: the output on the second record (`compare`), the residuals (`resid`), and how sure
--- the step and frequency responses are (`step`, `bode`).
+-- **Question 5.** Validate your model and a simpler one: the output on the second data set (`compare`), the residuals (`resid`), and the uncertainty
+-- of the step and frequency responses (`step`, `bode`).
 
 -- %% id=linear_compare
 -- BEGIN SOLUTION
@@ -317,7 +329,7 @@ local simpler = srivc(est, {1, 2, 0})
 local shown = compare(val:range(1, 400), G, simpler,
                       {labels = {"3 poles, 1 zero", "2 poles"}})
 report.figure("linear_compare", shown:set{height = 6, x_range = {0, 20}},
-              "Second record")
+              "Second data set")
 local residuals = resid(val, G)
 report.figure("linear_resid", residuals, "Residuals on the second record")
 -- END SOLUTION
@@ -349,23 +361,24 @@ report.value("alarms", alarms, "%d")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![First 20 s of the second record, and the simulated outputs of two models; the fits in the legend are those of these 20 s. The simpler model rounds off the fast part of the response.](figure:linear_compare){#fig:linear_compare}
+-- ![First 20 s of the second data set, and the simulated outputs of two models. The fits in the legend are for these 20 s. The simpler model rounds off the fast part of the response.](figure:linear_compare){#fig:linear_compare}
 --
 -- ::: {.table name=linear_ladder #tbl:linear_ladder}
--- The tests on the whole second record. $p$ is the probability of such residuals if the error were white (Ljung–Box test on 25 autocorrelations), and if it were independent of the input.
+-- The tests on the whole second data set. $p$ is the probability of such residuals if the error were white (Ljung–Box test on 25 autocorrelations),
+-- and if it were independent of the input.
 -- :::
 --
--- ![Residuals of the model with three poles and a zero on the second record: autocorrelation (above) and cross-correlation with the input (below). Shaded: the 99 % bounds, beyond which one lag in a hundred lies by chance.](figure:linear_resid){#fig:linear_resid}
+-- ![Residuals of the model with three poles and a zero on the second data set: autocorrelation (above) and cross-correlation with the input (below). Shaded: the 99 % bounds. By chance, one lag in a hundred is outside them.](figure:linear_resid){#fig:linear_resid}
 --
--- In @fig:linear_compare the simpler model follows the oscillation and rounds off the rest. The tests are sharper than
--- the eye (@tbl:linear_ladder): for all simpler models they find the input in the residuals. With three poles and a zero the error is white, but the second
--- test still raises an alarm, $p =$ `linear_alarm`{.value} (@fig:linear_resid). Should we go back and add a pole? One pole more does not remove the alarm, and on the
--- first record the same test gives $p =$ `linear_own`{.value}. Among the `repetitions`{.value} repetitions of question 3, of which our records are the first, the number that raised
--- the alarm is `alarms`{.value}. A test at the 99 % level is wrong once in a hundred times even for the true system. One alarm is
--- a reason to look, not yet a reason to change the model.
+-- In @fig:linear_compare, the simpler model follows the oscillation and rounds off the rest. The tests are more sensitive than the eye
+-- (@tbl:linear_ladder): for all simpler models, they find the input in the residuals. With three poles and a zero, the error is white, but the second
+-- test still raises an alarm, $p =$ `linear_alarm`{.value} (@fig:linear_resid). Should we go back and add a pole? Another pole does not remove the
+-- alarm, and on the first data set the same test gives $p =$ `linear_own`{.value}. The `repetitions`{.value} repetitions of question 3 include our
+-- data as the first repetition. The number of alarms among them is `alarms`{.value}. A test at the 99 % level is wrong once in a hundred times even
+-- for the true system. One alarm is a reason to look, not yet a reason to change the model.
 -- END SOLUTION
 --
--- **Question 6.** This once the truth is known: `rig_truth("linear_system").G`. Do your estimates agree with it within their standard errors?
+-- **Question 6.** For this system the truth is known: `rig_truth("linear_system").G`. Do your estimates agree with it within their standard errors?
 
 -- %% id=linear_truth
 -- BEGIN SOLUTION
@@ -412,25 +425,26 @@ report.value("linear_true_val", fit(val, truth), "%.1f")
 --
 -- ![Step response of the estimate minus that of the truth (line), and the 99 % band in which this difference should stay (shaded). The step response itself rises to 2.](figure:linear_step){#fig:linear_step}
 --
--- ![Frequency responses of the estimate, with its 99 % band, and of the truth; marked in the upper panel: the frequency at which the power of the input has fallen to one half, and the Nyquist frequency of the sampling](figure:linear_bode){#fig:linear_bode}
+-- ![Frequency responses of the estimate, with its 99 % band, and of the truth. Marked in the upper panel: the frequency at which the power of the input has fallen to one half, and the Nyquist frequency.](figure:linear_bode){#fig:linear_bode}
 --
--- They do (@tbl:linear_truth): the worst is off by `linear_worst`{.value} standard errors, which is nothing unusual for one of five. The truth lies in the bands of
--- @fig:linear_step and @fig:linear_bode. Far above `linear_high`{.value} rad/s, where the input hardly excites the system, curve and narrow band are not supported by data: there they
--- follow from the structure alone. And the true system itself reaches no more than `linear_true_val`{.value} % on the second record; the rest is noise. The loop ends here.
+-- They do (@tbl:linear_truth): the largest error is `linear_worst`{.value} standard errors, which is not unusual for one of five parameters. The
+-- truth is in the bands of @fig:linear_step and @fig:linear_bode. Far above `linear_high`{.value} rad/s, the input excites the system very little.
+-- There, no data support the curve and its narrow band: they follow from the structure alone. The true system itself reaches no more than
+-- `linear_true_val`{.value} % on the second data set. The rest is noise. The loop ends here.
 -- END SOLUTION
 
 -- %% [markdown]
--- # A heat-transfer rig
+-- # A heat-transfer plant
 --
 -- ## Experiment and data
 --
 -- ::: {.drawing name=heat_rig}
--- The rig: a fan blows air over a heater with the voltage $u$; the temperature $y$ is measured at the end of the tube {#fig:heat_rig}
+-- The heat-transfer plant: a fan blows air over a heater with the voltage $u$; the temperature $y$ is measured at the end of the tube {#fig:heat_rig}
 -- :::
 --
--- In this simulated rig (@fig:heat_rig) air is blown over an electric heater and through a tube; the input is the heater's voltage, the output the temperature at the
--- end of the tube, one sample a second. There are two records about 4 V, for estimation and validation, and one about 7 V (@fig:heat_record). Each
--- begins with a minute of rest; then a binary sequence of ±1 V follows, with bits of 15 s.
+-- In this simulated plant (@fig:heat_rig), a fan blows air over an electric heater and through a tube. The input is the voltage of the heater, and
+-- the output is the temperature at the end of the tube, one sample per second. There are two data sets around 4 V, for estimation and validation, and
+-- one around 7 V (@fig:heat_record). Each begins with a minute of rest. A binary sequence of ±1 V follows, with bits of 15 s.
 
 -- %% id=heat_data
 local heat = load("heat_transfer")
@@ -442,12 +456,12 @@ local low, low_val = volts(heat.y, heat.u), volts(heat.y_val, heat.u_val)
 local high = volts(heat.y_high, heat.u_high)
 local two_records = idplot(low, high, {labels = {"about 4 V", "about 7 V"}})
 report.figure("heat_record", two_records:set{height = 7, legend = "direct"},
-              "Two of the records")
+              "Two of the data sets")
 
 -- %% [markdown]
--- ![Two of the three records: temperature (above) and heater voltage (below)](figure:heat_record){#fig:heat_record}
+-- ![Two of the three data sets: temperature (above) and heater voltage (below)](figure:heat_record){#fig:heat_record}
 --
--- **Question 7.** What do you see, and what does `advice` see? How should the record be prepared?
+-- **Question 7.** What do you see, and what does `advice` report? How do you prepare the data?
 
 -- %% id=heat_advice
 -- BEGIN SOLUTION
@@ -456,22 +470,22 @@ advice(low)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- A slow process (@fig:heat_record): the temperature never settles within one bit, and its long lag smooths the sequence; so the experiment is rich
--- enough, and bits much shorter would have been wasted. It starts at rest at an operating point, and a transfer function describes
--- changes only: the level of the first minute is subtracted from both signals (`detrend(data, "start")`). The mean would do less well,
--- because the record begins away from it. (What `advice` says of a temperature at zero voltage is, as it says, an extrapolation; no sample is near it.) The temperature reacts
--- some seconds late. It is rounded to 0.1 °C: `advice` warns of
--- it, but by its own numbers the noise is far larger than what rounding adds. It also finds that the temperature
--- drifts by some tenths of a degree about the response to the heater. And the same ±1 V moves the temperature more about 7 V
--- than about 4 V, which is unexpected, and which no single record can show.
+-- The process is slow (@fig:heat_record): the temperature never settles within one bit, and its long lag smooths the sequence. The experiment is
+-- therefore rich enough, and much shorter bits would be wasted. The process starts at rest at an operating point, and a transfer function describes
+-- only changes. Subtract the level of the first minute from both signals (`detrend(data, "start")`). The mean is less suitable, because the data
+-- begin away from it. (`advice` also gives a temperature at zero voltage and calls it an extrapolation: no sample is near it.) The temperature reacts
+-- some seconds late. It is rounded to 0.1 °C. `advice` warns about the rounding, but according to its numbers, the noise is far larger. It also finds
+-- that the temperature drifts by some tenths of a degree relative to the response to the heater. Finally, the same ±1 V has a larger effect on the
+-- temperature around 7 V than around 4 V. This is unexpected, and no single data set can show it.
 -- END SOLUTION
 --
 -- ## First round: voltage in, temperature out
 --
--- **Question 8.** Estimate a model with two poles and a delay on the first record. Because 60 noisy samples do not fix the level, let a constant
--- be estimated as well (`Offset = "estimate"`); the record begins at rest (`InitialState = "none"`). How does the model do on the two other records?
+-- **Question 8.** Estimate a model with two poles and a delay from the first data set. Because 60 noisy samples do not determine the level, also
+-- estimate a constant (`Offset = "estimate"`). The process starts at rest (`InitialState = "none"`). How well does the model describe the two other
+-- data sets?
 --
--- Guess first: with which fit will it simulate the record about 7 V? `outcome` prints the guess beside what you find.
+-- First, enter a prediction: with which fit will the model simulate the data around 7 V? `outcome` prints your prediction next to the result.
 
 -- %% id=heat_guess
 -- BEGIN SOLUTION
@@ -492,7 +506,7 @@ outcome("fit about 7 V", fit(start(high), G1))
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 local rounds = {{"round, input", "subtracted", "4 V", "4 V again", "7 V", "$p$ (white)", "$p$ (input)"}}
--- fits on the three prepared records and the residual tests on the second
+-- fits to the three prepared data sets and the residual tests on the second
 local function add_round(name, preparation, model, records)
     local cells = tested(name, records[2], model)
     table.insert(rounds, {name, preparation, string.format("%.1f", fit(records[1], model)),
@@ -508,9 +522,9 @@ report.value("heat_high_gain", dcgain(tfsrivc(start(high), 2, 0, {TdMax = 20, In
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- On its own record the model reaches `heat1_low`{.value} %, and one could be tempted to stop here. The second record gives
--- `heat1_val`{.value} %, that about 7 V only `heat1_high`{.value} %. The model fails, and the failure says where to look: a model
--- of the same form, fitted about 7 V, has a gain of `heat_high_gain`{.value} °C/V instead of `heat1_gain`{.value} °C/V. No further pole or zero can mend a gain that
+-- On its estimation data, the model reaches `heat1_low`{.value} %, and you may be tempted to stop here. On the second data set it reaches
+-- `heat1_val`{.value} %, and around 7 V only `heat1_high`{.value} %. The model fails, and the failure shows where to look. A model of the same form,
+-- fitted around 7 V, has a gain of `heat_high_gain`{.value} °C/V instead of `heat1_gain`{.value} °C/V. No further pole or zero can fix a gain that
 -- depends on the operating point. *Back to the step "data".*
 -- END SOLUTION
 --
@@ -528,7 +542,7 @@ end
 local G2 = tfsrivc(start(watts(low)), 2, 0,
                    {TdMax = 20, InitialState = "none", Offset = "estimate"})
 
-local measured = start(high).y        -- both models on the record about 7 V
+local measured = start(high).y        -- both models on the data around 7 V
 local function simulated(G, data)
     local y = lsim(G, start(data).u, 1)
     return y + mean(measured - y)
@@ -554,20 +568,20 @@ report.value("heat2_high", fit(w_records[3], G2), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Two models, both estimated about 4 V, on the record about 7 V: measured temperature (grey), model from the voltage (dotted) and from the power (black). Both simulated curves are shifted to the mean of the measured one, so that only the shape is compared; therefore that from the voltage does not begin at zero.](figure:heat_high){#fig:heat_high}
+-- ![Two models, both estimated around 4 V, on the data around 7 V: measured temperature (gray), model from the voltage (dotted) and from the power (black). Both simulated curves are shifted to the mean of the measured curve, to compare only the shape. Therefore the curve from the voltage does not begin at zero.](figure:heat_high){#fig:heat_high}
 --
--- A resistor turns $u^2/R$ into heat, so the power is the natural input, and this knowledge costs no parameter. The model that was
--- estimated about 4 V now reaches `heat2_high`{.value} % about 7 V (@fig:heat_high). But on its own record the fit has fallen to
--- `heat2_low`{.value} %, and on the second one it is `heat2_val`{.value} %: something else is in these records.
+-- A resistor turns $u^2/R$ into heat, so the power is the natural input, and this knowledge costs no parameter. The model estimated around 4 V now
+-- reaches `heat2_high`{.value} % around 7 V (@fig:heat_high). But on the estimation data, the fit has fallen to `heat2_low`{.value} %, and on the
+-- second data set it is `heat2_val`{.value} %. These data contain another effect.
 -- END SOLUTION
 --
 -- ::: note
--- Here the second sitting begins: *what the model leaves*. Run what you have (`dynlab run -i analysis.lua`) and look at the fits of both models on all
--- three records before you go on.
+-- The second session begins here: *what remains in the residuals*. Run your script (`dynlab run -i analysis.lua`) and look at the fits of both models
+-- on all three data sets before you continue.
 -- :::
 --
--- **Question 10.** Draw what the model leaves unexplained in all three records, smoothed by a low-pass filter that does not shift it
--- (`idfilt` with `zero_phase`). What is it?
+-- **Question 10.** Plot the residuals of the model for all three data sets, smoothed by a low-pass filter without phase shift (`idfilt` with
+-- `zero_phase`). What do they show?
 
 -- %% id=heat_drift
 -- BEGIN SOLUTION
@@ -603,19 +617,20 @@ end
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Measured temperature minus simulated output of the second model, smoothed by a low-pass filter without phase shift, in all three records](figure:heat_drift){#fig:heat_drift}
+-- ![Measured temperature minus simulated output of the second model, smoothed by a low-pass filter without phase shift, for all three data sets](figure:heat_drift){#fig:heat_drift}
 --
--- Slow waves of up to `heat_drift`{.value} °C, a different one in each record (@fig:heat_drift). Do they come from the input? That they differ proves nothing, because the inputs
--- differ as well. Their correlation with the simulated response is `heat_corr_val`{.value} in the second record and `heat_corr_high`{.value} in the
--- third (in the first, least squares has made it vanish); but with one or two waves in a record chance easily gives a half, so these records cannot decide. The decisive experiment would
--- apply the same bits twice: what comes from the input would repeat. The likely cause is the air in the room, which warms and cools; here the description
--- of the simulated rig confirms it (an inlet temperature that drifts by ±0.4 °C). Neither a level nor a straight line describes such waves. *Back to the step "preparation".*
+-- They show slow waves of up to `heat_drift`{.value} °C, different in each data set (@fig:heat_drift). Does the input cause them? The difference
+-- proves nothing, because the inputs also differ. The correlation of the waves with the simulated response is `heat_corr_val`{.value} in the second
+-- data set and `heat_corr_high`{.value} in the third. (In the first, least squares has removed it.) But with only one or two waves, chance easily
+-- gives a correlation of one half, so these data cannot decide. The decisive experiment applies the same bits twice: effects of the input would
+-- repeat. The likely cause is the air in the room, which warms and cools. Here the description of the simulated plant confirms it (an inlet
+-- temperature that drifts by ±0.4 °C). Neither a constant nor a straight line describes such waves. *Back to the step "preparation".*
 -- END SOLUTION
 --
 -- ## Third round: remove the drift
 --
--- **Question 11.** Remove the slow waves with a high-pass filter. Why must both signals pass through the same filter? Where would you put
--- its edge?
+-- **Question 11.** Remove the slow waves with a high-pass filter. Why must both signals pass through the same filter? Which edge frequency do you
+-- choose?
 
 -- %% id=heat_third
 -- BEGIN SOLUTION
@@ -663,29 +678,33 @@ report.value("heat3_high", fit(f_records[3], G3), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- A filter on both signals changes nothing in the relation between them: if $y = Gu$, then $Ly = G\,Lu$. On the output
--- alone it would become a part of the model.
+-- A filter on both signals does not change the relation between them: if $y = Gu$, then $Ly = G\,Lu$. A filter on the output alone would become a
+-- part of the model.
 --
 -- ::: {.table name=heat_edges #tbl:heat_edges}
--- Estimates with four edges of the filter (± one standard error, the robust one where the residuals are not white) and the test for whiteness on the second record.
+-- Estimates with four edge frequencies of the filter (± one standard error, robust if the residuals are not white). The last column is the test for
+-- whiteness on the second data set.
 -- :::
 --
--- Too low an edge leaves drift, too high a one removes the information about the slow lag and the gain, whose errors grow (@tbl:heat_edges). At `edge`{.value} rad/s,
--- close to the corner of the slow lag, the residuals on the second record are white for the first time, $p =$ `heat_second_white`{.value}. (`present` speaks of the first record, on which the model was
--- estimated; there a trace of the drift is left, $p =$ `heat_first_white`{.value}, and the robust standard errors are the ones to use.)
+-- If the edge frequency is too low, drift remains. If it is too high, the filter removes the information about the slow lag and the gain, and their
+-- errors grow (@tbl:heat_edges). At `edge`{.value} rad/s, close to the corner frequency of the slow lag, the residuals on the second data set are
+-- white for the first time, $p =$ `heat_second_white`{.value}. (`present` reports on the first data set, from which the model was estimated. There, a
+-- trace of the drift remains, $p =$ `heat_first_white`{.value}, so use the robust standard errors.)
 --
 -- ::: {.table name=heat_rounds #tbl:heat_rounds}
--- The three rounds: fit (%) on the three records as they were prepared; last, the probabilities $p$ of such residuals on the second record if the error were white, and if it were independent of the input.
+-- The three rounds: fit (%) on the three prepared data sets. The last columns are for the second data set: the probabilities $p$ of such residuals if
+-- the error were white, and if it were independent of the input.
 -- :::
 --
--- @tbl:heat_rounds sums up the three rounds. The fits of different rows are those of differently prepared signals and cannot be subtracted
--- from each other, but in the third row all three records agree, which in the first two they did not, and the tests have
--- no objection to the model. Note, however, that the edge was chosen by the test on the second record, which therefore no longer counts as independent evidence. The record about 7 V was
--- not used for any choice: there the fit is `heat3_high`{.value} % and the test for whiteness gives $p =$ `heat_high_white`{.value}. The last row shows the filter without the physics: it brings the two records about 4 V together and leaves the
--- third at `heat_filter_only`{.value} %. By the first column of fits alone, one would have kept the first model.
+-- @tbl:heat_rounds summarizes the three rounds. Different rows have differently prepared signals, so you cannot subtract their fits. But in the third
+-- row all three data sets agree, unlike in the first two, and the tests do not reject the model. Note, however, that the test on the second data set
+-- determined the edge frequency, so this data set is no longer independent evidence. The data around 7 V did not influence any choice: there the fit
+-- is `heat3_high`{.value} %, and the test for whiteness gives $p =$ `heat_high_white`{.value}. The last row shows the filter without the physics. It
+-- makes the two data sets around 4 V agree, and the fit to the third is `heat_filter_only`{.value} %. The first column of fits alone would favor the
+-- first model.
 -- END SOLUTION
 --
--- **Question 12.** With the right input and preparation: are two poles enough? Which parameters can be believed? Compare with
+-- **Question 12.** With the right input and preparation: are two poles enough? Which parameters can you believe? Compare with
 -- `rig_truth("heat_transfer")`, which has a dead time and three lags.
 
 -- %% id=heat_orders
@@ -735,19 +754,19 @@ report.value("heat_poles", W.best.poles, "%d")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=heat_orders #tbl:heat_orders}
--- Structures for the prepared records; columns as in @tbl:linear_orders.
+-- Structures for the prepared data; columns as in @tbl:linear_orders.
 -- :::
 --
 -- ::: {.table name=heat_truth #tbl:heat_truth}
 -- The truth and models with two and three lags (± one standard error): gain, slow lag, short lags, delay; last, the sum of the delay and the short lags.
 -- :::
 --
--- These data support `heat_poles`{.value} poles (@tbl:heat_orders): a third one does not change the fit, and its errors are
--- as large as the lags (@tbl:heat_truth). Gain and slow lag agree with the truth. The delay does not: it is estimated at `heat_td`{.value}\ ±\ `heat_td_std`{.value}\ s,
--- and the true dead time is `heat_td_ratio`{.value} standard errors smaller. The arithmetic is right. But a standard error holds only
--- *if the structure is right*; here a third, short lag is missing, and the delay makes up for it. What the record determines well is the sum of
--- the delay and the short lags, `heat_small`{.value}\ ±\ `heat_small_std`{.value}\ s. For a controller the model with two poles is the one to take; to find the true dead
--- time, a faster experiment is needed.
+-- These data support `heat_poles`{.value} poles (@tbl:heat_orders): a third one does not change the fit, and its errors are as large as the lags
+-- (@tbl:heat_truth). Gain and slow lag agree with the truth. The delay does not: its estimate is `heat_td`{.value}\ ±\ `heat_td_std`{.value}\ s, and
+-- the true dead time is `heat_td_ratio`{.value} standard errors smaller. The arithmetic is right. But a standard error is valid only *if the
+-- structure is right*. Here a third, short lag is missing, and the delay compensates for it. The data determine the sum of the delay and the short
+-- lags well: `heat_small`{.value}\ ±\ `heat_small_std`{.value}\ s. For a controller, use the model with two poles. To find the true dead time, you
+-- need a faster experiment.
 -- END SOLUTION
 
 -- %% [markdown]
@@ -755,8 +774,8 @@ report.value("heat_poles", W.best.poles, "%d")
 --
 -- ## Experiment and data
 --
--- The third record is real: the heating of a hair dryer was switched at random between two voltages, and a thermocouple measured the air at the
--- outlet, 1000 samples every 0.08 s (@fig:dryer_record). Nobody knows the truth, and you have no second experiment.
+-- The third process is real. The heating of a hair dryer was switched at random between two voltages, and a thermocouple measured the air at the
+-- outlet. There are 1000 samples, one every 0.08 s (@fig:dryer_record). The truth is unknown, and there is no second experiment.
 
 -- %% id=dryer_data
 local dryer = load("hairdryer")
@@ -767,10 +786,11 @@ report.figure("dryer_record", idplot(raw:range(1, 251)):set{height = 6.5},
               "The hair dryer")
 
 -- %% [markdown]
--- ![The first 20 s of the hair dryer's record: voltage of the thermocouple (above) and of the heating (below)](figure:dryer_record){#fig:dryer_record}
+-- ![The first 20 s of the hair dryer data: voltage of the thermocouple (above) and of the heating (below)](figure:dryer_record){#fig:dryer_record}
 --
--- **Question 13.** Prepare the record: one half for estimation, one for validation, both without their means. Is there a dead time?
--- (By default the estimators choose how a record begins. Here every model starts from rest without an offset, `from_rest`, so that only the structures differ.)
+-- **Question 13.** Prepare the data: one half for estimation, one for validation, both without their means. Is there a dead time? (By default, the
+-- estimators choose the initial state and the offset. Here every model starts from rest without an offset, `from_rest`, so that only the structures
+-- differ.)
 
 -- %% id=dryer_prepare
 -- BEGIN SOLUTION
@@ -794,15 +814,16 @@ report.value("dryer_td_samples", D.samples, "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Both signals swing about an operating point (means `dryer_u`{.value} V and `dryer_y`{.value} V) without a rest at the beginning, as `advice` says too, so the
--- means are what can be subtracted. The slight drift that it finds is far smaller than the effect of the input. The output responds late: by `dryer_td`{.value}\ ±\ `dryer_td_std`{.value}\ s, which is `dryer_td_samples`{.value} samples (@fig:dryer_delay).
+-- Both signals oscillate around an operating point (means `dryer_u`{.value} V and `dryer_y`{.value} V). As `advice` also reports, there is no rest at
+-- the beginning, so subtract the means. The slight drift is far smaller than the effect of the input. The output responds late, by
+-- `dryer_td`{.value}\ ±\ `dryer_td_std`{.value}\ s, which is `dryer_td_samples`{.value} samples (@fig:dryer_delay).
 --
--- ![Mean square error of a model at each delay, all other parameters estimated anew. The minimum is flat from 0.1 to 0.2 s; marked: the estimate.](figure:dryer_delay){#fig:dryer_delay}
+-- ![Mean square error of a model at each delay, with all other parameters estimated again. The minimum is flat from 0.1 to 0.2 s; marked: the estimate.](figure:dryer_delay){#fig:dryer_delay}
 -- END SOLUTION
 --
 -- ## Structure and estimation
 --
--- **Question 14.** Which structure? Estimate the delay along with every one of them. Look for what happens to the delay when the model has too few poles.
+-- **Question 14.** Which structure? Estimate the delay for each structure. What happens to the delay if the model has too few poles?
 
 -- %% id=dryer_orders
 -- BEGIN SOLUTION
@@ -862,19 +883,24 @@ report.value("dryer_gain", dcgain(H2), "%.3f")
 -- Structures for the hair dryer, each with its own delay; columns as in @tbl:linear_orders, validation on the second half.
 -- :::
 --
--- With one pole the delay comes out at `dryer_one_td`{.value} s: a lag that the model lacks is made up for by a longer delay. YIC alone would choose that
--- model; the second half speaks against it. With `dryer_poles`{.value} poles the delay is `dryer_two_td`{.value} s, two samples, and can be fixed
--- there, which saves a parameter. With two poles a zero gains nothing. BIC would prefer three poles and a zero (`dryer_bic_31`{.value} against `dryer_bic_20`{.value}). But one of these poles lies at `dryer_drift_pole`{.value} rad/s, with the zero next to it at `dryer_drift_zero`{.value} rad/s: a time constant of `dryer_drift_time`{.value} s describes the slow drift
--- of this record and not the dryer, and on the second half the fit is lower, `dryer_val_31`{.value} against `dryer_val_20`{.value} %. The model
+-- With one pole, the estimated delay is `dryer_one_td`{.value} s: a longer delay compensates for a missing lag. YIC alone would choose this model,
+-- but the second half of the data contradicts it. With `dryer_poles`{.value} poles, the delay is `dryer_two_td`{.value} s, two samples. You can fix
+-- it there, which saves a parameter. With two poles, a zero gains nothing. BIC would prefer three poles and a zero (`dryer_bic_31`{.value} compared
+-- with `dryer_bic_20`{.value}). But one of these poles is at `dryer_drift_pole`{.value} rad/s, with the zero next to it at `dryer_drift_zero`{.value}
+-- rad/s. A time constant of `dryer_drift_time`{.value} s describes the slow drift of these data and not the dryer. On the second half, the fit is
+-- lower: `dryer_val_31`{.value} compared with `dryer_val_20`{.value} %. The model
 --
 -- $$ G(s) = \frac{b_0}{s^2 + a_1 s + a_2}\,e^{-2T_s s} $$ {#eq:solution-dryer}
 --
--- with $a_1 =$ `dryer_a1`{.value}\ ±\ `dryer_a1_std`{.value}, $a_2 =$ `dryer_a2`{.value}\ ±\ `dryer_a2_std`{.value} and $b_0 =$ `dryer_b0`{.value}\ ±\ `dryer_b0_std`{.value} (robust standard errors) has a gain of `dryer_gain`{.value} and lags of `dryer_slow`{.value} s and
--- `dryer_fast`{.value} s. It fits the first half with `dryer_fit`{.value} % ($R_T^2 =$ `dryer_rt2`{.value}) and the second with `dryer_val`{.value} %; one pole, $a_1 =$ `dryer1_a1`{.value} and
--- $b_0 =$ `dryer1_b0`{.value} with three samples of delay, with `dryer1_fit`{.value} % and `dryer1_val`{.value} %.
+-- with $a_1 =$ `dryer_a1`{.value}\ ±\ `dryer_a1_std`{.value}, $a_2 =$ `dryer_a2`{.value}\ ±\ `dryer_a2_std`{.value} and $b_0 =$
+-- `dryer_b0`{.value}\ ±\ `dryer_b0_std`{.value} (robust standard errors) has a gain of `dryer_gain`{.value} and lags of `dryer_slow`{.value} s and
+-- `dryer_fast`{.value} s. It fits the first half with `dryer_fit`{.value} % ($R_T^2 =$ `dryer_rt2`{.value}) and the second with `dryer_val`{.value}
+-- %. The model with one pole and three samples of delay, $a_1 =$ `dryer1_a1`{.value} and $b_0 =$ `dryer1_b0`{.value}, reaches `dryer1_fit`{.value} %
+-- and `dryer1_val`{.value} %.
 -- END SOLUTION
 --
--- **Question 15.** Compare with difference equations found by `arx`, with delays of two and of three samples. What does the coefficient of $u(k-2)$ say?
+-- **Question 15.** Compare with difference equations found by `arx`, with delays of two and of three samples. What does the coefficient of $u(k-2)$
+-- show?
 
 -- %% id=dryer_arx
 -- BEGIN SOLUTION
@@ -914,13 +940,14 @@ report.value("arx_weight", 100*A2.param[3]/A2.param[4], "%.0f")
 -- Two difference equations from all 1000 samples, with plain standard errors, and their fits.
 -- :::
 --
--- The coefficient of $u(k-2)$ is `arx_weight`{.value} % of the next one, and one sample more of delay makes the model better with as many parameters
--- (@tbl:dryer_arx). Three samples here are the same delay as two in @eq:solution-dryer, because a held input acts on a sampled output one sample later at the earliest. The noise of
--- this plant seems to pass through the air as well, as `arx` supposes; so, unlike in the first example, its model is good: estimated from the first half it
--- simulates the second with `arx3_half`{.value} %. The `arx3_prediction`{.value} % for one-step prediction says little.
+-- The coefficient of $u(k-2)$ is `arx_weight`{.value} % of the next one. Another sample of delay makes the model better with the same number of
+-- parameters (@tbl:dryer_arx). Three samples here are the same delay as two in @eq:solution-dryer, because a held input affects a sampled output one
+-- sample later at the earliest. The noise of this plant seems to pass through the air too, as `arx` assumes. Therefore, unlike in the first example,
+-- the `arx` model is good: estimated from the first half, it simulates the second with `arx3_half`{.value} %. The `arx3_prediction`{.value} % for
+-- one-step prediction says little.
 -- END SOLUTION
 --
--- ## Validation and verdict
+-- ## Validation and conclusion
 --
 -- **Question 16.** Validate. Is a third pole worth its parameter? State which model you recommend and what it does not explain.
 
@@ -944,7 +971,7 @@ local _, noise_test = resid(second, HN, {prediction = true, quiet = true})
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 local verdict = {{"model", "fit, second half (%)", "$p$ (error white)", "$p$ (free of the input)"}}
-for _, entry in ipairs{{"1 pole, 3 samples", H1}, {"2 poles, 2 samples", H2}, {"3 poles, own delay", H3}} do
+for _, entry in ipairs{{"1 pole, 3 samples", H1}, {"2 poles, 2 samples", H2}, {"3 poles, free delay", H3}} do
     local cells = tested(entry[1], second, entry[2])
     table.insert(verdict, cells)
     if entry[2] == H3 then report.value("dryer_three_p", cells[4], "%s") end
@@ -962,7 +989,7 @@ report.value("dryer_robust", max(H2.robust_std/H2.std), "%.1f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![First 20 s of the second half, and the simulated outputs of two models; the fits in the legend are those of these 20 s](figure:dryer_compare){#fig:dryer_compare}
+-- ![First 20 s of the second half, and the simulated outputs of two models. The fits in the legend are for these 20 s.](figure:dryer_compare){#fig:dryer_compare}
 --
 -- ::: {.table name=dryer_verdict #tbl:dryer_verdict}
 -- Fits on the second half, and the probabilities $p$ of such residuals if the error were white and if it were independent of the input.
@@ -970,46 +997,55 @@ report.value("dryer_robust", max(H2.robust_std/H2.std), "%.1f")
 --
 -- ![Residuals of the model with two poles on the second half: autocorrelation (above) and cross-correlation with the input (below); shaded: the 99 % bounds](figure:dryer_resid){#fig:dryer_resid}
 --
--- ![Step responses of the models with two and with three poles, with 99 % bands; they differ in the first tenths of a second only](figure:dryer_step){#fig:dryer_step}
+-- ![Step responses of the models with two and with three poles, with 99 % bands. They differ only in the first tenths of a second.](figure:dryer_step){#fig:dryer_step}
 --
--- *What speaks for two poles:* the fit on data it has not seen, every parameter well determined, a delay of whole samples that an independent `arx` confirms. A third
--- pole adds `dryer_three_more`{.value} points, and its delay goes to `dryer_three_td`{.value} s. The step responses can hardly be told apart (@fig:dryer_step).
+-- *Evidence for two poles:* the fit to validation data is good, every parameter is well determined, and an independent `arx` confirms the delay of
+-- whole samples. A third pole adds `dryer_three_more`{.value} points, and its delay is `dryer_three_td`{.value} s. The step responses are almost
+-- identical (@fig:dryer_step).
 --
--- *What speaks against them:* the residuals are far from white, and on the second half the input still explains a little of them (@tbl:dryer_verdict,
--- @fig:dryer_resid). With three poles this trace is weaker but not gone: $p =$ `dryer_three_p`{.value}, which a test at the 99 % level does not reject and one at the 95 % level does. The disturbances are coloured, so the plain standard errors are too small, by factors up to `dryer_robust`{.value}, and
--- `present` gives the robust ones.
+-- *Evidence against two poles:* the residuals are far from white, and on the second half the input still explains a small part of them
+-- (@tbl:dryer_verdict, @fig:dryer_resid). With three poles, this part is smaller but not zero: $p =$ `dryer_three_p`{.value}. A test at the 99 %
+-- level does not reject the model, and a test at the 95 % level does. The disturbances are colored, so the plain standard errors are too small, by
+-- factors up to `dryer_robust`{.value}. `present` therefore prints robust standard errors.
 --
--- *And a noise model?* `rivc` estimates two poles together with an autoregressive model of the noise, whose pole comes out at `dryer_ar`{.value}\ ±\ `dryer_ar_std`{.value}. It makes the error of the prediction one step ahead
--- white ($p =$ `dryer_noise_white`{.value}), but the input still shows in it ($p$ `dryer_noise_input`{.value}), and the simulation of the second half is no better (`dryer_noise_val`{.value} against
--- `dryer_val_short`{.value} %). A noise model describes the disturbance; it does not supply missing dynamics. It pays where the model is to predict.
+-- *A noise model:* `rivc` estimates two poles together with an autoregressive model of the noise, with a pole at
+-- `dryer_ar`{.value}\ ±\ `dryer_ar_std`{.value}. It makes the one-step prediction error white ($p =$ `dryer_noise_white`{.value}). But the input is
+-- still visible in this error ($p$ `dryer_noise_input`{.value}), and the simulation of the second half is no better (`dryer_noise_val`{.value}
+-- compared with `dryer_val_short`{.value} %). A noise model describes the disturbance. It does not add missing dynamics. It is useful for prediction.
 --
--- *Verdict:* two poles and `dryer_two_td`{.value} s for simulation and for designing a controller. If one wanted to know more of the first tenths of a second, three poles
--- would be the hypothesis, and the next step an experiment with faster switching and sampling. A fit alone would have hidden the question.
+-- *Conclusion:* use two poles and `dryer_two_td`{.value} s for simulation and for controller design. To learn more about the first tenths of a
+-- second, three poles are the hypothesis, and the next step is an experiment with faster switching and sampling. A fit alone would have hidden this
+-- question.
 -- END SOLUTION
 
 -- %% [markdown]
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
--- * Look before you estimate: levels, drift, dead time, and anything unexpected. The plot and the formula for the heat of a resistor, not a search over orders, explained
---   the rig.
--- * Go from simple to complicated, and stop at the simplest model that a second record cannot distinguish from larger ones. No single
---   criterion is right: the fit never stops, AIC stops late, YIC early; standard errors and cancelling zeros reveal too many parameters.
--- * A good fit to its own record is no validation, and a record by which something was chosen is no independent one any more. The first model of the rig had the best one and was wrong in its gain.
--- * Validation names the step to go back to: a gain that depends on the operating point, data; slow waves in the residuals, preparation; an input that is still
---   seen in the residuals, structure. One alarm among many tests may be chance; repeat before believing it.
--- * Standard errors hold for the right structure and noise only. A missing lag moves the delay by many of them.
--- * The end is a recommendation with its limits, not the largest number in a table.
+-- * Look before you estimate: levels, drift, dead time, and anything unexpected. The plot and the formula for the heat of a resistor, not a search
+--   over orders, explained the heat-transfer plant.
+-- * Go from simple to complicated, and stop at the simplest model that validation data cannot distinguish from larger ones. No single criterion is
+--   right: the fit never stops, AIC stops late, and YIC stops early. Standard errors and canceling zeros reveal too many parameters.
+-- * A good fit to the estimation data is not a validation. Data that influenced a choice are no longer independent. The first model of the
+--   heat-transfer plant had the best fit and the wrong gain.
+-- * Validation shows the step to go back to. A gain that depends on the operating point: data. Slow waves in the residuals: preparation. An input
+--   that is still visible in the residuals: structure. One alarm among many tests may be chance. Repeat the test before you believe it.
+-- * Standard errors are valid only for the right structure and noise. A missing lag changes the delay by many standard errors.
+-- * The result is a recommendation with its limits, not the largest number in a table.
 -- END SOLUTION
 --
 -- # What you submit
 --
 -- ::: {.note}
--- Where this lesson is graded, a model and what it is worth are handed in for each round of the loop, with `answer(name, value)`: `linear_orders`, the numbers
--- of poles and zeros that you chose; `G_linear`, estimated on the first record, and `linear_fit`, the fit in percent of its simulated output to the second one;
--- `G_heat`, your final model of the rig, from the heater's power in W to °C; `G_dryer`, estimated on the first half, and `dryer_fit`, the fit
--- of its simulated output to the second. Your script will be run on records of another system and of another rig. Three figures are looked
--- for: `linear_resid`, `heat_high` and `dryer_compare`.
+-- If this lesson is graded, submit a model and its quality for each round of the loop, with `answer(name, value)`:
+--
+-- * `linear_orders`: the numbers of poles and zeros that you chose;
+-- * `G_linear`: the model from the first data set, and `linear_fit`: the fit in percent of its simulated output to the second;
+-- * `G_heat`: your final model of the heat-transfer plant, from the heater's power in W to °C;
+-- * `G_dryer`: the model from the first half, and `dryer_fit`: the fit of its simulated output to the second half.
+--
+-- Grading also runs your script on data of another system and of another heat-transfer plant. The checks look for the figures `linear_resid`,
+-- `heat_high` and `dryer_compare`.
 -- :::
 
 -- %% id=hand_in

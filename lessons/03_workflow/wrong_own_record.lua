@@ -1,8 +1,8 @@
--- expects: linear_fit: the record that the model was estimated on
--- expects: heat_model: the part of full power
+-- expects: linear_fit: This is the fit to the data from which the model was estimated
+-- expects: heat_model: The input is the fraction of full power
 -- expects: heat_follows: far too large
 -- expects: dryer_model: The model has no delay
--- expects: dryer_fit: the half that the model was estimated on
+-- expects: dryer_fit: This is the fit to the half from which the model was estimated
 -- Fits to the models' own records, the power without its unit, the delay left out.
 local L = load("linear_system")
 local one, two = iddata(L.y, L.u, 0.05), iddata(L.y_val, L.u_val, 0.05)

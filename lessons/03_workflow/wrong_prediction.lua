@@ -1,7 +1,7 @@
 -- expects: linear_model: arx gives a difference equation
--- expects: linear_fit: how well the next sample is predicted
+-- expects: linear_fit: This is the fit of the one-step prediction
 -- expects: linear_follows: predicts well and simulates badly
--- expects: dryer_fit: the fit of predicting one step
+-- expects: dryer_fit: No model simulates the second half so well
 -- Difference equations, praised for predicting one step ahead.
 local L = load("linear_system")
 local one, two = iddata(L.y, L.u, 0.05), iddata(L.y_val, L.u_val, 0.05)

@@ -1,5 +1,5 @@
--- expects: linear_follows: does not change with the record
--- expects: heat_follows: does not change with the record
+-- expects: linear_follows: The model does not change with the data
+-- expects: heat_follows: The model does not change with the data
 -- Models written down from the lecture instead of being estimated.
 local L = load("linear_system")
 local two = iddata(L.y_val, L.u_val, 0.05)

@@ -1,5 +1,5 @@
--- expects: linear_model: estimated on the second record
--- expects: dryer_model: estimated on the second half
+-- expects: linear_model: This model was estimated from the second data set, which is reserved for validation
+-- expects: dryer_model: This model was estimated from the second half, which is reserved for validation
 -- The models are estimated on the very records that were to validate them.
 local L = load("linear_system")
 local learn = iddata(L.y_val, L.u_val, L.t[2])

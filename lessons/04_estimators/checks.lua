@@ -13,13 +13,13 @@ local bound = montecarlo{system = tf({2}, {1, 4, 3}), input = input, Ts = 0.01, 
 -- What LSSVF finds when every signal is taken as held between its samples.
 local function all_held(data) return lssvf(data, {2, 1, 0}, 3, {hold_y = "zoh"}).param end
 
-check { id = "own_without_noise", points = 2, about = "Your own LSSVF, record without noise",
+check { id = "own_without_noise", points = 2, about = "Your own LSSVF, data without noise",
     test = function(a) return near(a.own_without_noise, lssvf(clean, {2, 1, 0}, 3).param, {rel = 5e-4, half = 1e-2}) end,
     mistakes = {
         {when = function(a) return near(a.own_without_noise, all_held(clean), {rel = 5e-4}) end,
-         say = "You let the filter hold the output between the samples; a measured output runs in straight lines (hold = \"foh\")."},
+         say = "Your filter holds the output constant between the samples; a measured output is piecewise linear (hold = \"foh\")."},
         {when = function(a) return near(a.own_without_noise, truth*vector{-1, -1, 1}, {rel = 1e-2}) end,
-         say = "The signs of a1 and a2 are turned round: the regressors of the output have a minus."},
+         say = "a1 and a2 have the wrong sign: the regressors of the output have a minus."},
         {when = function(a) return near(a.own_without_noise, vector{2, 3, 4}, {rel = 1e-2}) end,
          say = "The order is a1, a2, b0."},
     },
@@ -27,9 +27,9 @@ check { id = "own_without_noise", points = 2, about = "Your own LSSVF, record wi
 
 check { id = "own_is_lssvf", points = 2, about = "Your own LSSVF agrees with the library's",
     test = function(a) return near(a.own, lssvf(a.record, {2, 1, 0}, 3).param, {rel = 5e-4, half = 1e-2}) end,
-    hint = "Both solve the same regression: apply them to the same record, with the same lambda." }
+    hint = "Both solve the same regression: apply them to the same data, with the same lambda." }
 
-check { id = "record", points = 1, about = "The noisy record is the one asked for",
+check { id = "record", points = 1, about = "The noisy data are the requested ones",
     test = function(a)
         if #a.record.y ~= #clean.y or max(abs(a.record.u - clean.u)) > 0 then
             return false, "The input must be prbs(4, 100), 1500 samples."
@@ -44,12 +44,12 @@ check { id = "lssvf", points = 1, about = "LSSVF of the library",
     test = function(a) return near(a.G_lssvf.param, lssvf(a.record, {2, 1, 0}, 3).param, {rel = 5e-4}) end,
     mistakes = {
         {when = function(a) return near(a.G_lssvf.param, ivsvf(a.record, {2, 1, 0}, 3).param, {rel = 5e-4}) end,
-         say = "This is what ivsvf gives."},
+         say = "This is the model of ivsvf."},
         {when = function(a)
              local function with(lambda) return near(a.G_lssvf.param, lssvf(a.record, {2, 1, 0}, lambda).param, {rel = 5e-4}) end
              return any_of(with(0.3), with(30))
          end,
-         say = "The model was made with another lambda than 3."},
+         say = "The model was estimated with a lambda other than 3."},
     },
     hint = "lssvf(data, {2, 1, 0}, 3)" }
 
@@ -82,7 +82,7 @@ check { id = "final_is_estimated", points = 1, about = "The recommended model ca
         local G = a.G_final
         return near(G.param, truth, {abs = 4*max(G.std)})
     end,
-    hint = "Hand in the model that the method returned, not one you typed in." }
+    hint = "Submit the model that the method returned; do not type it in." }
 
 check { id = "scatter", points = 2, about = "Monte Carlo: the scatter of the recommended method",
     test = function(a) return near(a.scatter/bound, ones(3), {abs = 0.2, half = 0.5}) end,
@@ -94,4 +94,4 @@ check { id = "follows_data", points = 3, rerun = "seed", about = "The results fo
                       near(b.own, lssvf(b.record, {2, 1, 0}, 3).param, {rel = 5e-4}),
                       near(dcgain(b.G_final), 2/3, {rel = 0.2}))
     end,
-    hint = "Compute every answer from the record; type none in." }
+    hint = "Compute every answer from the data; do not type any in." }

@@ -1,5 +1,5 @@
 -- ---
--- title: Continuous-time models from noisy records
+-- title: Continuous-time models from noisy data
 -- subtitle: Lesson 4 – LSSVF, IVSVF and TFSRIVC on a system that is known
 -- lesson: 04_estimators
 -- template: lesson
@@ -17,36 +17,36 @@
 -- ---
 
 -- %% [markdown]
--- Three methods estimate a differential equation straight from samples [@garnier2008]: least squares on filtered signals (LSSVF), the same
--- regression with instruments (IVSVF), and the refined instrumental variables of TFSRIVC [@young2011]. Which of them can be believed? With a
--- real plant nobody knows the answer. All data of this lesson are therefore simulated: the system is given, the noise is drawn by the
--- computer, and every estimate can be compared with the truth, once and then two hundred times.
+-- Three methods estimate a differential equation directly from samples [@garnier2008]: least squares on filtered signals (LSSVF), the same regression
+-- with instruments (IVSVF), and the refined instrumental variables of TFSRIVC [@young2011]. Which of them can you believe? For a real plant, the
+-- answer is unknown. All data of this lesson are therefore simulated. The system is given and the computer generates the noise, so you can compare
+-- every estimate with the truth, once and then two hundred times.
 --
--- `dynlab demo` shows the methods in short guided tours; take one before you start or when you want to see more.
+-- `dynlab demo` shows the methods in short guided tours. Run one before you start, or when you want to see more.
 --
 -- The work is planned for two sessions of three hours:
 --
 -- | session | questions, with minutes | aim |
 -- |--------------|-------------------------|------------------------|
--- | Regressions and their bias | 1 (5), 2 (15), 3 (20), 4 (35), 5 (20), 6 (15), 7 (25), 8 (25), 9 (20) | write an estimator, see its bias, remove it by instruments, and know what the filter does |
--- | Which method, and how sure | 10 (25), 11 (35), 12 (25), 13 (20), 14 (25), 15 (30), 16 (20) | compare methods over many records with the best that is possible, and with discrete time |
+-- | Regressions and their bias | 1 (5), 2 (15), 3 (20), 4 (35), 5 (20), 6 (15), 7 (25), 8 (25), 9 (20) | write an estimator, see its bias, remove it by instruments, and understand the effect of the filter |
+-- | Which method, and how certain | 10 (25), 11 (35), 12 (25), 13 (20), 14 (25), 15 (30), 16 (20) | compare methods over many data sets with the best possible method, and with discrete time |
 --
--- # The system and its record
+-- # The system and its data
 --
 -- ## The true system
 --
--- The input $u$ drives a second-order system; its output $x$ is sampled every $T_s$ seconds and measured with an error,
+-- The input $u$ drives a second-order system. Its output $x$ is sampled every $T_s$ seconds and measured with an error,
 --
 -- $$ x(t) = \frac{B_o(p)}{F_o(p)}\,u(t), \qquad y(t_k) = x(t_k) + e(t_k), $$ {#eq:system}
 --
--- with $B_o(p) = 2$ and $F_o(p) = p^2 + 4p + 3$, where $p$ stands for $\mathrm{d}/\mathrm{d}t$ and the $e(t_k)$ are independent, Gaussian,
--- of mean zero and standard deviation $\sigma$.
+-- with $B_o(p) = 2$ and $F_o(p) = p^2 + 4p + 3$, where $p$ means $\mathrm{d}/\mathrm{d}t$ and the $e(t_k)$ are independent, Gaussian, of mean zero
+-- and standard deviation $\sigma$.
 --
 -- **Question 1.** Which model structure does @eq:system have: CARX, COE or CBJ? (CARX: $A\,y = B\,u + e$; COE: $y = \frac{B}{F}\,u + e$; CBJ: $y = \frac{B}{F}\,u + \frac{C}{D}\,e$.)
 --
 -- BEGIN SOLUTION
--- COE, a continuous-time output-error structure. The disturbance is added to the output behind the system; it passes neither through
--- $1/F_o$, as it would in CARX, nor through a noise model of its own, as in CBJ.
+-- COE, a continuous-time output-error structure. The disturbance is added to the output. It passes neither through $1/F_o$, as in CARX, nor through a
+-- separate noise model, as in CBJ.
 -- END SOLUTION
 --
 -- **Question 2.** What are the system's main features: steady-state gain, poles, time constants with their corner frequencies, and
@@ -78,16 +78,16 @@ report.value("band", bandwidth(Go), "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The steady-state gain is $B_o(0)/F_o(0) =$ `gain`{.value}. Two real poles at $-$`slow_corner`{.value} and $-$`fast_corner`{.value} mean
--- time constants of `slow_constant`{.value} s and `fast_constant`{.value} s, and corner frequencies of `slow_corner`{.value} and
--- `fast_corner`{.value} rad/s. The slow pole dominates: the gain has fallen by 3 dB already at `band`{.value} rad/s, a little below its corner.
--- (Bandwidth here means this $-3$ dB frequency. Some texts call the faster corner, `fast_corner`{.value} rad/s, the band of the system.)
+-- The steady-state gain is $B_o(0)/F_o(0) =$ `gain`{.value}. Two real poles at $-$`slow_corner`{.value} and $-$`fast_corner`{.value} give time
+-- constants of `slow_constant`{.value} s and `fast_constant`{.value} s, and corner frequencies of `slow_corner`{.value} and `fast_corner`{.value}
+-- rad/s. The slow pole dominates: the gain has already fallen by 3 dB at `band`{.value} rad/s, a little below its corner frequency. (Bandwidth here
+-- means this $-3$ dB frequency. Some texts call the faster corner frequency, `fast_corner`{.value} rad/s, the band of the system.)
 -- END SOLUTION
 --
--- ## The record
+-- ## The data
 --
--- The input is a pseudo-random binary sequence whose value may change once per second. One period of it is recorded, with
--- $\sigma = 0.2$, and kept in two data objects: without noise and with it.
+-- The input is a pseudo-random binary sequence that may change once per second. The data have one period of it, with $\sigma = 0.2$, in two data
+-- objects: without noise and with noise.
 
 -- %% id=record
 local Ts, N = 0.01, 1500
@@ -99,52 +99,53 @@ local signals = {InputName = "input u", OutputName = "output y"}
 local data0, data = iddata(x, u, Ts, signals), iddata(y, u, Ts, signals)
 report.figure("record", idplot(data, {labels = {"measured"}})
               :add(data.t, x, {label = "without noise", line_width = 1.8}),
-              "The record")
+              "The data")
 local snr = 20*math.log(std(x)/sigma, 10)
 print(string.format("signal-to-noise ratio: %.1f dB", snr))
 
 -- %% [markdown]
--- ![The record: above, the measured output (thin) and the noise-free output (thick), which a real experiment would not show; below, the input.](figure:record){#fig:record}
+-- ![The data. Above: the measured output (thin) and the noise-free output (thick), which a real experiment does not show. Below: the input.](figure:record){#fig:record}
 --
--- This record is poor on purpose (@fig:record). Between two samples the output moves by far less than the noise does, and the
--- signal-to-noise ratio of 5 dB is that of a poor industrial record. We assume that the orders are known, two poles and no zero, and come back to
--- this assumption at the end.
+-- These data are poor on purpose (@fig:record). Between two samples, the output changes much less than the noise. The signal-to-noise ratio of 5 dB
+-- is typical of poor industrial data. We assume that the orders are known, two poles and no zero, and come back to this assumption at the end.
 --
 -- # Least squares on filtered signals, by hand
 --
 -- ## The regression
 --
--- Take the CARX model $A(p)\,y(t) = B(p)\,u(t) + e(t)$ with $A(p) = p^2 + a_1 p + a_2$ and $B(p) = b_0$. Its derivatives are not
--- measured, and differentiating noisy samples is hopeless. So every signal is sent through the same filter first,
+-- Take the CARX model $A(p)\,y(t) = B(p)\,u(t) + e(t)$ with $A(p) = p^2 + a_1 p + a_2$ and $B(p) = b_0$. Its derivatives are not measured, and
+-- differentiating noisy samples is hopeless. Therefore, first pass every signal through the same filter,
 --
 -- $$ y_f(t) = \frac{1}{E(p)}\,y(t), \qquad u_f(t) = \frac{1}{E(p)}\,u(t), \qquad E(p) = (p + \lambda)^2 , $$ {#eq:filter}
 --
--- whose state holds $y_f$, $p\,y_f$ and $p^2 y_f$ without any differentiation: the *state-variable filter*.
+-- The state of this filter contains $y_f$, $p\,y_f$ and $p^2 y_f$ without any differentiation, so it is called the *state-variable filter*.
 --
 -- **Question 3.** Write the model for the $N$ samples as a linear regression in matrix form, with the sizes of the matrices. What is its
 -- least-squares solution?
 --
 -- BEGIN SOLUTION
--- The filtered signals obey the same equation, sample by sample,
+-- The filtered signals satisfy the same equation, sample by sample,
 --
 -- $$ p^2 y_f(t_k) = -a_1\,p\,y_f(t_k) - a_2\,y_f(t_k) + b_0\,u_f(t_k) + \varepsilon(t_k) , $$ {#eq:solution-sample}
 --
--- and stacked over $k = 1, \dots, N$ they become $Y = \Phi\theta + \varepsilon$ with
+-- and for $k = 1, \dots, N$ they become $Y = \Phi\theta + \varepsilon$ with
 --
 -- $$ Y = \begin{pmatrix} p^2 y_f(t_1) \\ \vdots \\ p^2 y_f(t_N) \end{pmatrix}, \quad
 --    \Phi = \begin{pmatrix} -p\,y_f(t_1) & -y_f(t_1) & u_f(t_1) \\ \vdots & \vdots & \vdots \\
 --    -p\,y_f(t_N) & -y_f(t_N) & u_f(t_N) \end{pmatrix}, \quad
 --    \theta = \begin{pmatrix} a_1 \\ a_2 \\ b_0 \end{pmatrix} , $$ {#eq:solution-matrices}
 --
--- where $Y$ and $\varepsilon$ are columns of $N$ values, $\Phi$ has $N$ rows and 3 columns, and $\theta$ holds 3 values. The sum of squares $\lVert Y - \Phi\theta \rVert^2$ is smallest for $\hat\theta = (\Phi^T\Phi)^{-1}\Phi^T Y$, which a program computes by an
--- orthogonal factorisation of $\Phi$, without forming an inverse.
+-- where $Y$ and $\varepsilon$ are columns of $N$ values, $\Phi$ has $N$ rows and 3 columns, and $\theta$ has 3 values. The sum of squares
+-- $\lVert Y - \Phi\theta \rVert^2$ is smallest for $\hat\theta = (\Phi^T\Phi)^{-1}\Phi^T Y$. A program computes it by an orthogonal factorization of
+-- $\Phi$, without forming an inverse.
 -- END SOLUTION
 --
 -- ## Your own estimator
 --
--- **Question 4.** Write your own LSSVF. `svf(x, 2, lambda, {Ts = Ts})` gives a matrix `X` with the columns $p^2 x_f$, $p\,x_f$ and $x_f$
--- (`X:col(1)` is the first), and `solve(Phi, Y)` the least-squares solution. Between the samples the input is held, `hold = "zoh"`; the measured output runs in
--- straight lines, `hold = "foh"`, which is the default of `svf`. Set $\lambda = 3$ rad/s and try it on the record without noise.
+-- **Question 4.** Write your own LSSVF. `svf(x, 2, lambda, {Ts = Ts})` returns a matrix `X` with the columns $p^2 x_f$, $p\,x_f$ and $x_f$
+-- (`X:col(1)` is the first). `solve(Phi, Y)` returns the least-squares solution. Between the samples, the input is constant, `hold = "zoh"`. The
+-- measured output is taken as piecewise linear, `hold = "foh"`, which is the default of `svf`. Set $\lambda = 3$ rad/s and try it on the data without
+-- noise.
 
 -- %% id=own_lssvf
 -- BEGIN SOLUTION
@@ -184,13 +185,13 @@ report.value("fine_ratio", largest_relative(own0, truth)/largest_relative(fine.p
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The estimates are right within `own0_miss`{.value} %. What is left is not a programming error but the price of sampling: the filter sees the
--- output as straight lines between the samples while in truth it is curved. With a sampling time half as long the error is
--- `fine_ratio`{.value} times smaller, as expected of an error proportional to $T_s^2$.
+-- The estimates are right within `own0_miss`{.value} %. The remaining error is not a programming error but the price of sampling: the filter
+-- interpolates the output linearly between the samples, and the true output is curved. With half the sampling time, the error is `fine_ratio`{.value}
+-- times smaller, as expected for an error proportional to $T_s^2$.
 -- END SOLUTION
 --
--- **Question 5.** Now the record with noise. Are the estimates still close to the truth? Repeat with other noise: are the
--- errors random, or do they always point the same way? (`dynlab run analysis.lua --seed random` runs everything with other noise.)
+-- **Question 5.** Now use the data with noise. Are the estimates still close to the truth? Repeat with other noise: are the errors random, or do they
+-- always have the same sign? (`dynlab run analysis.lua --seed random` runs everything with other noise.)
 
 -- %% id=own_noisy
 -- BEGIN SOLUTION
@@ -217,24 +218,23 @@ report.table("repetitions", rows)
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=repetitions #tbl:repetitions}
--- Own LSSVF, $\lambda = 3$ rad/s: estimates from the record with noise and from five repetitions with other noise. All lie below the truth.
+-- Your own LSSVF, $\lambda = 3$ rad/s: estimates from the data with noise and from five repetitions with other noise. All are below the truth.
 -- :::
 --
--- They are not (@tbl:repetitions), and the errors are systematic: chance would put some estimates above the truth and some below it, but all three
--- parameters come out too small, in one repetition after the other. Least squares is *biased* here. The noise of $y$ appears on both
--- sides of @eq:solution-sample. For the true parameters the remaining equation error is
+-- They are not (@tbl:repetitions), and the errors are systematic. By chance, some estimates would be above the truth and some below. But all three
+-- parameters are too small, in every repetition. Least squares is *biased* here. The noise of $y$ appears on both sides of @eq:solution-sample. For
+-- the true parameters the remaining equation error is
 --
 -- $$ \varepsilon(t) = \frac{A(p)}{E(p)}\,e(t) , $$ {#eq:solution-colour}
 --
--- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same $e$, filtered another way. Regressors and error are correlated,
--- as in the long noisy records at the end of lesson 2, and a longer record would not cure that: the bias depends on the variance of the
--- noise, not on the number of samples.
+-- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same $e$ with another filter. Regressors and error are correlated, as in the long noisy
+-- data at the end of lesson 2. Longer data would not help: the bias depends on the variance of the noise, not on the number of samples.
 -- END SOLUTION
 --
 -- ## The library's LSSVF
 --
--- **Question 6.** `lssvf(data, {na, nb, nk}, lambda)` does the same for a data object: `na` poles, `nb` coefficients of $B$, `nk` samples
--- of delay. Apply it to both records and compare it with your own program.
+-- **Question 6.** `lssvf(data, {na, nb, nk}, lambda)` does the same for a data object: `na` poles, `nb` coefficients of $B$, `nk` samples of delay.
+-- Apply it to both data objects and compare it with your own program.
 
 -- %% id=lssvf
 -- BEGIN SOLUTION
@@ -253,8 +253,8 @@ report.value("agreement", math.max(largest_relative(own0, Glssvf0.param), larges
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Both programs give the same numbers: the largest relative difference, `agreement`{.value}, is rounding. The library is only faster,
--- because it sums the few products it needs while it filters and never stores $\Phi$.
+-- Both programs give the same numbers: the largest relative difference, `agreement`{.value}, is rounding. The library is only faster, because it
+-- computes the necessary sums of products while it filters, and never stores $\Phi$.
 -- END SOLUTION
 
 -- %% [markdown]
@@ -262,15 +262,14 @@ report.value("agreement", math.max(largest_relative(own0, Glssvf0.param), larges
 --
 -- ## IVSVF
 --
--- The cure keeps the regression of question 3 and changes how it is solved. Instead of $\Phi^T Y = \Phi^T\Phi\,\theta$ one solves
+-- The solution is to keep the regression of question 3 and to solve it in another way. Instead of $\Phi^T Y = \Phi^T\Phi\,\theta$, solve
 --
 -- $$ Z^T Y = Z^T\Phi\,\theta , $$ {#eq:iv}
 --
--- where the *instruments* $Z$ resemble $\Phi$ but are independent of the noise. IVSVF makes them in two steps: LSSVF gives a first
--- model, the first model is simulated with the input $u$, and its output takes the place of $y$ in the regressors.
+-- where the *instruments* $Z$ resemble $\Phi$ but are independent of the noise. IVSVF computes them in two steps. First, LSSVF estimates a model.
+-- Then IVSVF simulates this model with the input $u$, and the simulated output replaces $y$ in the regressors.
 --
--- **Question 7.** Estimate the model by `ivsvf` and compare it with LSSVF. As a bonus, write it yourself: three lines added to your own LSSVF
--- will do.
+-- **Question 7.** Estimate the model by `ivsvf` and compare it with LSSVF. As a bonus, write it yourself: add three lines to your own LSSVF.
 
 -- %% id=ivsvf
 -- BEGIN SOLUTION
@@ -293,18 +292,18 @@ report.value("iv_miss", 100*largest_relative(Givsvf.param, truth), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The worst parameter of LSSVF misses the truth by `ls_miss`{.value} %, that of IVSVF by `iv_miss`{.value} %. It does not matter that the
--- instruments come from a biased model: they need not be right, they must be independent of the noise and resemble the regressors. The own
--- three lines agree with the library (`iv_agreement`{.value} relative difference).
+-- The worst parameter of LSSVF misses the truth by `ls_miss`{.value} %, and the worst of IVSVF by `iv_miss`{.value} %. The instruments come from a
+-- biased model, but this does not matter. They need not be right: they must be independent of the noise and resemble the regressors. The three lines
+-- agree with the library (`iv_agreement`{.value} relative difference).
 -- END SOLUTION
 --
 -- ## The choice of λ
 --
--- Both methods need a number from the user, the cut-off frequency $\lambda$ of the filter. It is usually chosen a bit above the bandwidth of
--- the system, which for a real plant one would like to know first.
+-- Both methods need a number from the user, the cut-off frequency $\lambda$ of the filter. The usual choice is a little above the bandwidth of the
+-- system, which is unknown for a real plant.
 --
--- **Question 8.** How sensitive is IVSVF to this choice? Compare $\lambda = 0.3$, 3 and 30 rad/s. One record says little; `montecarlo`
--- repeats the experiment with fresh noise as often as you like (`dynlab help montecarlo`).
+-- **Question 8.** How sensitive is IVSVF to this choice? Compare $\lambda = 0.3$, 3 and 30 rad/s. One data set says little. `montecarlo` repeats the
+-- experiment with new noise as often as you like (`dynlab help montecarlo`).
 
 -- %% id=lambda
 -- BEGIN SOLUTION
@@ -359,19 +358,21 @@ report.value("many_runs", near_best.runs, "%d")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=lambda #tbl:lambda}
--- IVSVF with three filters: mean over 200 records and, in brackets, the standard deviation; last, the mean of the standard errors that the method itself reported.
+-- IVSVF with three filters: mean over 200 data sets and, in parentheses, the standard deviation. The last column is the mean of the standard errors
+-- that the method reported.
 -- :::
 --
--- ![IVSVF with three filters, 200 estimates each: $\hat a_2$ over $\hat a_1$. Above, all estimates; below, the middle enlarged, with the true value (4, 3) and the ellipse that holds 95 % of the estimates of the best possible unbiased method. Only $\lambda = 3$ stays close to it.](figure:lambda){#fig:lambda}
+-- ![IVSVF with three filters, 200 estimates each: $\hat a_2$ over $\hat a_1$. Above: all estimates. Below: the center enlarged, with the true value (4, 3) and the ellipse that contains 95 % of the estimates of the best possible unbiased method. Only $\lambda = 3$ stays close to it.](figure:lambda){#fig:lambda}
 --
--- Very sensitive (@tbl:lambda, @fig:lambda). Over `runs`{.value} records the scatter of $\hat a_1$ is `low_ratio`{.value} times larger with $\lambda = 0.3$ and
--- `high_ratio`{.value} times larger with $\lambda = 30$ than with $\lambda = 3$; some records give nonsense. Note the means, too: `low_mean`{.value}\ ±\ `low_mean_error`{.value} and
--- `high_mean`{.value}\ ±\ `high_mean_error`{.value} (± the standard error of a mean of `runs`{.value}) are significantly above 4. Instrumental variables are *consistent*: they
--- converge to the truth as the record grows. On a finite, noisy record they are not exactly unbiased.
+-- IVSVF is very sensitive (@tbl:lambda, @fig:lambda). Over `runs`{.value} data sets, the scatter of $\hat a_1$ is `low_ratio`{.value} times larger
+-- with $\lambda = 0.3$ and `high_ratio`{.value} times larger with $\lambda = 30$ than with $\lambda = 3$. Some data sets give nonsense. Also note the
+-- means: `low_mean`{.value}\ ±\ `low_mean_error`{.value} and `high_mean`{.value}\ ±\ `high_mean_error`{.value} (± the standard error of a mean of
+-- `runs`{.value}) are significantly above 4. Instrumental variables are *consistent*: they converge to the truth as the number of samples grows. With
+-- a finite number of noisy samples, they are not exactly unbiased.
 -- END SOLUTION
 --
--- **Question 9.** Why? Put the true parameters into the regression: how does the filter colour the noise that is left over, and which filter
--- would be the best one? (`freqresp(G, w).abs` gives the magnitude of a transfer function.)
+-- **Question 9.** Why? Put the true parameters into the regression: how does the filter color the remaining noise, and which filter is the best one?
+-- (`freqresp(G, w).abs` returns the magnitude of a transfer function.)
 
 -- %% id=colour
 -- BEGIN SOLUTION
@@ -384,20 +385,20 @@ local weights = plot(w, colour(0.3), "λ = 0.3", w, colour(3), "λ = 3",
                      {x_log = true, y_log = true, height = 5.5, dash = {1, 0, 2, 3},
                       xlabel = "frequency (rad/s)", ylabel = "weight |A/E|",
                       legend = "direct"})
-report.figure("colour", weights, "How the filter colours the equation error")
+report.figure("colour", weights, "How the filter colors the equation error")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![How the filter colours the equation error: the magnitude $|A/E|$, by which white measurement noise is multiplied, for three values of $\lambda$ (full: 3 rad/s) and for the best filter, $E = A$, which leaves it white](figure:colour){#fig:colour}
+-- ![How the filter colors the equation error: the magnitude $|A/E|$, which multiplies white measurement noise, for three values of $\lambda$ (solid: 3 rad/s) and for the best filter, $E = A$, which keeps it white](figure:colour){#fig:colour}
 --
--- The regression treats all samples of $\varepsilon$ alike, which is best when they are white. By @eq:solution-colour $\varepsilon$ is the white
--- noise $e$ seen through $A/E$ (@fig:colour). With $\lambda = 0.3$ the slow part of the noise is amplified far above the rest, and the filter's
--- memory is so long that the record hardly holds more than its transient. With $\lambda = 30$ nearly all of the noise lies at frequencies
--- where the system no longer responds, and it drowns the information about the slow pole. Of the three, $\lambda = 3$ comes closest to a level line,
--- and the level line itself is $E = A$: the best filter is $1/A$, with the system's own denominator. Among the filters $(p+\lambda)^2$ the one nearest to
--- $A = p^2 + 4p + 3$ has $\lambda = \sqrt 3 \approx 1.7$, where the constant terms agree; over `many_runs`{.value} records it scatters by `root_std`{.value} in
--- $\hat a_1$, $\lambda = 3$ by `three_std`{.value}. Nobody knows $A$ beforehand, but one can get there in steps.
+-- The regression gives all samples of $\varepsilon$ the same weight, which is optimal if they are white. By @eq:solution-colour, $\varepsilon$ is the
+-- white noise $e$ filtered by $A/E$ (@fig:colour). With $\lambda = 0.3$, the slow part of the noise is much larger than the rest. The filter's memory
+-- is so long that the data contain little more than its transient. With $\lambda = 30$, nearly all of the noise is at frequencies where the system no
+-- longer responds, and it hides the information about the slow pole. Of the three, $\lambda = 3$ is closest to a constant magnitude. The magnitude is
+-- constant for $E = A$: the best filter is $1/A$, with the denominator of the system. Among the filters $(p+\lambda)^2$, the one nearest to
+-- $A = p^2 + 4p + 3$ has $\lambda = \sqrt 3 \approx 1.7$, where the constant terms agree. Over `many_runs`{.value} data sets, its scatter in
+-- $\hat a_1$ is `root_std`{.value}, and the scatter for $\lambda = 3$ is `three_std`{.value}. $A$ is unknown, but you can approach it in steps.
 -- END SOLUTION
 --
 -- # Refined instrumental variables
@@ -406,16 +407,16 @@ report.figure("colour", weights, "How the filter colours the equation error")
 --
 -- $$ y(t_k) = \frac{B(p)}{F(p)}\,u(t_k) + e(t_k) $$ {#eq:coe}
 --
--- iteratively: it filters with $1/F$ of the current model, makes instruments with the same model, solves @eq:iv, and repeats this
--- with the new model until nothing changes. There is no $\lambda$ to choose.
+-- iteratively. It filters with $1/F$ of the current model, computes instruments with the same model, and solves @eq:iv. It repeats this with the new
+-- model until the parameters converge. There is no $\lambda$ to choose.
 --
 -- ::: note
--- Here the second session begins: *which method, and how sure*. Run what you have (`dynlab run -i analysis.lua`); the models of the first session are compared with the
--- new one.
+-- The second session begins here: *which method, and how certain*. Run your script (`dynlab run -i analysis.lua`). You will compare the models of the
+-- first session with the new one.
 -- :::
 --
--- **Question 10.** Estimate the model by `tfsrivc(data, np, nz, {TdMax = 0})`, where `np` and `nz` count poles and zeros and the largest
--- delay is zero, so that none is looked for. `present` shows the parameters with their standard errors: put `present(Gtf)` next to
+-- **Question 10.** Estimate the model by `tfsrivc(data, np, nz, {TdMax = 0})`, where `np` and `nz` are the numbers of poles and zeros. The largest
+-- delay is zero, so the method does not search for a delay. `present` shows the parameters with their standard errors: compare `present(Gtf)` with
 -- `present(Go)`. Compare all methods with the truth.
 
 -- %% id=tfsrivc
@@ -454,21 +455,23 @@ report.value("possible_fit", fit(data, Go), "%.1f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=methods #tbl:methods}
--- The three methods on the record (± one reported standard error). The fit is that of the simulated output, to the measured output $y$ and to the noise-free output $x$.
+-- The three methods (± one reported standard error). The fits compare the simulated output with the measured output $y$ and with the noise-free
+-- output $x$.
 -- :::
 --
 -- ![Simulated outputs of the three models minus the noise-free output $x$; a perfect model would give zero. The peak of $x$ is about 0.7.](figure:errors){#fig:errors}
 --
--- TFSRIVC needed `iterations`{.value} iterations. Two things in @tbl:methods are worth noting. A fit near `possible_fit`{.value} % is not a
--- bad model: the true system itself reaches no more, because the rest is noise. And judged by the fit to the measured output all three models look alike, although
--- their parameters do not. The noise-free output, which only a simulation has, tells them apart (@fig:errors). Which of the two instrumental-variable
--- methods comes closer to the truth on one single record is a matter of luck.
+-- TFSRIVC needed `iterations`{.value} iterations. Note two things in @tbl:methods. A fit near `possible_fit`{.value} % does not mean a bad model: the
+-- true system itself reaches no more, because the rest is noise. And the fits to the measured output are similar for all three models, although their
+-- parameters are not. The noise-free output, which only a simulation has, shows the difference (@fig:errors). For one data set, chance decides which
+-- of the two instrumental-variable methods is closer to the truth.
 -- END SOLUTION
 --
--- # Two hundred records
+-- # Two hundred data sets
 --
--- **Question 11.** One record can flatter a method. Repeat the experiment 200 times with $\sigma = 0.2$ for the three methods, with
--- $\lambda = 3$ where one is wanted. Which are biased? Which scatter least? Do the standard errors that they report tell the truth?
+-- **Question 11.** One data set can make a method look good by chance. Repeat the experiment 200 times with $\sigma = 0.2$ for the three methods,
+-- with $\lambda = 3$ for the methods that need it. Which methods are biased? Which method has the smallest scatter? Are the reported standard errors
+-- right?
 
 -- %% id=monte_carlo
 -- BEGIN SOLUTION
@@ -503,7 +506,7 @@ report.value("tf_over", low.TFSRIVC.reported_std[1]/low.TFSRIVC.std[1], "%.2f")
 report.value("tf_bound", low.TFSRIVC.std[1]/low.TFSRIVC.cramer_rao_std[1], "%.2f")
 report.value("iv_more", 100*(low.IVSVF.std[1]/low.TFSRIVC.std[1] - 1), "%.0f")
 report.value("std_error", 100/math.sqrt(2*(low.runs - 1)), "%.0f")
--- both methods saw the same records, so the ratio of their scatters is known better than either of them
+-- both methods use the same data, so the ratio of their scatters is more certain than each of them
 local iv, tf_ = low.IVSVF.theta:col(1), low.TFSRIVC.theta:col(1)
 local correlation = mean((iv - mean(iv))*(tf_ - mean(tf_)))/(std(iv)*std(tf_))
 report.value("iv_more_error", 100*math.sqrt((1 - math.min(correlation, 1)^2)/(low.runs - 1)), "%.0f")
@@ -512,24 +515,26 @@ report.value("iv_more_error", 100*math.sqrt((1 - math.min(correlation, 1)^2)/(lo
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=low #tbl:low}
--- $\sigma = 0.2$: mean over 200 records and, in brackets, the standard deviation. First row: the truth and the Cramér–Rao bound, the smallest standard deviation that an unbiased method can have. Last column: the mean of the standard errors that the method reported for $a_1$.
+-- $\sigma = 0.2$: mean over 200 data sets and, in parentheses, the standard deviation. First row: the truth and the Cramér–Rao bound, which is the
+-- smallest possible standard deviation of an unbiased method. Last column: the mean of the standard errors that the method reported for $a_1$.
 -- :::
 --
--- ![The estimates from 200 records with $\sigma = 0.2$, one row for each method and one column for each parameter; dashed: the truth. The histograms of LSSVF are narrow and stand beside it.](figure:histograms){#fig:histograms}
+-- ![The estimates from 200 data sets with $\sigma = 0.2$, one row for each method and one column for each parameter; dashed: the truth. The histograms of LSSVF are narrow and miss the truth.](figure:histograms){#fig:histograms}
 --
--- * LSSVF scatters little around the wrong place: on average it misses $a_1$ by `ls_bias`{.value} times its own scatter. A narrow histogram is
---   no merit by itself.
--- * IVSVF is centred on the truth. Its scatter is `iv_more`{.value}\ ±\ `iv_more_error`{.value} % above that of TFSRIVC, since its filter is not quite the best.
--- * TFSRIVC is centred on the truth too, and its scatter is `tf_bound`{.value} times the Cramér–Rao bound. A standard
---   deviation from 200 runs is itself uncertain by `std_error`{.value} %; within that, there is nothing left to gain from this record.
--- * The errors that IVSVF and TFSRIVC report can be trusted: on average they are `iv_over`{.value} and `tf_over`{.value} times the true scatter. Those of LSSVF are
---   `ls_over`{.value} times the true scatter, since their formula supposes a white equation error, and @fig:colour shows that it is not white. Above all they say
---   nothing of the bias: no standard error does.
+-- * LSSVF has a small scatter around a wrong value: on average it misses $a_1$ by `ls_bias`{.value} times its scatter. A narrow histogram alone is no
+--   merit.
+-- * IVSVF is centered on the truth. Its scatter is `iv_more`{.value}\ ±\ `iv_more_error`{.value} % above that of TFSRIVC, because its filter is not
+--   quite the best.
+-- * TFSRIVC is also centered on the truth, and its scatter is `tf_bound`{.value} times the Cramér–Rao bound. A standard deviation from 200 runs is
+--   itself uncertain by `std_error`{.value} %. Within this uncertainty, no method can extract more from these data.
+-- * You can trust the errors that IVSVF and TFSRIVC report: on average they are `iv_over`{.value} and `tf_over`{.value} times the true scatter. The
+--   errors of LSSVF are `ls_over`{.value} times the true scatter, because their formula assumes a white equation error. @fig:colour shows that the
+--   error is not white. Above all, standard errors do not include the bias.
 -- END SOLUTION
 --
 -- **Question 12.** Double the noise to $\sigma = 0.4$. What happens to the three methods?
 --
--- Guess first: by what factor does the bias of LSSVF grow? `outcome` prints your guess next to the result.
+-- First, enter a prediction: by what factor does the bias of LSSVF grow? `outcome` prints your prediction next to the result.
 
 -- %% id=noise_guess
 -- BEGIN SOLUTION
@@ -576,21 +581,23 @@ report.value("tf_failures", high.TFSRIVC.failed + high.TFSRIVC.not_converged, "%
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=high #tbl:high}
--- $\sigma = 0.4$: mean and standard deviation, the columns as in @tbl:low.
+-- $\sigma = 0.4$: mean and standard deviation, with the columns of @tbl:low.
 -- :::
 --
--- ![$\hat b_0$ over $\hat a_1$ from 200 records with $\sigma = 0.4$, one panel for each method; marked: the true value; the ellipse would hold 95 % of the estimates of the best unbiased method. The cloud of LSSVF misses it.](figure:scatter){#fig:scatter}
+-- ![$\hat b_0$ over $\hat a_1$ from 200 data sets with $\sigma = 0.4$, one panel for each method; marked: the true value. The ellipse would contain 95 % of the estimates of the best unbiased method. The cloud of LSSVF misses it.](figure:scatter){#fig:scatter}
 --
--- The bias of LSSVF grows from `ls_low`{.value} % of $a_1$ to `ls_high`{.value} % (@tbl:high), by a factor of `ls_growth`{.value}. A factor of four is the natural guess, since the bias comes from the variance
--- of the noise. But the noise is also in the denominator: in the long run least squares gives $(R + \sigma^2 E)^{-1} R\,\theta$ instead of $\theta$, where $R$ and $E$ are the covariances of the noise-free regressors and of their noise for $\sigma = 1$ (lesson 2). The
--- bias is proportional to $\sigma^2$ only while $\sigma^2 E$ is small against $R$; then it saturates, and it never exceeds 100 %. IVSVF and TFSRIVC stay near the truth;
--- their scatter grows with the noise, for TFSRIVC by a factor of `tf_growth`{.value}, and the number of records on which its iterations
--- did not converge is `tf_failures`{.value}. @fig:scatter also shows that the errors of $\hat a_1$ and $\hat b_0$ are correlated. A model that is too fast gets too large a $b_0$, so that the gain
--- $b_0/a_2$, which the record determines well, comes out right.
+-- The bias of LSSVF grows from `ls_low`{.value} % of $a_1$ to `ls_high`{.value} % (@tbl:high), by a factor of `ls_growth`{.value}. A factor of four
+-- is the natural prediction, because the bias comes from the variance of the noise. But the noise is also in the denominator. For many samples, the
+-- least-squares estimate tends to $(R + \sigma^2 E)^{-1} R\,\theta$ instead of $\theta$. Here $R$ and $E$ are the covariances of the noise-free
+-- regressors and of their noise for $\sigma = 1$ (lesson 2). The bias is proportional to $\sigma^2$ only while $\sigma^2 E$ is small compared with
+-- $R$. Then it saturates, and it never exceeds 100 %. IVSVF and TFSRIVC stay near the truth. Their scatter grows with the noise, for TFSRIVC by a
+-- factor of `tf_growth`{.value}. The number of data sets for which its iterations did not converge is `tf_failures`{.value}. @fig:scatter also shows
+-- that the errors of $\hat a_1$ and $\hat b_0$ are correlated. A model that is too fast gets too large a $b_0$, so the gain $b_0/a_2$, which the data
+-- determine well, is right.
 -- END SOLUTION
 --
--- **Question 13.** LSSVF has to assume how the measured output behaves between its samples: in straight lines (`hold_y = "foh"`,
--- which is what you did) or held (`hold_y = "zoh"`). Does its bias depend on this?
+-- **Question 13.** LSSVF must assume how the measured output behaves between its samples: piecewise linear (`hold_y = "foh"`, as in your program) or
+-- constant (`hold_y = "zoh"`). Does its bias depend on this assumption?
 
 -- %% id=hold
 -- BEGIN SOLUTION
@@ -616,27 +623,28 @@ report.table("holds", hold_rows)
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=holds #tbl:holds}
--- LSSVF with two assumptions about the output between its samples, $\sigma = 0.2$: mean over 200 records and, in brackets, standard deviation.
+-- LSSVF with two assumptions about the output between its samples, $\sigma = 0.2$: mean over 200 data sets and, in parentheses, the standard
+-- deviation.
 -- :::
 --
--- It does, and even its sign changes (@tbl:holds). White noise exists at the samples only; what the filter makes of it depends on how it
--- is continued between them. The held output is wrong even without noise, because it lags half a sample behind; that part of the
--- error is small here. Two programs can therefore disagree about LSSVF on the same noisy record and both be right. TFSRIVC is not affected: where
--- its iterations end, the error of the simulated output is smallest, and no hold of $y$ appears in that error.
+-- It does, and even its sign changes (@tbl:holds). White noise exists only at the samples. The filtered noise depends on the assumption about the
+-- noise between them. A constant output between samples is wrong even without noise, because it lags half a sample behind. This part of the error is
+-- small here. Two programs can therefore disagree about LSSVF on the same noisy data, and both can be right. TFSRIVC does not depend on the
+-- assumption. Its iterations end where the error of the simulated output is smallest, and this error does not contain $y$ between the samples.
 -- END SOLUTION
 --
 -- # Why not discrete time?
 --
--- A computer works with samples, so why not estimate a difference equation, as most programs do, and convert it afterwards?
--- For an input that is held, sampling the true system gives
+-- A computer works with samples, so why not estimate a difference equation, as most programs do, and convert it afterwards? For an input that is
+-- constant between the samples, sampling the true system gives
 --
 -- $$ x(t_k) + \alpha_1 x(t_{k-1}) + \alpha_2 x(t_{k-2}) = \beta_1 u(t_{k-1}) + \beta_2 u(t_{k-2}) , $$ {#eq:sampled}
 --
 -- and `c2d` and `d2c` convert between the two forms.
 --
--- **Question 14.** Estimate the difference equation by `arx(data, {2, 2, 1})`, two poles, two coefficients of the input and one sample of
--- delay, as @eq:sampled has, from the noise-free and from the noisy record. Which of them can be converted by `d2c`? (`print(pcall(d2c, G))` goes on after an error
--- and says whether there was none.) Compare with `oe(data, {2, 2, 1})`, which minimises the error of the simulated output.
+-- **Question 14.** Estimate the difference equation by `arx(data, {2, 2, 1})`: two poles, two coefficients of the input and one sample of delay, as
+-- in @eq:sampled. Use the noise-free and the noisy data. Which of the models can `d2c` convert? (`print(pcall(d2c, G))` continues after an error, and
+-- prints true if there was none.) Compare with `oe(data, {2, 2, 1})`, which minimizes the error of the simulated output.
 
 -- %% id=discrete
 -- BEGIN SOLUTION
@@ -665,16 +673,16 @@ report.value("weight2", -Garx.A[3], "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Step responses of the true system and of the difference equations that `arx` and `oe` found from the noisy record. That of `arx` rises at once and ends at the wrong level.](figure:discrete){#fig:discrete}
+-- ![Step responses of the true system and of the difference equations that `arx` and `oe` estimated from the noisy data. The response of the `arx` model rises at once and ends at the wrong level.](figure:discrete){#fig:discrete}
 --
--- Without noise `arx` and `d2c` give back the true system. With this noise the result of `arx` is useless (@fig:discrete). It
--- minimises the error of predicting the *next sample* from the last two. From one sample to the next the output moves so little
--- that the noise is `step_ratio`{.value} times larger, and the best prediction is close to an average of the last two samples, whatever the system
--- is: their weights are `weight1`{.value} and `weight2`{.value}. One pole comes out negative, and `d2c` refuses, because no
--- differential equation of second order has samples with a negative real pole.
+-- Without noise, `arx` and `d2c` reproduce the true system. With this noise, the result of `arx` is useless (@fig:discrete). `arx` minimizes the
+-- error of predicting the *next sample* from the last two. From one sample to the next, the output changes so little that the noise is
+-- `step_ratio`{.value} times larger. The best prediction is then close to an average of the last two samples, for any system: their weights are
+-- `weight1`{.value} and `weight2`{.value}. One pole is negative. `d2c` refuses to convert it, because no differential equation of second order has
+-- samples with a negative real pole.
 -- END SOLUTION
 --
--- **Question 15.** Is this one record's bad luck? `montecarlo` takes functions of the data as estimators, too. And what is to blame, the fast
+-- **Question 15.** Is this bad luck in one data set? `montecarlo` also accepts functions of the data as estimators. What is the cause, the fast
 -- sampling or the noise? Repeat the experiment with several sampling times and signal-to-noise ratios.
 
 -- %% id=discrete_study
@@ -692,7 +700,7 @@ local discrete = study(sigma, {
 })
 print(string.format("d2c refused %d of the %d arx models", refused, discrete.runs))
 
--- the estimates of a1 by arx from 100 records, as far as d2c can convert them
+-- the estimates of a1 by arx from 100 data sets, if d2c can convert them
 local function arx_a1(period, snr)
     local found = {}
     local function estimate(d)
@@ -741,33 +749,34 @@ report.table("grid", grid)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- It is not bad luck. `d2c` refused `refused`{.value} of the 200 models of `arx`, whose poles lie at `arx_slow`{.value}\ ±\ `arx_slow_std`{.value}
--- and `arx_fast`{.value}\ ±\ `arx_fast_std`{.value} instead of `sampled_slow`{.value} and `sampled_fast`{.value}.
+-- It is not bad luck. `d2c` refused `refused`{.value} of the 200 models of `arx`. Their poles are `arx_slow`{.value}\ ±\ `arx_slow_std`{.value} and
+-- `arx_fast`{.value}\ ±\ `arx_fast_std`{.value} instead of `sampled_slow`{.value} and `sampled_fast`{.value}.
 --
 -- ::: {.table name=grid #tbl:grid}
--- `arx` with other sampling times and signal-to-noise ratios: mean and, in brackets, standard deviation of $\hat a_1$ over 100 records, where at least 90 of the models can be converted; elsewhere the number that can. The truth is 4.
+-- `arx` with other sampling times and signal-to-noise ratios: mean and, in parentheses, standard deviation of $\hat a_1$ over 100 data sets, if at
+-- least 90 of the models can be converted. Otherwise, the number of models that can be converted. The truth is 4.
 -- :::
 --
--- Both, but the noise comes first (@tbl:grid). At the 5 dB of our record no sampling time helps: the noise of $y$ stands among the
--- regressors, as in LSSVF, and here no filter attenuates it. At 25 dB slower sampling makes the models convertible, yet they remain
--- strongly biased. Only with next to no noise does the sampling time alone decide: at 45 dB, `arx` fails at 0.01 s and is nearly right from 0.2 s on.
--- What counts is the noise compared with what the output moves from one sample to the next. The cure is the right noise model, not another sampling time.
+-- Both, but mainly the noise (@tbl:grid). At the 5 dB of our data, no sampling time helps: the noise of $y$ is in the regressors, as in LSSVF, and
+-- here no filter attenuates it. At 25 dB, slower sampling makes the models convertible, but they remain strongly biased. Only with almost no noise
+-- does the sampling time decide: at 45 dB, `arx` fails at 0.01 s and is nearly right from 0.2 s on. The important ratio is the noise compared with
+-- the change of the output from one sample to the next. The remedy is the right noise model, not another sampling time.
 --
 -- ::: {.table name=discrete #tbl:discrete}
--- $\sigma = 0.2$: mean over 200 records and, in brackets, the standard deviation.
+-- $\sigma = 0.2$: mean over 200 data sets and, in parentheses, the standard deviation.
 -- :::
 --
--- `oe` compares simulated with measured outputs, as TFSRIVC does, and finds the system. But a sampled second-order system always has two
--- coefficients of the input (@eq:sampled), even when the differential equation has no zero. That the numerator is a
--- constant cannot be expressed in discrete time; it has to be estimated, and the price is a scatter of $\hat a_1$ that is
--- `oe_more`{.value} times as large (@tbl:discrete). Besides, the faster one samples, the closer the poles are to $z = 1$, and the
--- information about the time constants sits in the last digits of the coefficients. A continuous-time model keeps its meaning whatever the sampling.
+-- Like TFSRIVC, `oe` compares simulated with measured outputs, and finds the system. But a sampled second-order system always has two coefficients of
+-- the input (@eq:sampled), even if the differential equation has no zero. A discrete-time model cannot express a constant numerator. It must estimate
+-- the second coefficient, and the price is a scatter of $\hat a_1$ that is `oe_more`{.value} times as large (@tbl:discrete). In addition, faster
+-- sampling moves the poles closer to $z = 1$, and the information about the time constants is in the last digits of the coefficients. A
+-- continuous-time model has the same meaning for every sampling time.
 -- END SOLUTION
 --
 -- # How many poles?
 --
--- **Question 16.** So far the orders were known. `srivcstruc` tries several and recommends one. Would the record alone have led to two
--- poles and no zero?
+-- **Question 16.** So far the orders were known. `srivcstruc` tries several orders and recommends one. Would the data alone have led to two poles and
+-- no zero?
 
 -- %% id=orders
 -- BEGIN SOLUTION
@@ -790,21 +799,22 @@ report.table("orders", order_rows)
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=orders #tbl:orders}
--- Transfer functions of several orders for the noisy record. Large is good for the fit and for $R_T^2$, the explained share of the output's variance; small for YIC and BIC. Last, the parameters whose standard error exceeds their value.
+-- Transfer functions of several orders for the noisy data. A large fit and a large $R_T^2$, the explained share of the output's variance, are good. A
+-- small YIC and a small BIC are good. The last column lists the parameters with a standard error larger than their value.
 -- :::
 --
--- It would (@tbl:orders). The fit hardly changes beyond two poles: further
--- parameters follow the noise and no longer the system. BIC charges $\ln N/N$ for each parameter on top of the logarithm of the error's variance; YIC
--- (Young's information criterion) weighs the unexplained variance against the relative variance of the parameters. YIC
--- alone would choose one pole here, because two parameters are determined best of all; look at several measures, and at a
--- second record when there is one.
+-- Yes (@tbl:orders). The fit changes very little beyond two poles: further parameters follow the noise and not the system. BIC is the logarithm of
+-- the error's variance plus $\ln N/N$ for each parameter. YIC (Young's information criterion) weighs the unexplained variance against the relative
+-- variance of the parameters. YIC alone would choose one pole here, because the data determine two parameters best. Look at several measures, and at
+-- validation data if you have them.
 -- END SOLUTION
 
 -- %% [markdown]
 -- # Try it: λ by hand
 --
--- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the slider under the next cell, or the marked point of @fig:lambda_by_hand,
--- moves the cut-off frequency $\lambda$ of the filter. Watch both: how the filter colours the equation error, and what the estimates from sixty records make of it. For which $\lambda$ does the cloud of LSSVF lie beside the true value, and for which that of IVSVF?
+-- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the slider under the next cell, or the marked point of
+-- @fig:lambda_by_hand, changes the cut-off frequency $\lambda$ of the filter. Watch how the filter colors the equation error, and how the estimates
+-- from sixty data sets change. For which $\lambda$ does the cloud of LSSVF miss the true value, and for which does the cloud of IVSVF miss it?
 
 -- %% id=lambda_by_hand
 do
@@ -827,41 +837,45 @@ do
 end
 
 -- %% [markdown]
--- ![For the $\lambda$ of the cell above: left, the magnitude $|A/E|$ by which the filter colours the equation error; right, $\hat b_0$ over $\hat a_1$ from sixty records, and the ellipse that would hold 95 % of the estimates of the best unbiased method](figure:lambda_by_hand){#fig:lambda_by_hand}
+-- ![For the $\lambda$ of the cell above: left, the magnitude $|A/E|$ by which the filter colors the equation error; right, $\hat b_0$ over $\hat a_1$ from sixty data sets, and the ellipse that would contain 95 % of the estimates of the best unbiased method](figure:lambda_by_hand){#fig:lambda_by_hand}
 
 -- %% [markdown]
 -- ## Without typing
 --
--- `dynlab app` begins an empty session in a workbench in the browser (@fig:workbench). Under **Known system** press **Begin a study**: it has the system of @eq:system, an
--- input, noise, and SRIVC. Drag **noise** and watch the cloud and the ellipse grow together; add `lssvf = {{2, 1, 0}, 3}` to the list of
--- **estimators** and drag again: its cloud leaves the truth. The table below the picture compares the scatter with the bound. What you did stands in
--- `session.lua`. With `dynlab app crane` you can identify the crane's record in the same way.
+-- `dynlab app` opens an empty session in the workbench in the browser (@fig:workbench). Under **Known system**, press **Begin a study**: it has the
+-- system of @eq:system, an input, noise, and SRIVC. Drag **noise** and watch the cloud and the ellipse grow together. Add `lssvf = {{2, 1, 0}, 3}` to
+-- the list of **estimators** and drag again: its cloud moves away from the truth. The table below the figure compares the scatter with the bound.
+-- `session.lua` contains your steps. With `dynlab app crane`, you can identify the crane in the same way.
 --
 -- ![A study of the known system in the workbench: controls, the cloud of estimates with the ellipse, and the script](workbench.png){#fig:workbench}
 
 -- %% [markdown]
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
--- * State-variable filters make a linear regression of a differential equation without differentiating anything. LSSVF is that
---   regression solved by least squares: fine without noise, biased with it, and the bias grows with the noise.
--- * Instruments that are independent of the noise remove the bias of long records: the estimates are consistent. How far IVSVF scatters still depends on the filter that the
---   user chose; with a bad one it scatters so widely on a short record that even its mean is off.
--- * TFSRIVC finds the filter itself, in a few iterations. On this record no bias is visible, its scatter is that of the Cramér–Rao bound, and its reported
+-- * State-variable filters turn a differential equation into a linear regression without differentiation. LSSVF solves this regression by least
+--   squares. It is good without noise and biased with noise, and the bias grows with the noise.
+-- * Instruments that are independent of the noise remove the bias for long data: the estimates are consistent. The scatter of IVSVF still depends on
+--   the filter that you choose. With a bad filter and short data, the scatter is so wide that even the mean is wrong.
+-- * TFSRIVC finds the filter itself, in a few iterations. For these data, no bias is visible, its scatter is the Cramér–Rao bound, and its reported
 --   standard errors are right.
--- * One record says little about a method. Repeat the experiment in simulation, look at mean *and* scatter, and compare with
---   the Cramér–Rao bound [@ljung1999, section 7.4].
--- * `arx` assumes noise that passes through the poles. With noise added to the output it is biased at every sampling time, and the faster one samples the less noise it
---   takes to spoil it. An output-error model, in discrete or continuous time, does not have this problem, and in continuous time fast sampling only helps.
+-- * One data set says little about a method. Repeat the experiment in simulation, look at mean *and* scatter, and compare with the Cramér–Rao bound
+--   [@ljung1999, section 7.4].
+-- * `arx` assumes noise that passes through the poles. With noise added to the output, it is biased at every sampling time, and with faster sampling,
+--   less noise is enough to make it useless. An output-error model, in discrete or continuous time, does not have this problem. In continuous time,
+--   fast sampling only helps.
 -- END SOLUTION
 --
 -- # What you submit
 --
 -- ::: {.note}
--- If this lesson is graded, submit results with `answer(name, value)`; `dynlab check` lists what is missing: `own_without_noise` and
--- `own`, what your own LSSVF finds in the record without and with noise, $a_1$, $a_2$, $b_0$ each; `record`, the data with noise; `G_lssvf` and
--- `G_ivsvf`, the library's models of it for $\lambda = 3$; `G_final`, the model you would recommend; and `scatter`, the standard deviations of
--- $a_1$, $a_2$ and $b_0$ that your Monte Carlo study found for the recommended method.
+-- If this lesson is graded, submit results with `answer(name, value)`. `dynlab check` lists missing answers:
+--
+-- * `own_without_noise` and `own`: the estimates $a_1$, $a_2$, $b_0$ of your LSSVF from the data without and with noise;
+-- * `record`: the data with noise;
+-- * `G_lssvf` and `G_ivsvf`: the library's models of these data for $\lambda = 3$;
+-- * `G_final`: the model that you recommend;
+-- * `scatter`: the standard deviations of $a_1$, $a_2$ and $b_0$ of the recommended method in your Monte Carlo study.
 -- :::
 
 -- %% id=hand_in

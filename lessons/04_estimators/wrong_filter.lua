@@ -1,6 +1,6 @@
--- expects: own_without_noise: the filter hold the output between the samples
+-- expects: own_without_noise: Your filter holds the output constant between the samples
 -- expects: own_is_lssvf: away from what was expected
--- expects: lssvf: another lambda than 3
+-- expects: lssvf: The model was estimated with a lambda other than 3
 -- expects: ivsvf: away from what was expected
 -- expects: follows_data: away from what was expected
 -- The filter holds the measured output like the input, and the library gets another cut-off frequency.

@@ -1,4 +1,4 @@
--- expects: own_without_noise: The signs of a1 and a2 are turned round
+-- expects: own_without_noise: a1 and a2 have the wrong sign
 -- expects: own_is_lssvf: away from what was expected
 -- expects: ivsvf: the instruments are missing
 -- expects: final_model: The gain has the wrong sign

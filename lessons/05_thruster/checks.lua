@@ -35,27 +35,27 @@ local function with(model, changes)
     return other
 end
 
-check { id = "ring_frequency", points = 1, about = "What the square chirp makes ring",
+check { id = "ring_frequency", points = 1, about = "The ringing frequency of the square chirp",
     -- A smoothed spectrum has lines 0.1 Hz apart; the beam's resonance is 2 Hz wide.
     test = function(a) return near(a.ring_frequency, fact(a).cell_frequency, {rel = 0.05, half = 0.1}) end,
     mistakes = {
         {when = function(a) return near(a.ring_frequency, 2*math.pi*fact(a).cell_frequency, {rel = 0.06}) end,
-         say = "This is in rad/s; Hz is wanted."},
+         say = "This is in rad/s; use Hz."},
     },
     hint = "etfe of a square chirp with some smoothing: the peak above the thruster's own frequencies." }
 
 check { id = "dead_band", points = 2, about = "The ends of the dead band",
     -- A parabola through noisy bins of 10 µs is right within some 3 µs, reading off a figure within a bin.
     test = function(a)
-        if #a.dead_band ~= 2 then return judge("Wanted are two numbers: the forward and the reverse end.") end
+        if #a.dead_band ~= 2 then return judge("The answer must have two numbers: the forward and the reverse end.") end
         return near(a.dead_band, vector{fact(a).dead_band, -fact(a).dead_band}, {abs = 8, half = 15})
     end,
     mistakes = {
-        {when = function(a) return min(a.dead_band) > 1000 end, say = "Neutral is not taken off: widths count from 1500 µs."},
+        {when = function(a) return min(a.dead_band) > 1000 end, say = "The neutral width is not subtracted: widths count from 1500 µs."},
         {when = function(a) return a.dead_band[1] < a.dead_band[2] end, say = "The order is forward end, reverse end."},
-        {when = function(a) return min(a.dead_band) > 0 end, say = "The reverse end lies below neutral: it is negative."},
+        {when = function(a) return min(a.dead_band) > 0 end, say = "The reverse end is below neutral, so it is negative."},
         {when = function(a) return a.dead_band[1] - a.dead_band[2] < 20 end,
-         say = "Next to nothing: the curve of a linear model has no dead band, but the thruster's has."},
+         say = "Almost zero: a linear model has no dead band, but the thruster has one."},
     },
     hint = "Where does the root of the thrust, drawn over the pulse width, reach zero?" }
 
@@ -63,54 +63,54 @@ check { id = "delay", points = 2, about = "The thruster's delay",
     -- Static curve and one lag, estimated from the sine chirps, found it within 4 ms on six thrusters.
     test = function(a) return near(a.delay, fact(a).delay, {abs = 0.006, half = 0.01}) end,
     mistakes = {
-        {when = function(a) return near(a.delay, 1000*fact(a).delay, {rel = 0.35}) end, say = "This is in ms; seconds are wanted."},
+        {when = function(a) return near(a.delay, 1000*fact(a).delay, {rel = 0.35}) end, say = "This is in ms; use seconds."},
         {when = function(a) return near(a.delay, fact(a).delay/Ts, {rel = 0.35}) end,
-         say = "This is counted in samples; seconds are wanted."},
+         say = "This is counted in samples; use seconds."},
         {when = function(a) return a.delay < 0.024 end,
-         say = "Too short: a linear model of the sine chirps starts early because it has no dead band to wait for."},
+         say = "Too short: a linear model of the sine chirps starts early because it has no dead band."},
     },
-    hint = "Estimate it together with the static curve, or look at the mean answer to a switching." }
+    hint = "Estimate it together with the static curve, or look at the mean response to a switching." }
 
-check { id = "thrust_300", points = 2, about = "Steady thrust forwards and in reverse",
+check { id = "thrust_300", points = 2, about = "Steady thrust forward and in reverse",
     test = function(a)
-        if #a.thrust_300 ~= 2 then return judge("Wanted are two numbers: the thrust at +300 µs and that at -300 µs.") end
+        if #a.thrust_300 ~= 2 then return judge("The answer must have two numbers: the thrust at +300 µs and at -300 µs.") end
         return near(a.thrust_300/static_at_300(fact(a)), ones(2), {rel = 0.08, half = 0.16})
     end,
     mistakes = {
         {when = function(a) return a.thrust_300[2] > 0 and a.thrust_300[1] > 0 end, say = "Reverse thrust is negative."},
         {when = function(a) return near(a.thrust_300[1], -a.thrust_300[2], {rel = 0.02}) end,
-         say = "Forward and reverse are the same: the propeller is better forwards."},
+         say = "Forward and reverse are the same, but the propeller is better forward."},
         {when = function(a) return near(a.thrust_300*abs(a.thrust_300)/static_at_300(fact(a)), ones(2), {rel = 0.2}) end,
          say = "These are the roots of the thrust: square them."},
     },
-    hint = "What the load cell reads once a switching has died away, or the ends of the static curve." }
+    hint = "The reading of the load cell after a switching has settled, or the ends of the static curve." }
 
 check { id = "model", points = 4, about = "The recommended model on the square chirps",
     -- From the sine chirps a linear model reaches 70 %, a static curve with one lag 87 %, the root model 90 %.
     test = function(a) return points_between(own_fit(a.model, "square"), 62, 85) end,
     mistakes = {
-        {when = function(a) return min(a.model.width) > 500 end, say = "Neutral is not taken off: widths count from 1500 µs."},
+        {when = function(a) return min(a.model.width) > 500 end, say = "The neutral width is not subtracted: widths count from 1500 µs."},
         {when = function(a) return a.model.G.IODelay >= 1 end, say = "The delay of G is not in seconds."},
         {when = function(a) return fit_on(official, "square", with(a.model, {root = not a.model.root})) > 80 end,
-         say = "The field root says the contrary of what this model gives out."},
+         say = "The field root contradicts the output of this model."},
         {when = function(a) return fit_on(official, "square", with(a.model, {level = -a.model.level})) > 50 end,
-         say = "The sign is wrong: wider pulses push forwards."},
+         say = "The sign is wrong: wider pulses push forward."},
         {when = function(a) return max(abs(diff(a.model.level)/diff(a.model.width)*diff(a.model.width)[1]/diff(a.model.level)[1] - 1)) < 1e-6 end,
-         say = "This model is linear: it knows neither the dead band nor the difference between forwards and reverse."},
-        {when = function(a) return a.model.G.IODelay < 0.01 end, say = "The model answers without a delay."},
+         say = "This model is linear: it has neither the dead band nor the difference between forward and reverse."},
+        {when = function(a) return a.model.G.IODelay < 0.01 end, say = "The model responds without a delay."},
     },
     hint = "A static curve with its dead band, then a lag and a delay; and what does thrust depend on?" }
 
-check { id = "fit", points = 1, about = "What the model is worth on the square chirps",
+check { id = "fit", points = 1, about = "The fit of the model to the square chirps",
     test = function(a) return near(a.fit, own_fit(a.model, "square"), {abs = 1.5, half = 3}) end,
     mistakes = {
         {when = function(a) return near(a.fit, own_fit(a.model, "sine"), {abs = 0.5}) end,
          say = "This is the fit to the sine chirps, from which the model was estimated."},
-        {when = function(a) return a.fit <= 1 end, say = "Percent are wanted."},
+        {when = function(a) return a.fit <= 1 end, say = "The result must be in percent."},
     },
     hint = "100 (1 - |error|/|y - mean|) over the three square chirps together, both signals below 8 Hz." }
 
-check { id = "figures", points = 1, about = "Static curve and validation are drawn",
+check { id = "figures", points = 1, about = "Figures of the static curve and of the validation",
     test = function() return all_of(has_figure("curve"), has_figure("validation")) end,
     hint = "report.figure(\"curve\", fig, \"...\") and report.figure(\"validation\", fig, \"...\")." }
 
@@ -119,7 +119,7 @@ local function gains(model) return model.level*dcgain(model.G) end
 
 local typed = {
     {when = function(a, b) return near(a.thrust_300, b.thrust_300, {rel = 1e-9}) end,
-     say = "The results do not change with the records: they must be computed, not typed in."},
+     say = "The results do not change with the data: compute them; do not type them in."},
 }
 
 check { id = "statics_follow", points = 3, rerun = "thruster", about = "Another thruster: its thrust and its delay",
@@ -130,15 +130,15 @@ check { id = "statics_follow", points = 3, rerun = "thruster", about = "Another 
                       near(b.delay, other.delay, {abs = 0.006, half = 0.01}))
     end,
     mistakes = typed,
-    hint = "Read nothing off a figure that the script has to find." }
+    hint = "Do not read numbers off a figure: the script must compute them." }
 
 check { id = "model_follows", points = 5, rerun = "thruster",
-    about = "Another thruster: your model simulates square chirps that nobody has seen",
+    about = "Another thruster: your model simulates hidden square chirps",
     test = function(a, b)
         return all_of(differs(gains(a.model), gains(b.model)), points_between(fit_on(hidden("thruster"), "square", b.model), 62, 84))
     end,
     mistakes = {
         {when = function(a, b) return near(gains(a.model), gains(b.model), {rel = 1e-9}) end,
-         say = "The model does not change with the records: it must be estimated, not typed in."},
+         say = "The model does not change with the data: estimate it; do not type it in."},
     },
-    hint = "Estimate curve and dynamics from what load(\"thruster\") gives." }
+    hint = "Estimate curve and dynamics from the data that load(\"thruster\") returns." }

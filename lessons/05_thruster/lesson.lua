@@ -15,29 +15,31 @@
 -- ---
 
 -- %% [markdown]
--- An underwater thruster is commanded by the width of electrical pulses and pushes or pulls on a load cell. Two kinds of experiments were made with
--- it, a sine and a square wave of rising frequency (@fig:thruster). Thruster and load cell are *simulated*: the records come from a program that solves their
--- equations, with noise, so that your results can be held against the truth. Find a model from one of them, try it on the other, then change their parts; say which model
--- you recommend and why. You will be asked about it, so know what you tried and why you dropped it.
+-- The width of electrical pulses controls an underwater thruster, which pushes or pulls on a load cell. There are two kinds of experiments, a sine
+-- and a square wave of rising frequency (@fig:thruster). Thruster and load cell are *simulated*: a program solves their equations, with noise, so you
+-- can compare your results with the truth. Estimate a model from one kind of experiment and validate it on the other. Then exchange them. State which
+-- model you recommend and why. Be prepared for questions about the other models that you tried, and why you rejected them.
 --
 -- ::: {.drawing name=thruster}
--- The thruster hangs in the water on a beam that turns about a pivot and presses on a load cell: the input is the width $p$ of the pulses, the output its reading $F$ {#fig:thruster}
+-- The thruster hangs in the water on a beam that turns about a pivot and presses on a load cell. The input is the width $p$ of the pulses, and the
+-- output is the reading $F$ of the load cell. {#fig:thruster}
 -- :::
 --
--- Work in this script, cell by cell; your text goes to `report.md`, which becomes slides: at most twelve, for a talk of ten minutes and five minutes of questions. It has the eight
--- points that a presentation must have, and notes on what belongs to each. Submit the slides as a PDF together with this script: `dynlab pack` puts both into one file.
+-- Work in this script, cell by cell, and write your text in `report.md`. It becomes at most twelve slides, for a talk of ten minutes and five minutes
+-- of questions. It has the eight required points of a presentation, with notes on the content of each. Submit the slides as a PDF together with this
+-- script: `dynlab pack` puts both into one file.
 --
--- The exercise follows one with a real T200 thruster: MathWorks Student Competitions Team, *MATLAB and Simulink Robotics Arena: From Data to Model*, MATLAB Central File Exchange 65919,
--- with a [video](https://www.youtube.com/watch?v=RU_LOtrEOBo) that shows one of the tests from 17:25 on.
+-- The exercise follows one with a real T200 thruster: MathWorks Student Competitions Team, *MATLAB and Simulink Robotics Arena: From Data to Model*,
+-- MATLAB Central File Exchange 65919. A [video](https://www.youtube.com/watch?v=RU_LOtrEOBo) shows one of the tests from 17:25 on.
 --
--- # The records
+-- # The data
 --
--- | record | what was done |
+-- | data set | experiment |
 -- |-------------|----------------|
 -- | `sine_100`, `sine_200`, `sine_300` | pulses of 1500 ± 100, 200 or 300 µs, a sine from 0.1 Hz to 3 Hz in 20 s, with rests before and after |
 -- | `square_100`, `square_200`, `square_300` | the sign of the same sine, times the same amplitude |
 --
--- Each has `t` (s), `pwm` (µs) and `force` (N), 0.002 s apart; the width is held between samples, and 1500 µs is neutral.
+-- Each has `t` (s), `pwm` (µs) and `force` (N), every 0.002 s. The width is constant between samples, and 1500 µs is neutral.
 
 -- %% id=records
 local thruster = load("thruster")
@@ -56,11 +58,11 @@ print(raw("sine_300"))
 idplot(raw("sine_300")):set{height = 6}
 
 -- %% [markdown]
--- **Question 1.** Show the raw records of both kinds. What can be seen before anything is computed?
+-- **Question 1.** Plot raw data of both kinds. What can you see before you compute anything?
 --
--- **Question 2.** Measure from neutral and from the level at rest, then ask `advice` about a sine chirp (every fifth sample is enough for it: `resample`).
--- Compare the standard deviation that it says a linear model leaves unexplained with the noise at rest. What is the difference made of? Why would
--- a square chirp of one amplitude not tell it?
+-- **Question 2.** Measure from neutral and from the level at rest. Then apply `advice` to a sine chirp (every fifth sample is enough: `resample`). It
+-- prints the standard deviation that a linear model cannot explain. Compare it with the noise at rest. What causes the difference? Why would a square
+-- chirp of one amplitude not show it?
 
 -- %% id=raw
 -- BEGIN SOLUTION
@@ -78,7 +80,7 @@ local function prepared(name)
     return iddata(thrust(record), width(record), Ts, signals)
 end
 
-local experiments = {{say("records", "enregistrements"), say("shape", "forme"), say("amplitude (µs)", "amplitude (µs)"),
+local experiments = {{say("data", "enregistrements"), say("shape", "forme"), say("amplitude (µs)", "amplitude (µs)"),
                       say("frequency (Hz)", "fréquence (Hz)"), say("duration (s)", "durée (s)")}}
 for _, shape in ipairs(shapes) do
     local record = thruster[shape .. "_300"]
@@ -96,7 +98,7 @@ for column, shape in ipairs(shapes) do
                               curves = {{x = record.t, y = record.force, colour = 0, line_width = 0.6}}}
 end
 report.figure("raw", figure{rows = 2, columns = 2, width = 14.4, height = 5.4, panels = raw_panels},
-              say("The records of the largest amplitude: widths (above) and thrust (below)",
+              say("The data of the largest amplitude: widths (above) and thrust (below)",
                   "Les enregistrements de plus grande amplitude : largeurs (en haut) et poussée (en bas)"))
 
 local at_rest = {}
@@ -123,16 +125,16 @@ report.value("snr_rest", 20*math.log(std(thrust(thruster.sine_300))/std(rest_rea
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 3.** The square chirp makes something ring. Find its frequency (`etfe` with some smoothing, or an average over many switchings). Is it
--- the thruster? Choose a low-pass filter for what you want to see of the thruster, and say what the filter must not do.
+-- **Question 3.** The square chirp excites an oscillation. Find its frequency (`etfe` with some smoothing, or an average over many switchings). Does
+-- it come from the thruster? Choose a low-pass filter for the dynamics of the thruster. What must the filter not do?
 --
--- **Question 4.** Average the answers to many switchings. How long does nothing happen? Guess first (`guess`, `outcome`).
+-- **Question 4.** Average the responses to many switchings. How long does nothing happen? First, enter a prediction (`guess`, `outcome`).
 
 -- %% id=switchings_guess
 -- BEGIN SOLUTION
--- STARTER: guess(say("time without an answer", "temps sans réponse"), nil, "ms")
+-- STARTER: guess(say("time without a response", "temps sans réponse"), nil, "ms")
 local guessed = 20
-guess(say("time without an answer", "temps sans réponse"), guessed, "ms")
+guess(say("time without a response", "temps sans réponse"), guessed, "ms")
 -- END SOLUTION
 
 -- %% id=switchings
@@ -156,7 +158,7 @@ for k = before + 1, #since do
     if not onset and answer_mean[k] > 0.01*max(answer_mean) then onset = since[k] end
 end
 
-outcome(say("time without an answer", "temps sans réponse"), onset)
+outcome(say("time without a response", "temps sans réponse"), onset)
 
 local band = 8  -- Hz
 local function low_pass(v) return idfilt(v, {0, 2*math.pi*band}, {zero_phase = true, Ts = Ts}) end
@@ -183,12 +185,13 @@ report.figure("switching", figure{width = 14.4, height = 4.6, columns = 2, panel
      x_log = true, y_log = true, x_range = {0.5, 60},
      references = {{x = band, label = say("filter", "filtre")}},
      curves = {{x = response.w/(2*math.pi), y = response.magnitude, colour = 1, dash = 0, line_width = 0.8}}}}},
-    say("Mean answer to a switching; frequency response of square_300", "Réponse moyenne à une commutation ; réponse fréquentielle de square_300"))
+    say("Mean response to a switching; frequency response of square_300", "Réponse moyenne à une commutation ; réponse fréquentielle de square_300"))
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 5.** Thrust over pulse width: filter both signals alike, take the slow part of the sine chirps, and average in bins. Where does the dead
--- band end? How do forward and reverse differ? Draw the root of the thrust as well: what shape does it have beyond the dead band, and why does physics predict it?
+-- **Question 5.** Plot thrust over pulse width: filter both signals in the same way, take the slow part of the sine chirps, and average in bins.
+-- Where does the dead band end? How do forward and reverse differ? Also plot the root of the thrust: what shape does it have beyond the dead band,
+-- and why does physics predict it?
 
 -- %% id=curve
 -- BEGIN SOLUTION
@@ -267,10 +270,11 @@ report.value("true_asymmetry", -truth.forward_thrust/truth.reverse_thrust, "%.2f
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 6.** Which structures do you compare, and by what? A linear model with a delay; a Hammerstein model (`hammerstein`), a static curve and then
--- linear dynamics; and whatever physics suggests to you. What you filter in the measured thrust, filter in the simulated one as well: what becomes
--- of a delay when only one side is filtered? How many poles does a structure need, and what happens to the delay when poles are added? Once the static
--- curve is known, `tfsrivc` with the curve's value as the input answers quickly. A square wave of one amplitude has three values: what can it tell of a curve?
+-- **Question 6.** Which structures do you compare, and by which measure? Use a linear model with a delay, a Hammerstein model (`hammerstein`: a
+-- static curve followed by linear dynamics), and a structure from physics. Apply the same filter to the measured and the simulated thrust. How does
+-- the delay change if you filter only one of them? How many poles does a structure need, and what happens to the delay when you add poles? When you
+-- know the static curve, `tfsrivc` with the value of the curve as the input gives a quick answer. A square wave of one amplitude has three values:
+-- what can it show about a curve?
 
 -- %% id=structure
 -- BEGIN SOLUTION
@@ -378,8 +382,8 @@ report.value("delay_one_sided", 1e3*one_sided.IODelay, "%.0f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 7.** Estimate what you decided on from the sine chirps and from the square chirps. Which parameters agree? What do the standard
--- errors say of the differences?
+-- **Question 7.** Estimate your structures from the sine chirps and from the square chirps. Which parameters agree? What do the standard errors say
+-- about the differences?
 
 -- %% id=estimate
 -- BEGIN SOLUTION
@@ -441,7 +445,7 @@ report.figure("curve", figure{rows = 2, width = 8.8, height = 6.7, panels = {
     curve_panel{legend = "above", x_range = {-300, 300}},
     curve_panel{legend = "none", x_range = {-120, 120}, y_range = {-4, 4}, references = {{x = -truth.dead_band}, {x = truth.dead_band}},
                 xlabel = say("width, from neutral (µs)", "largeur, depuis le neutre (µs)")}}},
-    say("Thrust over pulse width, and about neutral", "Poussée selon la largeur d'impulsion, et autour du neutre"))
+    say("Thrust over pulse width, and around neutral", "Poussée selon la largeur d'impulsion, et autour du neutre"))
 
 for _, shape in ipairs(shapes) do
     for _, kind in ipairs(order_list) do
@@ -470,8 +474,8 @@ end
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 8.** Validate both ways: models from the sine chirps on the square chirps, and the other way round. Where, in time and amplitude, does each
--- model fail? `motion` shows thruster and model side by side as they move (on the page of `dynlab preview analysis.lua`, not on the slides).
+-- **Question 8.** Validate in both directions: models from the sine chirps on the square chirps, and the reverse. Where, in time and amplitude, does
+-- each model fail? `motion` shows thruster and model side by side in motion (on the page of `dynlab preview analysis.lua`, not on the slides).
 
 -- %% id=validation
 -- BEGIN SOLUTION
@@ -491,7 +495,7 @@ local upper = piece_of("square_300", "sine", 9, 10.6, say("models from sine chir
 local lower = piece_of("sine_200", "square", 9, 10.6, say("models from square chirps, on sine_200", "modèles des carrés, sur sine_200"))
 upper.legend, lower.xlabel = "above", seconds
 report.figure("validation", figure{rows = 2, width = 14.4, height = 5.9, panels = {upper, lower}},
-              say("Validation both ways", "Validation dans les deux sens"))
+              say("Validation in both directions", "Validation dans les deux sens"))
 -- END SOLUTION
 
 -- %% id=motion
@@ -506,8 +510,8 @@ end
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 9.** The thruster of this course can be asked again: `rig("thruster", {seed = 2})` repeats all records with other noise. Repeat your
--- procedure. Is the order of your models luck? How far does the delay scatter, and is what is wrong with it noise?
+-- **Question 9.** You can run the simulated thruster again: `rig("thruster", {seed = 2})` repeats all experiments with other noise. Repeat your
+-- procedure. Is the ranking of your models luck? How large is the scatter of the delay, and is its error due to noise?
 
 -- %% id=repetition
 -- BEGIN SOLUTION
@@ -583,16 +587,22 @@ report.value("gain_200_sine", math.abs(gain_in_column("sine", 4)), "%.1f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 10.** Which model do you recommend, for what, and for what not? What experiment would you make next?
+-- **Question 10.** Which model do you recommend, and for which purpose? For which purpose is it not suitable? Which experiment do you propose next?
 --
--- # What you submit besides the slides
+-- # What you submit in addition to the slides
 --
--- If the script is graded too, submit results with `answer(name, value)`: `ring_frequency` (Hz) of question 3; `dead_band`, its forward and its
--- reverse end (µs from neutral, the second one negative); `delay` (s) of the thruster; `thrust_300`, the steady thrust (N) at +300 µs and at −300 µs; your
--- recommended `model`, estimated from the sine chirps; and `fit` (%), how well it simulates the thrust of all square chirps together, both
--- signals below 8 Hz. The model is a table of four: vectors `width` (µs from neutral, rising) and `level` for the static curve, straight between its points, the
--- dynamics `G` behind it, and `root`, true if what comes out is the root of the thrust, to be squared with its sign. Your script will be run
--- on the records of another thruster, whose square chirps nobody has seen. The checks look for the figures `curve` and `validation`.
+-- If the script is graded too, submit results with `answer(name, value)`:
+--
+-- * `ring_frequency` (Hz): the frequency of question 3;
+-- * `dead_band`: its forward and its reverse end (µs from neutral, the second one negative);
+-- * `delay` (s): the delay of the thruster;
+-- * `thrust_300`: the steady thrust (N) at +300 µs and at −300 µs;
+-- * `model`: your recommended model, estimated from the sine chirps;
+-- * `fit` (%): its fit to the thrust of all square chirps together, both signals below 8 Hz.
+--
+-- The model is a table of four fields. The vectors `width` (µs from neutral, increasing) and `level` are the static curve, linear between its points.
+-- `G` is the dynamics after the curve. `root` is true if the output is the root of the thrust, to be squared with its sign. Grading also runs your
+-- script on data of another thruster, with hidden square chirps. The checks look for the figures `curve` and `validation`.
 
 -- %% id=hand_in
 -- BEGIN SOLUTION

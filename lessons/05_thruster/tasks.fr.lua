@@ -72,13 +72,19 @@
 --
 -- # Ce que vous rendez en plus des diapositives
 --
--- Là où le script est noté aussi, il rend avec `answer(nom, valeur)` : `ring_frequency` (Hz), celle de la question 3 ; `dead_band`, les deux bouts de la zone
--- morte, avant puis arrière (µs depuis le neutre, le second est négatif) ; `delay`, le retard (s) du propulseur ; `thrust_300`, la poussée établie (N) à
--- +300 µs et à −300 µs ; votre modèle recommandé, `model`, estimé sur les balayages sinusoïdaux ; et `fit` (%), l'adéquation avec laquelle il simule la poussée de
--- tous les balayages carrés ensemble, les deux signaux sous 8 Hz. Le modèle est une table à quatre champs : les vecteurs `width` (µs depuis le neutre, croissants) et
--- `level` de la courbe statique, droite entre ses points, la dynamique `G` qui la suit, et `root`, vrai si ce qui en sort est la racine de la poussée, à élever
--- au carré avec son signe. Votre script sera exécuté sur les enregistrements d'un autre propulseur, dont personne n'a vu les balayages carrés. Les figures
--- que l'on cherche s'appellent `curve` et `validation`.
+-- Si le script est noté aussi, rendez vos résultats avec `answer(nom, valeur)` :
+--
+-- * `ring_frequency` (Hz) : la fréquence de la question 3 ;
+-- * `dead_band` : les deux bouts de la zone morte, avant puis arrière (µs depuis le neutre, le second est négatif) ;
+-- * `delay` (s) : le retard du propulseur ;
+-- * `thrust_300` : la poussée établie (N) à +300 µs et à −300 µs ;
+-- * `model` : votre modèle recommandé, estimé sur les balayages sinusoïdaux ;
+-- * `fit` (%) : son adéquation à la poussée de tous les balayages carrés ensemble, les deux signaux sous 8 Hz.
+--
+-- Le modèle est une table à quatre champs. Les vecteurs `width` (µs depuis le neutre, croissants) et `level` sont la courbe statique, linéaire entre
+-- ses points. `G` est la dynamique qui la suit. `root` est vrai si la sortie est la racine de la poussée, à élever au carré avec son signe.
+-- L'évaluation exécute aussi votre script sur les données d'un autre propulseur, avec des balayages carrés cachés. Les vérifications cherchent les
+-- figures `curve` et `validation`.
 
 -- %% id=comments
 -- µs; samples before the thruster moves

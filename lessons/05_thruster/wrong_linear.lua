@@ -1,5 +1,5 @@
 -- expects: dead_band: a linear model has no dead band
--- expects: delay: it has no dead band to wait for
+-- expects: delay: Too short
 -- expects: thrust_300: Forward and reverse are the same
 -- expects: model: This model is linear
 -- expects: statics_follow: On a record that you have not seen

@@ -1,6 +1,6 @@
 -- expects: delay: away from what was expected
 -- expects: thrust_300: These are the roots of the thrust
--- expects: model: The field root says the contrary
+-- expects: model: The field root contradicts the output of this model
 -- expects: fit: the fit to the sine chirps
 -- expects: statics_follow: On a record that you have not seen
 -- expects: model_follows: On a record that you have not seen

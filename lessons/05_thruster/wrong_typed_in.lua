@@ -1,5 +1,5 @@
--- expects: statics_follow: must be computed, not typed in
--- expects: model_follows: must be estimated, not typed in
+-- expects: statics_follow: The results do not change with the data
+-- expects: model_follows: The model does not change with the data
 -- The data sheet and a friend's model.
 local T = load("thruster")
 local curve = {width = vector{-300, -200, -100, -25, 25, 100, 200, 300}, level = vector{-4.553, -3.204, -1.55, 0.028, -0.034, 1.738, 3.533, 5.039}}

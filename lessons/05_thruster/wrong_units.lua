@@ -1,7 +1,7 @@
 -- expects: ring_frequency: in rad/s
--- expects: dead_band: Neutral is not taken off
+-- expects: dead_band: The neutral width is not subtracted
 -- expects: delay: in ms
--- expects: model: Neutral is not taken off
+-- expects: model: The neutral width is not subtracted
 -- expects: fit: away from what was expected
 -- expects: statics_follow: On a record that you have not seen
 -- expects: model_follows: On a record that you have not seen

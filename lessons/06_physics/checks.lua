@@ -11,7 +11,7 @@ local spread = std(official.y_val)
 
 -- Length within 2 %; dry friction was found within 0.1 V on other cranes, and is some 0.24 V.
 local function crane_found(found, facts)
-    if #found ~= 2 then return judge("Wanted are two numbers: the length and the voltage.") end
+    if #found ~= 2 then return judge("The answer must have two numbers: the length and the voltage.") end
     return all_of(near(found[1], facts[1], {rel = 0.02, half = 0.04}), near(found[2], facts[2], {abs = 0.15, half = 0.2}))
 end
 
@@ -20,7 +20,7 @@ check { id = "crane", points = 2, about = "The crane's length and dry friction",
     mistakes = {
         {when = function(a) return near(vector{a.crane[2], a.crane[1]}, crane_of(truth(a, "crane")), {rel = 0.2}) end,
          say = "The order is length, voltage."},
-        {when = function(a) return a.crane[2] <= 0 end, say = "No dry friction was found: is it fixed at zero?"},
+        {when = function(a) return a.crane[2] <= 0 end, say = "The dry friction is zero: is it fixed?"},
     },
     hint = "length of the model with all terms; dry/gain is the voltage that dry friction takes." }
 
@@ -28,14 +28,14 @@ check { id = "crane_fit", points = 1, about = "How well the crane's equations si
     -- The equations reach 98 %, the best linear model 96.4 % on the official record.
     test = function(a) return points_between(a.crane_fit, 95.5, 97) end,
     mistakes = {
-        {when = function(a) return a.crane_fit <= 1 end, say = "Percent are wanted."},
-        {when = function(a) return a.crane_fit > 90 end, say = "So well does a linear model do: are swings taken for small?"},
+        {when = function(a) return a.crane_fit <= 1 end, say = "The result must be in percent."},
+        {when = function(a) return a.crane_fit > 90 end, say = "A linear model reaches this fit: does your model assume small swings?"},
     },
-    hint = "The second result of fit(validation, G), levels of rest taken off, from rest." }
+    hint = "The second result of fit(validation, G), from rest, after you subtract the levels at rest." }
 
 -- k1 to k4 within a tenth; of the overflow few samples tell.
 local function tanks_found(found, facts)
-    if #found ~= 6 then return judge("Wanted are six numbers: k1, k2, k3, k4, q, y0.") end
+    if #found ~= 6 then return judge("The answer must have six numbers: k1, k2, k3, k4, q, y0.") end
     local rates = range(1, 1, 4)
     local wanted = tanks_of(facts)
     return all_of(near(found:range(1, 4)/wanted:range(1, 4), ones(#rates), {abs = 0.1, half = 0.2}),
@@ -45,15 +45,15 @@ end
 check { id = "tanks", points = 3, about = "The six parameters of the tanks",
     test = function(a) return tanks_found(a.tanks, truth(a, "two_tanks")) end,
     mistakes = {
-        {when = function(a) return a.tanks[6] > 1 end, say = "The reading of an empty tank is a few tenths of a volt; so much is no offset."},
+        {when = function(a) return a.tanks[6] > 1 end, say = "The reading of an empty tank is a few tenths of a volt; this is too large for the offset."},
         {when = function(a) return math.abs(a.tanks[4]/truth(a, "two_tanks").k4 - 1) > 0.5 end,
-         say = "The unit of the hidden level is free: without its rim at 20 cm, k1, k2 and k4 are not told apart."},
+         say = "The unit of the hidden level is free: without its rim at 20 cm, the data cannot distinguish k1, k2 and k4."},
     },
-    hint = "greyest with both rims; the levels at the start are estimated as well." }
+    hint = "greyest with both rims; also estimate the initial levels." }
 
 check { id = "free_run", points = 2, about = "Free-run errors of three models",
     test = function(a)
-        if #a.free_run ~= 3 then return judge("Wanted are three numbers: linear, six parameters, NARX.") end
+        if #a.free_run ~= 3 then return judge("The answer must have three numbers: linear, six parameters, NARX.") end
         local sensor = truth(a, "two_tanks").noise_std
         return all_of(points_between(-a.free_run[1]/spread, -0.6, -0.45), points_between(-a.free_run[2]/sensor, -3, -1.6),
                       near(a.free_run[2], rms(official.y_val - a.simulated), {abs = 0.003, half = 0.01}),
@@ -61,27 +61,27 @@ check { id = "free_run", points = 2, about = "Free-run errors of three models",
     end,
     mistakes = {
         {when = function(a) return a.free_run[3] < 0.06*spread end,
-         say = "So good is NARX one sample ahead only: in free run it never sees a measured reading."},
-        {when = function(a) return min(a.free_run) > 10 end, say = "These seem to be fits in percent; errors in volts are wanted."},
+         say = "NARX is so good only one sample ahead: in free run it gets no measured reading."},
+        {when = function(a) return min(a.free_run) > 10 end, say = "These seem to be fits in percent; give errors in volts."},
         {when = function(a) return a.free_run[1] > spread end,
-         say = "lsim starts from rest and leaves out the offset that the linear model has; fit and compare take both."},
+         say = "lsim starts from rest and omits the offset of the linear model; fit and compare use both initial state and offset."},
     },
-    hint = "Root of the mean square of measured less simulated reading, on validation." }
+    hint = "Root mean square of measured minus simulated reading, on validation." }
 
-check { id = "simulated", points = 3, about = "The validation record in free run",
+check { id = "simulated", points = 3, about = "The validation data in free run",
     test = function(a)
-        if #a.simulated ~= #official.y_val then return judge("Wanted is the simulated reading at the samples of validation.") end
+        if #a.simulated ~= #official.y_val then return judge("The answer must be the simulated reading at the samples of validation.") end
         local e = rms(official.y_val - a.simulated)
         if e < 0.5*truth(a, "two_tanks").noise_std then return judge("This is the measured reading itself, or nearly.") end
         return points_between(-e/truth(a, "two_tanks").noise_std, -6, -2)
     end,
     mistakes = {
-        {when = function(a) return rms(official.y - a.simulated) < 0.2 end, say = "This is the estimation record."},
-        {when = function(a) return rms(official.y_val - 0.5*a.simulated) < 1 end, say = "These are levels; readings in volts are wanted."},
+        {when = function(a) return rms(official.y - a.simulated) < 0.2 end, say = "These are the estimation data."},
+        {when = function(a) return rms(official.y_val - 0.5*a.simulated) < 1 end, say = "These are levels; give readings in volts."},
     },
-    hint = "What the model of six parameters gives out for u_val, its start estimated." }
+    hint = "The output of the six-parameter model for u_val, with an estimated initial state." }
 
-check { id = "figures", points = 1, about = "What is left, and the free run, are drawn",
+check { id = "figures", points = 1, about = "Figures of the residuals and of the free run",
     test = function() return all_of(has_figure("left"), has_figure("free_run")) end,
     hint = "report.figure(\"left\", fig, \"...\") and report.figure(\"free_run\", fig, \"...\")." }
 
@@ -89,14 +89,14 @@ check { id = "crane_follows", points = 3, rerun = "crane", about = "Another cran
     test = function(a, b) return all_of(differs(a.crane, b.crane), crane_found(b.crane, crane_of(truth(b)))) end,
     mistakes = {
         {when = function(a, b) return near(a.crane, b.crane, {rel = 1e-9}) end,
-         say = "The results do not change with the records: they must be computed, not typed in."},
+         say = "The results do not change with the data: compute them; do not type them in."},
         {when = function(a, b)
             local own, other = crane_of(truth(a, "crane"))[1], crane_of(truth(b))[1]
             return math.abs(a.crane[1]/own - 1) < 0.02 and math.abs(b.crane[1]/other - 1) > 0.3
         end,
-         say = "On the other crane the search ended far away: give every parameter bounds, or try several starts."},
+         say = "For the other crane the search failed: give every parameter bounds, or try several initial values."},
     },
-    hint = "Estimate from what load(\"crane\") gives, with bounds for every parameter." }
+    hint = "Estimate from the data that load(\"crane\") returns, with bounds for every parameter." }
 
 check { id = "tanks_follow", points = 5, rerun = "two_tanks", about = "Other tanks: their six parameters",
     test = function(a, b)
@@ -104,6 +104,6 @@ check { id = "tanks_follow", points = 5, rerun = "two_tanks", about = "Other tan
     end,
     mistakes = {
         {when = function(a, b) return near(a.tanks, b.tanks, {rel = 1e-9}) end,
-         say = "The results do not change with the records: they must be computed, not typed in."},
+         say = "The results do not change with the data: compute them; do not type them in."},
     },
-    hint = "Estimate from what load(\"two_tanks\") gives." }
+    hint = "Estimate from the data that load(\"two_tanks\") returns." }

@@ -15,21 +15,22 @@
 -- ---
 
 -- %% [markdown]
--- A black box needs data and nothing else. A *grey box* is given the equations, with some parameters unknown: lengths, frictions, flows. In lesson 3.2 the linear model left errors
--- that no linear model explains; here physics finds their cause. Then two tanks are modelled by a linear model, by physical equations, and by two methods that
--- *learn* a nonlinear model from data alone. All models are compared in free run: the model gets the input and the state at the start, and never a measured output again.
+-- A black box needs only data. A *grey box* is given the equations, with some parameters unknown: lengths, frictions, flows. In lesson 3.2, the
+-- errors of the linear model could not be explained by any linear model. Here, physics finds their cause. Then you model two tanks by a linear model,
+-- by physical equations, and by two methods that *learn* a nonlinear model from data alone. You compare all models in free run: the model gets the
+-- input and the initial state, and no measured output after that.
 --
 -- Crane and tanks are *simulated*, so you can compare what you find with the truth. The work is planned for two sessions of three hours:
 --
 -- | session | questions, with minutes | aim |
 -- |--------------|-------------------------|------------------------|
--- | The crane | 1 (20), 2 (50), 3 (30), 4 (50) | write down physics, estimate it, say what each term explains, and test a term that you chose for convenience |
--- | Two tanks | 5 (25), 6 (35), 7 (45), 8 (25), 9 (30), 10 (20) | know what a record cannot tell; compare physics with learning |
+-- | The crane | 1 (20), 2 (50), 3 (30), 4 (50) | write down physics, estimate it, find out what each term explains, and test a term that you chose for convenience |
+-- | Two tanks | 5 (25), 6 (35), 7 (45), 8 (25), 9 (30), 10 (20) | know what data cannot determine; compare physics with learning |
 --
 -- # The crane: the errors of the linear model
 --
--- The crane of lesson 3.2 has a trolley, pulled by a motor, and a load that swings (@fig:crane). `estimation` and `validation` are two records
--- with a binary voltage of ±2 V; in `steps` the trolley is pushed and stands still between the pushes.
+-- The crane of lesson 3.2 has a trolley, pulled by a motor, and a load that swings (@fig:crane). `estimation` and `validation` are two data sets with
+-- a binary voltage of ±2 V. In `steps`, the trolley moves in pulses and rests between them.
 --
 -- ::: {.drawing name=crane}
 -- The crane: the motor's voltage $u$, the position $x$ of the trolley and the angle $\theta$ of the rod {#fig:crane}
@@ -49,8 +50,8 @@ end
 print(from)
 
 -- %% [markdown]
--- **Question 1.** Estimate the linear model of the angle, three poles and a zero, from `estimation` and simulate it on `validation`. How large is the error of the simulated angle, and how large is the noise of the sensor
--- at rest? Guess their ratio first.
+-- **Question 1.** Estimate the linear model of the angle, three poles and a zero, from `estimation` and simulate it on `validation`. How large is the
+-- error of the simulated angle, and how large is the noise of the sensor at rest? First, enter a prediction of their ratio.
 
 -- %% id=left_guess
 -- BEGIN SOLUTION
@@ -96,26 +97,29 @@ report.value("left_ratio", std(left)/noise, "%.1f")
 -- BEGIN SOLUTION
 -- ![The measured angle of `validation` and, below, the error of the linear model, enlarged](figure:left){#fig:left}
 --
--- The linear model simulates the angle with a fit of `linear_fit`{.value} %. Its error has a standard deviation of `linear_left`{.value} mrad (@fig:left), `left_ratio`{.value} times the sensor's noise of `noise`{.value} mrad. The error is not noise: it swings
--- with the period of the load.
+-- The linear model simulates the angle with a fit of `linear_fit`{.value} %. Its error has a standard deviation of `linear_left`{.value} mrad
+-- (@fig:left), `left_ratio`{.value} times the sensor's noise of `noise`{.value} mrad. The error is not noise: it oscillates with the period of the
+-- load.
 -- END SOLUTION
 --
 -- ## Equations in a script
 --
--- With $v$ the speed of the trolley and $w$ that of the angle $\varphi$, and all forces divided by masses,
+-- Let $v$ be the speed of the trolley and $w$ the rate of the angle $\varphi$. With all forces divided by masses,
 --
 -- $$ \dot v + c\,\cos\varphi\;\dot w = g_u u - d\,v - \mu\,\operatorname{sign} v + c\,\sin\varphi\; w^2 , \qquad
 --    \dot w + \frac{\cos\varphi}{l}\,\dot v = -\frac{g}{l}\sin\varphi - (\rho + \kappa\,|w|)\,w . $$ {#eq:crane}
 --
--- Seven parameters are unknown: `gain` $g_u$, `viscous` $d$, `dry` $\mu$, `coupling` $c$, `length` $l$, `pivot` $\rho$, `air` $\kappa$. This $l$ is longer than the one of @fig:crane: with the load's centre $l_c$ below the pivot, and the inertia $J$ about it,
--- it is $l_c + J/(m\,l_c)$, the length of a thread on which a point mass swings with the same period.
+-- Seven parameters are unknown: `gain` $g_u$, `viscous` $d$, `dry` $\mu$, `coupling` $c$, `length` $l$, `pivot` $\rho$, `air` $\kappa$. This $l$ is
+-- longer than the length in @fig:crane. If the center of the load is $l_c$ below the pivot, and its inertia about it is $J$, then
+-- $l = l_c + J/(m\,l_c)$. This is the length of a thread on which a point mass swings with the same period.
 --
--- `idgrey(f, parameters, options)` makes a model of a function `f(t, x, u, p)` that returns the
--- derivatives of the states; the outputs are a function too. `f` is called once, with values that record what is done with them, and then runs in compiled form. Therefore it must not branch by `if`: `where(c, a, b)` is $a$ where
--- $c > 0$ and $b$ elsewhere.
+-- `idgrey(f, parameters, options)` creates a model from a function `f(t, x, u, p)` that returns the derivatives of the states. The outputs are also a
+-- function. dynlab calls `f` once with special values that trace all operations, and then runs it in compiled form. Therefore `f` must not branch by
+-- `if`: `where(c, a, b)` is $a$ where $c > 0$ and $b$ elsewhere.
 --
--- **Question 2.** Write @eq:crane as such a function, solved for both accelerations. A search needs smooth equations, and $\operatorname{sign} v$ jumps at $v = 0$: write $\tanh(v/\delta)$ for it, with a small speed $\delta$ as an argument, and begin with $\delta = 0.5$ mm/s. What does this term
--- do to a trolley that rests? Add a switch that takes the angle for its sine, and 1 for its cosine, as a linear model does.
+-- **Question 2.** Write @eq:crane as such a function, solved for both accelerations. A search needs smooth equations, and $\operatorname{sign} v$
+-- jumps at $v = 0$. Replace it by $\tanh(v/\delta)$, with a small speed $\delta$ as an argument, and begin with $\delta = 0.5$ mm/s. What does this
+-- term do to a trolley at rest? Add a switch that replaces the sine by the angle, and the cosine by 1, as in a linear model.
 
 -- %% id=equations
 -- BEGIN SOLUTION
@@ -144,13 +148,15 @@ end
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Below the speed $\delta$ the term is $\mu v/\delta$: a viscous friction of $\mu/\delta$. A real trolley that rests is held; this one creeps under any voltage. The smaller $\delta$, the slower it creeps, and the longer the simulation takes.
+-- Below the speed $\delta$ the term is $\mu v/\delta$: a viscous friction of $\mu/\delta$. Friction holds a real trolley at rest. This one creeps
+-- under any voltage. The smaller $\delta$, the slower it creeps, and the longer the simulation takes.
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 3.** Estimate four variants from `estimation` with `greyest`: linear (`dry` and `air` fixed at 0), with dry friction, with wide swings and air drag, with everything. No
--- parameter can be negative, so give each one a bound, `{start, min = 0}`; without bounds a search from a rough start can end at an impossible length. Compare the
--- fits on `validation` and on `steps`. Which term explains the angle, and which the position?
+-- **Question 3.** Estimate four variants from `estimation` with `greyest`: linear (`dry` and `air` fixed at 0), with dry friction, with wide swings
+-- and air drag, and with everything. No parameter can be negative, so give each one a bound, `{start, min = 0}`. Without bounds, a search from a
+-- rough start can end at an impossible length. Compare the fits on `validation` and on `steps`. Which term explains the angle, and which the
+-- position?
 
 -- %% id=variants
 -- BEGIN SOLUTION
@@ -190,20 +196,28 @@ report.value("left_on_steps", angle_left(pushes, physics), "%.1f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=variants #tbl:variants}
--- Physics with and without its nonlinear terms: number of parameters; fits and error of the angle on `validation`, then on `steps`
+-- Physical models with and without nonlinear terms: number of parameters; fits and error of the angle on `validation`, then on `steps`
 -- :::
 --
--- The four variants share their equations and differ in the parameters that are fixed (@tbl:variants). The linear one explains the angle about as well as the black box of question 1, with as many parameters, five, for both outputs. On `validation`, dry friction explains a part of the error of the position
--- and almost nothing of the angle; the sine and the air drag explain the angle. On `steps`, where the trolley stands still between the pushes, dry friction explains most of the error of the position and most of that of the angle, because a trolley that stops in a different way excites the load differently: the fit of the angle rises from `steps_fit_1`{.value} %
--- to `steps_fit_2`{.value} % with dry friction, to `steps_fit_3`{.value} % with wide swings and air drag, and to `steps_fit_4`{.value} % with both.
+-- The four variants share their equations and differ in the fixed parameters (@tbl:variants). The linear variant explains the angle about as well as
+-- the black box of question 1. It has as many parameters, five, for both outputs. On `validation`, dry friction explains a part of the error of the
+-- position and almost nothing of the angle. The sine and the air drag explain the angle. On `steps`, the trolley rests between the pulses. There, dry
+-- friction explains most of the error of the position and of the angle, because a trolley that stops in a different way excites the load differently.
+-- The fit of the angle rises from `steps_fit_1`{.value} % to `steps_fit_2`{.value} % with dry friction, to `steps_fit_3`{.value} % with wide swings
+-- and air drag, and to `steps_fit_4`{.value} % with both.
 --
--- With both, the error of the angle is `left_physics`{.value} mrad on `validation` and `left_on_steps`{.value} mrad on `steps`; the noise of the sensor is `noise`{.value} mrad. On `validation` nothing is left to explain, and little on `steps`. Lesson 3.2 wrote the same equations with a trolley that is held at rest, and its fits agree with these.
+-- With both, the error of the angle is `left_physics`{.value} mrad on `validation` and `left_on_steps`{.value} mrad on `steps`. The noise of the
+-- sensor is `noise`{.value} mrad. Nothing remains to be explained on `validation`, and little on `steps`. Lesson 3.2 used the same equations with a
+-- trolley that friction holds at rest, and its fits agree with these.
 -- END SOLUTION
 --
 -- ## A term written for convenience
 --
--- **Question 4.** What do the parameters say? Give the length and the voltage that dry friction takes (`dry/gain`) with their standard errors, from `estimation`, from three repetitions (`rig("crane", {seed = 2})` and so on) and from `steps`. Compare them with `rig_truth("crane")`:
--- the frequency $\sqrt{g/l}$ of small swings, and `dry_voltage`. Then test the number that you made up. Estimate again with $\delta = 5$ mm/s and with half of your $\delta$, from `estimation` and from `steps`, and simulate each model on both kinds of data. Which conclusions depend on $\delta$? Would the standard errors have warned you?
+-- **Question 4.** What do the parameters mean? Give the length and the voltage that dry friction takes (`dry/gain`) with their standard errors.
+-- Estimate them from `estimation`, from three repetitions (`rig("crane", {seed = 2})` and so on) and from `steps`. Compare them with
+-- `rig_truth("crane")`: the frequency $\sqrt{g/l}$ of small swings, and `dry_voltage`. Then test the number $\delta$ that you made up. Estimate again
+-- with $\delta = 5$ mm/s and with half of your $\delta$, from `estimation` and from `steps`. Simulate each model on both kinds of data. Which
+-- conclusions depend on $\delta$? Would the standard errors have warned you?
 
 -- %% id=meaning
 -- BEGIN SOLUTION
@@ -277,29 +291,42 @@ report.value("wide_creep", wide.dry/deltas[2], "%.0f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=meaning #tbl:meaning}
--- Length and dry friction, ± standard error, by the width $\delta$ of the step and the data of the estimation (the repetitions are of `estimation`); last, the error of the angle (mrad) that each model simulates on `validation` and on `steps`
+-- Length and dry friction, ± standard error, by the width $\delta$ of the step and the data of the estimation (the repetitions are of `estimation`).
+-- The last columns are the error of the simulated angle (mrad) on `validation` and on `steps`.
 -- :::
 --
--- *The width is part of the model* (@tbl:meaning). With $\delta = 5$ mm/s the model from `estimation` simulates `validation` as well as before, and dry friction comes out as `wide_dry`{.value} ± `wide_dry_error`{.value} V, close to the truth of `true_dry`{.value} V. Nothing warns you. But on `steps` its error is `wide_left_steps`{.value} mrad, and the model from `steps` has
--- `wide_left_crossed`{.value} mrad on `validation`: the two data sets seem to describe two cranes. They do not. Below 5 mm/s the friction of this model is viscous, with `wide_creep`{.value} per second, so a trolley that should rest creeps and excites the load. With 0.5 mm/s each model simulates both data sets with an error near the noise. With half of that, the error of the model from `estimation` on `steps` falls
--- a little further, to `half_left_steps`{.value} mrad, and the parameters stay. So 0.5 mm/s is narrow enough, and 5 mm/s was not. A term that you write for convenience is part of your model. Halve its width and look again, on data that visit it: `validation`, in which the trolley hardly ever stops, cannot show it.
+-- *The width is part of the model* (@tbl:meaning). With $\delta = 5$ mm/s, the model from `estimation` simulates `validation` as well as before. Its
+-- dry friction is `wide_dry`{.value} ± `wide_dry_error`{.value} V, close to the truth of `true_dry`{.value} V. Nothing warns you. But on `steps` its
+-- error is `wide_left_steps`{.value} mrad, and the model from `steps` has `wide_left_crossed`{.value} mrad on `validation`. The two data sets seem to
+-- describe two cranes, but they do not. Below 5 mm/s, the friction of this model is viscous, with `wide_creep`{.value} per second, so a trolley that
+-- should rest creeps and excites the load. With 0.5 mm/s, each model simulates both data sets with an error near the noise. With half of that, the
+-- error of the model from `estimation` on `steps` falls a little further, to `half_left_steps`{.value} mrad. The parameters do not change. So 0.5
+-- mm/s is narrow enough, and 5 mm/s was not. A term that you write for convenience is part of your model. Halve its width and compare the results on
+-- data for which the term matters. `validation`, in which the trolley almost never stops, cannot show it.
 --
--- *The parameters* have units and can be compared with other experiments, and here with the truth. From `estimation`, in which the trolley hardly ever stops, dry friction scatters by `dry_scatter`{.value} V about `dry_mean`{.value} V over the four repetitions, although the standard errors are `dry_error`{.value} V on average. From `steps` it is `steps_dry`{.value} V: a trolley that stops shows its friction. This is still `steps_off`{.value} standard errors below the truth. The length is
--- found to a fraction of a millimeter and is off by `length_off`{.value} of its standard errors. A standard error shows how far white noise moves an estimate if the equations are right. These equations are only nearly right: a resting trolley holds more than a moving one, the belt is elastic, and the motor has an inductance. The error of `dry/gain` follows
--- from $\operatorname{var}(\mu/g_u) \approx \left(\operatorname{var}\mu - 2r\operatorname{cov}(\mu, g_u) + r^2\operatorname{var} g_u\right)/g_u^2$ with $r = \mu/g_u$.
+-- *The parameters* have units, and you can compare them with other experiments, and here with the truth. In `estimation`, the trolley almost never
+-- stops. Over the four repetitions, the dry friction has the mean `dry_mean`{.value} V and the scatter `dry_scatter`{.value} V, although the standard
+-- errors are `dry_error`{.value} V on average. From `steps` it is `steps_dry`{.value} V: a trolley that stops shows its friction. This is still
+-- `steps_off`{.value} standard errors below the truth. The error of the length is a fraction of a millimeter, or `length_off`{.value} of its standard
+-- errors. A standard error shows how far white noise moves an estimate if the equations are right. These equations are only nearly right: a resting
+-- trolley holds more than a moving one, the belt is elastic, and the motor has an inductance. The error of `dry/gain` follows from
+-- $\operatorname{var}(\mu/g_u) \approx \left(\operatorname{var}\mu - 2r\operatorname{cov}(\mu, g_u) + r^2\operatorname{var} g_u\right)/g_u^2$ with
+-- $r = \mu/g_u$.
 -- END SOLUTION
 --
 -- # Two tanks
 --
--- A pump fills the upper of two tanks, it empties into the lower one, and this into the reservoir (@fig:tanks). The input is the pump's voltage, the output the reading of a sensor in the lower
--- tank, 0.5 V/cm. Both tanks are 20 cm high, and any excess overflows: a part of the upper tank's overflow falls into the lower one. The upper level is not measured. The process is like the one that
--- was published as a benchmark for nonlinear identification [@schoukens2017]; the numbers are our own.
+-- A pump fills the upper of two tanks. The upper tank empties into the lower tank, and the lower tank empties into the reservoir (@fig:tanks). The
+-- input is the voltage of the pump, and the output is the reading of a sensor in the lower tank, 0.5 V/cm. Both tanks are 20 cm high, and any excess
+-- overflows. A part of the upper tank's overflow falls into the lower tank. The upper level is not measured. The process resembles a published
+-- benchmark for nonlinear identification [@schoukens2017], with other numbers.
 --
 -- ::: {.drawing name=two_tanks}
 -- The tanks: the pump's voltage $u$, the levels $h_1$ and $h_2$, and the reading $y$ {#fig:tanks}
 -- :::
 --
--- `two_tanks` has two records of 1024 samples, 4 s apart: `t`, `u`, `y` for estimation, `t_val`, `u_val`, `y_val` for validation. The voltage is a multisine, the sum of 59 sines with random phases, limited to 0 and 5 V.
+-- `two_tanks` has two data sets of 1024 samples, one every 4 s: `t`, `u`, `y` for estimation, and `t_val`, `u_val`, `y_val` for validation. The
+-- voltage is a multisine, the sum of 59 sines with random phases, limited to 0 and 5 V.
 
 -- %% id=tanks
 local tanks = load("two_tanks")
@@ -309,13 +336,15 @@ local labels = {InputUnit = "V", OutputUnit = "V",
 local estimation = iddata(tanks.y, tanks.u, 4, labels)
 local validation = iddata(tanks.y_val, tanks.u_val, 4, labels)
 report.figure("tanks", idplot(estimation):set{height = 6},
-              say("The tanks' record", "L'enregistrement des réservoirs"))
+              say("The data of the tanks", "L'enregistrement des réservoirs"))
 
 -- %% [markdown]
--- ![The record for estimation: above, the reading; below, the voltage](figure:tanks){#fig:tanks_record}
+-- ![The estimation data: reading (above) and voltage (below)](figure:tanks){#fig:tanks_record}
 --
--- **Question 5.** What happens at the highest readings (@fig:tanks_record)? Estimate linear models, with one to three poles (initial state and offset estimated as well), and choose one. What is its free-run error on
--- `validation`, as the root mean square in volts? Do not choose on `validation`: data that choose a model flatter it. Split `estimation` instead (`data:split(2/3)`), fit on the first part, choose on the rest, and estimate your choice again from all of `estimation`.
+-- **Question 5.** What happens at the highest readings (@fig:tanks_record)? Estimate linear models with one to three poles (also estimate initial
+-- state and offset), and choose one. What is its free-run error on `validation`, as the root mean square in volts? Do not use `validation` for the
+-- choice: data that influence the choice make the model look better than it is. Split `estimation` instead (`data:split(2/3)`), fit on the first
+-- part, choose on the rest, and estimate your choice again from all of `estimation`.
 
 -- %% id=black_box
 -- BEGIN SOLUTION
@@ -357,19 +386,21 @@ report.value("highest", max(tanks.y), "%.1f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The highest readings end in plateaus at `highest`{.value} V: there the lower tank is full. The rim of the upper tank is not visible directly. The last third of `estimation` chooses the linear model with `linear_poles`{.value} poles; its free-run error on `validation` is `linear_error`{.value} V. The tanks are not
--- linear even below their rims, because they empty with the root of the level.
+-- The highest readings end in plateaus at `highest`{.value} V, where the lower tank is full. The rim of the upper tank is not visible directly.
+-- According to the last third of `estimation`, the linear model with `linear_poles`{.value} poles is the best. Its free-run error on `validation` is
+-- `linear_error`{.value} V. The tanks are not linear even below their rims, because their outflow is proportional to the root of the level.
 -- END SOLUTION
 --
--- ## What a record cannot tell
+-- ## What data cannot determine
 --
--- Torricelli's law says that a tank empties with the root of its level,
+-- By Torricelli's law, the outflow of a tank is proportional to the root of its level,
 --
 -- $$ \dot h_1 = -k_1 \sqrt{h_1} + k_4 u , \qquad \dot h_2 = k_2 \sqrt{h_1} - k_3 \sqrt{h_2} , \qquad y = y_0 + 0.5\,h_2 , $$ {#eq:tanks}
 --
--- with levels in centimetres.
+-- with levels in centimeters.
 --
--- **Question 6.** Write @eq:tanks for `idgrey`, with both levels at the start estimated (`x0`). Which of the five numbers can the record not tell apart? What would have to be done to $k_1$, $k_2$, $k_4$ if $h_1$ were counted in inches?
+-- **Question 6.** Write @eq:tanks for `idgrey`, and estimate both initial levels (`x0`). Which of the five numbers can the data not distinguish? How
+-- do $k_1$, $k_2$, $k_4$ change if $h_1$ is measured in inches?
 
 -- %% id=without_rims
 -- BEGIN SOLUTION
@@ -391,12 +422,17 @@ for _, warning in ipairs(simple.report.warnings) do print(warning) end
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The warning names $k_1$, $k_2$, $k_4$ and the start $h_1(0)$. If $h_1$ is counted in a unit that is $s$ times smaller, $h_1$ becomes $s\,h_1$, and the same reading follows from $k_1\sqrt{s}$, $k_2/\sqrt{s}$, $s\,k_4$ and $s\,h_1(0)$: four numbers, of which the data determine three combinations. For
--- inches $s = 1/2.54$: $k_1/\sqrt{2.54}$, $k_2\sqrt{2.54}$, $k_4/2.54$. No experiment with this sensor can do better, as long as nothing in the equations fixes the unit of the hidden level. The model can be simulated all the same. Its free-run error is `simple_error`{.value} V, more than that of the linear model, because no parameter of it can make up for the missing rims.
+-- The warning names $k_1$, $k_2$, $k_4$ and the initial level $h_1(0)$. If $h_1$ is measured in a unit that is $s$ times smaller, $h_1$ becomes
+-- $s\,h_1$, and the same reading follows from $k_1\sqrt{s}$, $k_2/\sqrt{s}$, $s\,k_4$ and $s\,h_1(0)$: four numbers, of which the data determine
+-- three combinations. For inches $s = 1/2.54$: $k_1/\sqrt{2.54}$, $k_2\sqrt{2.54}$, $k_4/2.54$. No experiment with this sensor can do better if
+-- nothing in the equations fixes the unit of the hidden level. You can still simulate the model. Its free-run error is `simple_error`{.value} V, more
+-- than that of the linear model, because no parameter can compensate for the missing rims.
 -- END SOLUTION
 --
--- **Question 7.** Now the rims. A flow $\beta\max(h_1 - 20,\,0)$ (cm/s) leaves the upper tank over its rim, and the part $q$ of it reaches the lower tank, which has such a rim too. The steepness $\beta$ is a number of convenience, as $\delta$ was: take 5 per second, then 50. Estimate the six
--- parameters $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$. What is the free-run error now? Compare it with the sensor's noise, and the parameters with the truth, over repetitions (`rig("two_tanks", {seed = 2})` and so on): by how many standard errors are they off on average?
+-- **Question 7.** Now add the rims. A flow $\beta\max(h_1 - 20,\,0)$ (cm/s) leaves the upper tank over its rim. The part $q$ of this flow reaches the
+-- lower tank, which has the same kind of rim. Like $\delta$, the steepness $\beta$ is a number chosen for convenience: use 5 per second, then 50.
+-- Estimate the six parameters $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$. What is the free-run error now? Compare it with the sensor's noise. Compare the
+-- parameters with the truth over repetitions (`rig("two_tanks", {seed = 2})` and so on): what is their average error in standard errors?
 
 -- %% id=six_parameters
 -- BEGIN SOLUTION
@@ -459,19 +495,27 @@ report.value("sensor", tank_truth.noise_std, "%.3f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=six #tbl:six}
--- The six parameters ± standard error, for two steepnesses $\beta$ of the rims; last, for each $\beta$, the mean over ten repetitions of the error divided by its standard error
+-- The six parameters ± standard error, for two values of the steepness $\beta$ of the rims. The last columns are, for each $\beta$, the mean over ten
+-- repetitions of the error divided by its standard error.
 -- :::
 --
--- The free-run error is `physics_error`{.value} V, and the sensor alone has a noise of `sensor`{.value} V: nothing is left. The parameters that could not be told apart are found now (@tbl:six): the height of the upper rim is known in centimeters and fixes the
--- unit of the hidden level. But the repetitions show a bias. Without one, the mean error of `times`{.value} repetitions is within about twice `mean_scatter`{.value} of zero; with $\beta = 5$ the part $q$ is `gentle_q`{.value} standard errors too low on average. Water over a rim stands almost at the rim, but this flow lets it rise and run down later. With $\beta = 50$ the
--- bias of $q$ is `steep_q`{.value}. The free run does not show the difference (`gentle_error`{.value} V with $\beta = 5$): again a convenient term is part of the model.
+-- The free-run error is `physics_error`{.value} V, and the sensor alone has a noise of `sensor`{.value} V: nothing remains. The data now determine
+-- all parameters (@tbl:six), because the height of the upper rim is known in centimeters and fixes the unit of the hidden level. But the repetitions
+-- show a bias. Without a bias, the mean error of `times`{.value} repetitions would be within about twice `mean_scatter`{.value} of zero. With
+-- $\beta = 5$, the part $q$ is `gentle_q`{.value} standard errors too low on average. Real water stays almost at the rim, but this flow lets it rise
+-- and run down later. With $\beta = 50$, the bias of $q$ is `steep_q`{.value}. The free run does not show the difference (`gentle_error`{.value} V
+-- with $\beta = 5$): again a convenient term is part of the model.
 --
--- The start values need a thought: at the mean voltage of 2.6 V the tanks are somewhat over half full, so $k_4 \approx k_1\sqrt{13}/2.6$. From a start at which the upper tank never overflows, as with 0.05 for $k_4$ too, a search from there alone does not find the rim. `greyest` sees that the errors which are left follow each other, and goes on from other starts; `starts = 20` tries more.
+-- Choose the initial values with care: at the mean voltage of 2.6 V, the tanks are somewhat over half full, so $k_4 \approx k_1\sqrt{13}/2.6$.
+-- Suppose that the upper tank never overflows at the initial values, for example with 0.05 also for $k_4$. Then a search from there alone does not
+-- find the rim. `greyest` detects that the residuals are correlated, and continues from other initial values. `starts = 20` tries more of them.
 -- END SOLUTION
 --
 -- ## Learning without equations
 --
--- **Question 8.** A polynomial NARX model predicts $y_k$ from past readings and voltages and their products [@billings2013]: `narx(data, {na, nb, nk}, {degree =, terms =})` chooses the terms one by one. Try lags and degrees, and choose as in question 5. What is its error one step ahead, and in free run?
+-- **Question 8.** A polynomial NARX model predicts $y_k$ from past readings and voltages and their products [@billings2013]:
+-- `narx(data, {na, nb, nk}, {degree =, terms =})` selects one term at a time. Try lags and degrees, and choose as in question 5. What is its error
+-- one step ahead, and in free run?
 
 -- %% id=narx
 -- BEGIN SOLUTION
@@ -488,12 +532,18 @@ local unspoilt = narx_of(noiseless, {4, 1})
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The last third of `estimation` chooses four lags and degree 1: no products, so the model is linear. One step ahead its error is `narx_ahead`{.value} V on the estimation data, `narx_ahead_ratio`{.value} times the sensor's noise. In free run on `validation` it is `narx_error`{.value} V, because the model's own errors return as regressors. Products do not help: with
--- degree 2 it is `narx_products`{.value} V. The noise of the past readings biases the coefficients, but it is not the cause here: the same model from readings without noise has `narx_noiseless`{.value} V. The `narx_terms`{.value} terms are chosen because they explain most one step ahead; they have no physical meaning.
+-- According to the last third of `estimation`, four lags and degree 1 are the best: no products, so the model is linear. One step ahead, its error is
+-- `narx_ahead`{.value} V on the estimation data, `narx_ahead_ratio`{.value} times the sensor's noise. In free run on `validation`, the error is
+-- `narx_error`{.value} V, because the model's own errors return as regressors. Products do not help: with degree 2 the error is
+-- `narx_products`{.value} V. The noise of the past readings biases the coefficients, but it is not the cause here: the same model from readings
+-- without noise has an error of `narx_noiseless`{.value} V. The method selects the `narx_terms`{.value} terms because they explain most one step
+-- ahead. They have no physical meaning.
 -- END SOLUTION
 --
--- **Question 9.** SINDy looks for differential equations [@brunton2016]: it writes the derivatives of the states as sums of few functions from a library that you give. The upper level is not measured; take the reading and its derivative as the
--- states (the slope of a straight line through some samples to either side). Try a library of polynomials and one with the roots of Torricelli's law. Which coefficients does @eq:tanks predict for the second one? Linearize in the slope.
+-- **Question 9.** SINDy finds differential equations [@brunton2016]. It writes the derivatives of the states as sums of a few functions from a
+-- library that you provide. The upper level is not measured. Use the reading and its derivative as the states (the slope of a line through some
+-- samples on both sides). Try a library of polynomials and one with the roots of Torricelli's law. Which coefficients does @eq:tanks predict for the
+-- second one? Linearize in the slope.
 
 -- %% id=sindy
 -- BEGIN SOLUTION
@@ -544,20 +594,26 @@ report.value("sindy_factor", found_equations.roots.report.coefficients[{4, 1}], 
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- With polynomials the free-run error is `sindy_polynomial`{.value} V, with the roots of Torricelli's law `sindy_roots`{.value} V. The remark printed under both is right: in free run they follow the slope only in part, and a higher degree knows no rims either. These equations can be read, which those of NARX cannot. Let $v = \dot y = \tfrac12 (k_2\sqrt{h_1} - k_3\sqrt{h_2})$. Differentiate it, eliminate $\sqrt{h_1} = (2v + k_3\sqrt{h_2})/k_2$, and keep what is linear in $v$ about the equilibrium, where
--- $k_4 u = k_1\sqrt{h_1}$. With $\sqrt{h_2} \approx \sqrt{2y}$ this is
+-- With polynomials, the free-run error is `sindy_polynomial`{.value} V, and with the roots of Torricelli's law `sindy_roots`{.value} V. The remark
+-- printed under both is right: in free run, they follow the slope only in part, and a higher degree does not describe the rims either. You can
+-- interpret these equations, unlike those of NARX. Let $v = \dot y = \tfrac12 (k_2\sqrt{h_1} - k_3\sqrt{h_2})$. Differentiate it, eliminate
+-- $\sqrt{h_1} = (2v + k_3\sqrt{h_2})/k_2$, and keep the terms that are linear in $v$ around the equilibrium, where $k_4 u = k_1\sqrt{h_1}$. With
+-- $\sqrt{h_2} \approx \sqrt{2y}$ this is
 --
 -- $$ \dot v \approx -\frac{k_1 k_2}{4} + \frac{k_2^2 k_4}{4\sqrt2\,k_3}\,\frac{u}{\sqrt y} - \frac{k_3 + k_1 k_2/k_3}{2\sqrt2}\,\frac{v}{\sqrt y} . $$ {#eq:solution-sindy}
 --
 -- ::: {.table name=sindy #tbl:sindy}
--- Coefficients of $\dot v$: predicted from the six parameters by @eq:solution-sindy, and found by SINDy without them
+-- Coefficients of $\dot v$: predicted from the six parameters by @eq:solution-sindy, and estimated by SINDy without them
 -- :::
 --
--- SINDy finds these three terms and no others, within `sindy_within`{.value} % (@tbl:sindy): they are Torricelli's law, seen from the lower tank. The other equation should read $\dot y = v$; the factor `sindy_factor`{.value} comes from the states, since the slope of a line over 44 s is a smoothed derivative and a little too small. The
--- rims appear in neither equation, and the result depends on the library: SINDy chooses among the functions that you thought of.
+-- SINDy finds these three terms and no others, within `sindy_within`{.value} % (@tbl:sindy): they are Torricelli's law, seen from the lower tank. The
+-- other equation should be $\dot y = v$. The factor `sindy_factor`{.value} comes from the states, because the slope of a line over 44 s is a smoothed
+-- derivative and a little too small. The rims appear in neither equation. The result depends on the library: SINDy selects only among the functions
+-- that you provide.
 -- END SOLUTION
 --
--- **Question 10.** Which model do you recommend, and for what? One record is one realization: simulate ten other validation records with all models, `rig("two_tanks", {seed = 2})` and so on, without estimating anything again.
+-- **Question 10.** Which model do you recommend, and for which purpose? One data set is one realization. Simulate ten other validation data sets with
+-- all models, `rig("two_tanks", {seed = 2})` and so on, without estimating anything again.
 
 -- %% id=verdict
 -- BEGIN SOLUTION
@@ -624,33 +680,48 @@ report.value("kept_others", mean(vector(kept)), "%.3f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=verdict #tbl:verdict}
--- Free-run errors on `validation`, and mean ± standard deviation on the validation records of ten repetitions
+-- Free-run errors on `validation`, and mean ± standard deviation on the validation data of ten repetitions
 -- :::
 --
--- ![Free run on `validation`; below, measured less simulated](figure:free_run){#fig:free_run}
+-- ![Free run on `validation`; below, measured minus simulated](figure:free_run){#fig:free_run}
 --
--- Physics with its rims is better than everything else by a factor of six and more (@tbl:verdict, @fig:free_run), on all ten records, and it gives the level in the tank that nobody measures. The linear model is second, and physics without rims third, before NARX and SINDy. All models without the rims are a little worse on the ten records than
--- on `validation`: that is the chance of one record. For each record `fit` estimates the start: the levels, the first readings, and for the linear model its state and its offset. With the offset of `estimation` the linear model has `kept_here`{.value} V, and `kept_others`{.value} V on the ten others: the order stays.
+-- The physical model with rims is better than all others by a factor of six or more (@tbl:verdict, @fig:free_run), on all ten data sets. It also
+-- gives the level of the tank without a sensor. The linear model is second, and the physical model without rims is third, before NARX and SINDy. All
+-- models without rims are a little worse on the ten data sets than on `validation`: this is the chance of one data set. For each data set, `fit`
+-- estimates the initial values: the levels, the first readings, and for the linear model its state and its offset. With the offset of `estimation`,
+-- the linear model has `kept_here`{.value} V, and `kept_others`{.value} V on the ten others. The ranking does not change.
 --
--- The linear model minimizes the error of the free run, NARX the error one step ahead, SINDy the error of slopes. That NARX and SINDy are nonlinear does not make up for this here. Try them where nobody has the equations, next to a linear model, and compare all models in free run.
+-- The linear model minimizes the free-run error, NARX minimizes the error one step ahead, and SINDy minimizes the error of slopes. Their nonlinearity
+-- does not compensate for this here. Try NARX and SINDy if the equations are unknown, next to a linear model, and compare all models in free run.
 -- END SOLUTION
 --
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
--- * The errors of a linear model have causes. A grey box tests them one by one: each is a term that can be switched on and off, estimated, and compared on other data.
--- * A term that you write for convenience, such as a smooth step, is part of your model. Halve its width and look: at the parameters, and at data that visit it. Standard errors and a good validation fit do not show it.
--- * Physical parameters have units, standard errors and a meaning outside the model. Where the data cannot tell some of them apart, no method can; other knowledge, here the height of a rim, can help.
--- * An error one step ahead says little. Compare models for simulation in free run, on data that neither estimated nor chose them, and on more than one record.
--- * Methods that learn need no equations, but a good choice of functions, and a nonlinear model need not be better than a linear model fitted by its free run.
+-- * The errors of a linear model have causes. A grey box tests them separately: each is a term that you can switch on and off, estimate, and compare
+--   on other data.
+-- * A term that you write for convenience, such as a smooth step, is part of your model. Halve its width and look at the parameters, and at data for
+--   which the term matters. Standard errors and a good validation fit do not show the problem.
+-- * Physical parameters have units, standard errors and a meaning outside the model. If the data cannot distinguish some of them, no method can.
+--   Other knowledge, here the height of a rim, can help.
+-- * An error one step ahead says little. Compare models for simulation in free run, on data that you used neither for estimation nor for the choice,
+--   and on more than one data set.
+-- * Learning methods need no equations, but they need a good choice of functions. A nonlinear model is not always better than a linear model fitted
+--   by its free-run error.
 -- END SOLUTION
 --
 -- # What you submit
 --
 -- ::: {.note}
--- If this lesson is graded, submit results with `answer(name, value)`; `dynlab check` lists what is missing: `crane`, the length (m) and the voltage (V) that dry friction takes; `crane_fit`, the fit (%) of the angle of
--- `validation`, simulated by the crane's equations with all terms; `tanks`, the six parameters $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$; `free_run`, the free-run errors (V) on the validation record of the linear model, the six-parameter model and the NARX
--- model; and `simulated`, the reading that the six-parameter model simulates at the samples of `validation`. Your script will be run on the records of another crane and of other tanks. The checks look for the figures `left` and `free_run`.
+-- If this lesson is graded, submit results with `answer(name, value)`. `dynlab check` lists missing answers:
+--
+-- * `crane`: the length (m) and the voltage (V) that dry friction takes;
+-- * `crane_fit`: the fit (%) of the angle of `validation`, simulated by the crane's equations with all terms;
+-- * `tanks`: the six parameters $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$;
+-- * `free_run`: the free-run errors (V) on the validation data of the linear model, the six-parameter model and the NARX model;
+-- * `simulated`: the reading that the six-parameter model simulates at the samples of `validation`.
+--
+-- Grading also runs your script on data of another crane and of other tanks. The checks look for the figures `left` and `free_run`.
 -- :::
 
 -- %% id=hand_in

@@ -145,9 +145,16 @@
 -- # Ce que vous rendez
 --
 -- ::: {.note}
--- Là où cette leçon est notée, `answer(nom, valeur)` rend vos résultats, et `dynlab check` dit ce qui manque : `crane`, la longueur (m) et la tension (V) que prend le frottement sec ; `crane_fit`, l'adéquation (%) de l'angle de
--- `validation`, simulé par les équations de la grue avec tous les termes ; `tanks`, les six paramètres $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$ ; `free_run`, les erreurs (V) en simulation libre sur l'enregistrement de validation du modèle linéaire, de celui à six paramètres et du modèle
--- NARX ; et `simulated`, ce que le modèle à six paramètres dit de la lecture aux échantillons de `validation`. Votre script sera exécuté sur les enregistrements d'une autre grue et d'autres réservoirs. Les figures que l'on cherche sont `left` et `free_run`.
+-- Si cette leçon est notée, rendez vos résultats avec `answer(nom, valeur)`. `dynlab check` liste les réponses qui manquent :
+--
+-- * `crane` : la longueur (m) et la tension (V) que prend le frottement sec ;
+-- * `crane_fit` : l'adéquation (%) de l'angle de `validation`, simulé par les équations de la grue avec tous les termes ;
+-- * `tanks` : les six paramètres $k_1$, $k_2$, $k_3$, $k_4$, $q$, $y_0$ ;
+-- * `free_run` : les erreurs (V) en simulation libre sur les données de validation du modèle linéaire, du modèle à six paramètres et du modèle NARX ;
+-- * `simulated` : la lecture que simule le modèle à six paramètres aux échantillons de `validation`.
+--
+-- L'évaluation exécute aussi votre script sur les données d'une autre grue et d'autres réservoirs. Les vérifications cherchent les figures `left` et
+-- `free_run`.
 -- :::
 
 -- %% [markdown]

@@ -1,5 +1,5 @@
--- expects: crane: is it fixed at zero
--- expects: crane_fit: are swings taken for small
+-- expects: crane: The dry friction is zero
+-- expects: crane_fit: A linear model reaches this fit
 -- expects: tanks: without its rim at 20 cm
 -- expects: free_run: lsim starts from rest
 -- expects: simulated: It comes to

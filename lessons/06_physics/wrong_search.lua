@@ -2,7 +2,7 @@
 -- expects: free_run: was not handed in
 -- expects: simulated: was not handed in
 -- expects: figures: There is no figure
--- expects: crane_follows: On the other crane the search ended far away
+-- expects: crane_follows: For the other crane the search failed
 -- expects: tanks_follow: was not handed in
 -- The crane only, by a search without bounds that finds its end on the records it was tried on, and nowhere else.
 local tried, now = rig("crane").estimation, load("crane").estimation

@@ -1,7 +1,7 @@
 -- expects: simulated: This is the measured reading itself
 -- expects: free_run: away from what was expected
--- expects: crane_follows: they must be computed, not typed in
--- expects: tanks_follow: they must be computed, not typed in
+-- expects: crane_follows: The results do not change with the data
+-- expects: tanks_follow: The results do not change with the data
 -- What SOURCE.md says, and a measured record in place of a simulated one.
 answer("crane", vector{0.3724, 0.24})
 answer("crane_fit", 98.1)

@@ -1,6 +1,6 @@
 -- expects: crane: The order is length, voltage
--- expects: crane_fit: Percent are wanted
--- expects: free_run: So good is NARX one sample ahead only
+-- expects: crane_fit: The result must be in percent
+-- expects: free_run: NARX is so good only one sample ahead
 -- expects: simulated: These are levels
 -- expects: figures: There is no figure
 -- expects: crane_follows: On a record that you have not seen

@@ -23,30 +23,30 @@ local direct = srivc(data, {1, 2, 0}, from_rest)
 local opened = load("drive").open_loop
 local in_the_open = srivc(iddata(opened.y, opened.u, Ts), {1, 2, 0}, from_rest)
 
-check { id = "direct", points = 1, about = "The direct route",
+check { id = "direct", points = 1, about = "The direct method",
     test = function(a) return near(a.G_direct.param, direct.param, {rel = 1e-2}) end,
     mistakes = {
         {when = function(a) return near(a.G_direct.param, lssvf(data, {2, 1, 0}, lambda).param, {rel = 1e-2}) end,
-         say = "This is what LSSVF gives; the direct route with SRIVC is wanted."},
+         say = "This is the model of LSSVF; use the direct method with SRIVC."},
         {when = function(a) return near(a.G_direct.param, in_the_open.param, {rel = 1e-2}) end,
-         say = "This is not biased: was it estimated from the open loop?"},
+         say = "This model is not biased: was it estimated from the open loop?"},
     },
     hint = "srivc on the voltage and the speed of tracking, as if there were no loop." }
 
-check { id = "own_instruments", points = 3, about = "Instruments made of the reference",
+check { id = "own_instruments", points = 3, about = "Instruments from the reference",
     test = function(a)
-        if #a.own_instruments ~= 3 then return judge("Wanted are three numbers: a1, a2, b0.") end
+        if #a.own_instruments ~= 3 then return judge("The answer must have three numbers: a1, a2, b0.") end
         return near(a.own_instruments, wanted, {rel = 1e-2, half = 5e-2})
     end,
     mistakes = {
         {when = function(a) return near(a.own_instruments, least_squares, {rel = 1e-2}) end,
          say = "This is least squares: the instruments are the regressors themselves."},
         {when = function(a) return near(a.own_instruments, second_order, {rel = 1e-2}) end,
-         say = "The reference went through a filter of second order, whose second derivative jumps; a filter of fourth order is wanted."},
+         say = "You filtered the reference with a filter of second order, whose second derivative jumps; use a filter of fourth order."},
         {when = function(a) return near(a.own_instruments, wanted*vector{-1, -1, 1}, {rel = 1e-2}) end,
-         say = "The signs of a1 and a2 are turned round: the regressors of the output have a minus."},
+         say = "a1 and a2 have the wrong sign: the regressors of the output have a minus."},
         {when = function(a) return near(a.own_instruments, wanted*vector{-1, -1, -1}, {rel = 1e-2}) end,
-         say = "All signs are turned round."},
+         say = "All parameters have the wrong sign."},
     },
     hint = "solve(Z:t()*Phi, Z:t()*Y) with the last three columns of svf(r, 4, 10, ...) as Z." }
 
@@ -62,7 +62,7 @@ end
 check { id = "two_stage", points = 2, about = "Two stages",
     test = function(a) return all_of(differs(a.G_two_stage.param, a.G_direct.param), cured(a.G_two_stage, plant(a))) end,
     mistakes = {
-        {when = function(a) return says_direct(a, "G_two_stage") end, say = "This is the direct route: the second stage needs the voltage that the first one simulates."},
+        {when = function(a) return says_direct(a, "G_two_stage") end, say = "This is the direct method: the second stage needs the simulated voltage of the first stage."},
         {when = function(a) return dcgain(a.G_two_stage) < 0.4*dcgain(plant(a)) end,
          say = "This is the loop itself, from reference to speed: the input of the second stage is a voltage."},
     },
@@ -70,20 +70,20 @@ check { id = "two_stage", points = 2, about = "Two stages",
 
 check { id = "final_model", points = 4, about = "The recommended model of the drive",
     test = function(a)
-        if a.G_final.Ts > 0 then return judge("A continuous-time model is wanted, but this one is in discrete time.") end
+        if a.G_final.Ts > 0 then return judge("The model must be in continuous time, but it is in discrete time.") end
         return all_of(differs(a.G_final.param, a.G_direct.param), cured(a.G_final, plant(a)))
     end,
     mistakes = {
-        {when = function(a) return says_direct(a, "G_final") end, say = "The direct route is biased by the loop; it cannot be the recommended one."},
+        {when = function(a) return says_direct(a, "G_final") end, say = "The loop biases the direct method; it cannot be the recommended one."},
     },
-    hint = "A method whose instruments come from the reference." }
+    hint = "Use a method with instruments from the reference." }
 
 check { id = "final_is_estimated", points = 1, about = "The recommended model carries its uncertainty",
     test = function(a)
         local facts = plant(a)
         return near(a.G_final.param, vector{facts.den[2], facts.den[3], facts.num[#facts.num]}, {abs = 8*max(a.G_final.std)})
     end,
-    hint = "Hand in the model that the method returned, not one you typed in." }
+    hint = "Submit the model that the method returned; do not type it in." }
 
 -- Gain and time constant at an instant.
 local function at(a, instant) return vector{heater(a).gain[instant + 1], heater(a).time_constant[instant + 1]} end
@@ -95,7 +95,7 @@ local before, after = 2600, 4500
 local stands_still = srivc(iddata(load("drifting_process").y, load("drifting_process").u, 1), {1, 1, 0}, {InitialState = "estimate", Offset = "none"})
 local function follows(name, instant)
     return function(a)
-        if #a[name] ~= 2 then return judge("Wanted are two numbers: gain and time constant.") end
+        if #a[name] ~= 2 then return judge("The answer must have two numbers: gain and time constant.") end
         return tracked(a[name], a, instant)
     end
 end
@@ -103,7 +103,7 @@ local function slips(name, instant)
     return {
         {when = function(a) return tracked(vector{a[name][2], a[name][1]}, a, instant) end, say = "The order is gain, time constant."},
         {when = function(a) return near(a[name], vector{dcgain(stands_still), 1/stands_still.den[2]}, {rel = 1e-2}) end,
-         say = "This is the single model of the whole record, which follows nothing."},
+         say = "This is the single model of all data, which does not track the changes."},
         {when = function(a) return tracked(vector{a[name][1], 1/a[name][2]}, a, instant) end,
          say = "The second number is the pole a; the time constant is its inverse."},
     }
@@ -117,7 +117,7 @@ check { id = "after_cleaning", points = 2, about = "The heater after it was desc
     test = follows("after_cleaning", after), mistakes = slips("after_cleaning", after),
     hint = "The same at sample 4501: does your forgetting factor forget the scale?" }
 
-check { id = "figures", points = 1, about = "The correlation and the tracked parameters are drawn",
+check { id = "figures", points = 1, about = "Figures of the correlation and of the tracked parameters",
     test = function() return all_of(has_figure("correlation"), has_figure("tracking")) end,
     hint = "report.figure(\"correlation\", fig, \"...\") and report.figure(\"tracking\", fig, \"...\")." }
 
@@ -127,11 +127,11 @@ check { id = "drive_follows", points = 4, rerun = "drive", about = "Another driv
     end,
     mistakes = {
         {when = function(a, b) return near(a.G_final.param, b.G_final.param, {rel = 1e-9}) end,
-         say = "The model does not change with the records: it must be estimated, not typed in."},
+         say = "The model does not change with the data: estimate it; do not type it in."},
         {when = function(a, b) return near(b.G_final.param, b.G_direct.param, {rel = 1e-6}) end,
-         say = "It is the direct route again."},
+         say = "This is the direct method again."},
     },
-    hint = "Estimate from what load(\"drive\") gives." }
+    hint = "Estimate from the data that load(\"drive\") returns." }
 
 check { id = "heater_follows", points = 3, rerun = "drifting_process", about = "Another heater: its gain and time constant",
     test = function(a, b)
@@ -142,6 +142,6 @@ check { id = "heater_follows", points = 3, rerun = "drifting_process", about = "
     end,
     mistakes = {
         {when = function(a, b) return near(a.before_cleaning, b.before_cleaning, {rel = 1e-9}) end,
-         say = "The results do not change with the records: they must be computed, not typed in."},
+         say = "The results do not change with the data: compute them; do not type them in."},
     },
-    hint = "The recursion runs over whatever record load(\"drifting_process\") gives." }
+    hint = "Run the recursion over the data that load(\"drifting_process\") returns." }

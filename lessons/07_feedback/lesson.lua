@@ -16,34 +16,37 @@
 -- ---
 
 -- %% [markdown]
--- Many processes cannot be taken out of their control loop for an experiment: the product would be lost, or the process would run away. So the data are recorded while
--- a controller works, and nobody chooses the input freely. And many processes change from month to month. This lesson has data for both cases:
--- a drive under speed control (@fig:drive), and a water heater that furs up (@fig:heater). Both are *simulated*, so you can compare what you find with the truth.
+-- Many processes must stay in their control loop during an experiment. Without control, the product would be lost, or the process would run away. The
+-- data are then measured while a controller works, and you cannot choose the input freely. Many processes also change from month to month. This
+-- lesson has data for both cases: a drive under speed control (@fig:drive), and a water heater that fouls (@fig:heater). Both are *simulated*, so you
+-- can compare your results with the truth.
 --
 -- ::: {.drawing name=drive}
--- The drive: the computer compares the reference $r$ with the speed $y$ that the tachometer reads and sets the motor's voltage $u$; a torque of the load disturbs {#fig:drive}
+-- The drive: the computer compares the reference $r$ with the speed $y$ from the tachometer and sets the motor's voltage $u$. The load torque is a
+-- disturbance. {#fig:drive}
 -- :::
 --
 -- The work is planned for two sessions of three hours:
 --
 -- | session | questions, with minutes | aim |
 -- |--------------|-------------------------|------------------------|
--- | In the loop | 1 (15), 2 (25), 3 (25), 4 (15), 5 (40), 6 (20), 7 (30) | see the bias of the direct route, say where it comes from, cure it three times |
--- | How sure, and over time | 8 (40), 9 (25), 10 (60), 11 (45) | compare the routes over many records; follow a process that drifts |
+-- | In the loop | 1 (15), 2 (25), 3 (25), 4 (15), 5 (40), 6 (20), 7 (30) | see the bias of the direct method, find its cause, remove it in three ways |
+-- | How certain, and over time | 8 (40), 9 (25), 10 (60), 11 (45) | compare the methods over many data sets; track a process that drifts |
 --
 -- # A drive under speed control
 --
--- | record | what was done |
+-- | data set | experiment |
 -- |-------------|----------------|
--- | `tracking`, `validation` | the loop is closed, the reference jumps between ±8 rad/s, in two different orders |
--- | `regulation` | the loop is closed, the reference rests at zero |
--- | `open_loop` | the loop is opened and the voltage jumps between ±1.2 V |
+-- | `tracking`, `validation` | closed loop; the reference jumps between ±8 rad/s, in two different orders |
+-- | `regulation` | closed loop; the reference is constant at zero |
+-- | `open_loop` | open loop; the voltage jumps between ±1.2 V |
 --
--- Each has `t` (s), `r` (rad/s), `u` (V) and `y` (rad/s), 0.01 s apart; the voltage is held between samples. The controller is known:
+-- Each has `t` (s), `r` (rad/s), `u` (V) and `y` (rad/s), every 0.01 s. The voltage is constant between samples. The controller is known:
 --
 -- $$ u_k = 0.12\,e_{k-1} + 0.6\,T_s \sum_{i<k} e_i , \qquad e = r - y . $$ {#eq:controller}
 --
--- It needs one sample to compute, hence $e_{k-1}$ and not $e_k$. From voltage to speed physics expects two poles, of the current and of the speed, and no zero,
+-- It needs one sample to compute, so it uses $e_{k-1}$ and not $e_k$. From voltage to speed, physics gives two poles, for the current and for the
+-- speed, and no zero,
 --
 -- $$ G(p) = \frac{b_0}{p^2 + a_1 p + a_2} . $$ {#eq:plant}
 
@@ -60,7 +63,8 @@ end
 print(pair(track))
 
 -- %% [markdown]
--- **Question 1.** Show reference, voltage and speed of `tracking` beside the voltage and the speed of `regulation`. In `regulation` nobody excites the loop: what moves the voltage?
+-- **Question 1.** Plot reference, voltage and speed of `tracking` next to those of `regulation`. In `regulation`, the reference does not excite the
+-- loop: what moves the voltage?
 
 -- %% id=signals
 -- BEGIN SOLUTION
@@ -81,7 +85,7 @@ for column, record in ipairs{track, drive.regulation} do
 end
 panels[1].title, panels[2].title = "tracking", "regulation"
 report.figure("signals", figure{rows = 3, columns = 2, height = 8, panels = panels},
-              "The first eight seconds of two records")
+              "The first eight seconds of two data sets")
 -- END SOLUTION
 
 -- %% id=signals_report echo=false
@@ -98,16 +102,17 @@ report.value("regulation_u", std(drive.regulation.u), "%.2f")
 -- BEGIN SOLUTION
 -- ![The first eight seconds of `tracking` (left) and `regulation` (right): reference, voltage, speed](figure:signals){#fig:signals}
 --
--- @fig:signals shows them. In `regulation` the load's torque moves the speed, by `regulation_y`{.value} rad/s (standard deviation), and the controller answers with
--- `regulation_u`{.value} V. The voltage is made of the disturbance: this is what is different in a loop. In `tracking` it is a mixture of what the reference asks for and of what the disturbance provokes.
+-- @fig:signals shows them. In `regulation`, the load torque moves the speed, by `regulation_y`{.value} rad/s (standard deviation), and the controller
+-- responds with `regulation_u`{.value} V. The disturbance determines the voltage. This is the difference between a closed loop and an open loop. In
+-- `tracking`, the voltage is a mixture of the responses to the reference and to the disturbance.
 -- END SOLUTION
 --
--- ## The direct route
+-- ## The direct method
 --
--- The simplest thing to do is to take $u$ and $y$ as if there were no loop.
+-- The simplest method uses $u$ and $y$ as if there were no loop.
 --
--- **Question 2.** Estimate @eq:plant with LSSVF, $\lambda = 10$ rad/s, and with SRIVC, each from `open_loop` and from `tracking`. Compare gain and parameters with the truth, `rig_truth("drive").G`.
--- Guess first: by how much is the gain that SRIVC finds in the loop wrong?
+-- **Question 2.** Estimate @eq:plant with LSSVF, $\lambda = 10$ rad/s, and with SRIVC, each from `open_loop` and from `tracking`. Compare gain and
+-- parameters with the truth, `rig_truth("drive").G`. First, enter a prediction: what is the error of the gain that SRIVC estimates in the loop?
 
 -- %% id=direct_guess
 -- BEGIN SOLUTION
@@ -154,19 +159,21 @@ report.value("true_fit", fit(pair(drive.validation), truth.G), "%.1f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- LSSVF is biased in both records (@tbl:direct), as lesson 4 leads one to expect of a noisy output. SRIVC is close to the truth when the loop is open, but in the loop
--- its gain is `srivc_off`{.value} % too small, and $b_0$ misses the truth by `srivc_robust_errors`{.value} of the robust standard errors, which are the ones to use where the noise is coloured (by `srivc_errors`{.value} of the plain ones, which are too small). Standard errors
--- tell the scatter; they know nothing of a bias. Validation in the loop does not help: on `validation` this model simulates the
--- speed from the voltage with a fit of `direct_fit`{.value} %, the truth itself with `true_fit`{.value} %. The wrong model wins, for it is wrong in the way that this
--- loop rewards.
+-- LSSVF is biased in both data sets (@tbl:direct), as expected from lesson 4 for a noisy output. SRIVC is close to the truth in the open loop. But in
+-- the closed loop, its gain is `srivc_off`{.value} % too small, and $b_0$ misses the truth by `srivc_robust_errors`{.value} robust standard errors.
+-- Use robust standard errors if the noise is colored. (The error is `srivc_errors`{.value} plain standard errors, which are too small.) Standard
+-- errors show the scatter. They do not include a bias. Validation in the loop does not help: on `validation`, this model simulates the speed from the
+-- voltage with a fit of `direct_fit`{.value} %, and the truth itself with `true_fit`{.value} %. The wrong model wins, because this loop rewards its
+-- error.
 --
 -- ::: {.table name=direct #tbl:direct}
--- The direct route: parameters of @eq:plant and the gain $b_0/a_2$ (rad/s per volt)
+-- The direct method: parameters of @eq:plant and the gain $b_0/a_2$ (rad/s per volt)
 -- :::
 -- END SOLUTION
 --
--- **Question 3.** Where does this come from? Take the true $G$ and compute what it leaves over in `tracking` and in `open_loop`, $v = y - G u$. Correlate $v$ with earlier and
--- with later voltages. One record shows mostly chance, so take the mean of twenty repetitions, `rig("drive", {seed = k})`, and plot the confidence interval of the mean. Where is it not zero, why on both sides, and what would it look like without feedback?
+-- **Question 3.** What is the cause of this bias? Use the true $G$ to compute the residuals $v = y - G u$ in `tracking` and in `open_loop`. Correlate
+-- $v$ with earlier and with later voltages. One data set shows mostly chance, so compute the mean of twenty repetitions, `rig("drive", {seed = k})`,
+-- and plot the confidence interval of the mean. Where is it not zero, why on both sides, and how would it look without feedback?
 
 -- %% id=correlation
 -- BEGIN SOLUTION
@@ -230,7 +237,7 @@ report.figure("correlation", figure{rows = 2, height = 9, panels = {
     {ylabel = "correlation of v", y_range = {-0.3, 0.1}, legend = "above", curves = {open_band, loop_band, open_mean, loop_mean}, references = {{x = 0}, {y = 0}}},
     {ylabel = "of what is new in v", y_range = {-0.06, 0.02}, legend = "none", curves = {news_band, news_mean}, references = {{x = 0}, {y = 0}},
      xlabel = "time by which the voltage is later (s)"}}},
-    "What is left over, and the voltage")
+    "Residuals and the voltage")
 local function at_lag(name, seconds)
     for k = 1, #lags do
         if math.abs(lags[k]*Ts - seconds) < 1e-9 then return curves[name].mean[k] end
@@ -248,20 +255,25 @@ report.value("open_mean", max(abs(curves.open.mean)), "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Correlation with the voltage at other times, right of zero with later voltages: mean of twenty repetitions, ± two of its standard errors. Above: of what the right model leaves over. Below: of that part of it which its own past does not tell](figure:correlation){#fig:correlation}
+-- ![Correlation with the voltage at other times (right of zero: later voltages), as the mean of twenty repetitions, ± two of its standard errors. Above: the residuals $v$ of the right model. Below: the part of $v$ that its past does not predict.](figure:correlation){#fig:correlation}
 --
--- With the loop open nothing is left but chance (@fig:correlation): a single record gives up to `open_one`{.value}, the mean of `times`{.value} up to `open_mean`{.value}. In the loop the correlation is not zero on either side: it is
--- `loop_same`{.value} with the voltage of the same instant, `loop_after`{.value} with that of a quarter of a second later, and `loop_before`{.value} with that of a quarter of a second before. That the later voltage depends on $v$ is the feedback: the
--- disturbance pushes the speed, and the controller pushes back. The earlier voltage cannot depend on a later $v$; but $v$ lasts, for it is a torque that lasts, smoothed by the drive. It resembles its own past, which the earlier voltage had answered.
+-- In the open loop, there is only chance (@fig:correlation): a single data set gives up to `open_one`{.value}, and the mean of `times`{.value} gives
+-- up to `open_mean`{.value}. In the closed loop, the correlation is not zero on either side. It is `loop_same`{.value} with the voltage at the same
+-- instant, `loop_after`{.value} with the voltage a quarter of a second later, and `loop_before`{.value} with the voltage a quarter of a second
+-- before. The later voltage depends on $v$ because of the feedback: the disturbance changes the speed, and the controller acts against it. The
+-- earlier voltage cannot depend on a later $v$. But $v$ changes slowly, because it is a slow torque, smoothed by the drive. It resembles its own
+-- past, and the earlier voltage is a response to this past.
 --
--- The lower panel separates the two. From $v$ everything is subtracted that its own past predicts (an autoregression of `past`{.value} values); what remains is new at its instant. With earlier voltages and that of the same instant it is correlated next to nothing (`news_before`{.value} a quarter of a second before), with later
--- ones it is (`news_after`{.value} a quarter of a second after). With $u$ on the right-hand side of the regression the error $v$ is no longer independent of the regressors,
--- whether they hold the measured or the simulated output: both are made of $u$.
--- With a right model of the noise, as `rivc` has one, the direct route is consistent, for then the error is only what is new; with a wrong one it is not [@ljung1999, chapter 13].
+-- The lower panel separates the two effects. We subtract from $v$ the prediction from its own past (an autoregression of `past`{.value} values). The
+-- remainder is new at its instant. It has almost no correlation with earlier voltages and the voltage at the same instant (`news_before`{.value} a
+-- quarter of a second before). It is correlated with later voltages (`news_after`{.value} a quarter of a second after). With $u$ on the right-hand
+-- side of the regression, the error $v$ is not independent of the regressors. This is true for regressors with the measured and with the simulated
+-- output, because both depend on $u$. With a right model of the noise, as in `rivc`, the direct method is consistent, because the error is then only
+-- the new part. With a wrong noise model, it is not consistent [@ljung1999, chapter 13].
 -- END SOLUTION
 --
--- **Question 4.** What does the direct route find in `regulation`, where nothing but the disturbance moves the loop? Estimate the frequency response (`etfe` with smoothing, or `spa`) from $u$ to $y$ and compare with
--- $G$ and with what remains of the loop's equation when $r = 0$.
+-- **Question 4.** What does the direct method estimate from `regulation`, where only the disturbance moves the loop? Estimate the frequency response
+-- from $u$ to $y$ (`etfe` with smoothing, or `spa`). Compare it with $G$ and with the equation of the loop for $r = 0$.
 
 -- %% id=regulation
 -- BEGIN SOLUTION
@@ -309,20 +321,27 @@ report.value("true_b0", true_p[3], "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![From voltage to speed: estimated from `regulation`, the truth $G$, and the controller's inverse with its sign turned, $-1/C$](figure:regulation){#fig:regulation}
+-- ![From voltage to speed: the estimate from `regulation`, the truth $G$, and the negative inverse of the controller, $-1/C$](figure:regulation){#fig:regulation}
 --
--- With $r = 0$ the record obeys two equations, $y = G u + v$ and $u = -C y$. The second one has no error, so it is the one that is found: $y/u = -1/C$ (@fig:regulation), the
--- negative inverse of the controller, in magnitude and in phase. (Below 0.5 rad/s the estimated phase is off by up to `slow_phase_off`{.value}°: `etfe` averages over twenty frequencies to either side, `smooth_band`{.value} rad/s, and within this band $-1/C$ turns.) A method that models no noise can find nothing else here, nor can one that takes its instruments from a reference which rests. What is left in principle is a parametric model of plant and noise together: since the
--- controller answers a sample late, $-1/C$ would have to know the next voltage and is no process, and with the right structure and very many samples $G$ would come out [@ljung1999, chapter 13]. Not from this record: `rivc` with a model of the noise finds
--- $b_0 =$ `resting_b0`{.value} ± `resting_b0_error`{.value}, the truth is `true_b0`{.value}. A record of ordinary operation is not a free experiment: somebody must move the reference.
+-- With $r = 0$, the data satisfy two equations, $y = G u + v$ and $u = -C y$. The second equation has no error, so the estimate is $y/u = -1/C$
+-- (@fig:regulation), the negative inverse of the controller, in magnitude and in phase. (Below 0.5 rad/s, the error of the estimated phase is up to
+-- `slow_phase_off`{.value}°: `etfe` averages over twenty frequencies on both sides, `smooth_band`{.value} rad/s, and the phase of $-1/C$ changes in
+-- this band.) A method without a noise model can find nothing else here, and neither can a method with instruments from a constant reference. In
+-- principle, a parametric model of plant and noise together is possible. The controller responds a sample late, so $-1/C$ would need the next voltage
+-- and cannot be the process. With the right structure and very many samples, the estimate would be $G$ [@ljung1999, chapter 13]. These data are not
+-- enough: `rivc` with a noise model estimates $b_0 =$ `resting_b0`{.value} ± `resting_b0_error`{.value}, and the truth is `true_b0`{.value}. Data of
+-- normal operation are not a free experiment: you must move the reference.
 -- END SOLUTION
 --
--- ## First cure: instruments made of the reference
+-- ## First cure: instruments from the reference
 --
--- The reference is what somebody chose. It moves the voltage and the speed, and it is independent of the disturbance: that is all that is asked of an instrument.
+-- You choose the reference. It moves the voltage and the speed, and it is independent of the disturbance. These are the two requirements for an
+-- instrument.
 --
--- **Question 5.** Write the regression of lesson 4, $Z^T Y = Z^T \Phi\,\theta$, with the columns $p^2 r_f$, $p\,r_f$, $r_f$ of the filtered reference as the instruments (`svf`, `solve`; $\lambda = 10$ rad/s). Take
--- a filter of fourth order, `svf(r, 4, lambda, ...)`, and its last three columns. One of second order has these columns, too, but its $p^2 r_f$ jumps with the reference, as no regressor does; question 8 tells what that costs. Then try `clivsvf`.
+-- **Question 5.** Write the regression of lesson 4, $Z^T Y = Z^T \Phi\,\theta$, with the columns $p^2 r_f$, $p\,r_f$, $r_f$ of the filtered reference
+-- as the instruments (`svf`, `solve`; $\lambda = 10$ rad/s). Use a filter of fourth order, `svf(r, 4, lambda, ...)`, and its last three columns. A
+-- filter of second order also has these columns, but its $p^2 r_f$ jumps with the reference, unlike the regressors. Question 8 shows the effect. Then
+-- try `clivsvf`.
 
 -- %% id=instruments
 -- BEGIN SOLUTION
@@ -351,14 +370,17 @@ present(Giv)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The own program finds a gain of `own_gain`{.value}, CLIVSVF of `iv_gain`{.value}; the truth is `true_gain`{.value}, and the direct route found `direct_gain`{.value}. CLIVSVF projects the voltage on the reference and its past and simulates
--- a first model with the projection: such instruments resemble the noise-free regressors more than filtered references do. Neither program knows the controller. All cures are above the truth on this record, which is one realization (@sec:which).
+-- Your own program estimates a gain of `own_gain`{.value}, and CLIVSVF estimates `iv_gain`{.value}. The truth is `true_gain`{.value}, and the
+-- estimate of the direct method was `direct_gain`{.value}. CLIVSVF projects the voltage on the reference and its past, and simulates a first model
+-- with the projection. Such instruments resemble the noise-free regressors more than filtered references do. Neither program knows the controller.
+-- For these data, all cures are above the truth, but this is one realization (@sec:which).
 -- END SOLUTION
 --
 -- ## Second cure: the loop as auxiliary model
 --
--- **Question 6.** The controller is known. Then a model of the plant gives a model of the whole loop, whose simulated, noise-free voltage $\hat u$ and speed $\hat x$ make better instruments, and its denominator
--- makes the filter. That is CLSRIVC [@gilson2008]: `clsrivc(data, {nb, nf, nk}, {controller = C})`. Write @eq:controller as a transfer function in $z$, and estimate.
+-- **Question 6.** The controller is known. So a model of the plant gives a model of the whole loop. Its simulated, noise-free voltage $\hat u$ and
+-- speed $\hat x$ are better instruments, and its denominator defines the filter. This is CLSRIVC [@gilson2008]:
+-- `clsrivc(data, {nb, nf, nk}, {controller = C})`. Write @eq:controller as a transfer function in $z$, and estimate.
 
 -- %% id=clsrivc
 -- BEGIN SOLUTION
@@ -370,14 +392,17 @@ present(Gcl)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Its gain is `cl_gain`{.value}. The message says that the controller answers at once: it means with no delay beyond the one that $C$ has, whose factor $1/z$ is the sample of computing. If reference and output through this $C$ did not give the recorded voltage, a warning would say so; there is none. Instruments that come out of a simulated loop resemble the noise-free signals as
--- far as the model is right, and the filter is that of SRIVC: there is no $\lambda$ to choose.
+-- Its gain is `cl_gain`{.value}. The message says that the controller answers at once. It means without a delay in addition to that of $C$, whose
+-- factor $1/z$ is the computing time of one sample. If $C$ did not reproduce the measured voltage from reference and output, dynlab would print a
+-- warning. There is none. If the model is right, instruments from a simulated loop resemble the noise-free signals. The filter is that of SRIVC:
+-- there is no $\lambda$ to choose.
 -- END SOLUTION
 --
 -- ## Third cure: two stages
 --
--- **Question 7.** Nothing needs to be known of the controller: estimate first how the reference moves the voltage, $\hat u = S r$ (an open-loop problem: what orders does it need?), then the plant from
--- $\hat u$ to $y$ with an ordinary method. Why is that one right now? Compare with `clsrivc` and its `route = "two-stage"`.
+-- **Question 7.** You do not need to know the controller. First estimate the response of the voltage to the reference, $\hat u = S r$ (an open-loop
+-- problem: which orders does it need?). Then estimate the plant from $\hat u$ to $y$ with an ordinary method. Why is this method right now? Compare
+-- with `clsrivc` and its `route = "two-stage"`.
 
 -- %% id=two_stage
 -- BEGIN SOLUTION
@@ -412,24 +437,28 @@ for name, G in pairs{iv = Giv, cl = Gcl, library = Glib} do report.value(name ..
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- From $r$ to $u$ nothing is fed back: $r$ knows nothing of the disturbance, so any open-loop method is right. $S = C/(1 + C G)$ has three poles, two of the plant and one of the controller's integrator, as many zeros, for the controller passes a jump of $r$ on, and one sample of delay. What the second stage takes for noise is
--- coloured, so its plain standard errors (± `two_plain`{.value} for $a_1$) are too small; the robust ones are ± `two_robust`{.value}. The library projects the voltage on the past of the reference instead of modelling $S$ by few
--- parameters, and finds a gain of `library_gain`{.value}.
+-- From $r$ to $u$ there is no feedback: $r$ does not depend on the disturbance, so any open-loop method is right. $S = C/(1 + C G)$ has three poles,
+-- two from the plant and one from the controller's integrator. It has the same number of zeros, because the controller passes on a jump of $r$, and
+-- one sample of delay. The noise in the second stage is colored, so its plain standard errors (± `two_plain`{.value} for $a_1$) are too small. The
+-- robust standard errors are ± `two_robust`{.value}. The library projects the voltage on the past of the reference instead of modeling $S$ by a few
+-- parameters, and estimates a gain of `library_gain`{.value}.
 --
 -- ::: {.table name=cures #tbl:cures}
--- The three cures on `tracking`: parameters ± one standard error that holds for coloured noise (`G.robust_std` of SRIVC, `G.std` of the others), and the gain
+-- The three cures on `tracking`: parameters ± one standard error that is valid for colored noise (`G.robust_std` of SRIVC, `G.std` of the others),
+-- and the gain
 -- :::
 -- END SOLUTION
 --
 -- ## Which cure? {#sec:which}
 --
 -- ::: note
--- Here the second session begins: *how sure, and over time*.
+-- The second session begins here: *how certain, and over time*.
 -- :::
 --
--- **Question 8.** One record is one realization. `rig("drive", {seed = 2})` repeats the experiments with another order of bits and another load. Repeat all routes forty
--- times, and two more: the direct route with a model of the noise, `rivc(data, {1, 2, 2, 2, 0})`, and CLSRIVC's `route = "indirect"`, which fits the whole loop from $r$ to $y$. Which are biased, and by how many standard errors of their means? Which has the smallest scatter, and why? Which
--- one do you recommend?
+-- **Question 8.** One data set is one realization. `rig("drive", {seed = 2})` repeats the experiments with another order of bits and another load.
+-- Repeat all methods forty times, and add two more: the direct method with a noise model, `rivc(data, {1, 2, 2, 2, 0})`, and CLSRIVC's
+-- `route = "indirect"`, which fits the whole loop from $r$ to $y$. Which methods are biased, and by how many standard errors of their means? Which
+-- method has the smallest scatter, and why? Which one do you recommend?
 
 -- %% id=repetition
 -- BEGIN SOLUTION
@@ -516,30 +545,41 @@ report.value("poor_rivc_a2_t", math.abs(select(3, summary(4, 2))), "%.0f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=repeated #tbl:repeated}
--- All routes on forty repetitions of `tracking`: mean and standard deviation (scatter) of $a_1$ and of the gain; $t$ is the distance of the mean from the truth, in standard errors of the mean, where more than about 3 is no chance. Behind RIVC stand the orders of its noise model; *own* are the own programs, *indirect* and *two stages* routes of CLSRIVC
+-- All methods on forty repetitions of `tracking`: mean and standard deviation (scatter) of $a_1$ and of the gain. $t$ is the distance of the mean
+-- from the truth, in standard errors of the mean. More than about 3 is not due to chance. The numbers after RIVC are the orders of its noise model.
+-- *own* means your own programs, and *indirect* and *two stages* are routes of CLSRIVC.
 -- :::
 --
--- *Bias.* The direct routes without a model of the noise are off by many standard errors of their means (@tbl:repeated), LSSVF most; more records would only make that surer. RIVC with two coefficients each in $C$ and $D$ is right, and it scatters least of all that are (`rivc_scatter`{.value} in $a_1$): it uses all of
--- the record and not only what the reference moved. But it is right because its noise model is rich enough: with one each, $a_2$ is off by `poor_rivc_a2_t`{.value} standard errors. The cures made of the reference ask for no noise model. Their means agree with the truth, with one doubt: the two stages of CLSRIVC
--- are at `library_two_t`{.value} in $a_1$, and that stays with more repetitions.
+-- *Bias.* The direct methods without a noise model are wrong by many standard errors of their means (@tbl:repeated), LSSVF most of all. More data
+-- would only make this more certain. RIVC with two coefficients each in $C$ and $D$ is right, and has the smallest scatter of all unbiased methods
+-- (`rivc_scatter`{.value} in $a_1$). It uses the complete data and not only the response to the reference. But it is right only because its noise
+-- model is rich enough: with one coefficient each, the error of $a_2$ is `poor_rivc_a2_t`{.value} standard errors. The cures that use the reference
+-- need no noise model. Their means agree with the truth, with one doubt: for the two stages of CLSRIVC, $t$ is `library_two_t`{.value} for $a_1$, and
+-- it does not decrease with more repetitions.
 --
--- *Scatter.* CLSRIVC knows most and has the best instruments, and yet it scatters by `clsrivc_scatter`{.value} in $a_1$, CLIVSVF by `clivsvf_scatter`{.value}, by `clivsvf_fast_scatter`{.value} with $\lambda = 20$ rad/s. The filter makes the difference, not the instrument (CLIVSVF with the controller given has instruments from the simulated loop, too, and scatters as without): $1/F$, with its poles at `slow_pole`{.value} and `fast_pole`{.value} rad/s, is the best filter for white noise on the output. But this load is slow,
--- its noise lies at the low frequencies, and a filter that lets more of the higher ones pass does better. With white noise on the output of the same loop the order is the other way round, and CLSRIVC scatters least. Own instruments of a filter of second order resemble the regressors too little and scatter by `own_second_scatter`{.value}.
+-- *Scatter.* CLSRIVC uses most information and has the best instruments, but its scatter in $a_1$ is `clsrivc_scatter`{.value}. The scatter of
+-- CLIVSVF is `clivsvf_scatter`{.value}, and `clivsvf_fast_scatter`{.value} with $\lambda = 20$ rad/s. The filter causes the difference, not the
+-- instrument. (CLIVSVF with a given controller also has instruments from the simulated loop, and its scatter is the same as without.) $1/F$, with its
+-- poles at `slow_pole`{.value} and `fast_pole`{.value} rad/s, is the best filter for white noise on the output. But this load is slow and its noise
+-- is at low frequencies, so a filter that passes more of the higher frequencies is better. With white noise on the output of the same loop, the order
+-- is reversed, and CLSRIVC has the smallest scatter. Your own instruments with a filter of second order resemble the regressors too little, and their
+-- scatter is `own_second_scatter`{.value}.
 --
--- *Choice.* If the structure of the noise is known, or found by tests of the residuals, RIVC. Otherwise CLIVSVF: right on the average for any noise, no controller needed, less scatter than CLSRIVC here, and reliable standard errors.
+-- *Choice.* If you know the structure of the noise, or find it by tests of the residuals, use RIVC. Otherwise use CLIVSVF: it is right on average for
+-- any noise, needs no controller, has less scatter than CLSRIVC here, and has reliable standard errors.
 -- END SOLUTION
 --
 -- # A process that drifts
 --
--- Water flows through an electric heater on which scale grows; once the heater was descaled (@fig:heater). The input is the heating power $u$ (%), the output the rise $y$ of the water's temperature (K),
--- one sample a second. At any time the heater is of first order,
+-- Water flows through an electric heater on which scale grows. Once, the heater was descaled (@fig:heater). The input is the heating power $u$ (%),
+-- and the output is the rise $y$ of the water temperature (K), one sample per second. At any time, the heater is a first-order system,
 --
 -- $$ \dot y = -a\,y + b\,u , \qquad T = 1/a , \qquad K = b/a , $$ {#eq:heater}
 --
--- but gain $K$ and time constant $T$ change over the hour and a half of the record.
+-- but gain $K$ and time constant $T$ change during the hour and a half of the data.
 --
 -- ::: {.drawing name=drifting_process}
--- The heater: scale takes from its power and makes it slower {#fig:heater}
+-- The heater: scale reduces its power and makes it slower {#fig:heater}
 -- :::
 
 -- %% id=heater
@@ -549,14 +589,15 @@ local names = {InputName = say("power", "puissance"), InputUnit = "%",
                OutputUnit = "K"}
 local slow = iddata(heater.y, heater.u, 1, names)
 report.figure("heater", idplot(slow),
-              say("The record of the heater", "L'enregistrement du chauffe-eau"))
+              say("The data of the heater", "L'enregistrement du chauffe-eau"))
 
 -- %% [markdown]
--- ![The record of the heater](figure:heater){#fig:heater_record}
+-- ![The data of the heater](figure:heater){#fig:heater_record}
 --
 -- The level of the output falls and jumps once (@fig:heater_record).
 --
--- **Question 9.** Estimate one model of @eq:heater from the whole record, and one from each piece of 850 s (`data[{i, j}]`). What does the single model describe? When was the heater descaled?
+-- **Question 9.** Estimate one model of @eq:heater from all data, and one from each piece of 850 s (`data[{i, j}]`). What does the single model
+-- describe? When was the heater descaled?
 
 -- %% id=pieces
 -- BEGIN SOLUTION
@@ -587,11 +628,12 @@ report.value("cleaning", rig_truth("drifting_process").cleaning_time, "%.0f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=pieces #tbl:pieces}
--- One model for the whole record, and one for each sixth of it
+-- One model for all data, and one for each sixth of the data
 -- :::
 --
--- The single model is an average in time (@tbl:pieces) and wrong at nearly every instant. The pieces show the gain falling and the time constant rising up to the third. In the fourth the fall stops, and in the fifth both have returned: the heater was descaled inside the fourth, at `cleaning`{.value} s, where the record jumps. Within
--- a piece everything still moves, and the fourth mixes before and after.
+-- The single model is an average over time (@tbl:pieces) and wrong at nearly every instant. Up to the third piece, the gain falls and the time
+-- constant rises. In the fourth piece the fall stops, and in the fifth both have returned. The heater was descaled in the fourth piece, at
+-- `cleaning`{.value} s, where the output jumps. Within a piece, the parameters still change, and the fourth piece mixes before and after.
 -- END SOLUTION
 --
 -- ## An estimate at every sample
@@ -601,11 +643,12 @@ report.value("cleaning", rig_truth("drifting_process").cleaning_time, "%.0f")
 -- $$ L_k = \frac{P_{k-1} z_k}{f + \varphi_k^T P_{k-1} z_k} , \quad \hat\theta_k = \hat\theta_{k-1} + L_k\,(d_k - \varphi_k^T\hat\theta_{k-1}) , \quad
 -- P_k = \frac{1}{f}\,(P_{k-1} - L_k \varphi_k^T P_{k-1}) , $$ {#eq:recursion}
 --
--- where $z_k = \varphi_k$ for least squares, and an instrument otherwise. The *forgetting factor* $f$, a little below one, weighs a sample that is $n$ samples old by $f^n$; what
--- counts are the last $1/(1 - f)$ samples.
+-- where $z_k = \varphi_k$ for least squares, and an instrument otherwise. The *forgetting factor* $f$, a little below one, weighs a sample that is
+-- $n$ samples old by $f^n$. The last $1/(1 - f)$ samples have most of the weight.
 --
--- **Question 10.** Write the recursion for @eq:heater ($\lambda = 0.05$ rad/s, $f = 0.99$). Then take as instrument the output of the single model of question 9 in place of $y$. Draw gain and time constant over
--- time beside the truth, `rig_truth("drifting_process")`. Compare $a$, $b$ and $T$ with the truth before the heater was descaled, in the ten minutes after, and later. What is the difference between the two?
+-- **Question 10.** Write the recursion for @eq:heater ($\lambda = 0.05$ rad/s, $f = 0.99$). Then use the output of the single model of question 9
+-- instead of $y$ as the instrument. Plot gain and time constant over time with the truth, `rig_truth("drifting_process")`. Compare $a$, $b$ and $T$
+-- with the truth before the heater was descaled, in the ten minutes after, and later. What is the difference between the two?
 
 -- %% id=recursion
 -- BEGIN SOLUTION
@@ -696,20 +739,26 @@ report.value("smallest_true_a", min(1/within(after, scale.time_constant)), "%.3f
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Gain and time constant of the heater, tracked with $f = 0.99$ by least squares and with instruments; dotted: the truth. After the cleaning least squares leaves both panels](figure:tracking){#fig:tracking}
+-- ![Gain and time constant of the heater, tracked with $f = 0.99$ by least squares and with instruments; dotted: the truth. After the cleaning, least squares is outside both panels for a while.](figure:tracking){#fig:tracking}
 --
--- While the process drifts slowly, neither is off by much (@fig:tracking, @tbl:sections): with a memory of a hundred samples and this little noise least squares needs no cure. The difference comes with the cleaning. The gain jumps, and the output rises by several kelvin although
--- the power asks for no rise. Least squares explains that by $y_f$ itself, as a process that hardly returns: for ten minutes $a$ is `ls_a_after`{.value} % too small on the average, and $b$ with it, so that the gain $b/a$ suffers less. $a$ comes down to `smallest_a`{.value} per second, where it should be
--- `smallest_true_a`{.value} at least, and $1/a$ becomes very large: the mean error of $T$, `ls_T_after`{.value} s, is that of a few instants, and the median, `ls_median_after`{.value} s, says more. Where a denominator comes near zero, judge $a$ and $b$ and not their quotients. The instrument is made of the input only and holds
--- no such rise; with it the median is `iv_median_after`{.value} s. The single model from which it was made is wrong at nearly every instant; it need not be right.
+-- While the process drifts slowly, the errors of both are small (@fig:tracking, @tbl:sections). With a memory of a hundred samples and so little
+-- noise, least squares needs no cure. The difference comes with the cleaning. The gain jumps, and the output rises by several kelvin without a rise
+-- of the power. Least squares explains this rise by $y_f$ itself, as a process that almost never returns. For ten minutes, $a$ is
+-- `ls_a_after`{.value} % too small on average, and so is $b$, so the gain $b/a$ is less wrong. $a$ falls to `smallest_a`{.value} per second, where it
+-- should be at least `smallest_true_a`{.value}, and $1/a$ becomes very large. A few instants determine the mean error of $T$, `ls_T_after`{.value} s,
+-- so the median, `ls_median_after`{.value} s, is more useful. If a denominator is near zero, assess $a$ and $b$ and not their ratios. The instrument
+-- depends only on the input and contains no such rise. With it, the median is `iv_median_after`{.value} s. The single model behind the instrument is
+-- wrong at nearly every instant, but it need not be right.
 --
 -- ::: {.table name=sections #tbl:sections}
--- Mean errors of $a$, $b$ and $T$, and the median error of $T$, in three sections of the record: before the cleaning (after the first 500 samples), in the ten minutes after, and later
+-- Mean errors of $a$, $b$ and $T$, and the median error of $T$, in three parts of the data: before the cleaning (after the first 500 samples), in the
+-- ten minutes after, and later
 -- :::
 -- END SOLUTION
 --
--- **Question 11.** Which forgetting factor is best? Try $f =$ 0.98, 0.99, 0.995, 0.998, 0.999 and 1. Then use the library's `rlssvf`, `rivsvf` and `rsrivc` [@young2011]: they keep the whole history in `G.history`, with standard errors. After how long has
--- each forgotten the scale that was taken off? Tell when its gain is first within 5 % of the truth after the cleaning, and when it is last outside.
+-- **Question 11.** Which forgetting factor is best? Try $f =$ 0.98, 0.99, 0.995, 0.998, 0.999 and 1. Then use the library's `rlssvf`, `rivsvf` and
+-- `rsrivc` [@young2011], which store the whole history in `G.history`, with standard errors. How long does each method take to forget the removed
+-- scale? State when its gain is first within 5 % of the truth after the cleaning, and when it is last outside.
 
 -- %% id=forgetting
 -- BEGIN SOLUTION
@@ -790,35 +839,59 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=forgetting #tbl:forgetting}
--- Forgetting factors and methods: before the cleaning the root mean square of the errors of $K$ (K/%) and $T$ (s) and the mean error of $T$ (s); later, from ten minutes after the cleaning on, the mean error of $T$ (s); how long (s) after the cleaning the gain is first inside 5 % of the truth, and last outside
+-- Forgetting factors and methods. Before the cleaning: the root mean square of the errors of $K$ (K/%) and $T$ (s), and the mean error of $T$ (s).
+-- Later, from ten minutes after the cleaning on: the mean error of $T$ (s). The last columns: how long (s) after the cleaning the gain is first
+-- inside 5 % of the truth, and last outside.
 -- :::
 --
--- There is no best one (@tbl:forgetting). With a short memory the estimate follows quickly and scatters. A long one is smooth and late: with $f = 0.998$ the time constant is already `own998_bias`{.value} s off before the cleaning, since the memory is longer than the drift allows. The error, scatter and delay together, is smallest with 0.98 for the gain, which every sample tells, and with 0.99 for the time constant, which
--- only the switchings tell; a forgetting factor has to serve both.
+-- No factor is best for everything (@tbl:forgetting). With a short memory, the estimate follows quickly and has a large scatter. With a long memory,
+-- it is smooth and late. With $f = 0.998$, the time constant is already wrong by `own998_bias`{.value} s before the cleaning, because the memory is
+-- too long for the drift. The error, scatter and delay together, is smallest with 0.98 for the gain and with 0.99 for the time constant. Every sample
+-- contains information about the gain, but only the switchings contain information about the time constant. One forgetting factor must serve both.
 --
--- How long a method takes depends on what is asked. With $f = 0.99$ the gain comes inside 5 % after `own990_first`{.value} s and stays there; with 0.995 after `own995_first`{.value} s, but the new scale grows faster than this memory follows, and the gain is last outside after `own995_last`{.value} s. With $f = 1$ the old scale is remembered to the end:
--- that the gain is inside after `own1000_first`{.value} s is because the truth comes down to meet the average. RLSSVF passes through the band after `rls_first`{.value} s and is last outside after `rls_last`{.value} s.
+-- The time that a method needs depends on the criterion. With $f = 0.99$, the gain is inside 5 % after `own990_first`{.value} s and stays there. With
+-- 0.995, it is inside after `own995_first`{.value} s. But the new scale grows faster than this memory follows, so the gain is last outside after
+-- `own995_last`{.value} s. With $f = 1$, the estimate contains the old scale to the end. Its gain is inside after `own1000_first`{.value} s only
+-- because the truth falls to the average. RLSSVF passes through the band after `rls_first`{.value} s and is last outside after `rls_last`{.value} s.
 --
--- A random walk of the parameters (`drift`, here $10^{-6}$ for the variance of a step of each) says how far they may move from one sample to the next. RIVSVF with it is inside after `walk_first`{.value} s, and outside again and again up to the end of the record, `end_of_record`{.value} s after the cleaning: what it pays is scatter, `walk_K`{.value} in the gain before the cleaning against `riv_K`{.value} with $f = 0.99$. RSRIVC lets its filter and its instruments follow the
--- estimate. With $f = 0.99$ its time constant is as good as that of the others (its gain is last outside after `rsriv990_last`{.value} s); with 0.995 and 0.998 its time constant is `rsriv995_late`{.value} and `rsriv998_late`{.value} s too small from ten minutes after the cleaning on. The jump throws its estimate off: with 0.995 the time constant falls to `rsriv_least`{.value} s.
--- Then the filter $1/F$ is much too fast, and what went through it stays in the memory, the longer the longer the memory. This does not happen on every record: of `rsriv_times`{.value} repetitions the time constant is later off by more than 5 s in `rsriv_stuck990`{.value} with 0.99, in `rsriv_stuck995`{.value} with 0.995, and in `rsriv_stuck998`{.value} with 0.998. All this is one record; on another one neighbors can change places.
+-- A random walk of the parameters (`drift`, here $10^{-6}$ for the variance of a step of each) defines how much they may change from one sample to
+-- the next. RIVSVF with this option is inside after `walk_first`{.value} s. It is outside repeatedly up to the end of the data,
+-- `end_of_record`{.value} s after the cleaning. The price is scatter: `walk_K`{.value} in the gain before the cleaning, compared with `riv_K`{.value}
+-- with $f = 0.99$. In RSRIVC, the filter and the instruments follow the estimate. With $f = 0.99$, its time constant is as good as that of the others
+-- (its gain is last outside after `rsriv990_last`{.value} s). With 0.995 and 0.998, its time constant is `rsriv995_late`{.value} and
+-- `rsriv998_late`{.value} s too small from ten minutes after the cleaning on. The cause is the jump: with 0.995, the time constant falls to
+-- `rsriv_least`{.value} s. Then the filter $1/F$ is much too fast, and the filtered signals stay in the memory, longer for a longer memory. This does
+-- not happen for all data. Of `rsriv_times`{.value} repetitions, the time constant is later wrong by more than 5 s in `rsriv_stuck990`{.value} with
+-- 0.99, in `rsriv_stuck995`{.value} with 0.995, and in `rsriv_stuck998`{.value} with 0.998. These results are for one data set. For other data,
+-- methods with similar results can change places.
 -- END SOLUTION
 --
--- # What you have learnt
+-- # What you have learned
 --
 -- BEGIN SOLUTION
--- * In the loop the input contains the disturbance. Methods that are right in the open loop are biased there, and neither their standard errors nor a validation record of the same loop tells.
--- * Without a reference that moves, a record of the loop shows the inverse of the controller; the process cannot be had from it in practice.
--- * The reference is what cures: as an instrument, through a model of the whole loop (CLSRIVC), or in two stages. They are right on the average for any noise (the two stages of CLSRIVC up to a small rest), and scatter more than the wrong model does; which filter is the best depends on the noise. A direct route with the right model of the noise is right, too, and scatters least.
--- * Recursive estimates follow what changes. Their memory is a compromise between scatter and delay that no data decide for the user. What lies in the memory from before a jump disturbs: least squares takes it for dynamics of the process, instruments do so less.
+-- * In a closed loop, the input contains the disturbance. Methods that are right in the open loop are biased there. Neither their standard errors nor
+--   validation data from the same loop show the bias.
+-- * With a constant reference, data of the loop show the inverse of the controller. In practice, you cannot estimate the process from them.
+-- * The reference removes the bias: as an instrument, through a model of the whole loop (CLSRIVC), or in two stages. These methods are right on
+--   average for any noise (the two stages of CLSRIVC except for a small remainder). Their scatter is larger than that of the wrong model. The best
+--   filter depends on the noise. A direct method with the right noise model is also right, and has the smallest scatter.
+-- * Recursive estimates follow changing parameters. Their memory is a compromise between scatter and delay, and the data cannot choose it for you.
+--   Samples from before a jump in the memory cause errors: least squares treats them as dynamics of the process, and instruments do so less.
 -- END SOLUTION
 --
 -- # What you submit
 --
 -- ::: {.note}
--- If this lesson is graded, submit results with `answer(name, value)`; `dynlab check` lists what is missing: `G_direct`, the biased model that SRIVC finds in `tracking` as if there were no loop; `own_instruments`, what your own instruments find
--- there ($a_1$, $a_2$, $b_0$; $\lambda = 10$ rad/s, the reference through a filter of fourth order); `G_two_stage`, the model of the third cure; `G_final`, the model of the drive that you would recommend; `before_cleaning` and `after_cleaning`, gain (K/%) and time constant (s) of the heater at
--- 2600 s and at 4500 s. Your script will be run on the records of another drive and of another heater. The checks look for the figures `correlation` and `tracking`.
+-- If this lesson is graded, submit results with `answer(name, value)`. `dynlab check` lists missing answers:
+--
+-- * `G_direct`: the biased model that SRIVC estimates from `tracking` as if there were no loop;
+-- * `own_instruments`: the estimates of your instruments from `tracking` ($a_1$, $a_2$, $b_0$; $\lambda = 10$ rad/s, the reference through a filter
+--   of fourth order);
+-- * `G_two_stage`: the model of the third cure;
+-- * `G_final`: the model of the drive that you recommend;
+-- * `before_cleaning` and `after_cleaning`: gain (K/%) and time constant (s) of the heater at 2600 s and at 4500 s.
+--
+-- Grading also runs your script on data of another drive and of another heater. The checks look for the figures `correlation` and `tracking`.
 -- :::
 
 -- %% id=hand_in

@@ -167,9 +167,17 @@
 -- # Ce que vous rendez
 --
 -- ::: {.note}
--- Là où cette leçon est notée, `answer(nom, valeur)` rend vos résultats, et `dynlab check` dit ce qui manque : `G_direct`, le modèle biaisé que SRIVC trouve dans `tracking` comme s'il n'y avait pas de boucle ; `own_instruments`, ce que vos propres instruments y
--- trouvent ($a_1$, $a_2$, $b_0$ ; $\lambda = 10$ rad/s, la consigne passée par un filtre d'ordre quatre) ; `G_two_stage`, le modèle du troisième remède ; `G_final`, le modèle de l'entraînement que vous recommandez ; `before_cleaning` et `after_cleaning`, gain (K/%) et constante de temps (s) du chauffe-eau à
--- 2600 s et à 4500 s. Votre script sera exécuté sur les enregistrements d'un autre entraînement et d'un autre chauffe-eau. Les figures que l'on cherche sont `correlation` et `tracking`.
+-- Si cette leçon est notée, rendez vos résultats avec `answer(nom, valeur)`. `dynlab check` liste les réponses qui manquent :
+--
+-- * `G_direct` : le modèle biaisé que SRIVC estime sur `tracking` comme s'il n'y avait pas de boucle ;
+-- * `own_instruments` : les estimations de vos propres instruments sur `tracking` ($a_1$, $a_2$, $b_0$ ; $\lambda = 10$ rad/s, la consigne passée par
+--   un filtre d'ordre quatre) ;
+-- * `G_two_stage` : le modèle du troisième remède ;
+-- * `G_final` : le modèle de l'entraînement que vous recommandez ;
+-- * `before_cleaning` et `after_cleaning` : gain (K/%) et constante de temps (s) du chauffe-eau à 2600 s et à 4500 s.
+--
+-- L'évaluation exécute aussi votre script sur les données d'un autre entraînement et d'un autre chauffe-eau. Les vérifications cherchent les figures
+-- `correlation` et `tracking`.
 -- :::
 
 -- %% [markdown]

@@ -1,7 +1,7 @@
--- expects: two_stage: the second stage needs the voltage
--- expects: final_model: The direct route is biased by the loop
+-- expects: two_stage: This is the direct method
+-- expects: final_model: The loop biases the direct method
 -- expects: final_is_estimated: away from what was expected
--- expects: drive_follows: the direct route again
+-- expects: drive_follows: This is the direct method again
 -- The loop is ignored throughout.
 local r, T = load("drive").tracking, 0.01
 local G = srivc(iddata(r.y, r.u, T), {1, 2, 0})

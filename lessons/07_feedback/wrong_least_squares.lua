@@ -1,4 +1,4 @@
--- expects: direct: This is what LSSVF gives
+-- expects: direct: This is the model of LSSVF
 -- expects: own_instruments: the instruments are the regressors themselves
 -- expects: two_stage: This is the loop itself
 -- The regressors are their own instruments, and the second stage has the reference as its input.

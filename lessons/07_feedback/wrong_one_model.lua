@@ -1,6 +1,6 @@
 -- expects: direct: was it estimated from the open loop
--- expects: own_instruments: The signs of a1 and a2 are turned round
--- expects: before_cleaning: which follows nothing
+-- expects: own_instruments: a1 and a2 have the wrong sign
+-- expects: before_cleaning: This is the single model of all data, which does not track the changes
 -- expects: after_cleaning: The order is gain, time constant
 -- expects: heater_follows: On a record that you have not seen
 -- expects: figures: There is no figure

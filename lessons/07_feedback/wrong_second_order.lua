@@ -1,4 +1,4 @@
--- expects: own_instruments: a filter of fourth order is wanted
+-- expects: own_instruments: You filtered the reference with a filter of second order, whose second derivative jumps
 -- The reference goes through a filter of second order.
 local track, step = load("drive").tracking, 0.01
 local seen = iddata(track.y, track.u, step, {Reference = track.r})

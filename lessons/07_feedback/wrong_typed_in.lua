@@ -1,6 +1,6 @@
 -- expects: final_is_estimated: no standard errors
--- expects: drive_follows: it must be estimated, not typed in
--- expects: heater_follows: they must be computed, not typed in
+-- expects: drive_follows: The model does not change with the data
+-- expects: heater_follows: The results do not change with the data
 -- The truth of the rigs is handed in as if it had been found.
 local tracking = load("drive").tracking
 local signals = iddata(tracking.y, tracking.u, 0.01)

@@ -4,9 +4,9 @@
 -- ---
 
 -- %% [markdown]
--- Pipes, conveyor belts and networks make an output answer late. This process
--- waits 0.735 s, then swings at 10 rad/s with little damping. Sampled every
--- 10 ms, the delay is 73.5 samples: no shift by whole samples can express it.
+-- Pipes, conveyor belts and networks delay an output. This process waits 0.735 s,
+-- then oscillates at 10 rad/s with little damping. With samples every 10 ms, the
+-- delay is 73.5 samples: no shift by whole samples can express it.
 
 -- %% id=data
 local process = tf({100}, {1, 2, 100}, {IODelay = 0.735})
@@ -25,19 +25,19 @@ local G = tfsrivc(data, 2, 0)
 present(G)
 
 -- %% [markdown]
--- How? For every delay of a grid it found the best other parameters. The figure
--- shows the mean square error that remains: several valleys, because a swinging
--- signal shifted by half a period looks like itself upside down. A search that
--- starts in the wrong valley stays there; the grid sees them all.
+-- How? For every delay of a grid, it found the best other parameters. The figure
+-- shows the remaining mean square error. It has several valleys, because an
+-- oscillation shifted by half a period looks like its negative. A search that
+-- starts in the wrong valley stays there. The grid covers them all.
 
 -- %% id=loss
 plot(G.report.delay_grid, G.report.delay_loss,
      {xlabel = "delay (s)", ylabel = "mean square error", title = "What remains at each delay"}):vline(0.735, "true")
 
 -- %% [markdown]
--- Let us search the wrong valley only, on purpose. The other
--- parameters try to make up for the wrong delay: even the sign of the gain is
--- wrong now. The figure shows the first five seconds; its fits are those of them.
+-- Let us search only the wrong valley, on purpose. The other parameters try to
+-- compensate for the wrong delay: even the sign of the gain is wrong now. The
+-- figure shows the first five seconds, and its fits are for these.
 
 -- %% id=caught
 local caught = tfsrivc(data, 2, 0, {TdMin = 0.3, TdMax = 0.55})
@@ -47,4 +47,4 @@ print(string.format("fit with Td = %.3f s: %.1f %%, with Td = %.3f s: %.1f %%",
 compare(data:range(1, 500), G, caught, {labels = {"right valley", "wrong valley"}})
 
 -- %% [markdown]
--- Estimate a delay, do not guess it, and let the search begin everywhere.
+-- Estimate a delay instead of assuming it, and let the search start everywhere.

@@ -4,9 +4,10 @@
 -- ---
 
 -- %% [markdown]
--- With more parameters a model always follows its own record better, in the end
--- even the noise. So how many are right? Here the truth has 3 poles and 1 zero;
--- let us see whether the data say so. A second record with fresh noise will help.
+-- With more parameters, a model always follows its estimation data better, in the
+-- end even the noise. So how many are right? Here the truth has 3 poles and 1 zero.
+-- Let us see whether the data show this. A second data set with new noise will
+-- help.
 
 -- %% id=data
 local s = tf("s")
@@ -19,10 +20,10 @@ local second = iddata(x + 0.1*randn(#u), u, Ts)
 idplot(data)
 
 -- %% [markdown]
--- Every structure is estimated and measured. Look at the fit to the second record
--- (val.): it climbs, then stays where it is. Look at the last column, too: a
--- parameter is undetermined when its standard error is larger than itself. The
--- star marks the structure that selcstruc recommends; it says why.
+-- The program estimates and assesses every structure. Look at the fit to the second
+-- data set (val.): it rises, then stays constant. Also look at the last column: a
+-- parameter is undetermined if its standard error is larger than its value. The
+-- star marks the structure that selcstruc recommends, with the reason.
 
 -- %% id=select
 local candidates = srivcstruc(data, {poles = {1, 3}, zeros = {0, 2}, validate = second})
@@ -42,5 +43,5 @@ present(G)
 compare(second, G)
 
 -- %% [markdown]
--- Prefer the smallest model that a second record cannot tell from larger ones.
--- No criterion replaces a look at the residuals: try resid(second, G).
+-- Prefer the smallest model that validation data cannot distinguish from larger
+-- ones. No criterion replaces a look at the residuals: try resid(second, G).

@@ -16,8 +16,8 @@ plot(diff(t):range(1, 100), {xlabel = "sample", ylabel = "time to the next sampl
 
 -- %% [markdown]
 -- The coefficients of a difference equation belong to one sampling time, and here
--- there is none. A differential equation does not care.
--- Truth:  y'' + 2.8 y' + 4 y = 5 u, the input three sines.
+-- there is none. A differential equation does not need one. Truth: y'' + 2.8 y' + 4
+-- y = 5 u, the input three sines.
 
 -- %% id=data
 local process = tf({5}, {1, 2.8, 4})
@@ -28,22 +28,21 @@ print(data)
 idplot(data:range(1, 500))
 
 -- %% [markdown]
--- The call is the one for regular data. Look at the parameters: 2.8, 4 and 5 are
--- true. Inside, the filters take every step at its own length, exactly.
+-- The call is the same as for regular data. Look at the parameters: the true ones
+-- are 2.8, 4 and 5. The filters use the exact length of every step.
 
 -- %% id=estimate
 local G = srivc(data, {1, 2, 0})
 present(G)
 
 -- %% [markdown]
--- And if the instants are thrown away and the mean step is taken for all? Look at
--- a1 and the fit, and at the last line, the only warning: what is left over is no
--- longer white noise.
+-- What if we ignore the instants and use the mean step for all samples? Look at a1
+-- and the fit, and at the last line, the only warning: the residuals are no longer
+-- white noise.
 
 -- %% id=ignored
 local wrong = srivc(iddata(y, u, mean(diff(t)), {InterSample = "foh"}), {1, 2, 0})
 present(wrong)
 
 -- %% [markdown]
--- Time stamps are worth keeping. Give them to the data object, and everything
--- else stays as it was.
+-- Keep the time stamps. Pass them to the data object. Nothing else changes.

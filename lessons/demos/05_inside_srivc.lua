@@ -4,8 +4,8 @@
 -- ---
 
 -- %% [markdown]
--- srivc needs no start values, and yet it iterates. What does it do? The process
--- is 2/(s^2 + 4 s + 3) again, sampled every 10 ms with much noise.
+-- srivc needs no initial values, although it iterates. What does it do? The process
+-- is again 2/(s^2 + 4 s + 3), sampled every 10 ms with much noise.
 
 -- %% id=data
 local s = tf("s")
@@ -17,11 +17,11 @@ local data = iddata(y, u, Ts)
 idplot(data)
 
 -- %% [markdown]
--- Derivatives of a noisy record are useless, so both sides of the equation are
--- filtered first and the filter's own derivatives are used. Least squares on
--- them (lssvf) is quick but biased: the noise sits in the regressors, the more so
--- the more the filter lets through. This one lets much through (10 rad/s): look
--- how far the parameters are from 4, 3 and 2.
+-- Derivatives of noisy data are useless. Therefore, filter both sides of the
+-- equation, and use the derivatives inside the filter. Least squares on them
+-- (lssvf) is quick but biased, because the regressors contain the noise that the
+-- filter passes. This filter passes much noise (10 rad/s): look how far the
+-- parameters are from 4, 3 and 2.
 
 -- %% id=least_squares
 local first = lssvf(data, {2, 1, 0}, 10)
@@ -29,10 +29,10 @@ print(first.param)
 
 -- %% [markdown]
 -- SRIVC begins there. It filters with 1/F of its latest model, and multiplies the
--- equations with instruments: noise-free copies of the regressors, simulated by
--- that model. They have nothing to do with the noise, so the bias is gone. The new
--- model gives better filters and instruments; this is repeated until nothing
--- moves. Each row is one iteration: a1, a2, b0.
+-- equations by instruments: noise-free copies of the regressors, simulated by that
+-- model. They do not depend on the noise, so the bias is gone. The new model gives
+-- better filters and instruments. SRIVC repeats this until it converges. Each row
+-- is one iteration: a1, a2, b0.
 
 -- %% id=iterations
 local G = srivc(data, {1, 2, 0}, {lambda = 10, Tol = 1e-10})
@@ -40,15 +40,15 @@ print(G.report.path)
 present(G)
 
 -- %% [markdown]
--- The largest relative change of each iteration, on a logarithmic scale. A
--- straight line downwards: every iteration takes off the same share.
+-- The largest relative change of each iteration, on a logarithmic scale. The line
+-- is straight: every iteration reduces the change by the same factor.
 
 -- %% id=changes
 plot(G.report.changes, {xlabel = "iteration", ylabel = "largest relative change", y_log = true, style = "line_points"})
 
 -- %% [markdown]
--- Does the end depend on the beginning? The filter of the first estimate is
--- moved over two decades. Look at a1: it does not.
+-- Does the result depend on the start? The filter of the first estimate varies over
+-- two decades. Look at a1: it does not.
 
 -- %% id=starts
 for _, lambda in ipairs({0.3, 3, 30}) do
@@ -57,6 +57,5 @@ for _, lambda in ipairs({0.3, 3, 30}) do
 end
 
 -- %% [markdown]
--- Where nothing moves any more, the simulation error is at its smallest: with white
--- noise no method without bias scatters less. See it happen:
--- dynlab demo monte_carlo.
+-- When SRIVC has converged, the simulation error is smallest: with white noise, no
+-- unbiased method has less scatter. See for yourself: dynlab demo monte_carlo.

@@ -4,10 +4,11 @@
 -- ---
 
 -- %% [markdown]
--- This record was measured: a flexible arm on an electric motor is shaken with many
--- frequencies at once; u is the torque on the ground, y the arm's acceleration.
--- Nobody published the sampling time, so time counts samples. Nobody knows the truth
--- either: the second half of the record must judge what is found in the first.
+-- These data are measured. An electric motor shakes a flexible arm with many
+-- frequencies at once: u is the torque on the ground, and y is the acceleration of
+-- the arm. The sampling time was not published, so the time unit is one sample. The
+-- truth is unknown too: the second half of the data tests the models of the first
+-- half.
 
 -- %% id=data
 local arm = load("robot_arm")
@@ -17,8 +18,8 @@ first, second = first:remove_mean(), second:remove_mean()
 idplot(first)
 
 -- %% [markdown]
--- Least squares first, with four poles. The next sample is predicted to 98 %. Now
--- let the model run on the input alone, as it would have to in a simulator.
+-- First use least squares with four poles. It predicts the next sample to 98 %. Now
+-- simulate the model from the input alone.
 
 -- %% id=least_squares
 local A = arx(first, {4, 4, 1})
@@ -26,9 +27,9 @@ print(string.format("predicts to %.1f %%, simulates to %.1f %%",
                     A.report.prediction_fit_percent, A.report.fit_percent))
 
 -- %% [markdown]
--- It hardly simulates anything: with so fast a sampling the last samples alone tell
--- the next one. So minimise the error of the simulation, with six poles.
--- By default `srivc` chooses how the record begins; here it is told to start from rest.
+-- The simulation is useless: with such fast sampling, the last samples alone
+-- predict the next one. Therefore, minimize the simulation error, with six poles.
+-- By default, `srivc` chooses the initial state. Here it starts from rest.
 
 -- %% id=from_rest
 local G0 = srivc(first, {6, 6, 0}, {InitialState = "none", Offset = "none"})
@@ -39,10 +40,10 @@ end
 print(fits(G0))
 
 -- %% [markdown]
--- Better, but look at the plot again: the arm was moving already when the record
--- began, and this model was told that it rested. Its lightly damped swings ring for
--- long. Let the state at the beginning be estimated, too. The figure shows the first
--- 200 samples of the second half; its fits are those of them.
+-- This is better, but look at the plot again: the arm was already moving at the
+-- first sample, and this model starts from rest. Its lightly damped oscillations
+-- last long. Estimate the initial state too. The figure shows the first 200 samples
+-- of the second half, and its fits are for these.
 
 -- %% id=in_motion
 local G = srivc(first, {6, 6, 0}, {InitialState = "estimate", Offset = "none"})
@@ -50,8 +51,9 @@ print(fits(G))
 compare(second:range(1, 200), G, G0, {labels = {"in motion", "from rest"}})
 
 -- %% [markdown]
--- Three pairs of poles, three resonances: their frequencies (rad per sample) and how
--- little they are damped. The band tells that little is known of the third.
+-- Three pairs of poles are three resonances, with their frequencies (rad per
+-- sample) and small damping ratios. The wide band shows that the third is
+-- uncertain.
 
 -- %% id=resonances
 local frequency, damping = damp(G)
@@ -60,8 +62,8 @@ bode(G, logspace(-1.5, 0.45, 400))
 
 -- %% [markdown]
 -- And the noise? The error of the simulation is free of the input but not white. An
--- autoregressive model of it, estimated together with the arm, predicts better and
--- simulates no better.
+-- autoregressive noise model, estimated together with the arm, predicts better and
+-- does not simulate better.
 
 -- %% id=noise
 resid(second, G)
@@ -70,5 +72,5 @@ print(fits(N))
 print(string.format("predicts the second half to %.1f %%", fit(second, N, {k = 1})))
 
 -- %% [markdown]
--- A fit of 97 % on data that were not used is worth more than 98 % on those that were,
--- and both are worth more than the prediction of the next sample.
+-- A fit of 97 % to validation data is worth more than 98 % to estimation data. Both
+-- are worth more than the prediction of the next sample.

@@ -4,10 +4,10 @@
 -- ---
 
 -- %% [markdown]
--- A sum of sines that repeats tells more than a random signal: what changes from
--- period to period is noise, and nothing else can be. Here a lightly damped
--- mechanism is followed by a sensor that bends a little: y = x + 0.1 x^3.
--- The sines stand at odd lines, and one of every four stays out.
+-- A periodic sum of sines shows more than a random signal: only noise changes from
+-- period to period. Here a lightly damped mechanism is followed by a slightly
+-- nonlinear sensor: y = x + 0.1 x^3. The sines are at odd lines, and one of every
+-- four is missing.
 
 -- %% id=input
 local N, Ts = 500, 0.05
@@ -17,11 +17,11 @@ print(#grid.lines, "lines with a sine,", #grid.detection, "left out")
 plot(range(0, Ts, Ts*(N - 1)), u, {xlabel = "time (s)", ylabel = "input"})
 
 -- %% [markdown]
--- Eight realisations, each with phases of its own, four periods of each. The
--- first two periods are the way to steady state and are left out. In the figure
--- the output stands far above its noise, but at the odd lines without a sine
--- there is more than noise, and at the even ones there is not. The bend is odd:
--- a cube, no square.
+-- There are eight realizations with different phases, and four periods of each. The
+-- first two periods are the transient and are omitted. In the figure, the output is
+-- far above its noise. At the odd lines without a sine, there is more than noise,
+-- and at the even lines there is only noise. The nonlinearity is odd: a cube, not a
+-- square.
 
 -- %% id=levels
 local records = {}
@@ -33,10 +33,10 @@ end
 local F = bla(merge(table.unpack(records)), {period = N, transient = 2})
 
 -- %% [markdown]
--- A transfer function is fitted to this response, every frequency weighted by what
--- is known of it. The poles are the mechanism's, within a few standard errors;
--- the gain is larger, for on average the cube lifts the output, too: the best
--- linear approximation is not the system at rest.
+-- A transfer function is fitted to this response, with a weight for the accuracy of
+-- every frequency. The poles are those of the mechanism, within a few standard
+-- errors. The gain is larger, because on average the cube increases the output: the
+-- best linear approximation depends on the amplitude.
 
 -- %% id=fit
 local G = coe(F, {1, 2, 0})
@@ -44,9 +44,9 @@ present(G)
 bode(F, G, mechanism, {labels = {"measured", "fitted", "without the bend"}})
 
 -- %% [markdown]
--- With a quarter of the amplitude the cube has a sixteenth of its weight: the
--- gain falls back. A gain that depends on the amplitude is the surest sign of a
--- nonlinearity, and no linear model follows it.
+-- With a quarter of the amplitude, the cube has a sixteenth of its weight, and the
+-- gain decreases. A gain that depends on the amplitude is the surest sign of a
+-- nonlinearity. No linear model can describe it.
 
 -- %% id=small
 local small = {}
@@ -59,5 +59,5 @@ local Gs = coe(bla(merge(table.unpack(small)), {period = N, transient = 2}), {1,
 print(string.format("gain at rest: %.3f, with a quarter of the amplitude %.3f", dcgain(G), dcgain(Gs)))
 
 -- %% [markdown]
--- Periods tell noise, realisations tell distortion, and what remains is the
--- linear part, with errors that are known.
+-- Periods show the noise, and realizations show the distortion. The remainder is
+-- the linear part, with known errors.

@@ -1,13 +1,13 @@
 -- ---
--- title: Parameters that drift while the record is taken
+-- title: Parameters that drift during the experiment
 -- template: lesson
 -- ---
 
 -- %% [markdown]
--- The outflow of a tank silts up: gain and time constant grow. One model for
--- the whole record is then an average of many. Here the plant is known,
--- y' + a(t) y = b(t) u , with  a  falling from 2 to 1 and  b  jumping
--- from 2 to 3 in the middle, so that the answer can be judged.
+-- The outflow of a tank silts up: gain and time constant grow. One model for all
+-- data is then an average of many. Here the plant is known, so that we can check
+-- the result: y' + a(t) y = b(t) u , where a falls from 2 to 1, and b jumps from 2
+-- to 3 in the middle.
 
 -- %% id=plant
 local Ts, N = 0.05, 4000
@@ -24,26 +24,26 @@ local data = iddata(x + 0.1*randn(N), u, Ts)
 idplot(data)
 
 -- %% [markdown]
--- One fit for all: its parameters lie between, and it is right nowhere.
+-- One fit for all data: its parameters are in between, and it is right nowhere.
 
 -- %% id=constant
 local average = srivc(data, {1, 1, 0})
 present(average)
 
 -- %% [markdown]
--- `rsrivc` takes the samples one after the other. With  forgetting = 0.99  a
--- sample counts for half after 70 later ones: the estimate follows the plant
--- some 100 samples behind, and its band tells how sure it is.
+-- `rsrivc` processes one sample at a time. With forgetting = 0.99, the weight of a
+-- sample is one half after 70 later ones. The estimate follows the plant about 100
+-- samples behind, and the band shows its uncertainty.
 
 -- %% id=forgetting
 local G = rsrivc(data, {1, 1, 0}, 3, {forgetting = 0.99})
 plot_history(G, {truth = {a1 = a, b0 = b}})
 
 -- %% [markdown]
--- Long memory follows slowly and scatters little, short memory the other way
--- round. Which is better depends on how fast the plant changes. An estimate
--- that lags leaves errors that hang together, so the band of 0.999 is no
--- narrower than that of 0.99, and the truth still lies outside now and then.
+-- A long memory follows slowly and has little scatter, and a short memory the
+-- opposite. Which is better depends on how fast the plant changes. A late estimate
+-- has correlated residuals, so the band of 0.999 is not narrower than that of 0.99,
+-- and the truth is still outside at times.
 
 -- %% id=memory
 local quick = rsrivc(data, {1, 1, 0}, 3, {forgetting = 0.95})
@@ -54,9 +54,8 @@ for _, one in ipairs{{"0.95", quick}, {"0.99", G}, {"0.999", slow}} do
 end
 
 -- %% [markdown]
--- Or the parameters are thought to walk at random, each at its own pace: a
--- Kalman filter. Large steps for  b  catch its jump, small ones for  a  keep
--- it calm.
+-- A Kalman filter assumes a random walk of the parameters, each with its own step
+-- size. Large steps for b follow its jump, and small steps for a keep it smooth.
 
 -- %% id=walk
 local walk = rsrivc(data, {1, 1, 0}, 3, {drift = {1e-5, 2e-4}})

@@ -255,7 +255,7 @@ void check_search(Reader& reader) {
     EXPECT_EQ(reader.found("Peer REVIEW").at(0), "guide-peer-review.html");
     EXPECT_THAT(reader.found("olympic games"), Contains(HasSubstr("lesson-02_least_squares.html")));
     EXPECT_THAT(reader.found("trolley crane").at(0), HasSubstr("lesson-03_crane.html"));
-    EXPECT_THAT(reader.found("isolation boxes"), Contains(HasSubstr("guide-instructor.html")));
+    EXPECT_THAT(reader.found("isolation sandbox"), Contains(HasSubstr("guide-instructor.html")));
     EXPECT_THAT(reader.found("zzyzx"), testing::IsEmpty());
     EXPECT_THAT(reader.found("..."), testing::IsEmpty());
     // By hand: the key that leads to the field, the list, the way to the page.

@@ -180,8 +180,8 @@ TEST(feedback_in_french, has_the_authors_sentences_of_the_lesson) {
     CheckGrade check;
     check.id = "free_swing";
     check.about = Message::verbatim("The frequency of the load while the motor rests");
-    check.hint = Message::verbatim("Count the swings of free_swing and divide by the time they take; 2 pi in each.");
-    check.message = sentences({far, Message::verbatim("This is in Hz; rad/s are wanted.")});
+    check.hint = Message::verbatim("Count the swings of free_swing and divide by their time; each swing is 2 pi.");
+    check.message = sentences({far, Message::verbatim("This is in Hz; use rad/s.")});
     check.points = 2;
     grade.checks.push_back(check);
     EXPECT_THAT(feedback_markdown(grade),

@@ -62,7 +62,7 @@ TEST(reviews, the_form_is_checked_by_its_own_rules) {
     EXPECT_THAT(check("long"), ElementsAre("pages"));
     make_review(bench, "open", std::string(kAnswer) + "TODO: say where.");
     EXPECT_THAT(check("open"), ElementsAre("placeholder-left"));
-    make_review(bench, "guided", std::string(kAnswer) + "Say what is good as exactly as what is not.");
+    make_review(bench, "guided", std::string(kAnswer) + "Describe strengths as precisely as weaknesses.");
     EXPECT_THAT(check("guided"), ElementsAre("guidance-left"));
     bench.write("short/analysis.lua", bench.read("whole/analysis.lua"));
     std::string form = bench.read("whole/report.md");

@@ -57,7 +57,7 @@ TEST_P(lessons, report_is_whole) {
     const bool has_own_report = std::filesystem::exists(own_report);
     const bool slides = has_own_report && document_rules(read_template(own_report)).slides;
     EXPECT_TRUE(slides || text.find("Figure 1") != std::string::npos);
-    EXPECT_THAT(text, HasSubstr(has_own_report ? "Conclusion" : "What you have learnt"));
+    EXPECT_THAT(text, HasSubstr(has_own_report ? "Conclusion" : "What you have learned"));
     const std::string source = has_own_report ? own_report : DYNLAB_SOURCE_DIR "/lessons/" + GetParam() + "/lesson.lua";
     EXPECT_THAT(read_file(page_of_lesson(GetParam())), HasSubstr("</html>"));
     std::vector<std::string> sections = section_titles(read_file(source));

@@ -65,7 +65,7 @@ answer("noise", std(record.y - compliance*record.u))
 -- END SOLUTION
 
 -- %% [markdown]
--- # What you have learnt
+-- # What you have learned
 --
 -- A parameter of a linear model is one division of sums, and what is left over tells how far to trust it.
 )LUA";
