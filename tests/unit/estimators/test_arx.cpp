@@ -187,7 +187,7 @@ TEST(arx, an_operating_point_is_named) {  // oracle: a heater of gain 0.6 from 2
         }
         const std::string message =
             message_text(arx(IdData(Matrix(y), Matrix(u), 1), PolynomialOrders::arx(2, {2}, {1})).full_message());
-        EXPECT_EQ(message.find("Take the means off") != std::string::npos, level > 0) << message;
+        EXPECT_EQ(message.find("Remove the means") != std::string::npos, level > 0) << message;
     }
 }
 

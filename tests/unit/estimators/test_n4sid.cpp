@@ -182,7 +182,7 @@ TEST(n4sid, refuses_what_it_cannot_use) {  // oracle: definitions
     const auto refusal = [](const IdData& given, int order, SubspaceOptions options = {}) {
         return thrown_message([&] { n4sid(given, order, options); });
     };
-    EXPECT_THAT(refusal(data, 0), HasSubstr("must lie between 1 and 100"));
+    EXPECT_THAT(refusal(data, 0), HasSubstr("must be between 1 and 100"));
     EXPECT_THAT(refusal(data, 5, with(SubspaceWeighting::kMoesp, false, 5)), HasSubstr("greater than the order"));
     EXPECT_THAT(refusal(data, 5, with(SubspaceWeighting::kMoesp, false, -1)), HasSubstr("must not be negative"));
     EXPECT_THAT(refusal(data.range(1, 20), 3), HasSubstr("too short"));

@@ -129,7 +129,7 @@ TEST(spa, says_what_it_needs) {
     EXPECT_THAT(message(data.select({1}, {})), HasSubstr("no input"));
     EXPECT_THAT(message(IdData(Matrix(Vector::Random(50)), Matrix(Vector::Ones(50)), 1)), HasSubstr("never changes"));
     EXPECT_THAT(message(IdData(Matrix::Random(50, 2), Matrix(Vector::Random(50)), 1)),
-                HasSubstr("take a pair with data:select"));
+                HasSubstr("select a pair with data:select"));
 }
 
 TEST(spa, poor_excitation_is_told) {
