@@ -82,7 +82,8 @@ TEST_F(letterheads, of_a_course_are_above_all_its_documents_but_those_with_their
         HasSubstr(
             "course/report_templates/settings.yaml: the picture \"other.png\" is not in the folder of this file"));
     write("course/report_templates/settings.yaml", "header: Nancy\ntitle: Mine\n");
-    EXPECT_THAT(refusal("Text\n", "other.pdf"), HasSubstr("\"title\" is set in templates; settings are logo, header"));
+    EXPECT_THAT(refusal("Text\n", "other.pdf"),
+                HasSubstr("\"title\" is a template setting and not allowed here; the settings are logo, header"));
 }
 
 TEST_F(letterheads, latex_of_a_course_finds_the_pictures_beside_it_and_messages_name_its_templates) {

@@ -120,7 +120,7 @@ TEST_F(literature, a_missing_citation_names_its_own_line_and_how_to_declare_a_bi
     const std::string message = refusal(text);
     EXPECT_THAT(message, HasSubstr("report.md:9: @ljung1999 cites literature"));
     EXPECT_THAT(message, HasSubstr("report.md:3: @ljung1999b cites literature"));
-    EXPECT_THAT(message, AllOf(HasSubstr("\"bibliography: references.bib\" in the header"),
+    EXPECT_THAT(message, AllOf(HasSubstr("\"bibliography: references.bib\" to the header"),
                                HasSubstr("-- bibliography: references.bib")));
     EXPECT_THAT(refusal(header_ + "<!-- @ljung1998 -->\n\nTwo [@ljung1998].\n"),
                 HasSubstr("report.md:7: the bibliography"));
@@ -196,7 +196,7 @@ TEST_F(literature, measures_are_shown_by_name) {
         DocumentMaker({}).make(source, file("other.html"), DocumentFormat::kHtml, nullptr);
         FAIL();
     } catch (const DocumentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("report.md:4: there is no measure \"YCI\""));
+        EXPECT_THAT(error.what(), HasSubstr("report.md:4: unknown measure \"YCI\""));
     }
 }
 
