@@ -26,13 +26,13 @@ TEST(guesses, stand_beside_what_was_found) {
 
 TEST(guesses, that_are_missing_are_told_and_stop_nothing) {
     EXPECT_EQ(printed("guess('delay', nil, 's')\noutcome('delay', 0.24)"),
-              "delay: not guessed yet; type your number in the place of nil\ndelay: found 0.24 s, not guessed\n");
+              "delay: no prediction yet; replace nil with your number\ndelay: result 0.24 s, no prediction\n");
 }
 
 TEST(guesses, are_made_once_and_before) {
-    EXPECT_THAT(error_of("guess('a', 1)\nguess('a', 2)"), HasSubstr("\"a\" was guessed already"));
-    EXPECT_THAT(error_of("outcome('a', 1)"), HasSubstr("nothing called \"a\" was guessed before"));
-    EXPECT_THAT(error_of("guess('a', 'much')"), HasSubstr("your guess"));
+    EXPECT_THAT(error_of("guess('a', 1)\nguess('a', 2)"), HasSubstr("the prediction \"a\" was made before"));
+    EXPECT_THAT(error_of("outcome('a', 1)"), HasSubstr("no prediction is named \"a\""));
+    EXPECT_THAT(error_of("guess('a', 'much')"), HasSubstr("your prediction"));
 }
 
 }  // namespace test_guesses

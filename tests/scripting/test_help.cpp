@@ -166,6 +166,31 @@ TEST(help, finds_pages_by_words) {
     EXPECT_THROW(help_text("", all), InvalidArgument);
 }
 
+// oracle: what the terms mean in textbooks and in MATLAB
+TEST(help, finds_functions_by_terms_of_other_programs) {
+    const auto all = functions();
+    for (const auto& [term, name] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"pole-zero map", "pzmap"},
+                                                                    {"Pole zero map", "pzmap"},
+                                                                    {"dead time", "delayest"},
+                                                                    {"transport delay", "delayest"},
+                                                                    {"PID", "simloop"},
+                                                                    {"root locus", "pole"},
+                                                                    {"spike", "filloutliers"},
+                                                                    {"psd", "spa"},
+                                                                    {"ode", "greyest"},
+                                                                    {"overfitting", "crossvalidate"},
+                                                                    {"curve fitting", "polyfit"},
+                                                                    {"moving average", "idfilt"},
+                                                                    {"plot two curves", "plot"},
+                                                                    {"procest", "procsrivc"},
+                                                                    {"idtf", "tf"},
+                                                                    {"predict_first", "guess"},
+                                                                    {"reveal", "outcome"},
+                                                                    {"simulated plant", "rig"}})
+        EXPECT_THAT(help_search(term, all), HasSubstr("  " + std::string(name) + " ")) << term;
+}
+
 /// The names in calls of help that a text advises.
 std::vector<std::string> advised_in(const std::string& text) {
     static const std::regex advice(R"re(help\(\\?"([^"\\]+)\\?"\))re");
