@@ -54,15 +54,15 @@ TEST(findings_report, answers_and_checks_of_the_lesson_are_counted_by_themselves
 TEST(findings_report, hints_alone_say_that_no_rule_is_broken) {
     CheckResult result = some_result();
     result.findings.erase(result.findings.begin(), result.findings.begin() + 3);
-    EXPECT_THAT(findings_in_words(result, false), HasSubstr("\nNo rule is broken.\n"));
-    EXPECT_THAT(findings_in_words(result, false), Not(HasSubstr("Rules broken")));
+    EXPECT_THAT(findings_in_words(result, false), HasSubstr("\nNo rule is violated.\n"));
+    EXPECT_THAT(findings_in_words(result, false), Not(HasSubstr("Rules violated")));
 }
 
 TEST(findings_report, a_pass_is_one_line_that_says_what_was_checked) {
     CheckResult result = some_result();
     result.findings.clear();
     EXPECT_EQ(findings_in_words(result, false),
-              "report.pdf: nothing to mend; checked as lab_report: 7 pages of at most 6, unfilled slots.\n");
+              "report.pdf: nothing to fix; checked as lab_report: 7 pages of at most 6, unfilled slots.\n");
 }
 
 TEST(findings_report, colour_only_when_asked_for) {

@@ -264,14 +264,14 @@ TEST(similarity, a_class_of_copies_and_copies_of_the_worked_solution_are_told) {
     for (int k = 0; k < 10; ++k) scripts.push_back({fmt::format("{}", k), renamed(solution)});
     scripts.push_back({"alone", Author(78).script()});
     scripts.push_back({"untouched", kStarter});
-    scripts.push_back({"the worked solution", solution, false});
+    scripts.push_back({"the reference solution", solution, false});
     scripts.push_back({"2025/a", Author(78).script(), false});
     scripts.push_back({"2025/b", solution, false});
     const auto names = names_of(scripts, similar_pairs(scripts, kStarter, kLine));
     EXPECT_EQ(names.size(), 45u + 10 + 10 + 1);
     EXPECT_TRUE(names.contains({"2025/a", "alone"}));
-    EXPECT_TRUE(names.contains({"0", "the worked solution"}));
-    EXPECT_FALSE(names.contains({"2025/b", "the worked solution"}));
+    EXPECT_TRUE(names.contains({"0", "the reference solution"}));
+    EXPECT_FALSE(names.contains({"2025/b", "the reference solution"}));
 }
 
 // oracle: the lessons' scripts that solve the same tasks by other methods, or wrongly, were written apart
