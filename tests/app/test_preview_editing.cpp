@@ -381,7 +381,7 @@ TEST_F(preview_editing, a_second_preview_leads_to_the_first) {
     };
     EXPECT_EQ(second(), 0);
     const std::string words = read_text(told), address = words.substr(0, words.find('\n'));
-    EXPECT_EQ(words, address + "\n(it is shown there already)\n");
+    EXPECT_EQ(words, address + "\n(the document is already open)\n");
     EXPECT_NE(address, first.address()) << "an address works once";
     EXPECT_EQ(PageClient(address).host(), PageClient(first.address()).host());
 }

@@ -104,7 +104,7 @@ Message label_called(const std::string& name) {
     if (name == "by_hand") return Message("by hand");
     if (name == "final_level") return Message("final level");
     if (name == "first_peak") return Message("first peak");
-    throw InvalidArgument("there is no label \"{}\"", name);
+    throw InvalidArgument("unknown label \"{}\"", name);
 }
 
 int give_label(Call& call) {
@@ -115,7 +115,7 @@ int give_label(Call& call) {
 Message sentence_of_reading(const std::string& kind, const Vector& numbers, double fit) {
     const Index wanted = kind == "second" ? 6 : 5;
     if (numbers.size() != wanted)
-        throw InvalidArgument("a reading \"{}\" has {} numbers, but {} were given", kind, wanted, numbers.size());
+        throw InvalidArgument("the reading \"{}\" has {} numbers, but {} were given", kind, wanted, numbers.size());
     const auto at = [&](Index i) { return significant(numbers(i), 4); };
     const Number percent = decimals(fit, 1);
     if (kind == "first")
@@ -127,7 +127,7 @@ Message sentence_of_reading(const std::string& kind, const Vector& numbers, doub
         return Message(
             "28 % after {}, 63 % after {}:  T = 1.5 (t63 - t28) = {},  Td = t63 - T = {}.  K = {}.  Fit {} %.", at(0),
             at(1), at(2), at(3), at(4), percent);
-    if (kind != "second") throw InvalidArgument("there is no reading \"{}\"", kind);
+    if (kind != "second") throw InvalidArgument("unknown reading \"{}\"", kind);
     return Message(
         "Overshoot D = {} % after T1 = {}:  z = sqrt(ln(D)^2/(ln(D)^2 + pi^2)) = {},  w0 = pi/(T1 sqrt(1 - z^2)) = {} "
         "rad/s.  K = {}.  Within 5 % after about 3/(z w0) = {}.  Fit {} %.",
@@ -145,7 +145,7 @@ constexpr std::array kPageFunctions = {
     FunctionEntry{"workbench.label", "workbench", "workbench.label(name) -> text", "a text for a figure of the page",
                   guarded<give_label>},
     FunctionEntry{"workbench.reading_words", "workbench", "workbench.reading_words(kind, numbers, fit)",
-                  "says what was read off a step response", guarded<reading_words>},
+                  "gives the values read from a step response", guarded<reading_words>},
 };
 
 }  // namespace
