@@ -2,10 +2,11 @@
 // glossary, no dialect, short sentences. Oracle: the lists of prose.h.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,20 +75,37 @@ std::vector<std::string> message_ids() {
     return ids;
 }
 
-/// The texts in quotes of the commands' sources that have a space. Adjacent ones are one text.
+/// The texts in quotes of a source. Adjacent ones are one text.
+std::vector<std::string> texts_in(const std::string& source) {
+    std::vector<std::string> texts;
+    bool goes_on = false;  // nothing but white space since the last closing quote
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        const char c = source[i];
+        if (source.compare(i, 2, "//") == 0) {
+            i = std::min(source.find('\n', i), source.size());
+        } else if (c == '\'' && i + 2 < source.size() && source[i + 2] == '\'') {
+            i += 2, goes_on = false;
+        } else if (c == '"') {
+            const std::size_t begin = i + 1;
+            while (++i < source.size() && source[i] != '"') i += source[i] == '\\';
+            if (!goes_on) texts.emplace_back();
+            texts.back() += unescaped(std::string_view(source).substr(begin, i - begin));
+            goes_on = true;
+        } else if (std::isspace(static_cast<unsigned char>(c)) == 0) {
+            goes_on = false;
+        }
+    }
+    return texts;
+}
+
+/// File and text of what the sources of commands say.
 std::vector<std::pair<std::string, std::string>> texts_of_commands() {
     std::vector<std::pair<std::string, std::string>> texts;
-    const std::regex text(R"rx("(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*)rx"), seam("\"\\s*\"");
     for (const auto& file : fs::recursive_directory_iterator(kRoot / "engine/cli")) {
         if (file.path().extension() != ".cpp" && file.path().extension() != ".h") continue;
         std::ifstream stream(file.path());
-        const std::string source = std::regex_replace(std::string(std::istreambuf_iterator<char>(stream), {}),
-                                                      std::regex("#include[^\n]*|//[^\n]*"), "");
-        for (std::sregex_iterator at(source.begin(), source.end(), text), end; at != end; ++at) {
-            const std::string quoted = std::regex_replace(at->str(), seam, "");
-            if (quoted.find(' ') != quoted.npos)
-                texts.emplace_back(file.path().filename().string(), unescaped(quoted.substr(1, quoted.size() - 2)));
-        }
+        for (const std::string& text : texts_in(std::string(std::istreambuf_iterator<char>(stream), {})))
+            if (text.find(' ') != text.npos) texts.emplace_back(file.path().filename().string(), text);
     }
     return texts;
 }
@@ -124,7 +142,7 @@ TEST(message_prose, refused_phrases_are_found) {
 }
 
 TEST(message_prose, messages_have_short_sentences) {
-    constexpr double kShareOfLongMessages = 0.6;  // percent; lower it when the share has fallen, never raise it
+    constexpr double kShareOfLongMessages = 0.25;  // percent; lower it when the share has fallen, never raise it
     std::size_t count = 0, too_long = 0;
     for (const std::string& id : message_ids()) {
         ++count;

@@ -178,7 +178,7 @@ TEST_F(receipts, of_courses_of_before_are_still_known_to_the_course) {
     EXPECT_THAT(course_.course({"verify", "old.txt"}).output, HasSubstr("old.txt: genuine"));
     const ChildResult alone = verify({"old.txt", "--key", "mine/course.pub"});
     EXPECT_EQ(alone.exit_code, 1);
-    EXPECT_THAT(alone.output, HasSubstr("old.txt: cannot be decided: it has a code instead of a signature"));
+    EXPECT_THAT(alone.output, HasSubstr("old.txt: cannot be decided: the receipt has a code instead of a signature"));
     std::string altered = read("old.txt");
     altered.replace(altered.find("group-01"), 8, "group-02");
     write("altered.txt", altered);

@@ -50,7 +50,7 @@ TEST_F(block_diagrams, arrows_go_from_rim_to_rim) {
 }
 
 TEST_F(block_diagrams, mistakes_are_told_with_their_line) {
-    for (const auto& [list, told] : {std::pair("- r = dot 1 1: $r$\n", "the kind \"dot\" is not known"),
+    for (const auto& [list, told] : {std::pair("- r = dot 1 1: $r$\n", "unknown kind \"dot\""),
                                      {"- r = block 1: $r$\n", "a node must have the form NAME = KIND COLUMN ROW"},
                                      {"- r = block 0 1: $r$\n", "whole numbers from 1 to 12"},
                                      {"- r = block 99 1: $r$\n", "whole numbers from 1 to 12"},

@@ -62,8 +62,8 @@ MonteCarloMethod method_of_table(const Call& call, const std::string& label, con
     MethodArguments arguments{find_estimation_reader(name), {}};
     if (arguments.reader == nullptr)
         throw InvalidArgument(
-            "unknown estimator '{}': it is none of {}; use a function for other estimators: {} = function(data) return "
-            "... end",
+            "unknown estimator '{}'; the estimators are {}. Use a function for other estimators: {} = function(data) "
+            "return ... end",
             name, listed(estimation_names()), label);
     lua_pushlightuserdata(L, const_cast<char*>(name.c_str()));
     lua_pushlightuserdata(L, &arguments);
