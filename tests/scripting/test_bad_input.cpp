@@ -223,12 +223,12 @@ TEST(bad_input, wrong_orders_are_refused_with_their_meaning) {
                 << call;
     EXPECT_THAT(said("lssvf(d, {2, 1}, 3)"),
                 HasSubstr("{na, nb, nk} (na: poles; nb: coefficients of B; nk: samples of delay)"));
-    const auto continuous = HasSubstr("poles; nb: coefficients of B; nk: samples of delay), but nb is 4, and with na");
+    const auto continuous = HasSubstr("poles; nb: coefficients of B; nk: samples of delay), but nb is 4; with na");
     for (const char* name : {"lssvf", "lsgpmf", "ivsvf", "ivgpmf"})
         EXPECT_THAT(said(std::string(name) + "(d, {2, 4, 0}, 3)"), continuous) << name;
     for (const char* call : {"srivc(d, {4, 2, 0})", "coe(d, {4, 2, 0})", "rivc(d, {4, 0, 1, 2, 0})"})
         EXPECT_THAT(said(call), AllOf(HasSubstr("nf: poles; nk: samples of delay)"),
-                                      HasSubstr("but nb is 4, and with nf = 2 must be between 1 and 3")))
+                                      HasSubstr("but nb is 4; with nf = 2 it must be between 1 and 3")))
             << call;
     for (const char* call : {"srivc(d, {1, 0, 0})", "coe(d, {1, 0, 0})", "rivc(d, {1, 0, 1, 0, 0})"})
         EXPECT_THAT(said(call), HasSubstr("but nf is 0; it must be at least 1")) << call;

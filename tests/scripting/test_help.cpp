@@ -130,7 +130,7 @@ TEST(help, numbered_items_and_formulas_keep_their_lines) {
 TEST(help, leads_on_from_toolboxes_methods_and_lua) {
     const auto all = functions();
     EXPECT_THAT(help_text("tfest", all),
-                AllOf(HasSubstr("tfest is a name of another program: write tfsrivc"), HasSubstr("\n  tfsrivc  ")));
+                AllOf(HasSubstr("tfest is a name of another program: use tfsrivc"), HasSubstr("\n  tfsrivc  ")));
     EXPECT_THAT(help_text("CARX", all), AllOf(HasSubstr("\n  lssvf  "), HasSubstr("\n  ivsvf  ")));
     EXPECT_THAT(help_text("CBJ", all), HasSubstr("\n  rivc  "));
     EXPECT_EQ(help_text("COE", all), help_text("coe", all));

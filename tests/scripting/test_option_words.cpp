@@ -59,7 +59,7 @@ TEST(option_words, messages_name_the_options_of_scripts) {
     for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
              {"procsrivc(d, 'P1D', {TdMax = 0.2})",
               "The delay is TdMax = 0.2 s, at the limit of the search: increase TdMax."},
-             {"tfsrivc(d, 2, 0, {TdMin = 0.8, TdMax = 1.5})", "lower TdMin"},
+             {"tfsrivc(d, 2, 0, {TdMin = 0.8, TdMax = 1.5})", "decrease TdMin"},
              {"coe(d, {1, 2, 0}, {MaxIter = 1})", "did not converge within MaxIter = 1 iterations"},
              {"oe(d, {2, 2, 1}, {MaxIter = 0})", "did not converge within MaxIter = 0 iterations"},
              {"tfcoe(d, 1, 1, {TdMax = 1})", "Fix the delay with IODelay"}}) {

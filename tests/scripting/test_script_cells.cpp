@@ -176,7 +176,7 @@ TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
              {"slider('k', 1, 1, 2, {log = true, step = 1})", "and cannot have a step"},
              {"slider('k', 1, 1, 2) slider('k', 1, 1, 2)", "is used already"},
              {"slider('a b', 1, 1, 2)", "may contain only letters"},
-             {"slider('k', 0/0, 1, 2)", "lies outside"}})
+             {"slider('k', 0/0, 1, 2)", "is outside"}})
         EXPECT_THAT(test::error_of(call), testing::HasSubstr(sentence)) << call;
 }
 

@@ -62,7 +62,7 @@ TEST(script_errors, lead_from_the_toolboxes_functions_to_those_here) {
           "isstable", "zpplot",  "zpk",     "tfdata",    "nlhw",       "nlarx",    "rarx",   "rpem",    "roots",
           "xcorr",    "filter",  "etime",   "allmargin", "shadedplot", "sidgpmf",  "hsrivc", "poly",    "os"}) {
         const std::string said = error_of(std::string(name) + "()");
-        const std::string::size_type hint = said.find(" here; ");
+        const std::string::size_type hint = said.find("'; ");
         ASSERT_NE(hint, std::string::npos) << name << ": " << said;
         for (const std::string& function : functions_of(said.substr(hint)))
             EXPECT_EQ(printed("print(type(" + function + "))"), "function\n") << name << ": " << said;

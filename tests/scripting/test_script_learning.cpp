@@ -151,7 +151,7 @@ end
                       .size() > 100,
               true);
     EXPECT_THAT(printed("impulseest(iddata(randn(50), randn(50), 1), 30)"),
-                HasSubstr("over 30 lags at least 90 samples are needed"));
+                HasSubstr("30 lags need at least 90 samples"));
     EXPECT_THAT(printed("impulseest(iddata(randn(50), randn(50), 1), {Kernel = 'AB'})"), HasSubstr("Kernel"));
 }
 

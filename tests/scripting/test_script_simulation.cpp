@@ -74,7 +74,7 @@ TEST(script_simulation, sim_takes_a_signal_to_noise_ratio) {
     EXPECT_THAT(error_of(kEstimate + "sim(lssvf(d, {2, 1, 0}, 3), d, {noise = true})"),
                 HasSubstr("estimates an equation error"));
     EXPECT_THAT(error_of(kEstimate + "sim(rivc(d, {1, 0, 1, 2, 0}), u, 0.1, {noise = true})"),
-                HasSubstr("counts samples of 0.05 s"));
+                HasSubstr("has the sampling time 0.05 s"));
 }
 
 TEST(script_simulation, bands_as_numbers) {

@@ -31,6 +31,7 @@ struct Synonym {
 };
 constexpr Synonym kSynonyms[] = {{"pole zero map", "pzmap"},
                                  {"transport delay", "delayest tfsrivc procsrivc"},
+                                 {"dead time", "delayest tfsrivc procsrivc"},
                                  {"pid", "simloop feedback margin"},
                                  {"root locus", "feedback pole"},
                                  {"spike", "filloutliers"},
