@@ -106,7 +106,7 @@ class Column {
         const std::array ranges = {k16, k24, k32, k32 / 1e3, k32 / 1e6, kSecondsOfDay / seconds};
         if (const double range = count_on(clock_.t, ranges); range > 0)
             clock_.notes.push_back(
-                Message("the time '{}' restarts at {}; dynlab adds the missing days", name_, significant(range, 10)));
+                Message("the time '{}' wraps around at {}; dynlab unwraps it", name_, significant(range, 10)));
         clock_.t *= seconds;
         seconds_ = seconds;
         return true;

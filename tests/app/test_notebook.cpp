@@ -131,8 +131,8 @@ TEST(notebook, places_are_told_as_jupyter_counts_them) {
 }
 
 TEST(notebook, other_files_are_refused_with_a_reason) {
-    EXPECT_THAT(refusal("print(1)"), HasSubstr("a.ipynb: this is no Jupyter notebook: it is not JSON"));
-    EXPECT_THAT(refusal("{\"cells\": ["), HasSubstr("cut off"));
+    EXPECT_THAT(refusal("print(1)"), HasSubstr("a.ipynb: the file is not a Jupyter notebook: it is not JSON"));
+    EXPECT_THAT(refusal("{\"cells\": ["), HasSubstr("is truncated"));
     EXPECT_THAT(refusal("[1, 2]"), HasSubstr("not a Jupyter notebook"));
     EXPECT_THAT(refusal("{}"), HasSubstr("it has no nbformat"));
     EXPECT_THAT(refusal(R"({"nbformat": 3, "worksheets": []})"),

@@ -247,7 +247,7 @@ TEST_F(workbench_access, more_models_than_a_picture_takes_are_told) {
     const auto program = app("many.lua", {"--run"});
     Browser browser;
     browser.open(program->address());
-    EXPECT_TRUE(says(browser, "the last 8 of 10 ticked models"));
+    EXPECT_TRUE(says(browser, "the last 8 of 10 selected models"));
     ASSERT_TRUE(is_ready(browser));
     browser.evaluate(
         "for (let k = 0; k < 2; ++k) document.querySelectorAll('.models input[type=checkbox]')[k].click()");

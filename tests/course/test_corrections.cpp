@@ -55,7 +55,7 @@ TEST_F(corrections, a_time_of_receipt_is_corrected_by_a_further_receipt) {
     EXPECT_THAT(status(), HasSubstr("v1 late 7 h"));
     const std::string before = signed_rows();
     EXPECT_THAT(course({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", ""}).error_output,
-                HasSubstr("say why"));
+                HasSubstr("give the reason"));
     EXPECT_EQ(course({"set-received", "crane", "group-02", "2026-03-01 11:30", "--reason", "x"}).exit_code, 1);
     done({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's log"});
     EXPECT_THAT(status(), Not(HasSubstr("late")));
@@ -134,7 +134,7 @@ TEST_F(corrections, lateness_follows_deadlines_and_extensions) {
     EXPECT_THAT(done({"history"}),
                 HasSubstr("first 2026-03-01 09:00:00 UTC instead of 2026-03-01 14:00:00 UTC; reason: typed too late"));
     EXPECT_THAT(course({"assignment", "crane", "--first", "2026-03-09 09:00", "--reason", "x"}).error_output,
-                HasSubstr("must come after"));
+                HasSubstr("must be after"));
     EXPECT_EQ(course({"extend", "crane", "group-01", "--reason", "x"}).exit_code, 1);
 }
 
@@ -244,7 +244,7 @@ TEST_F(corrections_of_reviews, a_newer_version_goes_out_again_or_is_held_back) {
     done({"withhold", "crane", "group-01", "--reason", "to be read first"});
     EXPECT_THAT(status(), AllOf(HasSubstr("its report is withheld"), Not(HasSubstr("a newer version than was sent"))));
     const std::string held = done({"review", "send", "--at", "2026-03-02 13:00"});
-    EXPECT_THAT(held, AllOf(HasSubstr("0 sent now"), HasSubstr("6 before"), HasSubstr("2 held back"),
+    EXPECT_THAT(held, AllOf(HasSubstr("0 sent now"), HasSubstr("6 before"), HasSubstr("2 withheld"),
                             HasSubstr("Removed from the folder: group-0")));
     EXPECT_THAT(shell("ls k/outbox/crane/to-review/*/*.pdf | wc -l"), HasSubstr("6"));
     done({"withhold", "crane", "group-01", "--end", "--reason", "read"});
@@ -302,7 +302,7 @@ TEST_F(corrections_of_reviews, who_joins_the_authors_reviews_them_no_more) {
         shell("$DYNLAB course --course k review pairs crane | awk '$1 == \"group-01\" {print $3; exit}'").substr(0, 8);
     course_.bench().write("roster.csv", "id,name,group\ns" + author.substr(7) + ",Student,group-01\n");
     done({"import", "roster.csv"});
-    EXPECT_THAT(done({"review", "assign", "--at", "2026-03-02 12:00"}), Not(HasSubstr("0 taken back")));
+    EXPECT_THAT(done({"review", "assign", "--at", "2026-03-02 12:00"}), Not(HasSubstr("0 withdrawn")));
     EXPECT_THAT(shell("sqlite3 k/course.db \"SELECT ended_reason FROM pairs WHERE ended_at IS NOT NULL\""),
                 HasSubstr("the groups share a member"));
 }

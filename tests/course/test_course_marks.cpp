@@ -78,7 +78,7 @@ TEST(course_marks, the_instructor_has_the_last_word_and_gives_a_reason) {
     const std::string before = bench.dump();
     EXPECT_EQ(bench.course({"mark", "crane", "group-04", "reviews", "75"}).exit_code, 2);
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "reviews", "75", "--reason", ""}).error_output,
-                HasSubstr("say why"));
+                HasSubstr("give the reason"));
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "reviews", "201", "--force", "--reason", "x"}).error_output,
                 HasSubstr("from 0 to 200 percent, but 201 was given"));
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "voice", "75", "--reason", "x"}).error_output,

@@ -269,7 +269,7 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
     EXPECT_THAT(book, HasSubstr("3,Ben Lee,Ben Lee,graded,2,2,0,0,2,\r\n"));
     EXPECT_THAT(book, HasSubstr("4,Uma Kepler,Uma Kepler,graded,1.8,2,0.2,0.26,2,"));
     EXPECT_THAT(work.read("out/results/group-1/feedback.md"),
-                HasSubstr("which costs 0.2 points: received 2026-03-01 18:20 CET, 20 min after"));
+                HasSubstr("and loses 0.2 points: received 2026-03-01 18:20 CET, 20 min after"));
     EXPECT_THAT(bench.result("group-1").at("output").get<std::string>(), HasSubstr("costs 0.20 points: " + reason));
     EXPECT_THAT(bench.grade({"--timezone", "Nowhere/Land", "--again"}).error_output, HasSubstr("Nowhere/Land"));
 }

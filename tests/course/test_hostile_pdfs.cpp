@@ -90,7 +90,7 @@ TEST_F(hostile_pdfs, pages_without_text) {
 
 TEST_F(hostile_pdfs, more_than_the_limits) {
     EXPECT_THAT(message_text(only(check_bytes(blank_pages(201)), "too-large").what),
-                HasSubstr("201 pages; at most 200"));
+                HasSubstr("201 pages; the limit is 200"));
     const std::string sound = sound_pdf();
     PdfLimits limits;
     limits.words = 10;
@@ -99,7 +99,7 @@ TEST_F(hostile_pdfs, more_than_the_limits) {
     limits = {};
     limits.file_bytes = 1000;
     EXPECT_THAT(message_text(only(check_pdf(file("own.pdf"), {standard_, {}}, limits), "too-large").what),
-                HasSubstr("MB are looked at"));
+                HasSubstr("the limit is"));
     limits = {};
     limits.time = std::chrono::milliseconds(0);
     EXPECT_THAT(message_text(only(check_pdf(file("own.pdf"), {standard_, {}}, limits), "too-large").what),

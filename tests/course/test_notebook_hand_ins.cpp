@@ -52,7 +52,7 @@ TEST(notebook_hand_ins, are_graded_compared_and_told_of_by_cells) {
                 AllOf(HasSubstr("analysis.ipynb, cell 2, line 2: "), Not(HasSubstr(".lua:"))));
     EXPECT_THAT(GradingBench::trouble(bench.result("both")), HasSubstr("it is unknown which one is newer"));
     EXPECT_THAT(GradingBench::trouble(bench.result("broken")),
-                HasSubstr("analysis.ipynb cannot be read: this is no Jupyter"));
+                HasSubstr("analysis.ipynb cannot be read: the file is not a Jupyter"));
     EXPECT_THAT(GradingBench::trouble(bench.result("named")), HasSubstr("under the name analysis.ipynb"));
     EXPECT_EQ(bench.bench().shell(std::string("grep -rl '") + kName + "' out").output, "");
     const ChildResult similar = bench.bench().dynlab({"similar", "in", "--lesson", "99", "--out", "alike"});

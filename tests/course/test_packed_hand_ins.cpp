@@ -124,7 +124,7 @@ TEST(packed_hand_ins, a_pack_is_a_review_only_with_a_pdf) {
     EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-09 11:00"}).output,
                 AllOf(ContainsRegex("group-01 +1 +v1[^\n]* 0 of 1 [^\n]*the pack contains no PDF with its review of "
                                     "report-[0-9]+: ask for this file"),
-                      Not(HasSubstr("remind of")), ContainsRegex("group-02 +1 +v1[^\n]* 1 of 1, 1 late")));
+                      Not(HasSubstr("send a reminder")), ContainsRegex("group-02 +1 +v1[^\n]* 1 of 1, 1 late")));
 }
 
 // oracle: the rules of deadlines: a review is late when no version of it came in time

@@ -109,7 +109,7 @@ TEST_F(platform_sheet, canvas_fills_the_column_of_the_assignment) {
 }
 
 TEST_F(platform_sheet, what_is_not_recognised_is_named) {
-    EXPECT_THAT(refusal("group,mark\n1,2\n"), AllOf(HasSubstr("neither Moodle's"), HasSubstr("group, mark")));
+    EXPECT_THAT(refusal("group,mark\n1,2\n"), AllOf(HasSubstr("expected Moodle's"), HasSubstr("group, mark")));
     EXPECT_THAT(refusal("Identifier,Status\nParticipant 1,x\n"), HasSubstr("the column of grades is not recognized"));
     EXPECT_THAT(refusal(""), HasSubstr("the file is empty"));
     EXPECT_THAT(refusal("Identifier,\"Grade\nParticipant 1,2\n"), HasSubstr("quotation mark is not closed"));

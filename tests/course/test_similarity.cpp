@@ -371,7 +371,7 @@ TEST(similarity, the_command_compares_a_class_with_a_former_year) {
     const ChildResult found =
         bench.bench().dynlab({"similar", "Lab4.zip", "--lesson", "99", "--out", "out", "--compare", "2025"});
     EXPECT_EQ(found.exit_code, 1);
-    EXPECT_THAT(found.error_output, HasSubstr("\"d\": There is no"));
+    EXPECT_THAT(found.error_output, HasSubstr("\"d\": The submission contains no"));
     EXPECT_EQ(found.output, "3 scripts compared: 0 groups of copies, 2 pairs\nout/similarity.md\n");
     EXPECT_THAT(bench.bench().read("out/similarity.csv"), HasSubstr("a,b,100,"));
     EXPECT_THAT(bench.bench().read("out/similarity.csv"), HasSubstr("c,2025/old,100,"));

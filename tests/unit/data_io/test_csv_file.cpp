@@ -270,7 +270,7 @@ TEST_F(csv_file, switches_are_ones_and_zeros) {
     EXPECT_THAT(read("t,name\n0,on\n1,left\n").texts.at("name"), ElementsAre("on", "left"));
     std::string late = "t,h\n";
     for (int i = 0; i < 400; ++i) late += fmt::format("{},{}\n", i, i == 350 ? "broken" : i % 2 == 0 ? "ON" : "OFF");
-    EXPECT_EQ(complaint(late), ", line 352, column h: wanted on or off as in the other rows, given \"broken\"");
+    EXPECT_EQ(complaint(late), ", line 352, column h: expected on or off as in the other rows, got \"broken\"");
 }
 
 TEST_F(csv_file, units_in_cells_become_the_columns_units) {
@@ -332,7 +332,7 @@ TEST_F(csv_file, lines_below_a_table_are_left_out) {
     EXPECT_THAT(texts_of(read(rows + "END\n").notes),
                 ElementsAre("dynlab ignores line 14 and the lines after it, which are below the table: \"END\""));
     EXPECT_THAT(complaint(rows + "broken;1;2\n4;5;6\n"), HasSubstr("line 14, column t: expected a number"));
-    EXPECT_THAT(complaint(rows + "3;4\n"), HasSubstr("line 14: wanted 3 cells")) << "a file that was cut off";
+    EXPECT_THAT(complaint(rows + "3;4\n"), HasSubstr("line 14: expected 3 cells")) << "a file that was cut off";
 }
 
 TEST_F(csv_file, empty_columns_at_the_end_are_columns_where_they_have_a_name) {

@@ -140,7 +140,7 @@ TEST_F(dataset_index, damaged_files_of_a_student_are_refused) {
     write_mat(scripts_.path() / "mine.mat", 1);
     const std::string bytes = read_file(scripts_.path() / "mine.mat");
     write_file_atomically(scripts_.path() / "mine.mat", bytes.substr(0, bytes.size() - 3));
-    EXPECT_THAT(complaint("mine.mat"), HasSubstr("is cut off"));
+    EXPECT_THAT(complaint("mine.mat"), HasSubstr("is truncated"));
 }
 
 TEST_F(dataset_index, says_how_to_get_a_record_of_a_package) {

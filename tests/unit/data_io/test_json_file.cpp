@@ -82,7 +82,7 @@ TEST_F(json_file, refuses_what_is_none_with_its_place) {
     EXPECT_THAT(told("[1, 2]"), HasSubstr("the outermost value must be an object"));
     EXPECT_THAT(told("{\"x\": 1, \"x\": 2}"), HasSubstr("the name \"x\" occurs twice"));
     EXPECT_THAT(told("{\"x\": " + std::string(5000, '[') + std::string(5000, ']') + "}"),
-                HasSubstr("more than 100 levels"));
+                HasSubstr("deeper than 100 levels"));
     EXPECT_THAT(told("{\"x\": \"\xff\"}"), HasSubstr("is not JSON"));
     EXPECT_THAT(refusal_of([&] { read_json_file(folder_.path() / "none.json"); }), HasSubstr("none.json"));
 }

@@ -141,7 +141,7 @@ TEST_F(workbook, says_what_is_wrong) {
     write({{"other.xml", "<a/>"}});
     EXPECT_THAT(complaint(), HasSubstr("is damaged or is not a workbook: its part xl/workbook.xml"));
     write(parts_of(kRows));
-    EXPECT_THAT(complaint("Run 3"), HasSubstr("has no sheet \"Run 3\"; it has Run 1, Run 2"));
+    EXPECT_THAT(complaint("Run 3"), HasSubstr("has no sheet \"Run 3\"; the sheets are Run 1, Run 2"));
     const std::string bytes = read_file(file_);
     write_file_atomically(file_, std::string_view(bytes).substr(0, bytes.size() / 2));
     EXPECT_NE(complaint(), "no error");

@@ -99,7 +99,7 @@ TEST(percent_script, header_mistakes_name_the_line_and_the_mend) {
     EXPECT_THAT(refusal("-- ---\n-- seed: -1\n-- ---\n"), HasSubstr("0 to 4294967295"));
     EXPECT_THAT(refusal("-- ---\n-- seed: 4294967296\n-- ---\n"), HasSubstr("0 to 4294967295"));
     EXPECT_THAT(refusal("-- ---\n-- language: de\n-- ---\n"), HasSubstr("en or fr"));
-    EXPECT_THAT(refusal("-- ---\n-- template: ../../x\n-- ---\n"), HasSubstr("without folder"));
+    EXPECT_THAT(refusal("-- ---\n-- template: ../../x\n-- ---\n"), HasSubstr("without a folder"));
     EXPECT_THAT(refusal("-- ---\n-- answers:\n--   G1:\n-- ---\n"), HasSubstr("needs a kind"));
     EXPECT_THAT(refusal("-- ---\n--   G1: model\n-- ---\n"), HasSubstr("answers:"));
 }

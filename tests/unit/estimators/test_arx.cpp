@@ -134,7 +134,7 @@ TEST(arx, too_high_orders_are_told) {  // oracle: the simulated system; the past
 TEST(arx, doubtful_results_come_with_a_sentence) {  // oracle: the simulated system
     const Vector u = random_levels(300, 3, 1), e = RandomStream(4).normal(300);
     EXPECT_THAT(message_text(arx(IdData(Matrix(e), Matrix(u), 1), kSecond).full_message()),
-                HasSubstr("hardly determine"));
+                HasSubstr("do not reliably determine"));
     const PolynomialOrders first = PolynomialOrders::arx(1, {1}, {1});
     const Vector y = model_output(PolynomialModel(first, Vector{{-1.05, 1}}, 1), u, e);
     EXPECT_THAT(message_text(arx(IdData(Matrix(y), Matrix(u), 1), first).full_message()), HasSubstr("unstable"));

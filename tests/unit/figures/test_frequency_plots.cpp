@@ -73,7 +73,7 @@ TEST(frequency_plots, levels_are_decibels_of_what_is_above_zero) {
     EXPECT_NEAR(curves[1].y[0], -40, 1e-12);
     EXPECT_TRUE(std::isnan(curves[2].y[1]));
     EXPECT_EQ(message_text(curves[3].label), "even lines without input");
-    EXPECT_THAT(thrown_message([] { levels_plot(measured()); }), HasSubstr("no levels"));
+    EXPECT_THAT(thrown_message([] { levels_plot(measured()); }), HasSubstr("no output levels"));
 }
 
 }  // namespace test_frequency_plots

@@ -69,7 +69,7 @@ TEST(diagnosis, of_delays) {  // oracle: the definition
         return texts_of(fit.warnings);
     };
     EXPECT_THAT(said(0.5, {0, 1}), IsEmpty());
-    EXPECT_THAT(said(1, {0, 1}), ElementsAre(HasSubstr("to output 2 lies at `largest_delay` = 1 s")));
+    EXPECT_THAT(said(1, {0, 1}), ElementsAre(HasSubstr("to output 2 is `largest_delay` = 1 s")));
     EXPECT_THAT(said(0.2, {0.2, 1}), ElementsAre(HasSubstr("lower `least_delay`")));
     EXPECT_THAT(said(0, {0, 1}), ElementsAre(HasSubstr("No delay from input 1 to output 2 is visible")));
     EXPECT_THAT(said(0.7, {0.7, 0.7}), ElementsAre(HasSubstr("`least_delay`")));
@@ -86,7 +86,7 @@ TEST(diagnosis, of_poor_fits) {
     warn_of_delay(poor, 0, {0, 1});
     EXPECT_THAT(poor.warnings, IsEmpty());
     warn_of_delay(poor, 1, {0, 1});
-    EXPECT_THAT(texts_of(poor.warnings), ElementsAre(HasSubstr("lies at `largest_delay`")));
+    EXPECT_THAT(texts_of(poor.warnings), ElementsAre(HasSubstr("The delay is `largest_delay`")));
 }
 
 TEST(diagnosis, of_unstable_poles) {  // oracle: poles written down

@@ -425,7 +425,7 @@ TEST(advice, an_integrator_is_told) {  // oracle: the pole put in
     const Vector u = random_levels(1500, 8, 41);
     const Vector x = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 2.0, 0.0}}), u, kTs);
     const Advice advice = advise(IdData(Matrix(x + 0.02 * RandomStream(42).normal(1500)), Matrix(u), kTs));
-    EXPECT_THAT(said(advice, "integrator"), HasSubstr("the plant integrates"));
+    EXPECT_THAT(said(advice, "integrator"), HasSubstr("and does not settle"));
 }
 
 TEST(advice, an_extrapolated_offset_is_told_as_such) {  // oracle: the input never comes near zero

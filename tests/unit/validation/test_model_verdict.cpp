@@ -19,7 +19,7 @@ std::string verdict_text(const ModelStanding& model) {
 
 TEST(model_verdict, good_models_only_are_called_good) {
     EXPECT_EQ(verdict_text({}), "The model explains everything that the data show, and its standard errors are valid.");
-    const auto not_good = Not(HasSubstr("explains all"));
+    const auto not_good = Not(HasSubstr("explains everything that the data show"));
     EXPECT_THAT(verdict_text({.unstable = true}), not_good);
     EXPECT_THAT(verdict_text({.fit_percent = 5}), not_good);
     EXPECT_THAT(verdict_text({.fit_percent = -30}), not_good);

@@ -68,7 +68,7 @@ TEST(residual_tests, coloured_noise_on_the_true_model_is_told_apart_from_missing
     const TransferFunction poor(Vector{{2.0 / 3}}, Vector{{1.0, 1.0}});
     const auto missing = plain_tests(record(y, u), poor);
     EXPECT_FALSE(missing.outputs[0].inputs[0].independent);
-    EXPECT_THAT(message_text(missing.verdict), HasSubstr("u1 still explains part of it"));
+    EXPECT_THAT(message_text(missing.verdict), HasSubstr("u1 still explains part of the error"));
     EXPECT_THAT(message_text(missing.verdict), HasSubstr("Dynamics are missing"));
 }
 

@@ -117,7 +117,7 @@ TEST_F(identification_script, fills_missing_samples_and_reports_doubts_about_the
     EXPECT_THAT(printed(of("holes.csv")),
                 AllOf(HasSubstr("holes.csv: missing numbers were replaced"),
                       HasSubstr("the output is linearly interpolated"), HasSubstr("fit to the estimation data: 9")));
-    EXPECT_THAT(printed(of("cut.csv")), HasSubstr("! The output x is cut off"));  // as advice() marks a warning
+    EXPECT_THAT(printed(of("cut.csv")), HasSubstr("! The output x saturates"));  // as advice() marks a warning
 }
 
 /// A record of 2/(s^2 + 4s + 3), whose cells are left out where `keeps_u` or `keeps_y` says no, every `step` s.
@@ -188,8 +188,8 @@ TEST_F(identification_script, doubts_about_the_data_are_printed_and_no_part_of_t
     std::string printed;
     request.print = [&printed](const std::string& text) { printed += text; };
     make_report(request);
-    EXPECT_THAT(printed, HasSubstr("The output x is cut off"));
-    EXPECT_THAT(files_->read("cut.md"), AllOf(HasSubstr("From u to x"), Not(HasSubstr("is cut off"))));
+    EXPECT_THAT(printed, HasSubstr("The output x saturates"));
+    EXPECT_THAT(files_->read("cut.md"), AllOf(HasSubstr("From u to x"), Not(HasSubstr("saturates"))));
 }
 
 TEST_F(identification_script, takes_uneven_instants_as_they_are) {

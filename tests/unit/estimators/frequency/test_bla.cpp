@@ -184,7 +184,7 @@ TEST(bla, refuses_what_it_cannot_use) {
     options.realisations = 5;
     EXPECT_THAT(refusal(options), HasSubstr("5 realizations do not divide the 6144 samples"));
     options.realisations = 4, options.transient = 3;
-    EXPECT_THAT(refusal(options), HasSubstr("leaving out 3 of 3 periods leaves nothing"));
+    EXPECT_THAT(refusal(options), HasSubstr("no data remain without 3 of 3 periods"));
     options.transient = 0, options.least_input = 1;
     EXPECT_THAT(refusal(options), HasSubstr("between 0 and 1"));
 }

@@ -123,7 +123,7 @@ TEST(spa, says_what_it_needs) {
     SpaOptions wide, high;
     wide.window = 100;
     high.w = Vector{{7.0}};
-    EXPECT_THAT(message(data, wide), HasSubstr("less than the shortest experiment's 100, but it is 100"));
+    EXPECT_THAT(message(data, wide), HasSubstr("fewer than the shortest experiment's 100, but has 100"));
     EXPECT_THAT(message(data, high), HasSubstr("between 0 and pi/Ts = 6.2832"));
     EXPECT_THAT(message(data.range(1, 7)), HasSubstr("at least 8 samples"));
     EXPECT_THAT(message(data.select({1}, {})), HasSubstr("no input"));

@@ -206,7 +206,7 @@ TEST(sindy, refuses_what_cannot_be_fitted) {
     EXPECT_THAT(thrown_message([&] { polynomials(still, 1); }), HasSubstr("never changes"));
     const SindyFit found = polynomials(data, 1);
     EXPECT_THAT(thrown_message([&] { found.model->free_run(data, 0, Vector::Ones(3)); }),
-                HasSubstr("x0 holds 2 states"));
+                HasSubstr("x0 must have 2 states"));
     EXPECT_THAT(thrown_message([&] { found.model->free_run(still, 0, Vector()); }), HasSubstr("select the channels"));
 }
 
