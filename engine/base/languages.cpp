@@ -73,7 +73,7 @@ const Catalog* catalog_of(std::string_view code) {
 std::string missing_catalog(std::string_view code) {
     if (code == "en") return {};
     const Language* language = language_of(code);
-    if (language == nullptr) return "there is no catalog " + std::string(code) + ".po";
+    if (language == nullptr) return "unknown catalog " + std::string(code) + ".po";
     return language->error.empty() ? std::string() : std::string(code) + ".po, " + language->error;
 }
 

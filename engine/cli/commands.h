@@ -33,7 +33,7 @@ Commands page_commands();
 
 // everyday/
 void add_run(CLI::App& app, Action& action, const FigureView& view);
-void add_look(CLI::App& app, Action& action);
+void add_inspect(CLI::App& app, Action& action);
 void add_identify(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_sheet(CLI::App& app, Action& action);
@@ -55,7 +55,7 @@ void add_verify(CLI::App& app, Action& action);
 void add_checks(CLI::App& app, Action& action);
 void add_grade(CLI::App& app, Action& action);
 void add_gradescope(CLI::App& app, Action& action);
-void add_hand_back(CLI::App& app, Action& action);
+void add_export_grades(CLI::App& app, Action& action);
 void add_similar(CLI::App& app, Action& action);
 void add_answers(CLI::App& app, Action& action);
 void add_course(CLI::App& app, Action& action);

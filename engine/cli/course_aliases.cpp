@@ -16,8 +16,14 @@ struct Alias {
     Words before, now;
 };
 
-/// The one place where old names are known.
-const std::vector<Alias>& aliases() {
+/// Old names of commands of `dynlab`.
+const std::vector<Alias>& program_aliases() {
+    static const std::vector<Alias> all = {{{"look"}, {"inspect"}}, {{"hand-back"}, {"export-grades"}}};
+    return all;
+}
+
+/// Old names of commands of `dynlab course`.
+const std::vector<Alias>& course_aliases() {
     static const std::vector<Alias> all = {
         {{"roster", "import"}, {"import"}},
         {{"roster", "drop"}, {"drop"}},
@@ -53,30 +59,36 @@ bool is_new_form(const Words& before, Words::const_iterator begin, Words::const_
     return begin == end || begin->starts_with('-');
 }
 
-/// Behind `course` and its option --course DIR; the end where the words are of another command.
-std::size_t course_command(const Words& words) {
-    const auto skip_folder = [&words](std::size_t at) {
-        while (at < words.size() && words[at].starts_with("--course")) at += words[at] == "--course" ? 2 : 1;
-        return std::min(at, words.size());
-    };
-    const std::size_t at = skip_folder(0);
-    return at < words.size() && words[at] == "course" ? skip_folder(at + 1) : words.size();
+/// Past the option --course DIR.
+std::size_t past_folder(const Words& words, std::size_t at) {
+    while (at < words.size() && words[at].starts_with("--course")) at += words[at] == "--course" ? 2 : 1;
+    return std::min(at, words.size());
+}
+
+/// Replaces the old name at `at`, if there is one, and makes the note.
+void rename(Words& words, std::size_t at, const std::vector<Alias>& aliases, const char* group, std::string& note) {
+    const auto begin = words.begin() + static_cast<std::ptrdiff_t>(at);
+    for (const auto& [before, now] : aliases) {
+        if (static_cast<std::size_t>(words.end() - begin) < before.size() ||
+            !std::equal(before.begin(), before.end(), begin) || is_new_form(before, begin, words.end()))
+            continue;
+        note = message_text(Message("note: dynlab {} is now dynlab {}; the old name works until 2027",
+                                    fmt::format("{}{}", group, fmt::join(before, " ")),
+                                    fmt::format("{}{}", group, fmt::join(now, " "))));
+        const auto rest = words.erase(begin, begin + static_cast<std::ptrdiff_t>(before.size()));
+        words.insert(rest, now.begin(), now.end());
+        return;
+    }
 }
 
 }  // namespace
 
 std::vector<std::string> with_new_names(std::vector<std::string> words, std::string& note) {
-    const auto begin = words.begin() + static_cast<std::ptrdiff_t>(course_command(words));
-    for (const auto& [before, now] : aliases()) {
-        if (static_cast<std::size_t>(words.end() - begin) < before.size() ||
-            !std::equal(before.begin(), before.end(), begin) || is_new_form(before, begin, words.end()))
-            continue;
-        note = message_text(Message("note: dynlab course {} is now dynlab course {}; the old name works until 2027",
-                                    fmt::format("{}", fmt::join(before, " ")), fmt::format("{}", fmt::join(now, " "))));
-        const auto rest = words.erase(begin, begin + static_cast<std::ptrdiff_t>(before.size()));
-        words.insert(rest, now.begin(), now.end());
-        break;
-    }
+    const std::size_t command = past_folder(words, 0);
+    if (command < words.size() && words[command] == "course")
+        rename(words, past_folder(words, command + 1), course_aliases(), "course ", note);
+    else
+        rename(words, command, program_aliases(), "", note);
     return words;
 }
 

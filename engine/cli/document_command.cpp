@@ -20,7 +20,7 @@ void show_time(double seconds, const std::string& of, const char* indent = "") {
 
 void show_use(const std::optional<CacheUse>& use, const char* of, const char* made) {
     if (use && use->recalled + use->made > 0)
-        std::cout << fmt::format("{:>11}  {} {}, {} recalled\n", use->made, of, made, use->recalled);
+        std::cout << fmt::format("{:>11}  {} {}, {} from the cache\n", use->made, of, made, use->recalled);
 }
 
 void show(const ReportResult& result) {
@@ -63,7 +63,7 @@ int make_document(ReportRequest request, bool show_timings) {
     for (const UnplacedEntries& entries : result.unplaced) note(entries.message());
     say(result.up_to_date      ? Message("{} (up to date)", file)
         : result.error         ? Message("{} (up to the error)", file)
-        : !result.gaps.empty() ? Message("{} (a draft: ?? stands where something is missing)", file)
+        : !result.gaps.empty() ? Message("{} (draft: ?? marks missing parts)", file)
                                : Message("{}", file));
     if (show_timings) show(result);
     return result.error || !result.gaps.empty() ? kFailed : kDone;

@@ -28,24 +28,17 @@ namespace dynlab::inline cli {
 namespace {
 
 constexpr const char* kFooter =
-    "First steps:\n"
-    "  dynlab                         the prompt: type Lua, see the result (or: dynlab < statements.lua)\n"
-    "  dynlab demo                    guided demonstrations\n"
-    "  dynlab lessons                 what there is to learn\n"
-    "  dynlab report 02               a lesson with its worked solution, as a PDF\n"
-    "  dynlab new 02 my-work          your own copy, to be worked on\n"
-    "  dynlab preview my-work         a page that follows what you write\n"
-    "  dynlab hint my-work 4          help with question 4, a little at a time\n"
-    "  dynlab report my-work          your report, as a PDF\n"
-    "  dynlab check my-work           what an instructor would ask you to mend\n"
-    "  dynlab grade handed-in --lesson 04 --out marks          the marks of a class\n"
-    "  dynlab course init signals-2026                         hand-ins, peer review and marks of a course\n"
-    "  dynlab identify d.csv --input u --output y --poles 2    a model and a report from a file\n"
-    "  dynlab run -e 'print(1 + 1)'   a line of Lua\n"
-    "  dynlab help tf                 what a function does, with an example; dynlab help lua: Lua in ten minutes\n"
-    "\n"
-    "Exit codes: 0 done, 1 the script or document failed, 2 wrong usage, 3 a needed program is missing,\n"
-    "130 interrupted.";
+    "First steps:\n  dynlab                         the prompt: type Lua, see the result (or: dynlab < "
+    "statements.lua)\n  dynlab demo                    guided demonstrations\n  dynlab lessons                 list of "
+    "lessons\n  dynlab report 02               a lesson with its reference solution, as a PDF\n  dynlab new 02 my-work "
+    "         your own copy to work on\n  dynlab preview my-work         a page that follows your changes\n  dynlab "
+    "hint my-work 4          hints for question 4, one at a time\n  dynlab report my-work          your report, as a "
+    "PDF\n  dynlab check my-work           problems to fix before submission\n  dynlab grade submissions --lesson 04 "
+    "--out marks        the marks of a class\n  dynlab course init signals-2026                         submissions, "
+    "peer review and marks of a course\n  dynlab identify d.csv --input u --output y --poles 2    a model and a report "
+    "from a file\n  dynlab run -e 'print(1 + 1)'   a line of Lua\n  dynlab help tf                 help for a "
+    "function, with an example; dynlab help lua: Lua in ten minutes\n\nExit codes: 0 done, 1 the script or document "
+    "failed, 2 wrong usage, 3 a required program is missing,\n130 interrupted.";
 
 /// Where what was printed has not been taken by whatever standard output is.
 std::optional<Message> complaint_about_output() {
@@ -53,8 +46,7 @@ std::optional<Message> complaint_about_output() {
     if (std::fflush(stdout) == 0 && std::cout && std::ferror(stdout) == 0) return {};
     // The write that failed may lie far back, and its reason is lost: another one fails for the same.
     const bool taken = retry_interrupted([] { return ::write(STDOUT_FILENO, "\n", 1); }) == 1;
-    return taken ? Message("cannot write what was printed")
-                 : Message("cannot write what was printed: {}", system_reason(errno));
+    return taken ? Message("cannot write the output") : Message("cannot write the output: {}", system_reason(errno));
 }
 
 /// Runs the chosen command and turns what it throws into one line on standard error and an exit code.
@@ -90,12 +82,12 @@ Program::Program(const Commands& commands, FigureView view) : view_(std::move(vi
     app_.add_option_function<std::string>(
             "--course",
             [](const std::string& folder) { ::setenv("DYNLAB_COURSE", std::filesystem::absolute(folder).c_str(), 1); },
-            "A folder with lessons, data and templates of your own (before the command; or DYNLAB_COURSE)")
+            "Folder with your own lessons, data and templates (before the command; or DYNLAB_COURSE)")
         ->type_name("DIR");
     app_.failure_message(usage_message);
     for (const auto& add : commands) add(app_, action_);
     app_.footer(kFooter);  // commands made before have no part in it, nor in the next
-    app_.set_help_flag("-h,--help", "Show this text, or a command's: dynlab run --help");
+    app_.set_help_flag("-h,--help", "Show this text, or the help of a command: dynlab run --help");
 }
 
 bool Program::has_command(const std::string& name) const {
@@ -145,7 +137,7 @@ void go_on_as(const std::string& program, char** words) {
         std::cerr << fmt::format("dynlab: this command is not built yet ({} is missing). Build it with:\n  {}\n",
                                  program, terminal_text(script->string()));
     else
-        std::cerr << fmt::format("dynlab: cannot start {} ({}), which has this command. Install dynlab again.\n",
+        std::cerr << fmt::format("dynlab: cannot start {} ({}), the program of this command. Reinstall dynlab.\n",
                                  terminal_text(file.string()), std::strerror(error));
     std::exit(kMissingProgram);
 }

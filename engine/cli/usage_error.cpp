@@ -19,11 +19,10 @@ namespace {
 Message in_our_words(const std::string& theirs) {
     std::string option, value;
     if (RE2::FullMatch(theirs, RE2(R"(Could not convert: (\S+) = (.*))", RE2::Latin1), &option, &value))
-        return Message("{} wants a number, but '{}' was given", option, value);
+        return Message("{} requires a number, but '{}' was given", option, value);
     if (RE2::PartialMatch(theirs, R"(^(\S+): At Most 1 required but received )", &option))
-        return Message("{} can be given once only", option);
-    if (RE2::PartialMatch(theirs, R"(^(\S+): 1 required )", &option))
-        return Message("{} wants a value behind it", option);
+        return Message("{} was given more than once", option);
+    if (RE2::PartialMatch(theirs, R"(^(\S+): 1 required )", &option)) return Message("{} requires a value", option);
     return Message::verbatim(theirs);
 }
 
@@ -64,8 +63,8 @@ Message unknown_option(const std::string& command, const std::string& option, co
 Message unknown_command(const CLI::App* command, const std::string& word, const std::vector<std::string>& names) {
     const auto near = nearest_word(word, names);
     if (command->get_parent() == nullptr)
-        return near ? Message("there is no command '{}'; did you mean '{}'?", word, *near)
-                    : Message("there is no command '{}'", word);
+        return near ? Message("unknown command '{}'; did you mean '{}'?", word, *near)
+                    : Message("unknown command '{}'", word);
     return near ? Message("{} has no command '{}'; did you mean '{}'?", whole_name(command), word, *near)
                 : Message("{} has no command '{}'", whole_name(command), word);
 }
@@ -77,9 +76,9 @@ Message unknown_words(const CLI::App* command, const std::vector<std::string>& w
         return unknown_option(whole_name(command), option, option_names(command));
     const std::vector<std::string> names = command_names(command);
     if (words.front().ends_with(".lua") && command->get_parent() == nullptr)
-        return Message("a script is run by its command: dynlab run {}", shell_word(words.front()));
+        return Message("use the command run for a script: dynlab run {}", shell_word(words.front()));
     if (!names.empty()) return unknown_command(command, words.front(), names);
-    return required ? Message() : Message("nothing is known of {} here", fmt::format("{}", fmt::join(words, " ")));
+    return required ? Message() : Message("too many arguments: {}", fmt::format("{}", fmt::join(words, " ")));
 }
 
 }  // namespace

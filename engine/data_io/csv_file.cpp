@@ -69,7 +69,7 @@ class CsvReader {
     void skip_lines() {
         for (std::size_t i = 0; i < options_.skip; ++i) {
             if (at_end())
-                throw EnvironmentError("{}: {} cannot be skipped, it has only {}", file_.string(),
+                throw EnvironmentError("{}: cannot skip {}, because the file has only {}", file_.string(),
                                        plural(static_cast<std::int64_t>(options_.skip), "{} line", "{} lines"), i);
             skip_line();
         }
@@ -111,7 +111,7 @@ class CsvReader {
                 Ts = 0;
             if (!(Ts > 0))
                 throw EnvironmentError(
-                    "{}, line {}: the sampling time Ts must be a positive number of seconds, given \"{}\"",
+                    "{}, line {}: the sampling time Ts must be a positive number of seconds, but \"{}\" was given",
                     file_.string(), line_, value);
             table_.Ts = Ts;
         } else {
@@ -177,12 +177,13 @@ class CsvReader {
             if (!table_.names[j].empty()) continue;
             table_.names[j] = all ? fmt::format("c{}", j + 1) : j == 0 ? "index" : fmt::format("column_{}", j + 1);
             told.items.push_back(all ? Message::verbatim(table_.names[j])
-                                     : Message("column {} is called {}", j + 1, table_.names[j]));
+                                     : Message("column {} is named {}", j + 1, table_.names[j]));
         }
         if (told.items.empty()) return;
-        note(all ? Message("there is no line of names, so the columns are called {}; {names = {...}} gives them names",
-                           first_of(told))
-                 : Message("the header has no name for it: {}", first_of(told)));
+        note(all ? Message(
+                       "the file has no line of names, so the columns are named {}; {names = {...}} sets their names",
+                       first_of(told))
+                 : Message("columns without a name in the header: {}", first_of(told)));
     }
 
     void number_equal_names() {
@@ -196,30 +197,29 @@ class CsvReader {
             name = fmt::format("{}_{}", name, number);
             told.push_back(name);
         }
-        if (!told.empty()) note(Message("columns of equal names are numbered: {}", first_of(told)));
+        if (!told.empty()) note(Message("columns with the same name are numbered: {}", first_of(told)));
     }
 
     void state_unit(const std::string& name, const std::string& unit, const std::set<std::string>& known) {
         const auto header = table_.headers.find(name);
         const std::string& column = header == table_.headers.end() ? name : header->second;
         if (!known.contains(column))
-            throw EnvironmentError("{}: a unit is given for {}, but there is no such column; the columns are {}",
+            throw EnvironmentError("{}: a unit is given for {}, which is not a column; the columns are {}",
                                    file_.string(), name, first_of(table_.names));
         table_.units[column] = unit;
     }
 
     void tell_layout() {
         if (layout_.passed_over == 1)
-            note(Message("the table begins in line {}; a line above it is passed over", layout_.table_line));
+            note(Message("the table starts in line {}; the line above it is skipped", layout_.table_line));
         else if (layout_.passed_over > 1)
-            note(Message("the table begins in line {}; {} lines above it are passed over", layout_.table_line,
+            note(Message("the table starts in line {}; {} lines above it are skipped", layout_.table_line,
                          layout_.passed_over));
-        if (layout_.named_by_comment)
-            note(Message("the names of the columns are those of the comment above the numbers"));
+        if (layout_.named_by_comment) note(Message("the column names come from the comment above the numbers"));
         if (layout_.units_line > 0) {
             MessageList told;
             for (const auto& [name, unit] : table_.units) told.items.push_back(Message("{} in {}", name, unit));
-            note(Message("line {} is taken for units: {}", layout_.units_line, first_of(told)));
+            note(Message("line {} is read as units: {}", layout_.units_line, first_of(told)));
         }
     }
 
@@ -266,7 +266,7 @@ class CsvReader {
                                              table_.names[j], column.first_missing_line));
         if (!told.items.empty())
             note(
-                Message("numbers are missing and become NaN: {}; fillmissing(u, {method = \"previous\"}) holds an "
+                Message("missing numbers were replaced with NaN: {}; fillmissing(u, {method = \"previous\"}) holds an "
                         "input that is logged when it changes, fillmissing(y) interpolates an output",
                         first_of(told)));
     }

@@ -27,7 +27,7 @@ std::size_t checked_rows(const CsvTable& table) {
     std::set<std::string_view> known;
     for (std::size_t i = 0; i < table.names.size(); ++i) {
         if (!known.insert(table.names[i]).second) {
-            throw InvalidArgument("two columns are named {}; every column needs a name of its own", table.names[i]);
+            throw InvalidArgument("two columns are named {}; each column needs a different name", table.names[i]);
         }
         const auto text = table.texts.find(table.names[i]);
         if (text == table.texts.end() && i >= table.columns.size()) {
@@ -47,7 +47,7 @@ std::size_t checked_rows(const CsvTable& table) {
 
 void append_number(std::string& out, double number, int digits, const std::string& column, std::size_t row) {
     if (!std::isfinite(number)) {
-        throw InvalidArgument("column {} holds a value that is not finite in row {}", column, row + 1);
+        throw InvalidArgument("column {} has a value in row {} that is not finite", column, row + 1);
     }
     char text[64];
     const auto end = std::to_chars(text, text + sizeof text, number, std::chars_format::general, digits).ptr;
@@ -64,7 +64,7 @@ void append_comments(std::string& out, const CsvTable& table) {
 
 void write_csv_file(const std::filesystem::path& file, const CsvTable& table, int digits) {
     if (digits < 1 || digits > 17) {
-        throw InvalidArgument("a table is written with 1 to 17 significant digits, not {}", digits);
+        throw InvalidArgument("the number of significant digits must be from 1 to 17, but {} was given", digits);
     }
     const std::size_t rows = checked_rows(table);
     std::string out;

@@ -67,7 +67,7 @@ void refuse_table_options(const fs::path& file, const ImportOptions& options) {
                         : !options.sheet.empty() ? "sheet"
                                                  : nullptr;
     if (given != nullptr)
-        throw EnvironmentError("{}: option {} is for tables, not for {} files", file.string(), given,
+        throw EnvironmentError("{}: the option {} is for tables, not for {} files", file.string(), given,
                                file.extension().string());
 }
 
@@ -81,25 +81,28 @@ LoadedData variables_of(const fs::path& file, bool guarded, const ImportOptions&
     for (Message& note : data.notes) note = Message("{}: left out", note);
     for (const auto& [name, unit] : options.units) {
         if (data.variables.count(name) == 0)
-            throw EnvironmentError("{}: a unit is given for {}, but there is no such variable", file.string(), name);
+            throw EnvironmentError("{}: a unit is given for {}, which is not a variable of the file", file.string(),
+                                   name);
         data.units[name] = unit;
     }
     return data;
 }
 
 LoadedData from_workbook(const fs::path& file, ImportOptions options) {
-    if (options.delimiter) throw EnvironmentError("{}: option delimiter is for tables in text files", file.string());
+    if (options.delimiter)
+        throw EnvironmentError("{}: the option delimiter is for tables in text files", file.string());
     SheetText sheet = read_sheet(file, options.sheet);
     options.delimiter = ',';
     LoadedData data = from_table(read_csv_text(file, std::move(sheet.csv), options));
     if (options.sheet.empty() && sheet.sheets.size() > 1)
-        data.notes.insert(data.notes.begin(), Message("of its sheets {} the first is read; option sheet names another",
-                                                      listed(sheet.sheets)));
+        data.notes.insert(data.notes.begin(),
+                          Message("of the sheets {}, dynlab reads the first; the option sheet selects another",
+                                  listed(sheet.sheets)));
     return data;
 }
 
 LoadedData from_text(const fs::path& file, const ImportOptions& options) {
-    if (!options.sheet.empty()) throw EnvironmentError("{}: option sheet is for workbooks (.xlsx)", file.string());
+    if (!options.sheet.empty()) throw EnvironmentError("{}: the option sheet is for workbooks (.xlsx)", file.string());
     return from_table(read_csv_file(file, options));
 }
 
@@ -142,8 +145,8 @@ bool drop_repeated_rows(LoadedData& data, const std::string& time) {
     for (const std::string& name : data.columns) keep_rows(data.variables.at(name), kept);
     data.rows = std::ssize(kept);
     data.notes.insert(data.notes.begin(),
-                      plural(dropped, "{} row repeats the row before it, time and all, and is left out",
-                             "{} rows repeat the row before them, time and all, and are left out"));
+                      plural(dropped, "{} row repeats the row before it, including the time, and is left out",
+                             "{} rows repeat the row before them, including the time, and are left out"));
     return true;
 }
 
@@ -180,8 +183,8 @@ LoadedData read_data_file(const fs::path& file, bool guarded, const ImportOption
     else if (ending == kWorkbookEnding)
         data = from_workbook(file, options);
     else
-        throw EnvironmentError("{} is of no kind that can be read: those are .mat, .xlsx, {}, .json", file.string(),
-                               listed({kTableEndings.begin(), kTableEndings.end()}));
+        throw EnvironmentError("{} has an unsupported file type; supported types are .mat, .xlsx, {}, .json",
+                               file.string(), listed({kTableEndings.begin(), kTableEndings.end()}));
     data.file = file;
     take_time(data, options);
     return data;

@@ -73,7 +73,7 @@ std::vector<std::string> course_files(const fs::path& data_set) {
     for (const std::string& name : names)
         if (fs::path(name).has_parent_path())
             throw EnvironmentError(
-                "{}: after \"{}\" stand names of files in that folder, but the path \"{}\" was given",
+                "{}: \"{}\" must be followed by file names in that folder, but the path \"{}\" was given",
                 (data_set / kSourceFile).string(), kCourseFileKey, name);
     return names;
 }
@@ -147,15 +147,13 @@ std::string full_path(const fs::path& folder) {
     const std::string folder = full_path(script_folder);
     if (known.empty())
         throw EnvironmentError(
-            "there is no data set \"{}\"; no data sets are installed; files of your own are looked for in {}", name,
-            folder);
+            "unknown data set \"{}\": no data sets are installed. dynlab searches {} for your own files", name, folder);
     if (const auto nearest = nearest_word(fs::path(name).stem().string(), known))
         throw EnvironmentError(
-            "there is no data set \"{}\"; did you mean \"{}\"? The data sets are {}; files of your own are looked for "
-            "in {}",
+            "unknown data set \"{}\"; did you mean \"{}\"? The data sets are {}. dynlab searches {} for your own files",
             name, *nearest, listed(known), folder);
-    throw EnvironmentError("there is no data set \"{}\"; the data sets are {}; files of your own are looked for in {}",
-                           name, listed(known), folder);
+    throw EnvironmentError("unknown data set \"{}\"; the data sets are {}. dynlab searches {} for your own files", name,
+                           listed(known), folder);
 }
 
 /// A data set of the installed data, by its name, a course file's, or a path that ends in one of its files.
@@ -167,7 +165,7 @@ Source find_source(const std::string& name_or_path, const fs::path& script_folde
     const fs::path path = name_or_path;
     if (path.has_parent_path()) {
         const fs::path file = script_folder / path;
-        if (!is_file(file)) throw EnvironmentError("there is no file {}", full_path(file));
+        if (!is_file(file)) throw EnvironmentError("file not found: {}", full_path(file));
         return {file};
     }
     if (const auto file = file_beside(script_folder, name_or_path)) return {*file};
@@ -190,8 +188,7 @@ Source find_graded_source(const std::string& name_or_path, const fs::path& scrip
 
 Message refusal_outside(const std::string& file) {
     return Message(
-        "\"{}\" leads outside the folder; where scripts are graded, only the course's data and files of the folder "
-        "itself can be loaded",
+        "\"{}\" is outside the folder; a graded script can load only the course's data and files in its own folder",
         file);
 }
 

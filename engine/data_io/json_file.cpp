@@ -169,7 +169,7 @@ class VariableBuilder final : public nlohmann::json_sax<Json> {
         return add(std::move(list));
     }
     bool parse_error(std::size_t, const std::string&, const Json::exception& problem) override {
-        throw EnvironmentError("{} is no JSON: {}", file_.string(), place_of(problem.what()));
+        throw EnvironmentError("{} is not JSON: {}", file_.string(), place_of(problem.what()));
     }
 
   private:
@@ -184,7 +184,7 @@ class VariableBuilder final : public nlohmann::json_sax<Json> {
     }
     Open& begin() {
         if (open_.size() >= kDeepestJson)
-            throw EnvironmentError("{}: more than {} levels", file_.string(), kDeepestJson);
+            throw EnvironmentError("{}: the values are nested deeper than {} levels", file_.string(), kDeepestJson);
         return open_.emplace_back();
     }
     bool add(Variable&& value) {
@@ -259,7 +259,7 @@ Json json_of_variable(const Variable& variable) {
 VariableTable read_json_file(const fs::path& file) {
     std::error_code error;
     if (fs::file_size(file, error) > kMostJsonBytes && !error)
-        throw EnvironmentError("{}: JSON files of more than 64 MB are not read", file.string());
+        throw EnvironmentError("{}: the file exceeds the limit of 64 MB for JSON files", file.string());
     const std::string text = read_file(file);
     VariableBuilder builder(file, text.size());
     Json::sax_parse(text, &builder);

@@ -56,12 +56,12 @@ std::string without_line_end(std::string text) {
 Message refusal_of_object(std::size_t number, const std::string& last_name) {
     if (last_name.empty())
         return Message(
-            "variable number {} is an object, a table or a string array, which cannot be read; save its parts as plain "
-            "arrays",
+            "variable number {} is an object, a table or a string array, which dynlab cannot read; save its parts as "
+            "plain arrays",
             number);
     return Message(
-        "variable number {} (after {}) is an object, a table or a string array, which cannot be read; save its parts "
-        "as plain arrays",
+        "variable number {} (after {}) is an object, a table or a string array, which dynlab cannot read; save its "
+        "parts as plain arrays",
         number, last_name);
 }
 
@@ -72,7 +72,7 @@ MatVariable next_variable(mat_t* mat, bool is_hdf5, MatioComplaints& complaints,
     for (int lost = 0; lost < kMostLost; ++lost) {
         MatVariable variable(Mat_VarReadNextInfo(mat));
         if (variable || !is_hdf5 || complaints.first().empty()) return variable;
-        const Message how = Message("what lies in other files or is damaged cannot be read");
+        const Message how = Message("a variable that is damaged or stored in another file cannot be read");
         if (left_out.empty() || left_out.back() != how) left_out.push_back(how);
         complaints.forget();
     }
@@ -129,8 +129,8 @@ MatContent read_variables(const fs::path& file) {
             throw EnvironmentError("{} is damaged: only {} of its {} variables can be read", file.string(), count,
                                    layout.variables);
         // libmatio loses its way behind some of them.
-        content.left_out.push_back(
-            Message("only {} of its {} variables can be read, because of that one", count, layout.variables));
+        content.left_out.push_back(Message("reading stops at that variable: only {} of its {} variables can be read",
+                                           count, layout.variables));
     }
     if (content.variables.empty() && !content.left_out.empty())
         throw EnvironmentError("{}: {}", file.string(), MessageList{content.left_out, Join::kSemicolon});
@@ -153,14 +153,14 @@ MatContent read_guarded(const fs::path& file) {
     };
     const ChildResult result = run_guarded(read, limits);
     if (result.time_limit() == TimeLimit::kProcessor)
-        throw EnvironmentError("{} is damaged: reading it used more than {} s of processor time", file.string(),
+        throw EnvironmentError("{} is damaged: reading used more than {} s of processor time", file.string(),
                                limits.time.seconds(TimeLimit::kProcessor));
     if (result.timed_out)
-        throw EnvironmentError("{} is damaged: reading it had not ended after {} s", file.string(),
+        throw EnvironmentError("{} is damaged: reading did not finish within {} s", file.string(),
                                limits.time.seconds(TimeLimit::kClock));
     if (result.output_exceeded) throw EnvironmentError(refusal_for_memory(file, bytes));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
-    if (result.exit_code != 0) throw EnvironmentError("{} is damaged: reading it ends in a crash", file.string());
+    if (result.exit_code != 0) throw EnvironmentError("{} is damaged: the reader crashed", file.string());
     MatContent content;
     try {
         content = from_cbor<MatContent>(result.output);
@@ -212,7 +212,7 @@ void write_mat_file(const fs::path& file, const VariableTable& variables, int di
     }
     written = written && Mat_Close(mat.release()) == 0 && complaints.first().empty();
     if (!written || !holds_all(draft, variables.size())) {
-        throw EnvironmentError("cannot write {}: no room for its draft in {}", file.string(),
+        throw EnvironmentError("cannot write {}: no space for the draft in {}", file.string(),
                                folder.path().parent_path().string());
     }
     place_file_atomically(with_quick_compression(draft), file);

@@ -21,7 +21,8 @@ void check_name(const std::string& name) {
     };
     if (name.empty() || name.size() > kLongest || !is_letter(name[0]) || !std::ranges::all_of(name, is_allowed)) {
         throw InvalidArgument(
-            "\"{}\" cannot name a MATLAB variable: wanted a letter, then letters, digits and _, at most {} in all",
+            "\"{}\" cannot be the name of a MATLAB variable: use a letter, then letters, digits and _, at most {} "
+            "characters",
             name, kLongest);
     }
 }

@@ -45,11 +45,11 @@ class MatFileSkeleton {
   private:
     [[noreturn]] void fail_cut_off(std::uint64_t start) const {
         throw EnvironmentError(
-            "{} is cut off: variable {} begins at byte {} and does not end within the {} bytes of the file",
+            "{} is truncated: variable {} starts at byte {} and does not end within the {} bytes of the file",
             file_.string(), variables_ + 1, start, size_);
     }
     [[noreturn]] void fail_without_variable(std::uint64_t at) const {
-        throw EnvironmentError("{} is damaged: no variable begins at byte {}", file_.string(), at);
+        throw EnvironmentError("{} is damaged: no variable starts at byte {}", file_.string(), at);
     }
 
     template <class T>
@@ -82,11 +82,11 @@ class MatFileSkeleton {
             return MatVersion::k5;
         }
         if (version != 0x0200)
-            throw EnvironmentError("{} is of the unknown MAT version {}", file_.string(),
+            throw EnvironmentError("{} has the unknown MAT version {}", file_.string(),
                                    fmt::format("{:#06x}", version));
         constexpr std::array<char, 8> kHdf5Signature = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
         if (size_ < kHdf5Start + 8)
-            throw EnvironmentError("{} is cut off: it has only {}", file_.string(),
+            throw EnvironmentError("{} is truncated: it has only {}", file_.string(),
                                    plural(static_cast<std::int64_t>(size_), "{} byte", "{} bytes"));
         if (read_at<std::array<char, 8>>(kHdf5Start) != kHdf5Signature)
             throw EnvironmentError("{} is damaged: its HDF5 part is missing", file_.string());

@@ -26,15 +26,14 @@ void refuse_unsupported(const matvar_t& variable, const std::string& name, int d
         case MAT_C_OBJECT:
         case MAT_C_OPAQUE:
             throw EnvironmentError(
-                "variable {} is an object, a table or a string array, which cannot be read; save its parts as plain "
-                "arrays",
+                "variable {} is an object, a table or a string array, which dynlab cannot read; save its parts as "
+                "plain arrays",
                 name);
         case MAT_C_FUNCTION:
-            throw EnvironmentError("variable {} is a function handle, which cannot be read", name);
+            throw EnvironmentError("variable {} is a function handle, which dynlab cannot read", name);
         case MAT_C_EMPTY:  // as a part it is [], on its own a class libmatio does not know
             if (depth == 0)
-                throw EnvironmentError("variable {} is of a class that cannot be read; save its parts as plain arrays",
-                                       name);
+                throw EnvironmentError("variable {} has an unsupported class; save its parts as plain arrays", name);
             return;
         default:
             return;
@@ -193,7 +192,7 @@ class Converter {
             case MAT_T_UINT64:
                 return use(static_cast<const std::uint64_t*>(data));
             default:
-                throw EnvironmentError("variable {} is of a class that cannot be read", name_);
+                throw EnvironmentError("variable {} has an unsupported class", name_);
         }
     }
 

@@ -15,7 +15,7 @@ void* matio_function(const char* name) {
     if (function == nullptr) {
         const char* reason = ::dlerror();
         throw EnvironmentError("MATLAB files need libmatio, which cannot be loaded: {}",
-                               reason != nullptr ? Message::verbatim(reason) : Message("it lacks {}", name));
+                               reason != nullptr ? Message::verbatim(reason) : Message("the library lacks {}", name));
     }
     return function;
 }

@@ -20,12 +20,12 @@ bool is_there(const fs::path& file) {
 [[noreturn]] void refuse_missing(const PackagedRecord& record) {
     if (is_there(fs::path("/var/lib/dpkg/info") / (record.package + ".list")))
         throw EnvironmentError(
-            "the package {} is installed, but without its file {}: this system leaves out documentation "
-            "(/etc/dpkg/dpkg.cfg.d says so); allow it there, then sudo apt-get install --reinstall {}",
+            "the package {} is installed, but its file {} is missing: this system excludes documentation (see "
+            "/etc/dpkg/dpkg.cfg.d). Include the file there, then run sudo apt-get install --reinstall {}",
             record.package, record.file.string(), record.package);
     throw EnvironmentError(
-        "this record comes with the Debian package {}, which is not installed: sudo apt-get install {}", record.package,
-        record.package);
+        "this data set is part of the Debian package {}, which is not installed: run sudo apt-get install {}",
+        record.package, record.package);
 }
 
 /// As many numbers as the record has samples; what they are is for messages.
@@ -33,7 +33,7 @@ Vector next_values(std::istream& text, const PackagedRecord& record, const Messa
     Vector values(record.samples);
     for (Index k = 0; k < record.samples; ++k)
         if (!(text >> values[k]))
-            throw EnvironmentError("{} ends or holds text at {} {} of {}: reinstall the package {}",
+            throw EnvironmentError("{} ends, or has text, at {} {} of {}: reinstall the package {}",
                                    record.file.string(), what, k + 1, record.samples, record.package);
     return values;
 }

@@ -64,7 +64,7 @@ class Reader {
         for (const std::string& cell : row) {
             std::string name = in_small_letters(cell);
             if (!known.insert(name).second)
-                throw EnvironmentError("{}, line {}: there are two columns \"{}\"", file_.string(), line, name);
+                throw EnvironmentError("{}, line {}: two columns are named \"{}\"", file_.string(), line, name);
             table.names.push_back(std::move(name));
         }
     }
@@ -169,7 +169,7 @@ std::optional<std::size_t> TextTable::column(std::string_view name) const {
 TextTable read_text_table(const std::filesystem::path& file) {
     std::string text = read_text(file);
     if (text.find('\0') != std::string::npos)
-        throw EnvironmentError("{}: this is not UTF-8 text; save it as CSV in UTF-8", file.string());
+        throw EnvironmentError("{}: the file is not UTF-8 text; save it as CSV in UTF-8", file.string());
     const bool converted = !is_utf8(text);
     if (converted) text = utf8_of_windows_1252(text);
     TextTable table = Reader(file, text).read();

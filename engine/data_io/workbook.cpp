@@ -47,7 +47,7 @@ struct WorkbookParts {
 };
 
 [[noreturn]] void fail_as_no_archive(const std::string& file) {
-    throw EnvironmentError("{} is no workbook (.xlsx): it is no zip archive", file);
+    throw EnvironmentError("{} is not a workbook (.xlsx): it is not a zip archive", file);
 }
 
 bool is_wanted(std::string_view path) {
@@ -82,7 +82,7 @@ WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
     }
     if (result != ARCHIVE_EOF && parts.by_path.empty()) fail_as_no_archive(file);
     if (result != ARCHIVE_EOF)
-        throw EnvironmentError("{} is damaged: it is cut off, or no zip archive throughout", file);
+        throw EnvironmentError("{} is damaged: it is truncated, or is not a valid zip archive", file);
     return parts;
 }
 
@@ -107,7 +107,8 @@ struct WorkbookPart {
 
 WorkbookPart taken(WorkbookParts& parts, const std::string& path) {
     const auto part = parts.by_path.extract(path);
-    if (part.empty()) throw EnvironmentError("{} is no workbook, or damaged: it has no part {}", parts.file, path);
+    if (part.empty())
+        throw EnvironmentError("{} is damaged or is not a workbook: its part {} is missing", parts.file, path);
     return {parts.file, path, std::move(part.mapped())};
 }
 
@@ -231,7 +232,7 @@ class SheetReader {
         const std::size_t before = rows_.empty() ? 0 : rows_.back().number;
         const std::size_t number = stated.empty() ? before + 1 : whole_number(stated);
         if (number <= before || number > kMostRows)
-            throw EnvironmentError("{} is damaged: its rows are not in order", file_);
+            throw EnvironmentError("{} is damaged: its rows are out of order", file_);
         std::map<std::size_t, std::string> cells;  // by column, from 0
         std::size_t next = 0;
         for (const pugi::xml_node& cell : row.children()) {
@@ -239,7 +240,7 @@ class SheetReader {
             const std::string place = attribute_of(cell, "r");
             const std::size_t column = place.empty() ? next : column_of(place);
             if (column >= kMostSheetColumns)
-                throw EnvironmentError("{} is damaged: a cell lies beyond the last column", file_);
+                throw EnvironmentError("{} is damaged: a cell is beyond the last column", file_);
             std::string text = cell_text(cell);
             if (!text.empty()) cells[column] = std::move(text);
             next = column + 1;
@@ -283,7 +284,7 @@ class SheetReader {
 
     std::size_t whole_number(const std::string& text) const {
         if (const auto number = read_number<std::size_t>(text)) return *number;
-        throw EnvironmentError("{} is damaged: wanted a whole number, given \"{}\"", file_, text.substr(0, 20));
+        throw EnvironmentError("{} is damaged: expected a whole number, got \"{}\"", file_, text.substr(0, 20));
     }
 
     /// 0 for A5, 26 for AA5.
@@ -293,7 +294,7 @@ class SheetReader {
             if (c < 'A' || c > 'Z' || column > kMostSheetColumns) break;
             column = column * 26 + static_cast<std::size_t>(c - 'A' + 1);
         }
-        if (column == 0) throw EnvironmentError("{} is damaged: \"{}\" is no cell", file_, place.substr(0, 20));
+        if (column == 0) throw EnvironmentError("{} is damaged: \"{}\" is not a cell", file_, place.substr(0, 20));
         return column - 1;
     }
 
@@ -303,8 +304,7 @@ class SheetReader {
         const std::string value = child_of(cell, "v").text().get();
         if (type == "s") {
             const std::size_t index = whole_number(value);
-            if (index >= texts_.size())
-                throw EnvironmentError("{} is damaged: a cell has a text that is not there", file_);
+            if (index >= texts_.size()) throw EnvironmentError("{} is damaged: a cell refers to a missing text", file_);
             return texts_[index].empty() ? "" : in_quotes(texts_[index]);
         }
         if (type == "str" || type == "e" || type == "d") return value.empty() ? "" : in_quotes(value);
@@ -328,7 +328,7 @@ SheetText sheet_of(const std::string& file, const std::string& bytes, const std:
         if (relation.empty() && (wanted.empty() || text.sheets.back() == wanted)) relation = attribute_of(sheet, "id");
     }
     if (relation.empty())
-        throw EnvironmentError("{} has no sheet \"{}\"; it has {}", file, wanted, listed(text.sheets));
+        throw EnvironmentError("{} has no sheet \"{}\"; the sheets are {}", file, wanted, listed(text.sheets));
     std::string path;
     for (const pugi::xml_node& entry : relations.document_element().children())
         if (attribute_of(entry, "Id") == relation) path = part_path(attribute_of(entry, "Target"));
@@ -365,12 +365,12 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
     const ChildResult result = run_guarded(read, limits);
     if (result.timed_out)
         throw result.time_limit() == TimeLimit::kProcessor
-            ? EnvironmentError("{}: reading it used more than {} s of processor time", name,
+            ? EnvironmentError("{}: reading used more than {} s of processor time", name,
                                limits.time.seconds(TimeLimit::kProcessor))
-            : EnvironmentError("{}: reading it had not ended after {} s", name, limits.time.seconds(TimeLimit::kClock));
+            : EnvironmentError("{}: reading did not finish within {} s", name, limits.time.seconds(TimeLimit::kClock));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0 || result.output_exceeded)
-        throw EnvironmentError("{} is damaged: reading it ends in a crash", name);
+        throw EnvironmentError("{} is damaged: the reader crashed", name);
     SheetOutcome outcome = from_cbor<SheetOutcome>(result.output);
     if (!outcome.refusal.empty()) throw EnvironmentError(outcome.refusal);
     return std::move(outcome.sheet);

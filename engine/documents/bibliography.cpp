@@ -132,18 +132,18 @@ Message fault_of_bibliography_name(const std::string& name) {
     const bool plain = name.find_first_of("/\\") == std::string::npos && !name.starts_with('.');
     if (plain && (extension == ".bib" || extension == ".json")) return {};
     return Message(
-        "bibliography must be the name of a .bib (BibTeX) or .json (CSL) file beside this one, such as references.bib, "
-        "not \"{}\"",
+        "bibliography must be the name of a .bib (BibTeX) or .json (CSL) file in the same folder, such as "
+        "references.bib, not \"{}\"",
         name);
 }
 
 Message why_no_bibliography(const fs::path& file) {
     if (!is_inside(file, folder_around(file)))
-        return Message("the bibliography lies outside the folder of this file; copy it into the folder");
+        return Message("the bibliography is outside the folder of this file; copy it into the folder");
     if (!fs::is_regular_file(file))
-        return Message("the bibliography is missing; put the file there or take \"bibliography:\" out");
+        return Message("the bibliography file is missing; add the file, or remove \"bibliography:\"");
     if (fs::file_size(file) > kMostBytes)
-        return Message("the bibliography is longer than a megabyte; keep what the document cites");
+        return Message("the bibliography exceeds one megabyte; keep only the works that the document cites");
     return {};
 }
 

@@ -58,11 +58,11 @@ std::string section_of(const std::string& body, int line) {
 /// `before`: the text up to where LaTeX stopped.
 Message refusal_message(const Message& reason, const std::string& section, const std::string& before) {
     if (section.empty())
-        return before.empty() ? Message("LaTeX cannot set this document: {}", reason)
-                              : Message("LaTeX cannot set this document: {} after \"{}\"", reason, before);
-    return before.empty()
-               ? Message("LaTeX cannot set this document in section \"{}\": {}", section, reason)
-               : Message("LaTeX cannot set this document in section \"{}\": {} after \"{}\"", section, reason, before);
+        return before.empty() ? Message("LaTeX cannot typeset this document: {}", reason)
+                              : Message("LaTeX cannot typeset this document: {} after \"{}\"", reason, before);
+    return before.empty() ? Message("LaTeX cannot typeset this document in section \"{}\": {}", section, reason)
+                          : Message("LaTeX cannot typeset this document in section \"{}\": {} after \"{}\"", section,
+                                    reason, before);
 }
 
 /// A character as a message shows it: accents on a dotted circle.
@@ -173,25 +173,22 @@ class DocumentBuilder {
             if (sentence) complaints.add(where, message(*sentence));
         };
         for (const auto& [name, value] : record_->values)
-            check("`" + name + "`", value.text, [&](const Message& what) {
-                return Message("in the value \"{}\" the script reported: {}", name, what);
-            });
+            check("`" + name + "`", value.text,
+                  [&](const Message& what) { return Message("in the reported value \"{}\": {}", name, what); });
         for (const auto& [name, text] : record_->texts)
-            check("name=" + name, text.markdown, [&](const Message& what) {
-                return Message("in the text \"{}\" the script reported: {}", name, what);
-            });
+            check("name=" + name, text.markdown,
+                  [&](const Message& what) { return Message("in the reported text \"{}\": {}", name, what); });
         for (const auto& [name, figure] : record_->figures)
             check("figure:" + name, figure.caption, [&](const Message& what) {
-                return Message("in the caption of figure \"{}\" the script reported: {}", name, what);
+                return Message("in the caption of the reported figure \"{}\": {}", name, what);
             });
         for (const auto& [name, table] : record_->tables) {
             std::string cells;
             for (const std::string& cell : table.header) cells += cell + " ";
             for (const auto& row : table.rows)
                 for (const std::string& cell : row) cells += cell + " ";
-            check("name=" + name, cells, [&](const Message& what) {
-                return Message("in the table \"{}\" the script reported: {}", name, what);
-            });
+            check("name=" + name, cells,
+                  [&](const Message& what) { return Message("in the reported table \"{}\": {}", name, what); });
         }
     }
 
@@ -256,14 +253,13 @@ class DocumentBuilder {
                  document.by_lualatex
                      ? Message("LuaLaTeX makes this PDF, which takes longer, because pdflatex cannot print \"{}\" ({})",
                                shown(first), code_of(first))
-                     : Message("pdflatex cannot print these letters, and LuaLaTeX is not installed, so that they are "
-                               "printed as \"?\": {}. To print them: sudo apt install {}",
+                     : Message("pdflatex cannot print these letters, and LuaLaTeX is not installed. They are printed "
+                               "as \"?\": {}. To print them, run sudo apt install {}",
                                with_lines(document.replaced), kLualatexPackages));
         if (!document.by_lualatex || document.replaced.empty()) return;
-        add_note(*document.replaced.begin(),
-                 Message("no installed font has these letters, which are printed as \"?\": {}. To add fonts: sudo apt "
-                         "install {}",
-                         with_lines(document.replaced), "fonts-noto-core fonts-noto-cjk"));
+        add_note(*document.replaced.begin(), Message("no installed font has these letters. They are printed as \"?\": "
+                                                     "{}. To add fonts, run sudo apt install {}",
+                                                     with_lines(document.replaced), "fonts-noto-core fonts-noto-cjk"));
     }
 
     const DocumentSource& source_;
@@ -316,7 +312,7 @@ DocumentFormat document_format(const fs::path& file) {
     if (extension == ".pdf") return DocumentFormat::kPdf;
     if (extension == ".html") return DocumentFormat::kHtml;
     if (extension == ".md") return DocumentFormat::kMarkdown;
-    throw DocumentError(Place{file}, Message("a document's name ends in .pdf, .html or .md"));
+    throw DocumentError(Place{file}, Message("the name of a document must end in .pdf, .html or .md"));
 }
 
 void DocumentMaker::make(const DocumentSource& source, const fs::path& output, DocumentFormat format,

@@ -18,11 +18,9 @@ SectionRule section_rule(const std::string& line, const Place& where) {
     }
     const bool optional = parts.size() == 3 && parts[2] == "optional";
     if ((parts.size() != 2 && !optional) || parts[0].empty() || parts[1].empty())
-        throw DocumentError(
-            where,
-            Message("section \"{}\" must be \"English title | French title\", with \"| optional\" behind when it "
-                    "may be missing",
-                    line));
+        throw DocumentError(where, Message("section \"{}\" must be \"English title | French title\", followed by \"| "
+                                           "optional\" if it may be missing",
+                                           line));
     return {parts[0], parts[1], optional};
 }
 
@@ -34,7 +32,7 @@ int page_count(const std::string& key, const std::string& value, const Place& wh
 
 bool is_slides(const std::string& value, const Place& where) {
     if (value != "pages" && value != "slides")
-        throw DocumentError(where, Message("layout is pages or slides, not \"{}\"", value));
+        throw DocumentError(where, Message("layout must be pages or slides, not \"{}\"", value));
     return value == "slides";
 }
 

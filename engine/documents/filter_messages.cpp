@@ -55,28 +55,31 @@ Message element_named(const std::string& kind, const std::string& name) {
 /// What report_templates/filters/diagram.lua reports.
 Message wrong_in_diagram(const std::string& code, const std::string& first, const std::string& second) {
     if (code == "list")
-        return Message("a block diagram is a list of nodes and arrows, then at most one line with its caption");
-    if (code == "node") return Message("a node is written NAME = KIND COLUMN ROW: label");
-    if (code == "kind") return Message("the kind \"{}\" is not known; there are block, sum, signal and branch", first);
-    if (code == "place") return Message("column and row are whole numbers from 1 to {}", first);
-    if (code == "node-twice") return Message("the node {} is there twice", first);
+        return Message(
+            "a block diagram must be a list of nodes and arrows, followed by at most one line with the caption");
+    if (code == "node") return Message("a node must have the form NAME = KIND COLUMN ROW: label");
+    if (code == "kind") return Message("unknown kind \"{}\"; the kinds are block, sum, signal and branch", first);
+    if (code == "place") return Message("column and row must be whole numbers from 1 to {}", first);
+    if (code == "node-twice") return Message("the node {} is defined twice", first);
     if (code == "most-nodes") return Message("a diagram has at most {} nodes", first);
-    if (code == "sign") return Message("between two nodes stands ->, -| or |-, not {}", first);
-    if (code == "no-node") return Message("there is no node {} above this line", first);
+    if (code == "sign") return Message("between two nodes, write ->, -| or |-, not {}", first);
+    if (code == "no-node") return Message("no node {} is defined above this line", first);
     if (code == "arrow") return Message("an arrow goes from a node to a node, as in u -> G");
     if (code == "not-straight")
-        return Message("{} and {} stand neither in one row nor in one column; write -| or |-", first, second);
+        return Message("{} and {} are neither in the same row nor in the same column; write -| or |-", first, second);
     return Message("names, numbers and arrows come first, then a colon and the label");
 }
 
 /// What report_templates/filters/choice.lua reports.
 Message wrong_in_choice(const std::string& code) {
     if (code == "list")
-        return Message("a choice is a question and then a list of options, - [x] the right and - [ ] the wrong ones");
+        return Message(
+            "a choice consists of a question and a list of options: - [x] for a correct option, - [ ] for a wrong one");
     if (code == "option")
         return Message(
-            "each option begins with [x] or [ ], and a paragraph of its own, indented, says why it is right or wrong");
-    return Message("a choice has two options or more, and a right one among them");
+            "each option starts with [x] or [ ]; a separate, indented paragraph says why the option is correct or "
+            "wrong");
+    return Message("a choice needs at least two options, including a correct one");
 }
 
 /// Turns the filter's codes into sentences. Fields: [0] the sign, [1] code, [2] text to look for, [3...] details.
@@ -91,25 +94,23 @@ class Sentences {
         if (code == "no-entry") return no_entry(first, second);
         if (code == "wrong-kind")
             return Message(
-                "\"{}\" is a {} in the run's record, but this slot wants a {}; use the slot for a {} or report.value, "
-                "report.table, report.figure, report.text alike",
+                "\"{}\" is a {} in the run results, but this slot expects a {}. Use the slot for a {}, or change "
+                "report.value, report.table, report.figure or report.text",
                 second, noun_of(third), noun_of(first), noun_of(third));
         if (code == "dangling") return dangling(first);
-        if (code == "duplicate-label") return Message("the label \"{}\" is used twice; give each its own name", first);
+        if (code == "duplicate-label") return Message("the label \"{}\" is used twice; use different labels", first);
         if (code == "label-kind")
-            return Message("the label \"{}\" must start with \"{}\" here, as in {#{}:name}", first, second + ":",
-                           second);
+            return Message("the label \"{}\" must start with \"{}\", as in {#{}:name}", first, second + ":", second);
         if (code == "reference-kind")
             return Message(
-                "the cross reference @{} must start with @fig:, @tbl:, @eq: or @sec:; a key of literature with a colon "
+                "the cross reference @{} must start with @fig:, @tbl:, @eq: or @sec:. A literature key with a colon "
                 "must be in the bibliography that the header names",
                 first);
         if (code == "no-bibliography")
             return Message(
                 "@{} cites literature, but the header declares no bibliography. Put a BibTeX file, such as "
-                "references.bib, beside this file and write \"bibliography: references.bib\" in the header (in a "
-                "script: "
-                "\"-- bibliography: references.bib\" between two lines \"-- ---\" at its beginning). For the text "
+                "references.bib, in the same folder. Add \"bibliography: references.bib\" to the header (in a script: "
+                "\"-- bibliography: references.bib\" between two lines \"-- ---\" at the start). To print the text "
                 "itself, write \\@{}",
                 first, first);
         if (code == "bibliography") return Message("the bibliography cannot be read: {}", first);
@@ -120,36 +121,35 @@ class Sentences {
         }
         if (code == "slot-in-formula")
             return Message(
-                "the formula holds `{}`, which would be printed with its quotation marks; a value in a formula is "
-                "written `{}`{.value}, without a space between",
+                "the formula contains `{}`, which would be printed with its backticks; write a value in a formula as "
+                "`{}`{.value}, without a space",
                 first, first);
         if (code == "slot-form")
             return Message("\"{}\" is not a value slot; write `name`{.value}, with backticks and without a space",
                            first);
         if (code == "slot-in-address")
             return Message(
-                "the address \"{}\" holds a value slot, and addresses are not filled in; write the address itself, or "
-                "make this paragraph in the script with report.text",
+                "the address \"{}\" contains a value slot, which is not filled in; write the complete address, or "
+                "write this paragraph in the script with report.text",
                 first);
         if (code == "pasted-picture")
             return Message(
-                "the picture \"{}\" was pasted into the notebook, where a report cannot read it; save it as a file "
-                "beside "
-                "the notebook and name that file in the text",
+                "the picture \"{}\" was pasted into the notebook, where a report cannot read it. Save it as a file "
+                "next to the notebook and give the file name in the text",
                 first);
         if (code == "mathematics") return refused_in_formula(first, second, third);
         if (code == "latex")
             return Message(
-                "the LaTeX command {} would be printed as it stands; formulas stand between dollar signs, text is "
-                "written in Markdown {}",
+                "the LaTeX command {} would be printed unchanged; put formulas between dollar signs and write text in "
+                "Markdown {}",
                 first, "(::: pagebreak, {#fig:name} and @fig:name, *italic*, **bold**)");
-        if (code == "raw") return Message("HTML such as {} is not possible in documents; use Markdown instead", first);
+        if (code == "raw") return Message("HTML such as {} is not supported in documents; use Markdown instead", first);
         if (code == "raw-attribute")
-            return Message("raw output marked {} is not possible in documents; use Markdown instead", first);
+            return Message("raw output marked {} is not supported in documents; use Markdown instead", first);
         if (code == "link")
             return Message("the link \"{}\" must start with https://, http://, mailto: or # (a section's name)", first);
         if (code == "attribute")
-            return Message("the attribute \"{}\" is not possible on {}", first, element_named(second, third));
+            return Message("the attribute \"{}\" is not supported on {}", first, element_named(second, third));
         return of_block(code, fields[2], first, second, third);
     }
 
@@ -162,36 +162,37 @@ class Sentences {
         if (code == "unknown-drawing") {
             const std::vector<std::string> known = split_at(second, ' ');
             const auto near = nearest_word(first, known);
-            return near ? Message("there is no drawing \"{}\"; did you mean \"{}\"?; there are {}", first, *near,
+            return near ? Message("unknown drawing \"{}\"; did you mean \"{}\"?; the drawings are {}", first, *near,
                                   listed(known))
-                        : Message("there is no drawing \"{}\"; there are {}", first, listed(known));
+                        : Message("unknown drawing \"{}\"; the drawings are {}", first, listed(known));
         }
         if (code == "drawing-content")
-            return Message("the drawing \"{}\" may hold nothing but one line with its caption", first);
+            return Message("the drawing \"{}\" may contain only one line with its caption", first);
         if (code == "unknown-measure") {
             const auto near = nearest_word(first, split_at(second, ' '));
-            return near ? Message("there is no measure \"{}\"; did you mean \"{}\"?; dynlab help measures lists them",
-                                  first, *near)
-                        : Message("there is no measure \"{}\"; dynlab help measures lists them", first);
+            return near ? Message(
+                              "unknown measure \"{}\"; did you mean \"{}\"?; dynlab help measures lists the measures",
+                              first, *near)
+                        : Message("unknown measure \"{}\"; dynlab help measures lists the measures", first);
         }
         if (code == "figure-not-alone")
-            return Message("the figure \"{}\" must stand alone, with an empty line before and after it", first);
+            return Message("the figure \"{}\" must be separate, with an empty line before and after it", first);
         if (code == "table-content")
-            return Message("the table block \"{}\" may hold nothing but one line with its caption", first);
+            return Message("the table block \"{}\" may contain only one line with its caption", first);
         if (code == "table-width")
             return Message(
-                "the table \"{}\" with its {} columns is too wide for the page; report fewer columns or shorter cells",
+                "the table \"{}\" with {} columns is too wide for the page; report fewer columns or shorter cells",
                 first, second);
         if (code == "nested-text")
-            return Message("the text \"{}\" contains a text slot; a text written by a script cannot show another",
+            return Message("the text \"{}\" contains a text slot; a text from a script cannot include another text",
                            first);
         if (code == "width")
             return Message("the width \"{}\" must be a percentage, cm or mm, such as 60% or 8cm", first);
         if (code == "column-width")
-            return Message("a column needs its width in percent, as in ::: {.column width=60%}, not \"{}\"", first);
+            return Message("a column needs a width in percent, as in ::: {.column width=60%}, not \"{}\"", first);
         if (code == "not-a-column")
             return Message(
-                "a block ::: columns holds nothing but blocks ::: {.column width=50%}, which occur nowhere else");
+                "a block ::: columns may contain only blocks ::: {.column width=50%}, which are allowed only there");
         return unknown_class(code, first, second);
     }
 
@@ -208,25 +209,25 @@ class Sentences {
     /// `known`: the names of all commands that are allowed, with spaces between them.
     static Message refused_in_formula(const std::string& kind, const std::string& written, const std::string& known) {
         if (kind == "comment")
-            return Message("a percent sign in a formula is written \\%, as % would hide the rest of the line");
+            return Message("write a percent sign in a formula as \\%, because % hides the rest of the line");
         if (kind == "environment")
             return Message(
-                "the environment {} is not allowed in formulas; there are matrix (with b, p, v, V), array, cases, "
-                "aligned, gathered, split and the others of amsmath",
+                "the environment {} is not allowed in formulas. Allowed are matrix (with b, p, v, V), array, cases, "
+                "aligned, gathered, split and the other environments of amsmath",
                 written);
         static const std::set<std::string> numbering = {"\\label", "\\ref",   "\\eqref",   "\\pageref",
                                                         "\\tag",   "\\notag", "\\nonumber"};
         if (numbering.contains(written))
-            return Message("the command {} is not allowed in formulas: number a formula with {#eq:name} after it",
+            return Message("the command {} is not allowed in formulas: to number a formula, write {#eq:name} after it",
                            written);
         if (const auto near = nearest_word(written.substr(1), split_at(known, ' ')))
             return Message(
-                "the command {} is not allowed in formulas, which reach no files and make no macros: only commands "
-                "that set mathematics are; did you mean {}?",
+                "the command {} is not allowed in formulas. Only commands that typeset mathematics are allowed, not "
+                "commands that read files or define macros; did you mean {}?",
                 written, "\\" + *near);
         return Message(
-            "the command {} is not allowed in formulas, which reach no files and make no macros: only commands that "
-            "set mathematics are",
+            "the command {} is not allowed in formulas. Only commands that typeset mathematics are allowed, not "
+            "commands that read files or define macros",
             written);
     }
 
@@ -238,12 +239,11 @@ class Sentences {
             labels.push_back(markdown_.text.substr(at + 2, end == std::string::npos ? end : end - at - 2));
         }
         if (std::find(labels.begin(), labels.end(), label) != labels.end())
-            return Message("the cross reference @{} points to nothing: {#{}} names nothing that is shown", label,
-                           label);
+            return Message("the cross reference @{} has no target: {#{}} labels nothing that is shown", label, label);
         if (const auto near = nearest_word(label, labels))
-            return Message("the cross reference @{} points to nothing: there is no {#{}}; did you mean \"{}\"?", label,
+            return Message("the cross reference @{} has no target: {#{}} is missing; did you mean \"{}\"?", label,
                            label, *near);
-        return Message("the cross reference @{} points to nothing: there is no {#{}}", label, label);
+        return Message("the cross reference @{} has no target: {#{}} is missing", label, label);
     }
 
     static Message unknown_class(const std::string& code, const std::string& name, const std::string& text) {
@@ -256,16 +256,15 @@ class Sentences {
                 "table",  "text",          "cells",  "note",    "warning",    "exercise", "columns",
                 "column", "block-diagram", "choice", "drawing", "references", "measures", "pagebreak"};
             const auto near = nearest_word(name, kKnown);
-            return near ? Message("the block class \"{}\" is not known; did you mean \"{}\"?; known are {}", name,
-                                  *near, listed(kKnown))
-                        : Message("the block class \"{}\" is not known; known are {}", name, listed(kKnown));
+            return near ? Message("unknown block class \"{}\"; did you mean \"{}\"?; the classes are {}", name, *near,
+                                  listed(kKnown))
+                        : Message("unknown block class \"{}\"; the classes are {}", name, listed(kKnown));
         }
         if (code == "code-class")
-            return Message("the slot `{}`{.{}} has an unknown class; values are written `{}`{.value}", text, name,
-                           text);
-        if (code == "block-class") return Message("the class \"{}\" of a code block is not a known language", name);
+            return Message("the slot `{}`{.{}} has an unknown class; write a value as `{}`{.value}", text, name, text);
+        if (code == "block-class") return Message("unknown language \"{}\" of a code block", name);
         if (code == "span-class")
-            return Message("the class \"{}\" of a bracketed text is not known; write the text without it", name);
+            return Message("unknown class \"{}\" of a bracketed text; write the text without it", name);
         return Message("the document filter reports {} {}", code, name);
     }
 

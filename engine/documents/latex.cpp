@@ -139,10 +139,10 @@ void check_nothing_overflows(const std::string& log, int lines_before_body) {
         const double excess = points / kPointsPerMm;
         if (excess < kUnseen || !RE2::PartialMatch(rest, page, &number)) continue;
         if (slides.items.empty()) first = line - lines_before_body;
-        slides.items.push_back(Message("slide {} is too full by {} mm", number, std::ceil(excess)));
+        slides.items.push_back(Message("slide {} is {} mm too high", number, std::ceil(excess)));
     }
     if (!slides.items.empty())
-        throw LatexRefusal(Message("{}; shorten the text, make a figure less high, or part the slide into two", slides),
+        throw LatexRefusal(Message("{}; shorten the text, make a figure less high, or split the slide in two", slides),
                            first, "");
 }
 
@@ -277,7 +277,7 @@ class LatexRun {
         if (run.exit_code == 128 + SIGXFSZ)
             throw LatexRefusal(Message("{} wrote a file of more than 64 MB; use smaller pictures", engine_.program), 0,
                                "");
-        if (run.output_exceeded) throw LatexRefusal(Message("{} wrote messages without end", engine_.program), 0, "");
+        if (run.output_exceeded) throw LatexRefusal(Message("{} wrote too many messages", engine_.program), 0, "");
         const std::string log = "\n" + run.output;
         if (run.exit_code != 0) {
             check_missing_packages(log);
@@ -344,7 +344,7 @@ LatexDocument run_latex(const LatexJob& job) {
             result.replaced.insert(missing.letters.begin(), missing.letters.end());
             if (result.replaced.size() == known)
                 throw LatexRefusal(
-                    Message("no font has the letter {}: take it out of the text", code_of(*missing.letters.begin())), 0,
+                    Message("no font has the letter {}: remove it from the text", code_of(*missing.letters.begin())), 0,
                     "");
         }
     }

@@ -52,10 +52,9 @@ void find_latex_brackets(const MarkdownText& markdown, Complaints& complaints) {
             complaints.add(markdown.origin_of(number),
                            Message("\\(...\\) is LaTeX and would be printed as plain text; write a formula as $...$"));
         if (RE2::PartialMatch(prose, square))
-            complaints.add(
-                markdown.origin_of(number),
-                Message("\\[...\\] is LaTeX and would be printed as plain text; write a formula on lines of its "
-                        "own as $$...$$"));
+            complaints.add(markdown.origin_of(number),
+                           Message("\\[...\\] is LaTeX and would be printed as plain text; write a displayed formula "
+                                   "as $$...$$ on separate lines"));
     }
 }
 

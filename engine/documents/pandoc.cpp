@@ -221,11 +221,10 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     if (run.timed_out)
         throw DocumentError(
             Place{job.template_file},
-            Message(
-                "Pandoc did not finish this document within {} s of processor time, or ten times as long by the clock",
-                kMostTime.count()));
+            Message("Pandoc did not finish this document within {} s of processor time, or ten times that elapsed time",
+                    kMostTime.count()));
     if (run.output_exceeded)
-        throw DocumentError(Place{job.template_file}, Message("Pandoc wrote more than a document can hold"));
+        throw DocumentError(Place{job.template_file}, Message("the output of Pandoc exceeds the limit"));
     Complaints found;
     PandocResult result;
     FilterMessages messages =

@@ -52,7 +52,8 @@ class CellReader {
             const std::size_t equals = word.find('=');
             if (equals == std::string::npos || equals + 1 == word.size())
                 fail(index,
-                     Message("cell option \"{}\" is not of the form key=value (or [markdown] in first place)", word));
+                     Message("cell option \"{}\" does not have the form key=value (or [markdown] in first place)",
+                             word));
             read_option(cell, index, word.substr(0, equals), word.substr(equals + 1));
         }
     }
@@ -61,15 +62,16 @@ class CellReader {
         if (std::find(kCellOptions.begin(), kCellOptions.end(), key) == kCellOptions.end()) {
             const auto near = nearest_word(key, kCellOptions);
             fail(index, near ? Message("unknown cell option \"{}\"; did you mean \"{}\"?", key, *near)
-                             : Message("unknown cell option \"{}\"; known are {}", key, listed(kCellOptions)));
+                             : Message("unknown cell option \"{}\"; the options are {}", key, listed(kCellOptions)));
         }
         if (key == "id") {
-            if (!is_name(value)) fail(index, Message("cell id \"{}\" may have letters, digits, _ and - only", value));
+            if (!is_name(value))
+                fail(index, Message("cell id \"{}\" may contain only letters, digits, _ and -", value));
             cell.id = value;
             return;
         }
         if (value != "true" && value != "false")
-            fail(index, Message("cell option {} is true or false, not \"{}\"", key, value));
+            fail(index, Message("cell option {} must be true or false, not \"{}\"", key, value));
         if (!cell.options.emplace(key, value).second) fail(index, Message("cell option {} occurs twice", key));
     }
 
@@ -92,10 +94,11 @@ class CellReader {
         const std::string& line = lines_[index];
         if (cell.kind == Cell::Kind::kCode || is_blank(line)) return line;
         if (!line.starts_with("--"))
-            fail(index,
-                 Message("\"{}\" stands in a text cell, whose lines start with \"-- \"; a code cell starts with a "
-                         "line \"-- %%\"",
-                         trimmed(line)));
+            fail(
+                index,
+                Message(
+                    "\"{}\" is in a text cell, where lines start with \"-- \"; start a code cell with a line \"-- %%\"",
+                    trimmed(line)));
         return line.substr(line.starts_with("-- ") ? 3 : 2);
     }
 

@@ -59,19 +59,21 @@ std::vector<PlacedPicture> find_picture_files(const std::vector<UsedPicture>& pi
         const fs::path folder = folder_around(where.file), file = folder / path;
         const std::string shown = path.string();
         if (picture.name.find("://") != std::string::npos || picture.name.starts_with("data:"))
-            complaints.add(where, Message("the picture \"{}\" must be a file beside this one, not an address", shown));
+            complaints.add(where,
+                           Message("the picture \"{}\" must be a file in the same folder, not an address", shown));
         else if (path.is_absolute() || !is_inside(file, folder))
             complaints.add(
                 where,
-                Message("the picture \"{}\" lies outside the folder of this file; copy it into the folder", shown));
+                Message("the picture \"{}\" is outside the folder of this file; copy it into the folder", shown));
         else if (!fs::is_regular_file(file))
-            complaints.add(where, Message("the picture \"{}\" is not in the folder of this file; put it there, or "
+            complaints.add(where, Message("the picture \"{}\" is not in the folder of this file; add the file, or "
                                           "correct the name in the text",
                                           shown));
         else if (!format_holds(format, ending_of(path)))
             complaints.add(
-                where, Message("the picture \"{}\" is of a kind this output cannot hold; use {}, .png or .jpg", shown,
-                               format == DocumentFormat::kPdf ? ".pdf" : ".svg"));
+                where,
+                Message("the picture \"{}\" has a file type that this output does not support; use {}, .png or .jpg",
+                        shown, format == DocumentFormat::kPdf ? ".pdf" : ".svg"));
         else
             found.push_back({file, prefix + std::to_string(picture.number) + ending_of(path), {}});
     }
@@ -92,7 +94,7 @@ std::vector<PlacedPicture> find_figures(const std::vector<UsedPicture>& pictures
                                                   file.filename().string()));
         else if (file.extension() != "." + figure_extension(format))
             complaints.add(find_in(markdown, "figure:" + picture.name, template_file),
-                           Message("the figure \"{}\" was drawn as {}, but this document wants {}", picture.name,
+                           Message("the figure \"{}\" was drawn as {}, but this document needs {}", picture.name,
                                    file.extension().string(), "." + figure_extension(format)));
         else
             found.push_back({file, prefix + std::to_string(picture.number) + "." + figure_extension(format),

@@ -25,7 +25,7 @@ class HeaderReader {
         number_ = number;
         if (is_blank(line)) return;
         const std::size_t colon = line.find(':');
-        if (colon == std::string::npos) fail(Message("\"{}\" is not of the form \"key: value\"", trimmed(line)));
+        if (colon == std::string::npos) fail(Message("\"{}\" does not have the form \"key: value\"", trimmed(line)));
         const std::string written = trimmed(line.substr(0, colon));
         const std::string key = written == "lang" ? "language" : written;  // as report.md has it
         const std::string value = unquoted(trimmed(line.substr(colon + 1)));
@@ -49,11 +49,11 @@ class HeaderReader {
     }
 
     void read_answer(const std::string& name, const std::string& kind) {
-        if (!in_answers_) fail(Message("\"{}\" is indented, but only names below \"answers:\" are", name));
+        if (!in_answers_) fail(Message("\"{}\" is indented; only names below \"answers:\" may be indented", name));
         if (!is_name(name)) fail(Message("\"{}\" cannot be the name of an answer", name));
         if (kind.empty()) fail(Message("answer \"{}\" needs a kind, such as \"{}: number\"", name, name));
         if (std::find(answer_kinds().begin(), answer_kinds().end(), kind) == answer_kinds().end())
-            fail(Message("answer \"{}\" is of the unknown kind \"{}\"; known are {}", name, kind,
+            fail(Message("answer \"{}\" has the unknown kind \"{}\"; the kinds are {}", name, kind,
                          listed(answer_kinds())));
         if (!declared_.insert(name).second) fail(Message("answer \"{}\" is declared twice", name));
         header_.answers.push_back({name, kind});
@@ -65,7 +65,8 @@ class HeaderReader {
         seen_.push_back(key);
         in_answers_ = key == "answers";
         if (in_answers_) {
-            if (!value.empty()) fail(Message("\"answers:\" is followed by lines \"  name: kind\", not by a value"));
+            if (!value.empty())
+                fail(Message("\"answers:\" must be followed by lines \"  name: kind\", not by a value"));
             return;
         }
         std::string* const text = text_field(key);
@@ -76,11 +77,11 @@ class HeaderReader {
         else
             *text = value;
         if (key == "language" && !is_language(value))
-            fail(Message("language \"{}\" is not known; write {}", value, listed(languages(), Join::kOr)));
+            fail(Message("unknown language \"{}\"; write {}", value, listed(languages(), Join::kOr)));
         if (key == "bibliography")
             if (const Message fault = fault_of_bibliography_name(value); !fault.empty()) fail(fault);
         if (key == "template" && !is_name(value))
-            fail(Message("template \"{}\" must be the name of a template, such as lesson, without folder or .md",
+            fail(Message("template \"{}\" must be the name of a template, such as lesson, without a folder or .md",
                          value));
     }
 
@@ -102,7 +103,7 @@ class HeaderReader {
     [[noreturn]] void unknown(const std::string& key) const {
         const auto near = nearest_word(key, kHeaderKeys);
         fail(near ? Message("unknown key \"{}\"; did you mean \"{}\"?", key, *near)
-                  : Message("unknown key \"{}\"; known are {}", key, listed(kHeaderKeys)));
+                  : Message("unknown key \"{}\"; the keys are {}", key, listed(kHeaderKeys)));
     }
 
     const std::filesystem::path& file_;

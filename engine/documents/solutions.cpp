@@ -94,7 +94,7 @@ std::string without_solutions(const std::string& source, const std::filesystem::
         }
         switch (solution_line(line, name, number)) {
             case SolutionLine::kBegin:
-                if (begun) fail(number, Message("a solution begins inside the solution of line {}", begun));
+                if (begun) fail(number, Message("a solution starts inside the solution of line {}", begun));
                 begun = number;
                 if (hidden || (asked && !in_text)) break;
                 asked = !in_text;
@@ -107,7 +107,7 @@ std::string without_solutions(const std::string& source, const std::filesystem::
                 begun = 0;
                 break;
             case SolutionLine::kStarter:
-                if (!begun) fail(number, Message("\"-- STARTER:\" stands outside a solution"));
+                if (!begun) fail(number, Message("\"-- STARTER:\" is outside a solution"));
                 asked = false;
                 result += starter_text(line, in_text);
                 break;

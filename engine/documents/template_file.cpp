@@ -35,7 +35,7 @@ std::string scalar(const std::string& value, const Place& where) {
         return value.substr(1, value.size() - 2);
     }
     if (std::string("[{&*!%@").find(first) != std::string::npos)
-        throw DocumentError(where, Message("the value {} must be plain text; put it between quotation marks", value));
+        throw DocumentError(where, Message("the value {} must be plain text; enclose it in quotation marks", value));
     const std::size_t comment = value.find(" #");
     return trimmed(value.substr(0, comment));
 }
@@ -52,7 +52,7 @@ void read_metadata(const std::vector<std::string>& lines, std::size_t begin, std
         const std::size_t colon = line.find(':');
         const Place where{result.file, static_cast<int>(i) + 1};
         if (colon == std::string::npos || line[0] == ' ' || line[0] == '-')
-            throw DocumentError(where, Message("\"{}\" is not of the form \"key: value\"", trimmed(line)));
+            throw DocumentError(where, Message("\"{}\" does not have the form \"key: value\"", trimmed(line)));
         const std::string key = trimmed(line.substr(0, colon));
         std::string value = trimmed(line.substr(colon + 1));
         if (is_block_sign(value)) {
@@ -93,17 +93,17 @@ void check_metadata(const std::string& key, const std::string& value, const Plac
                             Message("metadata key \"{}\" is not allowed; allowed are {}", key, listed(kAllowedKeys)));
     }
     if (key == "lang" && !is_language(value))
-        throw DocumentError(where,
-                            Message("lang \"{}\" is not known; write {}", value, listed(languages(), Join::kOr)));
+        throw DocumentError(where, Message("unknown lang \"{}\"; write {}", value, listed(languages(), Join::kOr)));
     if ((key == "toc" || key == "numbersections") && value != "true" && value != "false")
-        throw DocumentError(where, Message("{} is true or false, not \"{}\"", key, value));
+        throw DocumentError(where, Message("{} must be true or false, not \"{}\"", key, value));
     if (key == "bibliography")
         if (const Message fault = fault_of_bibliography_name(value); !fault.empty()) throw DocumentError(where, fault);
     if (key == "logo" && !is_name_of_kind(value, {".png", ".jpg", ".jpeg", ".pdf"}))
         throw DocumentError(
-            where, Message("logo must be the name of a .png, .jpg or .pdf file beside this one, such as logo.png, not "
-                           "\"{}\"",
-                           value));
+            where,
+            Message(
+                "logo must be the name of a .png, .jpg or .pdf file in the same folder, such as logo.png, not \"{}\"",
+                value));
     DocumentRules rules;
     read_document_rule(key, value, where, rules);
 }
@@ -131,7 +131,9 @@ TemplateFile read_settings(const std::filesystem::path& file) {
     read_metadata(lines, 0, lines.size(), result);
     for (const auto& [key, value] : result.metadata)
         if (std::ranges::find(kSettings, key) == kSettings.end())
-            throw DocumentError({file}, Message("\"{}\" is set in templates; settings are {}", key, listed(kSettings)));
+            throw DocumentError({file},
+                                Message("\"{}\" is a template setting and not allowed here; the settings are {}", key,
+                                        listed(kSettings)));
     return result;
 }
 

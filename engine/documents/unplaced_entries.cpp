@@ -57,30 +57,30 @@ Message UnplacedEntries::message() const {
     switch (kind) {
         case Kind::kTable:
             return one ? Message(
-                             "the table {} is reported, but has no place in the text; write ::: {.table name={}} above "
+                             "the table {} is passed to the report but never shown; write ::: {.table name={}} above "
                              "and ::: below its caption",
                              all, first)
                        : Message(
-                             "the tables {} are reported, but have no place in the text; write ::: {.table name={}} "
-                             "above and ::: below its caption",
+                             "the tables {} are passed to the report but never shown; write ::: {.table name={}} above "
+                             "and ::: below its caption",
                              all, first);
         case Kind::kText:
             return one ? Message(
-                             "the text {} is reported, but has no place in the text; write ::: {.text name={}} and ::: "
-                             "below",
+                             "the text {} is passed to the report but never shown; write ::: {.text name={}} and, on a "
+                             "later line, :::",
                              all, first)
                        : Message(
-                             "the texts {} are reported, but have no place in the text; write ::: {.text name={}} and "
-                             "::: below",
+                             "the texts {} are passed to the report but never shown; write ::: {.text name={}} and, on "
+                             "a later line, :::",
                              all, first);
         case Kind::kValue:
-            return one ? Message("the value {} is reported, but has no place in the text; write {}", all, slot())
-                       : Message("the values {} are reported, but have no place in the text; write {}", all, slot());
+            return one ? Message("the value {} is passed to the report but never shown; write {}", all, slot())
+                       : Message("the values {} are passed to the report but never shown; write {}", all, slot());
         case Kind::kFigure:
             break;
     }
-    return one ? Message("the figure {} is reported, but has no place in the text; write {}", all, slot())
-               : Message("the figures {} are reported, but have no place in the text; write {}", all, slot());
+    return one ? Message("the figure {} is passed to the report but never shown; write {}", all, slot())
+               : Message("the figures {} are passed to the report but never shown; write {}", all, slot());
 }
 
 std::string with_texts_of_script(const RunRecord& record, const std::string& markdown) {

@@ -99,7 +99,7 @@ class Weaver {
                 if (!option_is_off(cell, "output")) add_outputs(cell);
             }
             if (&cell == failed)
-                add_error(Message("The script stopped here; nothing below was run."), cell.last_line());
+                add_error(Message("The script stopped here; the cells below were not run."), cell.last_line());
         }
         if (record_.error && !failed) add_error({}, 1);
         return std::move(text_);

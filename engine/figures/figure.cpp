@@ -39,7 +39,7 @@ void check_curve(const Curve& curve, const Panel& panel, const Message& name_of_
                               name_of_panel, name, plural(curve.x.size(), "{} value", "{} values"), curve.y.size());
     if (curve.style == CurveStyle::kBand && curve.y_upper.size() != curve.y.size())
         throw InvalidArgument(
-            "panel {}, curve {}: the upper edge of a band needs as many values as the lower one, {}, not {}",
+            "panel {}, curve {}: the upper edge of a band needs as many values as the lower edge, {}, not {}",
             name_of_panel, name, curve.y.size(), curve.y_upper.size());
     if (!std::isfinite(curve.line_width) || curve.line_width <= 0)
         throw InvalidArgument("panel {}, curve {}: the line width must be a positive number of points, not {}",
@@ -49,10 +49,9 @@ void check_curve(const Curve& curve, const Panel& panel, const Message& name_of_
     const Message samples = plural(curve.x.size(), "{} sample", "{} samples");
     if (panel.log_x || panel.log_y)
         throw InvalidArgument(
-            "panel {}, curve {}: there is nothing to draw: of {} none is finite and positive on the logarithmic axis",
+            "panel {}, curve {}: nothing to draw: of {} none is finite and positive on the logarithmic axis",
             name_of_panel, name, samples);
-    throw InvalidArgument("panel {}, curve {}: there is nothing to draw: of {} none is finite", name_of_panel, name,
-                          samples);
+    throw InvalidArgument("panel {}, curve {}: nothing to draw: of {} none is finite", name_of_panel, name, samples);
 }
 
 void check_tick_step(const std::optional<double>& step, const char* axis, const Message& panel) {
@@ -89,7 +88,7 @@ void check_motion(const Motion& motion, const std::vector<Panel>& panels) {
     for (std::size_t k = 0; k < motion.rig.parts.size(); ++k) {
         const std::size_t place = motion.picture + 1 + k;
         if (place >= panels.size() || panels[place].curves.size() < curves)
-            throw InvalidArgument("panel {} must show the {} that moves the rig", place + 1,
+            throw InvalidArgument("panel {} must show the {} that moves the animated plant", place + 1,
                                   motion.rig.parts[k].signal);
     }
 }
@@ -99,15 +98,14 @@ void check_motion(const Motion& motion, const std::vector<Panel>& panels) {
 void Figure::validate() const {
     constexpr int kMostRows = 100;
     if (rows < 1 || columns < 1 || rows > kMostRows || columns > kMostRows)
-        throw InvalidArgument("a figure needs between one and {} rows and columns, not {} x {}", kMostRows, rows,
-                              columns);
+        throw InvalidArgument("a figure needs 1 to {} rows and columns, not {} x {}", kMostRows, rows, columns);
     if (panels.empty()) throw InvalidArgument("a figure needs at least one panel, but it has none");
     if (panels.size() > static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns))
-        throw InvalidArgument("a figure of {} x {} panels cannot hold {} panels", rows, columns, panels.size());
+        throw InvalidArgument("a figure of {} x {} panels cannot contain {} panels", rows, columns, panels.size());
     if (!(width_cm >= 3 && width_cm <= 200))
-        throw InvalidArgument("the width of a figure must lie between 3 and 200 cm, not {}", as_given(width_cm));
+        throw InvalidArgument("the width of a figure must be from 3 to 200 cm, not {}", as_given(width_cm));
     if (!(height_cm == 0 || (height_cm >= 3 && height_cm <= 200)))
-        throw InvalidArgument("the height of a figure must lie between 3 and 200 cm, or be 0 to have it chosen, not {}",
+        throw InvalidArgument("the height of a figure must be from 3 to 200 cm, or 0 for an automatic height, not {}",
                               as_given(height_cm));
     for (std::size_t i = 0; i < panels.size(); ++i) check_panel(panels[i], numbered_name(i + 1, panels[i].title));
     if (motion) check_motion(*motion, panels);

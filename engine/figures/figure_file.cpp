@@ -21,7 +21,7 @@ FigureFormat figure_format(const std::filesystem::path& file) {
     if (extension == ".pdf") return FigureFormat::kPdf;
     if (extension == ".svg") return FigureFormat::kSvg;
     if (extension == ".png") return FigureFormat::kPng;
-    throw InvalidArgument("a figure is saved as .pdf, .svg or .png, but the file is called \"{}\"",
+    throw InvalidArgument("a figure must be saved as .pdf, .svg or .png, but the file name is \"{}\"",
                           file.filename().string());
 }
 

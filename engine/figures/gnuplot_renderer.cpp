@@ -170,10 +170,10 @@ class GnuplotRenderer::Work {
             throw FigureError(Message("gnuplot could not draw \"{}\": {}", target.string(), *error));
         const std::string last = last_words(complaints);
         if (last.empty())
-            throw FigureError(
-                Message("gnuplot ended or no longer answered while it drew \"{}\"; it said nothing", target.string()));
+            throw FigureError(Message(
+                "gnuplot exited or stopped responding while it drew \"{}\"; it printed no message", target.string()));
         throw FigureError(
-            Message("gnuplot ended or no longer answered while it drew \"{}\"; its last words were \"{}\"",
+            Message("gnuplot exited or stopped responding while it drew \"{}\"; its last message was \"{}\"",
                     target.string(), last));
     }
 
@@ -190,8 +190,7 @@ class GnuplotRenderer::Work {
         const std::optional<std::string> complaints = running_->child.wait_for_report(figure.number);
         if (!complaints) fail_as_ended(figure.target);
         if (const auto error = first_error(*complaints)) return Message::verbatim(*error);
-        if (!is_complete(figure.temporary, figure.format))
-            return Message("the file is not complete (is the disk full?)");
+        if (!is_complete(figure.temporary, figure.format)) return Message("the file is incomplete (is the disk full?)");
         if (figure.format == FigureFormat::kPdf) blank_creation_date(figure.temporary);
         if (figure.format == FigureFormat::kSvg) finish_svg(figure.temporary);
         ++use_.made;
@@ -230,7 +229,7 @@ void GnuplotRenderer::draw(const Figure& figure, const fs::path& file, FigureFor
     const fs::path target = fs::absolute(file);
     for (const char c : target.native())
         if (static_cast<unsigned char>(c) < 0x20)
-            throw InvalidArgument("the name of a figure's file must not contain line breaks or control characters");
+            throw InvalidArgument("the file name of a figure must not contain line breaks or control characters");
     work_->draw(figure, target, format, reader);
 }
 

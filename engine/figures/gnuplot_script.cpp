@@ -300,8 +300,9 @@ std::string gnuplot_script(const Figure& figure, FigureFormat format, const Read
 }
 
 std::string gnuplot_file(const Figure& figure, FigureFormat format, const std::string& output, const Reader& reader) {
-    return fmt::format("# Drawn by: gnuplot FILE, where FILE is this one; the data are in it.\noutput_file = {}\n{}",
-                       gnuplot_quoted(output), gnuplot_script(figure, format, reader));
+    return fmt::format(
+        "# Draw the figure with: gnuplot FILE, where FILE is this file; it contains the data.\noutput_file = {}\n{}",
+        gnuplot_quoted(output), gnuplot_script(figure, format, reader));
 }
 
 }  // namespace dynlab::inline figures

@@ -19,7 +19,7 @@ void check_finite(const VectorView& values) {
 }
 
 void check_sample(const VectorView& values) {
-    if (values.size() == 0) throw InvalidArgument("a histogram needs at least one value, but there are none");
+    if (values.size() == 0) throw InvalidArgument("a histogram needs at least one value, but none was given");
     check_finite(values);
 }
 
@@ -40,7 +40,7 @@ HistogramBins histogram_bins(const VectorView& values, Index bins) {
     check_sample(values);
     if (bins < 1) throw InvalidArgument("a histogram needs at least one bin, not {}", bins);
     if (bins > kMostWanted)
-        throw InvalidArgument("a histogram has at most {} bins, but {} were wanted", kMostWanted, bins);
+        throw InvalidArgument("a histogram can have at most {} bins, but {} were requested", kMostWanted, bins);
     double low = values.minCoeff(), high = values.maxCoeff();
     if (!(low < high)) {
         const double room = low == 0 ? 0.5 : std::max(0.05 * std::abs(low), 1e-290);
@@ -51,7 +51,7 @@ HistogramBins histogram_bins(const VectorView& values, Index bins) {
 
 HistogramBins histogram_bins(const VectorView& values, const Vector& edges) {
     check_finite(values);
-    if (edges.size() < 2) throw InvalidArgument("a histogram needs two edges or more, not {}", edges.size());
+    if (edges.size() < 2) throw InvalidArgument("a histogram needs at least two edges, not {}", edges.size());
     const Index bins = edges.size() - 1;
     HistogramBins result{edges, Vector::Zero(bins)};
     for (const double value : values) {

@@ -15,13 +15,13 @@ void RigDrawing::validate() const {
     const int count = static_cast<int>(parts.size());
     for (int i = 0; i < count; ++i)
         if (const int on = parts[static_cast<std::size_t>(i)].on; on < -1 || on >= i)
-            throw InvalidArgument("a rig's part must be carried by one before it");
+            throw InvalidArgument("the part that carries a part of the drawing must be defined before it");
     for (const RigPiece& piece : pieces) {
         if (piece.x.size() != piece.y.size() || piece.x.size() != piece.part.size())
-            throw InvalidArgument("a piece of a rig must have as many x as y and parts");
+            throw InvalidArgument("a shape of the drawing needs equal numbers of x, y and parts");
         for (const int part : piece.part)
             if (part < -1 || part >= count)
-                throw InvalidArgument("a piece of a rig belongs to a part that is not there");
+                throw InvalidArgument("a shape of the drawing belongs to a part that does not exist");
     }
 }
 

@@ -47,7 +47,7 @@ std::string isolation_name(Isolation level) {
 std::optional<Message> obstacle_to(Isolation level) {
     if (level == Isolation::kProcess) return {};
     if (!find_program(kBubblewrap))
-        return Message("full isolation needs bubblewrap: sudo apt install bubblewrap (or ask for --isolation process)");
+        return Message("full isolation needs bubblewrap: run sudo apt install bubblewrap (or use --isolation process)");
     Words words = bare_box();
     words.push_back("/usr/bin/true");
     ChildOptions child;
@@ -57,8 +57,8 @@ std::optional<Message> obstacle_to(Isolation level) {
     if (tried.exit_code == 0) return {};
     const std::string reason = tried.error_output.substr(0, tried.error_output.find('\n'));
     return Message(
-        "full isolation cannot be had: bubblewrap says \"{}\"; allow user namespaces (sysctl "
-        "kernel.unprivileged_userns_clone=1) or ask for --isolation process",
+        "full isolation is not available: bubblewrap reports \"{}\". Allow user namespaces (sysctl "
+        "kernel.unprivileged_userns_clone=1), or use --isolation process",
         reason);
 }
 

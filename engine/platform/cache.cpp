@@ -62,7 +62,7 @@ std::optional<fs::path> lasting_root() {
 /// With a lock, until it is released: the next run removes what a killed one left.
 fs::path new_folder(const fs::path& root, const char* beginning) {
     const fs::path folder = make_folder_in_use(root, beginning_in_use(beginning));
-    if (folder.empty()) throw EnvironmentError("cannot make a folder in {}: {}", root.string(), system_reason(errno));
+    if (folder.empty()) throw EnvironmentError("cannot create a folder in {}: {}", root.string(), system_reason(errno));
     return folder;
 }
 
@@ -258,7 +258,7 @@ fs::path Cache::commit(const fs::path& prepared, const std::string& name) const 
     if (error && fs::is_directory(folder)) {
         fs::remove_all(prepared, error);
     } else if (error) {
-        throw EnvironmentError("cannot keep {}: {}", folder.string(), error.message());
+        throw EnvironmentError("cannot store {}: {}", folder.string(), error.message());
     }
     mark_as_used(folder);
     add_growth(bytes_in(folder));

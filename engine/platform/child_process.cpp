@@ -94,7 +94,7 @@ FileDescriptor input_file(const std::string& input) {
     if (input.empty()) return FileDescriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC));
     FileDescriptor file(::memfd_create("dynlab-input", MFD_CLOEXEC));
     if (!file || !write_all(file.get(), input.data(), input.size()) || ::lseek(file.get(), 0, SEEK_SET) != 0) {
-        throw EnvironmentError("cannot hand input to a child process: {}", system_reason(errno));
+        throw EnvironmentError("cannot pass input to a child process: {}", system_reason(errno));
     }
     return file;
 }
@@ -103,7 +103,7 @@ FileDescriptor input_file(const std::string& input) {
 std::pair<FileDescriptor, FileDescriptor> input_socket() {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-        throw EnvironmentError("cannot hand input to a child process: {}", system_reason(errno));
+        throw EnvironmentError("cannot pass input to a child process: {}", system_reason(errno));
     return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
 }
 

@@ -22,7 +22,7 @@ bool confined = false;
 void limit(int resource, rlim_t most) {
     const rlimit both{most, most};
     if (::setrlimit(static_cast<__rlimit_resource>(resource), &both) != 0)
-        throw EnvironmentError("cannot limit what a script may take: {}", system_reason(errno));
+        throw EnvironmentError("cannot limit the resources of a script: {}", system_reason(errno));
 }
 
 void expect_rule_added(int result) {
@@ -112,7 +112,7 @@ void hide_memory() {
 
 void refuse_harmful_calls() {
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
-        throw EnvironmentError("cannot give up privileges: {}", system_reason(errno));
+        throw EnvironmentError("cannot drop privileges: {}", system_reason(errno));
     filter_system_calls();
     confined = true;
 }

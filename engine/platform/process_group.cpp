@@ -34,7 +34,7 @@ FileDescriptor open_process(pid_t process) {
 
 Pipe::Pipe() {
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) throw EnvironmentError("cannot make a pipe: {}", system_reason(errno));
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw EnvironmentError("cannot create a pipe: {}", system_reason(errno));
     read_end = FileDescriptor(ends[0]);
     write_end = FileDescriptor(ends[1]);
 }

@@ -54,8 +54,8 @@ fs::path shared_folder_of(const fs::path& program) {
         if (is_source_tree(folder)) return folder;
     }
     throw EnvironmentError(
-        "the data sets and lessons were not found: neither in {} nor in a folder above {}; set DYNLAB_HOME to the "
-        "folder that holds data, lessons and report_templates",
+        "data sets and lessons not found: neither in {} nor in a folder above {}. Set DYNLAB_HOME to the folder that "
+        "contains data, lessons and report_templates",
         installed.string(), program.string());
 }
 
@@ -82,7 +82,7 @@ namespace {
 fs::path installed_folder() {
     if (const char* home = std::getenv("DYNLAB_HOME"); home && *home) {
         if (is_folder(fs::path(home) / "data")) return home;
-        throw EnvironmentError("DYNLAB_HOME is {}, but there is no folder data in it", home);
+        throw EnvironmentError("DYNLAB_HOME is {}, but that folder has no subfolder data", home);
     }
     return shared_folder_of(running_program());
 }

@@ -30,7 +30,7 @@ TemporaryFolder::TemporaryFolder() {
     if (is_new_parent(parent)) remove_abandoned_folders();
     path_ = make_folder_in_use(parent, beginning_of_temporary_folders());
     if (path_.empty())
-        throw EnvironmentError("cannot make a temporary folder in {}: {}", parent.string(), system_reason(errno));
+        throw EnvironmentError("cannot create a temporary folder in {}: {}", parent.string(), system_reason(errno));
     ends_ = EndsWithProgram(path_);
 }
 

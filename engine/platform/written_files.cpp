@@ -132,17 +132,17 @@ void WrittenFiles::refuse(const fs::path& file, bool was_ours) const {
     const std::string name = file.filename().string();
     if (ledger_.empty())
         throw EnvironmentError(
-            "'{}' is there already and it is not known who wrote it (neither HOME nor XDG_STATE_HOME is set); save "
-            "under another name, move it away, or let it be replaced (dynlab run --force)",
+            "'{}' exists already and its origin is unknown (neither HOME nor XDG_STATE_HOME is set). Save under "
+            "another name, move the file elsewhere, or replace it (dynlab run --force)",
             name);
     if (!was_ours)
         throw EnvironmentError(
-            "'{}' is there already and no run of dynlab wrote it; save under another name, move it away, or let it be "
-            "replaced (dynlab run --force)",
+            "'{}' exists already and was not written by dynlab. Save under another name, move the file elsewhere, or "
+            "replace it (dynlab run --force)",
             name);
     throw EnvironmentError(
-        "'{}' is there already and was changed since dynlab wrote it; save under another name, move it away, or let "
-        "it be replaced (dynlab run --force)",
+        "'{}' exists already and was changed after dynlab wrote it. Save under another name, move the file elsewhere, "
+        "or replace it (dynlab run --force)",
         name);
 }
 

@@ -32,7 +32,7 @@ void read_whole(int pipe, char* bytes, std::size_t size) {
         const ssize_t count = ::read(pipe, bytes, size);
         throw_if_interrupted();
         if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) throw EnvironmentError("a process that ran the script for a slider has ended");
+        if (count <= 0) throw EnvironmentError("the process that ran the script for a slider has exited");
         bytes += count;
         size -= static_cast<std::size_t>(count);
     }
@@ -81,7 +81,7 @@ class BranchingRun {
         try {
             record = received_record(own.read_end.get());
         } catch (const EnvironmentError&) {
-            record.error = RecordedError{Message("the script ended the process that ran it")};
+            record.error = RecordedError{Message("the script ended its process")};
         }
         copy.wait();
         return cbor_of(record);

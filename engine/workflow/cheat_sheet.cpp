@@ -174,7 +174,7 @@ std::string cheat_sheet_latex() {
 
 void make_cheat_sheet(const std::filesystem::path& output) {
     if (output.extension() != ".pdf")
-        throw EnvironmentError("the sheet is a PDF: give a file such as cheat.pdf, not {}", output.string());
+        throw EnvironmentError("the sheet is a PDF: give a file name such as cheat.pdf, not {}", output.string());
     const TemporaryFolder work;
     LatexJob job;
     job.body = cheat_sheet_latex();

@@ -56,8 +56,8 @@ Demonstration find_demonstration(const std::string& name) {
         names.push_back(demonstration.name);
     }
     if (const auto near = nearest_word(name, names))
-        throw EnvironmentError("there is no demonstration '{}'; did you mean '{}'?", name, *near);
-    throw EnvironmentError("there is no demonstration '{}'; there are {}", name, listed(names));
+        throw EnvironmentError("unknown demonstration '{}'; did you mean '{}'?", name, *near);
+    throw EnvironmentError("unknown demonstration '{}'; the demonstrations are {}", name, listed(names));
 }
 
 std::vector<std::string> pages_of(const PercentScript& script, const RunRecord& record) {

@@ -24,16 +24,16 @@ constexpr const char* kScriptOfFolder = "analysis.lua";
 /// What lies beside scripts and is given in their place. Scripts may have any other ending, or none.
 Message kind_of(const std::string& ending) {
     static const std::pair<std::vector<std::string>, Message> kKinds[] = {
-        {{".md"}, Message("a text in Markdown")},
-        {{".tex"}, Message("a text in LaTeX")},
+        {{".md"}, Message("a Markdown text")},
+        {{".tex"}, Message("a LaTeX text")},
         {{".txt"}, Message("a plain text")},
         {{".pdf"}, Message("a PDF")},
         {{".html"}, Message("a page")},
         {{".docx", ".odt"}, Message("a document")},
-        {{".csv", ".xlsx"}, Message("a table of data")},
-        {{".mat"}, Message("a file of data")},
+        {{".csv", ".xlsx"}, Message("a data table")},
+        {{".mat"}, Message("a data file")},
         {{".json"}, Message("a JSON file")},
-        {{".toml"}, Message("a file of settings")},
+        {{".toml"}, Message("a settings file")},
         {{".bib"}, Message("a bibliography")},
         {{".zip", ".gz", ".tgz"}, Message("an archive")},
         {{".png", ".jpg", ".jpeg", ".svg"}, Message("a picture")},
@@ -82,7 +82,7 @@ Message nearly_called(const fs::path& folder, const std::string& name) {
     std::sort(near.begin(), near.end());
     constexpr std::size_t kMost = 3;
     near.resize(std::min(near.size(), kMost));
-    return Message("but {}: call it {}", listed(near), name);
+    return Message("but {}: rename it to {}", listed(near), name);
 }
 
 fs::path meant_script(const fs::path& given) {
@@ -91,9 +91,10 @@ fs::path meant_script(const fs::path& given) {
     if (fs::exists(script)) return script;
     const Message near = nearly_called(folder_around(script), script.filename().string());
     if (folder && near.empty())
-        throw EnvironmentError("there is no {} in the folder {}", kScriptOfFolder, given.string());
-    if (folder) throw EnvironmentError("there is no {} in the folder {}, {}", kScriptOfFolder, given.string(), near);
-    if (!near.empty()) throw EnvironmentError("there is no file {}, {}", given.string(), near);
+        throw EnvironmentError("the file {} is missing in the folder {}", kScriptOfFolder, given.string());
+    if (folder)
+        throw EnvironmentError("the file {} is missing in the folder {}, {}", kScriptOfFolder, given.string(), near);
+    if (!near.empty()) throw EnvironmentError("file not found: {}, {}", given.string(), near);
     return script;  // whoever reads it tells what is wrong with it
 }
 

@@ -36,24 +36,24 @@ class HintsReader {
         const std::string begin = "# Question ";
         const auto question =
             line.starts_with(begin) ? read_number<int>(trimmed(line.substr(begin.size()))) : std::nullopt;
-        if (!question) fail(Message("a heading of hints is \"# Question 4\", not \"{}\"", trimmed(line)));
+        if (!question) fail(Message("write the heading of hints as \"# Question 4\", not \"{}\"", trimmed(line)));
         const auto [place, is_new] = hints_.try_emplace(*question);
         if (!is_new) fail(Message("question {} has hints already", *question));
         stages_ = &place->second;
     }
 
     void read_stage(const std::string& line) {
-        if (!stages_) fail(Message("hints stand below a heading such as \"# Question 4\""));
+        if (!stages_) fail(Message("hints must be below a heading such as \"# Question 4\""));
         const std::size_t point = line.find(". ");
         const std::size_t next = stages_->size() + 1;
         if (point == std::string::npos || read_number<int>(line.substr(0, point)) != static_cast<int>(next))
-            fail(Message("here hint {} should begin, with \"{}. \", not \"{}\" (further lines of a hint are indented)",
-                         next, next, trimmed(line).substr(0, 30)));
+            fail(Message("expected hint {}, starting with \"{}. \", not \"{}\" (indent further lines of a hint)", next,
+                         next, trimmed(line).substr(0, 30)));
         stages_->push_back(trimmed(line.substr(point + 2)));
     }
 
     void read_more(const std::string& line) {
-        if (!stages_ || stages_->empty()) fail(Message("this line is indented, but no hint begins before it"));
+        if (!stages_ || stages_->empty()) fail(Message("this line is indented, but no hint starts before it"));
         stages_->back() += " " + trimmed(line);
     }
 

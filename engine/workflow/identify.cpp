@@ -191,19 +191,22 @@ void IdentifyRequest::validate() const {
     }
     if (poles && *poles < 1) throw InvalidArgument("the number of poles must be at least 1, not {}", *poles);
     if (zeros && poles && (*zeros < 0 || *zeros > *poles))
-        throw InvalidArgument("the number of zeros must be from 0 to that of the poles, {}; it is {}", *poles, *zeros);
+        throw InvalidArgument("the number of zeros must be from 0 to the number of poles, {}, but is {}", *poles,
+                              *zeros);
     if (zeros && *zeros < 0)
-        throw InvalidArgument("the number of zeros must be from 0 to that of the poles; it is {}", *zeros);
+        throw InvalidArgument("the number of zeros must be from 0 to the number of poles, but is {}", *zeros);
     if (!poles && inputs.size() > 1)
-        throw InvalidArgument("the number of poles is found for one input only; with several give the number");
+        throw InvalidArgument(
+            "the number of poles can be determined for one input only; with several inputs, give the number");
     if (!poles && zeros && *zeros > 3)
-        throw InvalidArgument("the number of poles is looked for up to 4, and there must be fewer zeros");
+        throw InvalidArgument("the number of poles is determined up to 4, and must exceed the number of zeros");
     if (!poles && delay && *delay > 0)
         throw InvalidArgument(
-            "the number of poles is found for no delay or an estimated one; give the number, or the delay auto");
+            "the number of poles can be determined without delay or with an estimated delay; give the number, or the "
+            "delay auto");
     if (delay && !(std::isfinite(*delay) && *delay >= 0))
         throw InvalidArgument("the delay must be at least 0 s, not {}", *delay);
-    if (Ts && !time.empty()) throw InvalidArgument("give either Ts or the column of the time, not both");
+    if (Ts && !time.empty()) throw InvalidArgument("give either Ts or the time column, not both");
     if (Ts && !(std::isfinite(*Ts) && *Ts > 0)) throw InvalidArgument("Ts must be greater than 0 s, not {}", *Ts);
 }
 

@@ -39,19 +39,19 @@ Message no_lesson(const std::string& name, const std::vector<Lesson>& all) {
     std::error_code none;
     if (!name.empty() && fs::is_directory(name, none)) {
         if (fs::is_regular_file(fs::path(name) / "analysis.lua", none))
-            return Message("the folder '{}' holds no lesson.lua; the lessons are {}", name, slugs);
+            return Message("the folder '{}' contains no lesson.lua; the lessons are {}", name, slugs);
         const Message near = nearly_called(name, "analysis.lua");
         return near.empty()
-                   ? Message("the folder '{}' holds no lesson.lua and no analysis.lua; the lessons are {}", name, slugs)
-                   : Message("the folder '{}' holds no lesson.lua and no analysis.lua, {}; the lessons are {}", name,
-                             near, slugs);
+                   ? Message("the folder '{}' contains neither lesson.lua nor analysis.lua; the lessons are {}", name,
+                             slugs)
+                   : Message("the folder '{}' contains neither lesson.lua nor analysis.lua, {}; the lessons are {}",
+                             name, near, slugs);
     }
     std::vector<std::string> names = folders_of_work();
     for (const Lesson& lesson : all) names.push_back(lesson.slug);
     const auto near = nearest_word(name, names);
-    return near
-               ? Message("there is no lesson or folder '{}'; did you mean '{}'? the lessons are {}", name, *near, slugs)
-               : Message("there is no lesson or folder '{}'; the lessons are {}", name, slugs);
+    return near ? Message("unknown lesson or folder '{}'; did you mean '{}'? The lessons are {}", name, *near, slugs)
+                : Message("unknown lesson or folder '{}'; the lessons are {}", name, slugs);
 }
 
 /// What the header says below the title, or nothing: "Lesson 3.2 - ...".
@@ -91,7 +91,7 @@ std::vector<Lesson> lessons() {
     std::istringstream list(own ? own : "");
     for (std::string folder; std::getline(list, folder, ':');) {
         if (folder.empty()) continue;
-        if (!fs::is_directory(folder)) throw EnvironmentError("DYNLAB_LESSONS: there is no folder '{}'", folder);
+        if (!fs::is_directory(folder)) throw EnvironmentError("DYNLAB_LESSONS: folder not found: '{}'", folder);
         folders.emplace_back(folder);
     }
     if (const auto course = own_course(); course && fs::is_directory(*course / "lessons"))
@@ -121,8 +121,7 @@ Lesson find_lesson(const std::string& name) {
     if (fitting.size() == 1) return fitting.front();
     if (const auto own = name.empty() ? std::nullopt : lesson_in(name)) return *own;
     if (fitting.empty()) throw EnvironmentError(no_lesson(name, all));
-    throw EnvironmentError("'{}' fits several lessons ({}); give enough of the name to tell them apart", name,
-                           listed(slugs_of(fitting)));
+    throw EnvironmentError("'{}' matches several lessons ({}); give more of the name", name, listed(slugs_of(fitting)));
 }
 
 std::string lasting_name(const Lesson& lesson) {

@@ -71,7 +71,7 @@ std::vector<std::string> simulated_data_of(const Lesson& lesson) {
     if (const auto known = cache.recall(name)) return words_of(*known);
     const RunRecord record = run_of_solution(script);
     if (record.error)
-        throw EnvironmentError("which data lesson {} loads is not known, for its worked solution stops: {}",
+        throw EnvironmentError("the data of lesson {} are unknown, because its reference solution stops: {}",
                                lesson.slug, record.error->text());
     const std::vector<std::string> names = simulated_data_of(record);
     cache.remember(name, fmt::format("{}\n", fmt::join(names, "\n")));
@@ -92,7 +92,7 @@ void copy_own_data(const Lesson& lesson, const fs::path& data_folder) {
         fs::create_directories(data_set);
         fs::copy_file(file, data_set / file.filename(), fs::copy_options::overwrite_existing);
         if (!fs::exists(data_set / "SOURCE.md"))
-            write_file_atomically(data_set / "SOURCE.md", fmt::format("# {}\n\nA record of the lesson {}.\n",
+            write_file_atomically(data_set / "SOURCE.md", fmt::format("# {}\n\nA data set of the lesson {}.\n",
                                                                       file.stem().string(), lesson.slug));
     }
 }

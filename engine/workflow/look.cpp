@@ -109,7 +109,7 @@ class DataLooker {
 
     std::string columns() const {
         TextRows rows = {{text(data_.columns.empty() ? Message("variable") : Message("column")), text(Message("unit")),
-                          text(Message("holds")), text(Message("missing")), text(Message("smallest")),
+                          text(Message("content")), text(Message("missing")), text(Message("smallest")),
                           text(Message("largest")), text(Message("mean"))}};
         for (const std::string& name : names_) add_rows(rows, name, data_.variables.at(name));
         return "\n" + aligned(rows);
@@ -167,13 +167,13 @@ class DataLooker {
         const auto stated = data_.variables.find("Ts");
         const double* Ts = stated == data_.variables.end() ? nullptr : std::get_if<double>(&stated->second.value);
         std::string lines;
-        if (Ts != nullptr) lines = line(Message("sampling time: {} s, as the file states it", short_number(*Ts)));
+        if (Ts != nullptr) lines = line(Message("sampling time: {} s, as given in the file", short_number(*Ts)));
         if (signals_.empty()) return lines;
         if (clock()) return lines + line(time()) + gaps();
         if (data_.time.question) return lines + line(*data_.time.question);
         return Ts != nullptr
                    ? lines
-                   : line(Message("sampling time: unknown; no column is called t or time or has a unit of time"));
+                   : line(Message("sampling time: unknown; no column is named t or time or has a unit of time"));
     }
 
     std::string line(const Message& message) const { return "\n" + text(message) + "\n"; }
@@ -183,8 +183,8 @@ class DataLooker {
         const InstantSpacing& spacing = clock()->spacing;
         const std::string begin = seconds(t[0]), end = seconds(t[samples_ - 1]), step = seconds(spacing.step);
         return spacing.even ? Message("time: column {}, from {} to {}, every {}", clock()->name, begin, end, step)
-                            : Message("time: column {}, from {} to {}, in uneven steps, median {}", clock()->name,
-                                      begin, end, step);
+                            : Message("time: column {}, from {} to {}, irregular, median step {}", clock()->name, begin,
+                                      end, step);
     }
 
     std::string gaps() const {

@@ -11,7 +11,7 @@ struct Figure;
 
 namespace dynlab::inline workflow {
 
-/// What `dynlab look` shows of a data file.
+/// What `dynlab inspect` shows of a data file.
 struct DataLook {
     std::string text;  ///< what was read: notes, columns with units and ranges, sampling, gaps, first rows
     std::shared_ptr<const Figure>

@@ -54,14 +54,12 @@ ReportRequest report_of_folder(const fs::path& folder, const fs::path& output) {
     for (const char* needed : {"analysis.lua", "report.md"}) {
         if (!fs::is_regular_file(folder / needed)) {
             const Message near = nearly_called(folder, needed);
-            throw EnvironmentError(
-                near.empty()
-                    ? Message("{} has no {}; a report needs analysis.lua and report.md (dynlab new LESSON DIR makes "
-                              "them)",
-                              folder.string(), needed)
-                    : Message("{} has no {}, {}; a report needs analysis.lua and report.md (dynlab new LESSON DIR "
-                              "makes them)",
-                              folder.string(), needed, near));
+            throw EnvironmentError(near.empty() ? Message("{} has no {}; a report needs analysis.lua and report.md "
+                                                          "(dynlab new LESSON DIR creates them)",
+                                                          folder.string(), needed)
+                                                : Message("{} has no {}, {}; a report needs analysis.lua and report.md "
+                                                          "(dynlab new LESSON DIR creates them)",
+                                                          folder.string(), needed, near));
         }
     }
     ReportRequest request;
@@ -153,7 +151,7 @@ ReportRequest report_of_script(const PercentScript& script, const fs::path& outp
     const ScriptHeader& header = request.script.header;
     request.template_file = template_named(header.template_name);
     if (!fs::is_regular_file(request.template_file)) {
-        throw DocumentError(Place{script.file}, Message("there is no template '{}' in {}", header.template_name,
+        throw DocumentError(Place{script.file}, Message("unknown template '{}'; searched in {}", header.template_name,
                                                         request.template_file.parent_path().string()));
     }
     // A template to be written in shows nothing of a script alone.
@@ -170,14 +168,14 @@ ReportRequest report_of(const std::string& subject, const fs::path& output, cons
     const fs::path folder = subject;
     if (fs::is_regular_file(folder)) {
         if (!language.empty())
-            throw EnvironmentError("the language of {} stands in its header, behind \"language:\"", subject);
+            throw EnvironmentError("the header of {} sets the language, with \"language:\"", subject);
         return report_of_script(read_script_or_notebook(folder),
                                 output.empty() ? fs::path(folder).replace_extension(".pdf") : output);
     }
     if (!fs::is_directory(folder) || (lesson_in(folder) && !fs::exists(folder / "analysis.lua")))
         return report_of_lesson(find_lesson(subject), output, language);
     if (!language.empty())
-        throw EnvironmentError("the language of {} stands in its report.md, behind \"lang:\"", subject);
+        throw EnvironmentError("the report.md of {} sets the language in its header, with \"lang:\"", subject);
     return report_of_folder(subject, output);
 }
 
@@ -313,7 +311,7 @@ ReportResult make_report(const ReportRequest& request) {
     } catch (const DocumentError& complaint) {
         if (!result.error) throw;
         throw DocumentError(
-            Message("{}\nThe report up to there cannot be made: {}", *result.error, complaint.message()));
+            Message("{}\nThe report up to this point cannot be made: {}", *result.error, complaint.message()));
     }
     if (!result.error && result.gaps.empty()) reports.remember(record);
     return result;

@@ -57,8 +57,7 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
         constexpr double kClose = 0.01;
         if (clock && clock->spacing.even && std::abs(*given - clock->spacing.step) > kClose * clock->spacing.step)
             doubt_ =
-                message_text(Message("The sampling time {} s was given, but by the time '{}' the samples follow each "
-                                     "other every {} s.",
+                message_text(Message("The sampling time {} s was given, but according to the time '{}' it is {} s.",
                                      significant(*given, 6), clock->name, significant(clock->spacing.step, 6)));
         return;
     }
@@ -70,7 +69,7 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
     const auto stated = loaded_.variables.find("Ts");
     if (stated == loaded_.variables.end() || !std::holds_alternative<double>(stated->second.value))
         throw UnknownSampling(Message(
-            "{} states no sampling time and has no column t or time, nor one whose header has a unit of time", name_));
+            "{} has no sampling time, no column t or time, and no column with a unit of time in its header", name_));
     sampling_ = "{0}.Ts";
 }
 
@@ -159,12 +158,11 @@ std::string Recording::filled() const {
             if (missing == 0) continue;
             code += fmt::format(
                 "print({})\n",
-                lua_text(message_text(input ? Message("{}: {} of {} samples are missing; the input holds the value "
-                                                      "before them.",
-                                                      name, missing, numbers.size())
-                                            : Message("{}: {} of {} samples are missing; the output is interpolated by "
-                                                      "straight lines.",
-                                                      name, missing, numbers.size()))));
+                lua_text(message_text(
+                    input ? Message("{}: {} of {} samples are missing; the input holds the previous value.", name,
+                                    missing, numbers.size())
+                          : Message("{}: {} of {} samples are missing; the output is linearly interpolated.", name,
+                                    missing, numbers.size()))));
         }
     };
     tell(inputs_, true), tell(outputs_, false);
@@ -209,13 +207,12 @@ Recording::Signal Recording::signal(const std::string& name) const {
     if (auto member = struct_member(name)) return *std::move(member);
     if (signals().empty())
         throw EnvironmentError(
-            "{} holds no columns of numbers, so no '{}'; what it holds are tables or texts, which a script reads: "
-            "load({}).NAME",
+            "{} contains no columns of numbers, so no '{}'; a script can read its tables or texts: load({}).NAME",
             name_, name, lua_text(name_));
     if (const auto near = nearest_word(name, signals()))
-        throw EnvironmentError("{} has no column of numbers '{}' (did you mean '{}'?); there are {}", name_, name,
+        throw EnvironmentError("{} has no column of numbers '{}' (did you mean '{}'?); the columns are {}", name_, name,
                                *near, listed(signals()));
-    throw EnvironmentError("{} has no column of numbers '{}'; there are {}", name_, name, listed(signals()));
+    throw EnvironmentError("{} has no column of numbers '{}'; the columns are {}", name_, name, listed(signals()));
 }
 
 std::optional<Recording::Signal> Recording::matrix_column(const std::string& name) const {

@@ -72,8 +72,9 @@ void check_sliders(const RunRequest& request, const RunRecord& record) {
         std::vector<std::string> known;
         for (const auto& [other, slider] : record.sliders) known.push_back(other);
         const std::string script = request.script.file.string();
-        throw DocumentError(known.empty() ? Message("{} has no slider \"{}\"; it has none at all", script, name)
-                                          : Message("{} has no slider \"{}\"; it has {}", script, name, listed(known)));
+        throw DocumentError(known.empty()
+                                ? Message("{} has no slider \"{}\", because it has no sliders", script, name)
+                                : Message("{} has no slider \"{}\"; the sliders are {}", script, name, listed(known)));
     }
 }
 

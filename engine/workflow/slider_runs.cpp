@@ -53,7 +53,7 @@ std::vector<std::filesystem::path> add_slider_places(const ReportRequest& reques
         std::size_t number = 0;
         run_from_cell(run, groups[g].cell, places, [&](RunRecord&& there) {
             if (request.step)
-                request.step(Message("slider {}, place {} of {}", names_of(groups[g]), ++number, places.size()));
+                request.step(Message("slider {}, position {} of {}", names_of(groups[g]), ++number, places.size()));
             for (auto& [name, figure] : there.figures)
                 if (figure.plot.empty()) figure.plot = record.figures.at(name).plot;
             page.add(g, document_source(request, there));

@@ -33,7 +33,9 @@ VariableTable variables_of_record(const RigValues& record);
 struct AsVariable {
     Variable operator()(double value) const { return {value}; }
     Variable operator()(const Vector& value) const { return {value}; }
-    Variable operator()(const TransferFunction&) const { throw InvalidArgument("a record holds signals, not models"); }
+    Variable operator()(const TransferFunction&) const {
+        throw InvalidArgument("a data set must contain signals, not models");
+    }
     Variable operator()(const RigValues& value) const {
         return {std::make_shared<VariableTable>(variables_of_record(value))};
     }
@@ -49,7 +51,7 @@ VariableTable variables_of_record(const RigValues& record) {
 
 void write_specimen_record(const std::string& data_set, const RigChoice& choice, const fs::path& folder) {
     const Rig* rig = find_rig(data_set);
-    if (!rig) throw InvalidArgument("no rig makes the data set '{}'", data_set);
+    if (!rig) throw InvalidArgument("no simulated plant makes the data set '{}'", data_set);
     write_mat_file(folder / (data_set + ".mat"), variables_of_record(rig->record(choice)), kStoredDigits);
 }
 

@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 std::string group_file(std::uint32_t seed, const std::string& language) {
     const Reader reader{catalog_of(language)};
     return fmt::format("# {}\nmembers = []        # {}\nseed = {}            # {}\n",
-                       message_text(Message("Your group. Nothing in this file is ever printed in a report."), reader),
+                       message_text(Message("Your group. A report never shows anything from this file."), reader),
                        message_text(Message("for example [\"Ada Lovelace\", \"Rudolf Kalman\"]"), reader), seed,
-                       message_text(Message("of the random numbers your group works with"), reader));
+                       message_text(Message("of your group's random numbers"), reader));
 }
 
 void put(std::string& text, const std::string& slot, const std::string& value) {

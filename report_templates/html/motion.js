@@ -5,7 +5,7 @@ const dynlabMotion = (() => {
   const { Painter, palette, clamp } = dynlabDrawing;
   const { tr, text } = dynlabWords;
   const WORDS = { play: tr("Play"), pause: tr("Pause"), time: tr("Instant"), speed: tr("Speed"), real: tr("real time"), slower: tr("{} times slower"),
-                  measured: tr("measured"), simulated: tr("simulated"), stage: tr("The rig in motion. {}") };
+                  measured: tr("measured"), simulated: tr("simulated"), stage: tr("The plant in motion. {}") };
   const say = (key, ...values) => text(WORDS[key], ...values);
   const RIM = 0.3, LARGER = 1.5, STEP = 0.02, SLOWER = [2, 5, 10];
 

@@ -4,9 +4,9 @@ const dynlabPlots = (() => {
   "use strict";
   const { Panel, Painter, clamp } = dynlabDrawing;
   const { tr, text } = dynlabWords;
-  const WORDS = { whole: tr("Whole figure"), kind: tr("interactive figure"), curve: tr("Show or hide: {}"), handle: tr("handle, moved by arrows"),
+  const WORDS = { whole: tr("Whole figure"), kind: tr("interactive figure"), curve: tr("Show or hide: {}"), handle: tr("handle; move it with the arrow keys"),
                   copy: tr("Copy"), copied: tr("Copied"), stored: tr("Saved"),
-                  help: tr("Arrows: read off; + and −: zoom; Shift and arrows: move; 0: whole figure; Esc: end") };
+                  help: tr("Arrows: read values; + and −: zoom; Shift and arrows: pan; 0: whole figure; Esc: exit") };
   const say = (key, ...values) => text(WORDS[key], ...values);
 
   const plots = new Set();  // those in the page

@@ -65,7 +65,7 @@ const dynlabSliders = (() => {
       input.id = "slider-" + slider.name;
       label.htmlFor = input.id;
       dynlabWords.typeset(label, slider.label);
-      back.textContent = text(tr("as in the script"));
+      back.textContent = text(tr("Reset"));
       Object.assign(input, { min: 0, max: slider.values.length - 1, step: 1 });
       const tell = () => {
         input.value = this.places[i];

@@ -65,7 +65,7 @@ def restart(manager, client):
     manager.restart_kernel(now=False)
     client.wait_for_ready(timeout=30)
     reply, shown = run(client, "print(x)")
-    assert reply["status"] == "error" and "no function or variable" in reply["evalue"], reply
+    assert reply["status"] == "error" and "unknown function or variable" in reply["evalue"], reply
 
 
 def restart_busy(manager, client):

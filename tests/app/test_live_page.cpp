@@ -67,8 +67,8 @@ TEST_F(live_page, content_has_what_is_wrong_and_the_pictures_that_are_shown_now)
     EXPECT_TRUE(again.picture(content.pictures.begin()->first));
 }
 
-const Message kWrong = Message("{}{}", "analysis.lua:3: ", Message("there is no function or variable '{}'", "y"));
-constexpr const char* kWrongInEnglish = "analysis.lua:3: there is no function or variable 'y'";
+const Message kWrong = Message("{}{}", "analysis.lua:3: ", Message("unknown function or variable '{}'", "y"));
+constexpr const char* kWrongInEnglish = "analysis.lua:3: unknown function or variable 'y'";
 constexpr const char* kWrongInFrench = "analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»";
 
 /// Findings are made in English, as programs read them.
@@ -76,8 +76,8 @@ TEST_F(live_page, tells_in_the_document_s_language_what_is_wrong_and_found) {
     CheckResult result;
     result.checked = {Message("checks of lesson {}: {} of {} points", "a", 0, 3)};
     result.findings = {{"answer-missing", Severity::kRule, 0, "",
-                        Message("The answer \"{}\" (number) is not given.", "gain"),
-                        Message("Give it: answer(\"{}\", ...).", "gain")}};
+                        Message("The answer \"{}\" (number) is missing.", "gain"),
+                        Message("Submit it: answer(\"{}\", ...).", "gain")}};
     const json findings = json::parse(findings_as_json(result));
     page.complain({kWrong});
     page.set_work(findings.dump(), false);

@@ -320,7 +320,7 @@ TEST(manual, refuses_folders_with_other_things_at_once) {
     for (const char* folder : {"thesis", "file"}) {
         const ChildResult refused = bench.dynlab({"manual", folder});
         EXPECT_EQ(refused.exit_code, 1);
-        EXPECT_THAT(refused.error_output, HasSubstr("give a new or an empty folder, nothing was changed"));
+        EXPECT_THAT(refused.error_output, HasSubstr("give a new or an empty folder; nothing was changed"));
     }
     EXPECT_EQ(bench.read("thesis/chapter.tex"), "years of work");
     EXPECT_EQ(bench.dynlab({"manual"}).exit_code, 2);

@@ -131,9 +131,9 @@ TEST(notebook, places_are_told_as_jupyter_counts_them) {
 }
 
 TEST(notebook, other_files_are_refused_with_a_reason) {
-    EXPECT_THAT(refusal("print(1)"), HasSubstr("a.ipynb: this is no Jupyter notebook: it is not JSON"));
-    EXPECT_THAT(refusal("{\"cells\": ["), HasSubstr("cut off"));
-    EXPECT_THAT(refusal("[1, 2]"), HasSubstr("no Jupyter notebook"));
+    EXPECT_THAT(refusal("print(1)"), HasSubstr("a.ipynb: the file is not a Jupyter notebook: it is not JSON"));
+    EXPECT_THAT(refusal("{\"cells\": ["), HasSubstr("is truncated"));
+    EXPECT_THAT(refusal("[1, 2]"), HasSubstr("not a Jupyter notebook"));
     EXPECT_THAT(refusal("{}"), HasSubstr("it has no nbformat"));
     EXPECT_THAT(refusal(R"({"nbformat": 3, "worksheets": []})"),
                 AllOf(HasSubstr("nbformat 3"), HasSubstr("nbconvert")));
@@ -144,17 +144,17 @@ TEST(notebook, other_files_are_refused_with_a_reason) {
                 HasSubstr("cell 2 is neither code nor text"));
     json python = notebook_with({cell("code", "import os")});
     python["metadata"]["language_info"]["name"] = "python";
-    EXPECT_THAT(refusal(python.dump()), HasSubstr("a notebook in python; dynlab runs notebooks in Lua"));
+    EXPECT_THAT(refusal(python.dump()), HasSubstr("the notebook uses python; dynlab runs only Lua"));
     python["metadata"] = {{"kernelspec", {{"name", "ir"}, {"language", "R"}}}};
-    EXPECT_THAT(refusal(python.dump()), HasSubstr("a notebook in R"));
+    EXPECT_THAT(refusal(python.dump()), HasSubstr("the notebook uses R"));
     // Members of other kinds than they should be are no reason to fall over.
     const json odd = json::parse(R"([{"cell_type": "code", "metadata": 3, "source": {"a": 1}},
                                      {"cell_type": "code", "metadata": {"dynlab": [1]}, "source": [1, "x = 1"]}])");
     EXPECT_EQ(script_of_notebook(notebook_with(odd).dump(), "a").source, "-- %%\n\n-- %%\nx = 1\n");
-    EXPECT_THAT(refusal(std::string(1 << 20, '[')), HasSubstr("no Jupyter notebook"));
+    EXPECT_THAT(refusal(std::string(1 << 20, '[')), HasSubstr("not a Jupyter notebook"));
     const json pasted = {{"cell_type", "markdown"}, {"source", "x"}, {"attachments", {{"a.png", json::object()}}}};
     EXPECT_THAT(test::texts_of(script_of_notebook(notebook_with({pasted}).dump(), "a.ipynb").losses),
-                ::testing::ElementsAre(HasSubstr("a.ipynb: cell 1 has a picture that was pasted")));
+                ::testing::ElementsAre(HasSubstr("a.ipynb: cell 1 contains a pasted picture")));
 }
 
 // Field case 17: a line of a string that reads as a marker, and cells that a script does not have.

@@ -249,7 +249,7 @@ TEST_F(preview_editing, a_late_save_writes_nothing) {
         return browser.evaluate("return window.reply");
     };
     EXPECT_THAT(saves("{number: 0, name: 'x', text: 'bad', digest: 'old'}"), HasSubstr("409"));
-    EXPECT_THAT(saves("{number: 7, name: 'x', text: 'bad', digest: ''}"), HasSubstr("no such file"));
+    EXPECT_THAT(saves("{number: 7, name: 'x', text: 'bad', digest: ''}"), HasSubstr("does not have this file"));
     EXPECT_THAT(saves("{number: -1, name: '../../x', text: 'bad', digest: ''}"), HasSubstr("500"));
     EXPECT_THAT(saves("{text: 'bad'}"), HasSubstr("500"));
     EXPECT_EQ(text_of(), kHead + kFirst);
@@ -381,7 +381,7 @@ TEST_F(preview_editing, a_second_preview_leads_to_the_first) {
     };
     EXPECT_EQ(second(), 0);
     const std::string words = read_text(told), address = words.substr(0, words.find('\n'));
-    EXPECT_EQ(words, address + "\n(it is shown there already)\n");
+    EXPECT_EQ(words, address + "\n(the document is already open)\n");
     EXPECT_NE(address, first.address()) << "an address works once";
     EXPECT_EQ(PageClient(address).host(), PageClient(first.address()).host());
 }

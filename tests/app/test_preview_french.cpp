@@ -58,7 +58,7 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
     EXPECT_EQ(browser.evaluate("return document.getElementById('editor').getAttribute('aria-label')"),
               "\"Texte source\"");
     EXPECT_TRUE(browser.comes("document.querySelector('.slider output').innerText.startsWith('2,5')"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.slider button').textContent === 'comme dans le script'"));
+    EXPECT_TRUE(browser.comes("document.querySelector('.slider button').textContent === 'Réinitialiser'"));
     for (const char* part : {"#bar", "#editor-bar", "#conflict", "#draft", "#question", "#hand-in"})
         expect_no_english(all_words(browser, part));
 
@@ -153,8 +153,8 @@ TEST_F(preview_french, findings_and_what_is_handed_in_are_told_in_french) {
     EXPECT_TRUE(says(browser, "show-findings", "1 réponse à donner, \\d règles? enfreintes?.*, 0 sur 3 points", 120))
         << browser.evaluate("return document.getElementById('show-findings').innerText");
     browser.click("#show-findings");
-    for (const char* words : {"Réponses qui ne sont pas encore données", "gain \\(nombre\\)", "À corriger",
-                              "La question 1 est ouverte", "Contrôles de la leçon.: 0 sur 3 points"})
+    for (const char* words : {"Réponses manquantes", "gain \\(nombre\\)", "À corriger", "La question 1 est ouverte",
+                              "Contrôles de la leçon.: 0 sur 3 points"})
         EXPECT_TRUE(says(browser, "findings", words)) << words;
     expect_no_english(all_words(browser, "#findings"));
 

@@ -30,14 +30,14 @@ class preview_refusals : public testing::Test {
 };
 
 TEST_F(preview_refusals, files_and_folders) {
-    EXPECT_EQ(refusal({"nothere.lua"}), "dynlab: there is no file or folder nothere.lua\n");
+    EXPECT_EQ(refusal({"nothere.lua"}), "dynlab: file or folder not found: nothere.lua\n");
     fs::create_directory(bench.path("empty"));
-    EXPECT_EQ(
-        refusal({"empty"}),
-        "dynlab: empty has no analysis.lua; a report needs analysis.lua and report.md (dynlab new LESSON DIR makes "
-        "them)\n");
+    EXPECT_EQ(refusal({"empty"}),
+              "dynlab: empty has no analysis.lua; a report needs analysis.lua and report.md (dynlab new LESSON DIR "
+              "creates them)\n");
     bench.write("big.lua", std::string(5'000'000, 'a'));
-    EXPECT_EQ(refusal({"big.lua"}), "dynlab: big.lua: a script or template has at most 4 MB, this file has 5 MB\n");
+    EXPECT_EQ(refusal({"big.lua"}),
+              "dynlab: big.lua: a script or template may have at most 4 MB, but this file has 5 MB\n");
     fs::create_directory(bench.path("folder.lua"));
     EXPECT_THAT(refusal({"folder.lua"}), testing::HasSubstr("folder.lua has no analysis.lua"));
 }
@@ -54,8 +54,7 @@ TEST_F(preview_refusals, ports) {
     ASSERT_EQ(::getsockname(taken.get(), reinterpret_cast<sockaddr*>(&address), &length), 0);
     const std::string port = std::to_string(ntohs(address.sin_port));
     EXPECT_EQ(refusal({"a.lua", "--port", port}),
-              "dynlab: the port " + port +
-                  " cannot be used: another program has it, or it is not allowed; leave --port out for a free one\n");
+              "dynlab: the port " + port + " is in use or not permitted; omit --port to use a free port\n");
     EXPECT_THAT(refusal({"a.lua", "--port", "99999"}, 2), testing::HasSubstr("99999 not in range 1 to 65535"));
 }
 

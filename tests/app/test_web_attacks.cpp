@@ -119,7 +119,7 @@ TEST_F(web_attacks, bodies_of_refused_requests_are_no_requests) {
     expect_held("another site's origin of ours",
                 with_length("POST /order", "{C}Origin: http://{H}\r\nSec-Fetch-Site: cross-site\r\nX-Dynlab: 1\r\n"));
     expect_held("an unknown path", with_length("POST /nothing", "{P}"));
-    expect_held("the address itself", with_length("POST /", "{P}"));
+    expect_held("the complete address", with_length("POST /", "{P}"));
     expect_held("a token that is wrong", with_length("GET /?token=0", ""));
     expect_held("a body that is too long", request("POST /order", "{P}Content-Length: 2000\r\n", order()));
     for (const char* method : {"PUT", "DELETE", "PATCH", "OPTIONS", "TRACE", "CONNECT", "PROPFIND", "post", "FOO"})

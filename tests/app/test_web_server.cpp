@@ -245,7 +245,7 @@ TEST_F(web_server, a_port_that_is_taken_is_told) {
         const WebServer second({.port = server.port()});
         ADD_FAILURE() << "two servers share a port";
     } catch (const EnvironmentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("the port " + std::to_string(server.port()) + " cannot be used"));
+        EXPECT_THAT(error.what(), HasSubstr("port " + std::to_string(server.port()) + " is in use"));
     }
 }
 

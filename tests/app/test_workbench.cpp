@@ -136,7 +136,7 @@ TEST_F(workbench, what_is_typed_moves_the_controls_and_nonsense_keeps_the_last_v
     browser.evaluate(
         "const m = document.querySelector('.CodeMirror').CodeMirror; m.setValue(m.getValue().replace('G1 = srivc(', "
         "'G1 = srivc(('))");
-    ASSERT_TRUE(browser.comes("document.getElementById('state').textContent === 'stopped at a mistake'"));
+    ASSERT_TRUE(browser.comes("document.getElementById('state').textContent === 'stopped at an error'"));
     EXPECT_TRUE(browser.comes("document.getElementById('trouble').textContent.includes('mine.lua:')"));
     EXPECT_TRUE(browser.comes("document.querySelector('.tile[data-view=record] canvas')"));
     browser.evaluate(
@@ -259,7 +259,7 @@ TEST_F(workbench, a_known_system_is_studied_and_the_cloud_has_all_runs_in_the_en
     Browser browser;
     browser.open(program->address());
     browser.evaluate("document.querySelectorAll('#steps details').forEach((one) => { one.open = true; })");
-    ASSERT_TRUE(press(browser, "Begin a study"));
+    ASSERT_TRUE(press(browser, "Start study"));
     ASSERT_TRUE(view_comes(browser, "study"));
     ASSERT_TRUE(is_ready(browser));
     const std::string truth = "document.querySelector('.tile[data-view=study] td.number')?.textContent === '4'";
@@ -311,19 +311,19 @@ TEST_F(workbench, a_file_from_the_desk_and_a_second_record_for_validation) {
     ASSERT_TRUE(says(browser, "force"));
     EXPECT_TRUE(browser.comes("document.querySelector('.role .chip b').textContent === 'force'"))
         << "it sounds like an input";
-    ASSERT_TRUE(press(browser, "Take this record"));
+    ASSERT_TRUE(press(browser, "Use these data"));
     EXPECT_TRUE(says(browser, "sampling time")) << "the file states none, which is told";
     browser.evaluate(
         "const box = document.querySelector('#steps input[type=number]'); box.value = '0.1'; box.dispatchEvent(new "
         "Event('input'))");
-    ASSERT_TRUE(press(browser, "Take this record"));
+    ASSERT_TRUE(press(browser, "Use these data"));
     ASSERT_TRUE(view_comes(browser, "record"));
     drop("second.csv");
     ASSERT_TRUE(says(browser, "second.csv"));
     browser.evaluate(
         "const box = document.querySelector('#steps input[type=number]'); box.value = '0.1'; box.dispatchEvent(new "
         "Event('input'))");
-    ASSERT_TRUE(press(browser, "Use it for validation only"));
+    ASSERT_TRUE(press(browser, "Use for validation only"));
     EXPECT_TRUE(script_has(browser, "validation = second1"));
     ASSERT_TRUE(is_ready(browser));
     EXPECT_THAT(text_of("session.lua"), HasSubstr("load(\"second.csv\")"));
@@ -333,8 +333,8 @@ TEST_F(workbench, files_that_are_no_records_are_told_and_the_page_stays) {
     struct Bad {
         const char *name, *text, *says;
     };
-    const Bad all[] = {{"words.csv", "a,b\nx,y\nz,w\n", "no two signals"},
-                       {"one.csv", "y\n1\n2\n3\n4\n", "no two signals"},
+    const Bad all[] = {{"words.csv", "a,b\nx,y\nz,w\n", "not contain two signals"},
+                       {"one.csv", "y\n1\n2\n3\n4\n", "not contain two signals"},
                        {"back.csv", "t,u,y\n0,1,2\n1,1,3\n0.5,0,4\n2,0,5\n", "must increase"},
                        {"flat.csv", "# Ts: 0.1\nu,y\n1,2\n1,2\n1,2\n1,2\n", "constant"},
                        {"two.csv", "# Ts: 0.1\nu,y\n1,2\n0,3\n", "says (2)"}};

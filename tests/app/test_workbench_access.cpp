@@ -48,8 +48,8 @@ TEST_F(workbench_access, keys_alone_lead_from_a_file_to_a_model_and_its_figure_i
     ASSERT_TRUE(browser.comes("document.querySelectorAll('#steps select option').length > 1"));
     ASSERT_TRUE(tab_to(browser, "course data and files here"));
     key(browser, "z");  // the only name that begins so
-    ASSERT_TRUE(says(browser, "Take this record"));
-    ASSERT_TRUE(tab_to(browser, "Take this record"));
+    ASSERT_TRUE(says(browser, "Use these data"));
+    ASSERT_TRUE(tab_to(browser, "Use these data"));
     key(browser, kEnter);
     ASSERT_TRUE(view_comes(browser, "record"));
     wait(browser);
@@ -148,8 +148,9 @@ TEST_F(workbench_access, a_name_that_cannot_be_is_refused_in_words) {
             name + "'; box.form.requestSubmit()");
     };
     const std::string before = script();
-    for (const auto& [name, words] : {std::pair("best model", "letters, digits"), std::pair("end", "no word of Lua"),
-                                      std::pair("G1", "stands in the script"), std::pair("bode", "a function")}) {
+    for (const auto& [name, words] :
+         {std::pair("best model", "letters, digits"), std::pair("end", "not a keyword of Lua"),
+          std::pair("G1", "is already used in the script"), std::pair("bode", "a function")}) {
         rename(name);
         EXPECT_TRUE(
             browser.comes("document.getElementById('name-trouble').textContent.includes('" + std::string(words) + "')"))
@@ -246,7 +247,7 @@ TEST_F(workbench_access, more_models_than_a_picture_takes_are_told) {
     const auto program = app("many.lua", {"--run"});
     Browser browser;
     browser.open(program->address());
-    EXPECT_TRUE(says(browser, "the last 8 of 10 ticked models"));
+    EXPECT_TRUE(says(browser, "the last 8 of 10 selected models"));
     ASSERT_TRUE(is_ready(browser));
     browser.evaluate(
         "for (let k = 0; k < 2; ++k) document.querySelectorAll('.models input[type=checkbox]')[k].click()");
@@ -265,7 +266,7 @@ TEST_F(workbench_access, a_record_that_begins_in_a_movement_is_answered_by_an_op
     const auto program = app("moving.csv");
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(says(browser, "in the middle of a movement"));
+    ASSERT_TRUE(says(browser, "during a movement"));
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(press(browser, "G1: InitialState = \"estimate\""));
     EXPECT_TRUE(script_has(browser, "G1 = tfsrivc(estimation, 2, 0, {InitialState = \"estimate\"})"));
@@ -282,10 +283,10 @@ TEST_F(workbench_access, a_file_without_a_sampling_time_is_answered_for_who_asks
     const auto program = app("plain.csv");
     Browser browser;
     browser.open(program->address());
-    EXPECT_TRUE(says(browser, "type the sampling time below"));
+    EXPECT_TRUE(says(browser, "enter the sampling time below"));
     EXPECT_FALSE(browser.comes("document.body.innerText.includes('--Ts')", 0.1));
-    ASSERT_TRUE(press(browser, "Take this record"));
-    EXPECT_TRUE(says(browser, "type the sampling time below"));
+    ASSERT_TRUE(press(browser, "Use these data"));
+    EXPECT_TRUE(says(browser, "enter the sampling time below"));
     const Workbench shell;
     shell.write("plain.csv", text);
     const ChildResult told = shell.dynlab({"identify", "plain.csv", "--input", "u", "--output", "y", "--poles", "2"});

@@ -174,7 +174,7 @@ TEST_F(workbench_attacks, processes_that_are_killed_are_replaced_or_told) {
     EXPECT_TRUE(page.prints("c", "2\n"));
     ::kill(all[1], SIGKILL);
     page.write(script + "print(3)\n");
-    EXPECT_TRUE(page.tells("start dynlab again"));
+    EXPECT_TRUE(page.tells("restart dynlab"));
     EXPECT_THAT(text_of("s.lua"), HasSubstr("print(3)"));
 }
 
@@ -222,8 +222,8 @@ TEST_F(workbench_attacks, what_is_refused_is_told_in_the_script_s_language) {
         expect(409, stops);
     };
     write("english.lua", mistake);
-    refuses("english.lua", "This script has not been allowed to run.", "no function or variable",
-            "There is no report of a script with a mistake: ");
+    refuses("english.lua", "This script is not allowed to run yet.", "unknown function or variable",
+            "A report cannot be made from a script with an error: ");
     write("french.lua", "-- ---\n-- language: fr\n-- ---\n\n" + mistake);
     refuses("french.lua", "Ce script n'a pas encore le droit d'être exécuté.", "ni fonction ni variable",
             "Il n'y a pas de rapport d'un script qui contient une erreur");

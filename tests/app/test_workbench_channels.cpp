@@ -73,10 +73,10 @@ TEST_F(workbench_channels, the_crane_with_both_outputs_is_reported_with_validati
     ASSERT_TRUE(view_comes(browser, "record"));
     ASSERT_TRUE(rests(browser));
     EXPECT_TRUE(says(browser, "u → theta, x"));
-    ASSERT_TRUE(unfold(browser, "Open a record"));
+    ASSERT_TRUE(unfold(browser, "Open data"));
     ASSERT_TRUE(choose(browser, "course data", "crane"));
     ASSERT_TRUE(choose(browser, "Experiment", "validation"));
-    ASSERT_TRUE(press(browser, "Use it for validation only"));
+    ASSERT_TRUE(press(browser, "Use for validation only"));
     ASSERT_TRUE(script_has(browser, "validation = second1"));
     ASSERT_TRUE(rests(browser));
     ASSERT_TRUE(press(browser, "New model"));

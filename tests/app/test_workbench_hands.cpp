@@ -81,7 +81,7 @@ TEST_F(workbench_hands, a_click_that_never_gets_through_is_told) {
     evaluate(
         "window.fetch = async (path, how) => (path === 'script' ? new Response('', { status: 409 }) : plain(path, "
         "how)); named('New model').click();");
-    EXPECT_TRUE(says(browser, "Not done: the script is being changed elsewhere"));
+    EXPECT_TRUE(says(browser, "Not applied: another program keeps changing the script"));
 }
 
 TEST_F(workbench_hands, a_drag_is_one_step_of_the_history_even_where_its_first_move_is_overtaken) {
@@ -182,7 +182,7 @@ TEST_F(workbench_hands, lines_that_others_change_while_they_are_typed_are_told_a
         "const { session } = await import('./bench_session.js'); mirror.replaceRange('-- mine\\n', {line: 0, ch: 0}, "
         "{line: 1, ch: 0}); "
         "await order(session.revision, 1, 1, '-- theirs');");
-    EXPECT_TRUE(says(browser, "changed elsewhere meanwhile: yours stand"));
+    EXPECT_TRUE(says(browser, "edited: your lines"));
     EXPECT_THAT(script(), AllOf(HasSubstr("-- mine\n"), Not(HasSubstr("-- theirs"))));
     undo();
     EXPECT_THAT(script(), AllOf(HasSubstr("-- theirs\n"), Not(HasSubstr("-- mine"))));
@@ -263,7 +263,7 @@ TEST_F(workbench_hands, a_step_over_two_lines_that_is_switched_off_is_one_remark
 
 TEST_F(workbench_hands, a_study_comes_to_all_its_runs_however_often_it_is_altered_or_to_those_that_are_said) {
     evaluate("document.querySelectorAll('#steps details').forEach((one) => { one.open = true; });");
-    ASSERT_TRUE(press(browser, "Begin a study"));
+    ASSERT_TRUE(press(browser, "Start study"));
     const std::string field =
         "const field = (name) => [...document.querySelectorAll('#steps label')].find((one) => "
         "one.textContent.startsWith(name))"

@@ -112,7 +112,7 @@ TEST_F(workbench_lessons, the_known_system_of_lesson_4) {
     browser.open(program->address());
     ASSERT_TRUE(is_ready(browser));
     open_as_told(browser, text, "Known system");
-    press_as_told(browser, text, "Begin a study");
+    press_as_told(browser, text, "Start study");
     ASSERT_TRUE(view_comes(browser, "study"));
     for (const char* words : {"noise", "estimators"}) EXPECT_THAT(text, HasSubstr("**" + std::string(words) + "**"));
     EXPECT_THAT(text, HasSubstr("`lssvf = {{2, 1, 0}, 3}`"));

@@ -27,7 +27,7 @@ class workbench_page_parts : public workbench_page {
             "`, `" + after + "`))");
     }
     static bool stops(Browser& browser) {
-        return browser.comes("document.getElementById('state').textContent === 'stopped at a mistake'");
+        return browser.comes("document.getElementById('state').textContent === 'stopped at an error'");
     }
     std::string script() const { return text_of("plant_session.lua"); }
 };
@@ -95,7 +95,7 @@ TEST_F(workbench_page_parts, buttons_of_views_show_what_is_shown_and_bring_it_in
     EXPECT_EQ(browser.evaluate("return " + state), "\"false\"");
     ASSERT_TRUE(press(browser, "Impulse response"));
     EXPECT_EQ(browser.evaluate("return " + state), "\"true\"");
-    EXPECT_TRUE(says(browser, "There is no model yet")) << "an empty picture says why";
+    EXPECT_TRUE(says(browser, "No model yet")) << "an empty picture says why";
     press_all(browser, {"New model", "Nyquist"});
     EXPECT_TRUE(
         browser.comes("(() => { const box = document.querySelector('.tile[data-view=nyquist]')"
@@ -159,17 +159,17 @@ TEST_F(workbench_page_parts, a_bracket_that_is_open_is_marked_where_it_was_opene
     EXPECT_TRUE(browser.comes("document.querySelectorAll('.chosen input[type=number]').length >= 2"))
         << "the controls of what it was";
     ASSERT_TRUE(press(browser, "Report (PDF)"));
-    EXPECT_TRUE(says(browser, "There is no report of a script with a mistake"));
+    EXPECT_TRUE(says(browser, "A report cannot be made from a script with an error"));
 }
 
 TEST_F(workbench_page_parts, a_field_with_an_open_bracket_stays_and_writes_nothing) {
     const auto program = app("");
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(says(browser, "Open a record at the left")) << "an empty session says what to do";
+    ASSERT_TRUE(says(browser, "Open data on the left")) << "an empty session says what to do";
     EXPECT_EQ(browser.evaluate("return document.getElementById('make-pdf').disabled"), "true");
     browser.evaluate("document.querySelectorAll('#steps details').forEach((one) => { one.open = true; })");
-    ASSERT_TRUE(press(browser, "Begin a study"));
+    ASSERT_TRUE(press(browser, "Start study"));
     ASSERT_TRUE(view_comes(browser, "study"));
     ASSERT_TRUE(is_ready(browser));
     const std::string before = text_of("session.lua"),
@@ -270,7 +270,7 @@ TEST_F(workbench_page_parts, a_second_record_is_prepared_alike_and_shown) {
     browser.evaluate(
         "const list = document.querySelector('#steps select'); list.value = 'second.csv'; "
         "list.dispatchEvent(new Event('change'))");
-    ASSERT_TRUE(press(browser, "Use it for validation only"));
+    ASSERT_TRUE(press(browser, "Use for validation only"));
     ASSERT_TRUE(script_has(browser, "validation = second1\nvalidation = detrend(validation, \"mean\")\n"));
     EXPECT_TRUE(view_comes(browser, "second"));
     ASSERT_TRUE(is_ready(browser));

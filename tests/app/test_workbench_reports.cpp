@@ -51,13 +51,13 @@ TEST_F(workbench_reports, the_crane_is_identified_by_clicks_with_both_outputs_an
         "for (const [name, unit] of [['theta', 'rad'], ['x', 'm']]) { const field = document.querySelector(`#steps "
         "input.unit[aria-label$='estimation.${name}']`); field.value = unit; field.dispatchEvent(new Event('input')); "
         "}");
-    ASSERT_TRUE(press(browser, "Take this record"));
+    ASSERT_TRUE(press(browser, "Use these data"));
     ASSERT_TRUE(script_has(browser, "OutputName = {\"theta\", \"x\"}, OutputUnit = {\"rad\", \"m\"}"));
     ASSERT_TRUE(is_ready(browser));
     open_crane(browser);
     choose(browser, ": estimation.x", "output");
     choose(browser, "Experiment", "validation");
-    ASSERT_TRUE(press(browser, "Use it for validation only"));
+    ASSERT_TRUE(press(browser, "Use for validation only"));
     ASSERT_TRUE(script_has(browser, "validation = second1"));
     ASSERT_TRUE(is_ready(browser));
     ASSERT_TRUE(press(browser, "New model"));
@@ -104,7 +104,7 @@ TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_
     EXPECT_THAT(
         text_of("plant_session.lua"),
         AllOf(HasSubstr("-- title: Identification à partir de plant.csv\n"),
-              HasSubstr("-- La @fig:compare montre ce qui a été mesuré et ce que simulent les modèles.\n"),
+              HasSubstr("-- La @fig:compare montre les sorties mesurées et simulées.\n"),
               HasSubstr("\"Réponse indicielle, avec sa bande de confiance là où elle est connue\")\n"),
               HasSubstr("-- ![Réponse indicielle, avec sa bande de confiance là où elle est connue](figure:step)"),
               HasSubstr("-- @fig:step shows how it settles.\n"), Not(HasSubstr("Measured output"))));
@@ -192,7 +192,7 @@ TEST_F(workbench_reports, traps_are_shown_and_not_forbidden) {
     Browser browser;
     browser.open(program->address());
     ASSERT_TRUE(view_comes(browser, "compare"));
-    EXPECT_TRUE(says(browser, "prediction one step ahead small"));
+    EXPECT_TRUE(says(browser, "prediction error"));
     EXPECT_FALSE(browser.comes("document.body.innerText.includes('the sum of both')", 0.1));
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(script_has(browser, "G2 = tfsrivc("));

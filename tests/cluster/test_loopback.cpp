@@ -115,7 +115,7 @@ TEST_F(loopback, slurm_gives_what_one_process_gives_and_grades_nothing_twice) {
     EXPECT_THAT(submitted.output, AllOf(HasSubstr("squeue --jobs="), HasSubstr("scancel ")));
     const ChildResult again = grade("shared", "--on slurm:tasks=3", slurm.environment());
     EXPECT_EQ(again.exit_code, 1);
-    EXPECT_THAT(again.error_output, HasSubstr("are still at work"));
+    EXPECT_THAT(again.error_output, HasSubstr("are still running"));
     wait_for_slurm(slurm);
     expect_equal_results(work(), "alone", "shared");
     EXPECT_EQ(graded_by_parts(), kClass);
@@ -158,7 +158,7 @@ TEST_F(loopback, slurm_that_is_down_and_partitions_unknown_are_named) {
     if (!slurm.reason_to_skip().empty()) GTEST_SKIP() << slurm.reason_to_skip();
     hand_in_class(bench_, 1, 100, {});
     EXPECT_THAT(grade("o1", "--on slurm:partition=none", slurm.environment()).error_output,
-                HasSubstr("the partitions here are short"));
+                HasSubstr("the partitions of this cluster are short"));
     slurm.end_controller();
     EXPECT_THAT(grade("o2", "--on slurm:tasks=1", slurm.environment()).error_output,
                 HasSubstr("slurmctld is not running or cannot be reached"));

@@ -146,7 +146,7 @@ TEST(allocation, says_what_cannot_be_had) {
     EXPECT_EQ(all.pairs.size(), 6u);
     EXPECT_EQ(all.swapped, 3);
     ASSERT_FALSE(all.remarks.empty());
-    EXPECT_NE(message_text(all.remarks.back()).find("3 couples of groups review each other"), std::string::npos);
+    EXPECT_NE(message_text(all.remarks.back()).find("3 pairs of groups review each other"), std::string::npos);
     problem = {4, 1, std::vector<bool>(4, true), {{0, 1}, {0, 2}, {0, 3}}, {}, {}};
     const Allocation lonely = allocate_reviews(problem, fixed_draw(1));
     EXPECT_EQ(lonely.open_reviews, 1);

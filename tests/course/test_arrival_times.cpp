@@ -72,9 +72,8 @@ TEST_F(arrival_times, times_in_zips_are_in_the_course_s_zone) {
 
 TEST_F(arrival_times, a_class_that_is_late_as_a_whole_is_asked_about) {
     const std::vector<std::int64_t> half_an_hour(27, 1800);
-    EXPECT_THAT(
-        message_text(doubt_about_zone(half_an_hour, 27)),
-        HasSubstr("27 of 27 files are late, half of them by 30 min or less: is the time zone Europe/Paris right?"));
+    EXPECT_THAT(message_text(doubt_about_zone(half_an_hour, 27)),
+                HasSubstr("27 of 27 files are late, half of them by 30 min or less: check the time zone Europe/Paris"));
     EXPECT_TRUE(doubt_about_zone({1800, 1800, 1800}, 27).empty());
     EXPECT_TRUE(doubt_about_zone({1800}, 1).empty());
     EXPECT_TRUE(doubt_about_zone({1800, 1800, 200 * 3600}, 3).empty()) << "no zone explains eight days";

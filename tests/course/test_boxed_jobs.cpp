@@ -59,12 +59,12 @@ TEST(boxed_jobs, come_back) {
     expect_to_come_back(RunJob{"/box/submission/analysis.lua", 7, {{"gain", "number"}}, 60000, 1ull << 30});
     expect_to_come_back(UnpackJob{"/box/archive", "/box/to", 200ull << 20, 2000, true});
     expect_to_come_back(
-        Unpacked{{Message("\"{}\" leads outside of the archive", "../x")}, Message("the archive is damaged")});
+        Unpacked{{Message("\"{}\" points outside the archive", "../x")}, Message("the archive is damaged")});
     expect_to_come_back(VersionJob{"/box/submission", "/box/made", true});
     const CheckDescription check{"a", "about", "hint", 2, "seed", true, true, "rubric", false};
     const TriedCheck tried{check, 0.5, Message("no"), Message("why")};
     expect_to_come_back(CheckResults{{tried},
-                                     {{{tried}, {}, 0.5}, {{}, Message("it crashed (signal {})", 11), 60}},
+                                     {{{tried}, {}, 0.5}, {{}, Message("the run crashed (signal {})", 11), 60}},
                                      {"rc"},
                                      {{{"u", {1, 2}}}},
                                      Message("error")});
@@ -83,9 +83,8 @@ TEST(boxed_jobs, come_back) {
 
 // oracle: written by hand
 TEST(boxed_jobs, message_from_a_box_names_files_of_the_work_and_keeps_its_id) {
-    const Message said("{}: there is no file {}", "/box/submission/analysis.lua:3", "/box/submission/data/x.csv");
-    EXPECT_EQ(told_outside(said, "/box/submission"),
-              Message("{}: there is no file {}", "analysis.lua:3", "data/x.csv"));
+    const Message said("{}: file not found: {}", "/box/submission/analysis.lua:3", "/box/submission/data/x.csv");
+    EXPECT_EQ(told_outside(said, "/box/submission"), Message("{}: file not found: {}", "analysis.lua:3", "data/x.csv"));
     EXPECT_EQ(shortened_trouble(said), said);
     const auto as_capitals = [](const std::string& text) { return text == "b" ? "B" : replaced(text, "a b", "A B"); };
     EXPECT_EQ(with_changed_text(Message("a {}", "b"), as_capitals), Message::verbatim("A B"))

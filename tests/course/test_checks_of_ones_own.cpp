@@ -38,8 +38,8 @@ TEST(checks_of_ones_own, an_answer_that_cannot_be_taken_costs_no_other) {
     }
     EXPECT_EQ(said(bench.result("kind"), 0), "The answer \"x\" must be of the kind number, but a table was given.");
     EXPECT_EQ(said(bench.result("twice"), 0),
-              "The answer \"x\" was given already, with another value; give each answer once.");
-    EXPECT_EQ(said(bench.result("name"), 0), "The answer \"x\" was not handed in.");
+              "The answer \"x\" was given before with another value; give each answer once.");
+    EXPECT_EQ(said(bench.result("name"), 0), "The answer \"x\" was not submitted.");
     // Outside of grading the script's writer is told at once.
     bench.bench().write("own.lua", GradingBench::header(kAnswers) + "answer('x', {42})\n");
     EXPECT_EQ(bench.bench().dynlab({"run", "own.lua"}).exit_code, 1);
@@ -67,11 +67,11 @@ TEST(checks_of_ones_own, marked_by_hand_wait_for_their_points) {
         "own/text.lua",
         "check{id = 'text', points = 4, about = 'Question 3', by_hand = true, rubric = 'two reasons'}\n");
     const ChildResult open = bench.grade({"--checks", "own"});
-    EXPECT_THAT(open.error_output, Not(HasSubstr("worked solution")));
+    EXPECT_THAT(open.error_output, Not(HasSubstr("reference solution")));
     EXPECT_EQ(bench.bench().read("out/marks.csv"),
               "who,check,points,reason,of,about,rubric\r\na,text,,,4,Question 3,two reasons\r\n");
     EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr(",a,partly ungraded,,5,"));
-    EXPECT_THAT(bench.bench().read("out/summary.md"), HasSubstr("marks by hand are missing in marks.csv"));
+    EXPECT_THAT(bench.bench().read("out/summary.md"), HasSubstr("manual marks are missing in marks.csv"));
     bench.bench().write("out/marks.csv",
                         "submission;check;points;comment;of\na;text;2,5;one reason of two;4\na;x;;not looked at;2\n");
     const ChildResult marked = bench.grade({"--checks", "own"});
@@ -96,7 +96,7 @@ TEST(checks_of_ones_own, change_and_drop_those_of_the_lesson) {
     bench.bench().write("own/weights.lua", "drop_check('y')\n");
     const ChildResult unknown = bench.grade({"--checks", "own"});
     EXPECT_EQ(unknown.exit_code, 1);
-    EXPECT_THAT(unknown.error_output, AllOf(HasSubstr("weights.lua:1"), HasSubstr("there is no check \"y\"")));
+    EXPECT_THAT(unknown.error_output, AllOf(HasSubstr("weights.lua:1"), HasSubstr("unknown check \"y\"")));
 }
 
 // oracle: what a reader of the scripts sees
@@ -241,13 +241,13 @@ TEST(checks_of_ones_own, mistakes_in_them_are_told_with_file_and_line) {
     EXPECT_THAT(complaint("\n\ncheck{id = 'y', test = function(a)\n  return nothing.at.all end}\n"),
                 HasSubstr("mine.lua:4"));
     EXPECT_THAT(complaint("check{id = 'y', test = function(a) return 5 end}\n"),
-                HasSubstr("a test returned 5; a share is from 0 to 1"));
+                HasSubstr("a test returned 5; expected a share from 0 to 1"));
     EXPECT_THAT(complaint("check{id = 'y', document = true, test = function(a) return no_finding() end}\n"),
-                HasSubstr("lesson 99_small ends with none"));
+                HasSubstr("lesson 99_small has none"));
     EXPECT_THAT(complaint("check{id = 'y', by_hand = true, test = function() end}\n"), HasSubstr("is marked by hand"));
     EXPECT_THAT(complaint("check{id = 'y', rubric = 'x', test = function() end}\n"), HasSubstr("by_hand = true"));
     std::filesystem::remove(bench.bench().path("own/mine.lua"));
-    EXPECT_THAT(bench.grade({"--checks", "own", "--again"}).error_output, HasSubstr("there is no file *.lua in it"));
+    EXPECT_THAT(bench.grade({"--checks", "own", "--again"}).error_output, HasSubstr("it has no file *.lua"));
 }
 
 // oracle: the checks' definition: 'x' bears no change of x, 'always' none at all, 'loose' every one
@@ -263,15 +263,15 @@ TEST(checks_of_ones_own, are_tried_on_what_is_known_to_be_right_or_wrong) {
     const ChildResult tried = work.dynlab({"checks", "try", "own", "--lesson", "99"});
     EXPECT_EQ(tried.exit_code, 0) << tried.error_output;
     for (const char* line :
-         {"worked solution: 6 of 6 points\n", "starter: 1 of 6 points\n", "wrong_sign.lua: 4 of 6 points\n    x ",
+         {"reference solution: 6 of 6 points\n", "starter: 1 of 6 points\n", "wrong_sign.lua: 4 of 6 points\n    x ",
           "half_right.lua: 3 of 6 points\n    v ", "6 changes of one answer",
-          "v left out                                   v\n", "x of the other sign                          x\n",
-          "\nloose: nothing that was tried fails it\n", "\nessay: marked by hand\n"})
+          "v left out                                   v\n", "x with the opposite sign                     x\n",
+          "\nloose: no script fails it\n", "\nessay: marked by hand\n"})
         EXPECT_THAT(tried.output, HasSubstr(line));
     work.write("own/mine.lua", "check{id = 'always', test = function(a) return near(a.x, 43, {rel = 0.01}) end}\n");
     const ChildResult broken = work.dynlab({"checks", "try", "own", "--lesson", "99"});
     EXPECT_EQ(broken.exit_code, 1);
-    EXPECT_THAT(broken.output, HasSubstr("always: the worked solution fails it"));
+    EXPECT_THAT(broken.output, HasSubstr("always: the reference solution fails it"));
     EXPECT_THAT(work.files(), Not(::testing::Contains("out")));
 }
 

@@ -55,7 +55,7 @@ TEST_F(corrections, a_time_of_receipt_is_corrected_by_a_further_receipt) {
     EXPECT_THAT(status(), HasSubstr("v1 late 7 h"));
     const std::string before = signed_rows();
     EXPECT_THAT(course({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", ""}).error_output,
-                HasSubstr("say why"));
+                HasSubstr("give the reason"));
     EXPECT_EQ(course({"set-received", "crane", "group-02", "2026-03-01 11:30", "--reason", "x"}).exit_code, 1);
     done({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's log"});
     EXPECT_THAT(status(), Not(HasSubstr("late")));
@@ -64,12 +64,12 @@ TEST_F(corrections, a_time_of_receipt_is_corrected_by_a_further_receipt) {
     EXPECT_THAT(corrected, AllOf(HasSubstr("correction: 1\n"), HasSubstr("received: 2026-03-01T11:30:00Z\n"),
                                  HasSubstr("late: no\n")));
     EXPECT_THAT(shell("$DYNLAB verify $(ls k/receipts/crane/*-corrected-1.txt) group-01.pdf --key k/course.pub"),
-                HasSubstr("genuine, for this very file, signed by the course \"k\""));
+                HasSubstr("genuine, for exactly this file, signed by the course \"k\""));
     done({"set-received", "crane", "group-01", "2026-03-01 13:00", "--reason", "no, an hour after"});
     EXPECT_THAT(status(), HasSubstr("v1 late 1 h"));
     EXPECT_THAT(shell("ls k/receipts/crane | wc -l"), HasSubstr("3"));
     EXPECT_THAT(done({"history"}), AllOf(HasSubstr("reason: the platform's log"), HasSubstr("no, an hour after")));
-    EXPECT_THAT(done({"verify"}), HasSubstr("all there and unaltered"));
+    EXPECT_THAT(done({"verify"}), HasSubstr("complete and unaltered"));
 }
 
 // Oracle: the whole store. Who repeats a command after it was killed does not know whether it was done.
@@ -103,7 +103,7 @@ TEST_F(corrections, times_come_from_the_platform_s_worksheet) {
                       ContainsRegex("group-03 .* late by 7 h")));
     course_.bench().write("bad.csv", "Identifier,Grade\nParticipant 1,3\n");
     EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output,
-                HasSubstr("bad.csv: wanted are a column"));
+                HasSubstr("bad.csv: required are a column"));
     course_.bench().write("bad.csv", "group,time\ngroup-01,tomorrow\n");
     EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output, HasSubstr("bad.csv, line 2: the time"));
 }
@@ -134,7 +134,7 @@ TEST_F(corrections, lateness_follows_deadlines_and_extensions) {
     EXPECT_THAT(done({"history"}),
                 HasSubstr("first 2026-03-01 09:00:00 UTC instead of 2026-03-01 14:00:00 UTC; reason: typed too late"));
     EXPECT_THAT(course({"assignment", "crane", "--first", "2026-03-09 09:00", "--reason", "x"}).error_output,
-                HasSubstr("must come after"));
+                HasSubstr("must be after"));
     EXPECT_EQ(course({"extend", "crane", "group-01", "--reason", "x"}).exit_code, 1);
 }
 
@@ -146,10 +146,10 @@ TEST_F(corrections, a_version_with_the_content_of_an_earlier_one_is_as_late_as_t
     hand_in("one", "2026-03-01 10:00");
     EXPECT_THAT(hand_in("two", "2026-03-01 20:00"), HasSubstr("late by 8 h"));
     EXPECT_THAT(hand_in("one", "2026-03-02 06:00"),
-                AllOf(HasSubstr("1 file taken, 0 late"), ContainsRegex("v3 +in time +the same file as v1 of ")));
+                AllOf(HasSubstr("1 file accepted, 0 late"), ContainsRegex("v3 +in time +the same file as v1 of ")));
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3  "));
     EXPECT_THAT(shell("cat k/receipts/crane/00003-*"), HasSubstr("late: 18 h\n"));  // when this version came
-    EXPECT_THAT(course({"verify"}).output, HasSubstr("all there and unaltered"));
+    EXPECT_THAT(course({"verify"}).output, HasSubstr("complete and unaltered"));
     done({"withdraw", "crane", "group-01", "--version", "1", "--reason", "the group's wish"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3 late 18 h  "));  // no other of its content stands
     done({"restore", "crane", "group-01", "--version", "1", "--reason", "no"});
@@ -165,7 +165,7 @@ TEST_F(corrections, a_version_is_withdrawn_and_stands_again) {
     done({"withdraw", "crane", "group-01", "--reason", "somebody else's file"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v1  "));
     EXPECT_THAT(course_.hand_in("group-01.pdf", small_pdf("two"), "2026-03-01 15:00", {"--no-checks"}).output,
-                HasSubstr("known and withdrawn; dynlab course restore"));
+                HasSubstr("already received and withdrawn; dynlab course restore"));
     done({"withdraw", "crane", "group-01", "--reason", "this one too"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +-  "));
     EXPECT_EQ(course({"withdraw", "crane", "group-01", "--reason", "x"}).exit_code, 1);
@@ -183,7 +183,7 @@ TEST_F(corrections, an_override_is_taken_back) {
     done({"withdraw", "crane", "group-01", "--mark", "work", "--reason", "found"});
     EXPECT_THAT(done({"marks", "crane"}), Not(HasSubstr("yours")));
     EXPECT_THAT(course({"withdraw", "crane", "group-01", "--mark", "work", "--reason", "x"}).error_output,
-                HasSubstr("group-01 has no mark of yours for"));
+                HasSubstr("group-01 has no manual mark for"));
     done({"mark", "crane", "group-01", "work", "105", "--force", "--reason", "more than was asked"});
     EXPECT_THAT(done({"marks", "crane"}), HasSubstr("105.0 (yours)"));
 }
@@ -196,7 +196,7 @@ TEST_F(corrections, an_assignment_is_removed_while_nothing_hangs_on_it) {
     EXPECT_THAT(done({"history"}), HasSubstr("assignment talk removed"));
     course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
     EXPECT_THAT(course({"assignment", "--remove", "crane", "--reason", "x"}).error_output,
-                HasSubstr("something hangs on it (its versions)"));
+                HasSubstr("other data depend on it (its versions)"));
 }
 
 // oracle: the settings before and after, in the history
@@ -210,11 +210,11 @@ TEST_F(corrections, changes_of_an_assignment_are_recorded_or_refused) {
                 AllOf(HasSubstr("reviews 1 instead of 3"), HasSubstr("criteria form:10,method:20 instead of data:5,"),
                       HasSubstr("; reason: few came")));
     EXPECT_THAT(course({"assignment", "crane", "--kind", "talk", "--reason", "x"}).error_output,
-                HasSubstr("work was submitted for crane already: its kind stays report"));
+                HasSubstr("files were submitted for crane already: its kind stays report"));
     course_.bench().write("s.csv", "reviewer,report,form\ninstructor,group-01,8\n");
     done({"scores", "crane", "s.csv"});
     EXPECT_THAT(course({"assignment", "crane", "--criteria", "form:20", "--reason", "x"}).error_output,
-                HasSubstr("scores were given for crane already: its criteria stay form:10,method:20"));
+                HasSubstr("scores were entered for crane already: its criteria stay form:10,method:20"));
     EXPECT_THAT(done({"marks", "crane"}), HasSubstr("80.0"));
 }
 
@@ -233,7 +233,7 @@ TEST_F(corrections, a_penalty_of_half_the_points_waits_for_the_instructor) {
     EXPECT_EQ(confirmed.exit_code, 0) << confirmed.error_output;
     EXPECT_THAT(confirmed.output, HasSubstr("-corrected-1.txt"));
     EXPECT_THAT(marks(), AllOf(HasSubstr("40.0"), Not(HasSubstr("wait"))));
-    EXPECT_THAT(done({"verify"}), HasSubstr("all there and unaltered"));
+    EXPECT_THAT(done({"verify"}), HasSubstr("complete and unaltered"));
 }
 
 TEST_F(corrections_of_reviews, a_newer_version_goes_out_again_or_is_held_back) {
@@ -242,10 +242,10 @@ TEST_F(corrections_of_reviews, a_newer_version_goes_out_again_or_is_held_back) {
     EXPECT_THAT(status(), AllOf(HasSubstr("a newer version than was sent: review send"),
                                 HasSubstr("Next: dynlab course review send crane")));
     done({"withhold", "crane", "group-01", "--reason", "to be read first"});
-    EXPECT_THAT(status(), AllOf(HasSubstr("its report is held back"), Not(HasSubstr("a newer version than was sent"))));
+    EXPECT_THAT(status(), AllOf(HasSubstr("its report is withheld"), Not(HasSubstr("a newer version than was sent"))));
     const std::string held = done({"review", "send", "--at", "2026-03-02 13:00"});
-    EXPECT_THAT(held, AllOf(HasSubstr("0 sent now"), HasSubstr("6 before"), HasSubstr("2 held back"),
-                            HasSubstr("Taken out of the folder: group-0")));
+    EXPECT_THAT(held, AllOf(HasSubstr("0 sent now"), HasSubstr("6 before"), HasSubstr("2 withheld"),
+                            HasSubstr("Removed from the folder: group-0")));
     EXPECT_THAT(shell("ls k/outbox/crane/to-review/*/*.pdf | wc -l"), HasSubstr("6"));
     done({"withhold", "crane", "group-01", "--end", "--reason", "read"});
     EXPECT_THAT(done({"review", "send", "--at", "2026-03-02 14:00"}),
@@ -254,7 +254,7 @@ TEST_F(corrections_of_reviews, a_newer_version_goes_out_again_or_is_held_back) {
     EXPECT_NE(shell("cat k/outbox/crane/to-review/*/*.pdf | sha256sum"), sent);
     EXPECT_THAT(status(), Not(HasSubstr("newer version")));
     EXPECT_THAT(course({"withhold", "crane", "group-01", "--end", "--reason", "x"}).error_output,
-                HasSubstr("not held back"));
+                HasSubstr("not withheld"));
 }
 
 TEST_F(corrections_of_reviews, a_newer_review_goes_out_again_and_a_withdrawn_one_leaves_the_outbox) {
@@ -275,7 +275,7 @@ TEST_F(corrections_of_reviews, a_newer_review_goes_out_again_and_a_withdrawn_one
     done({"withdraw", "crane", "group-01", "--stage", "review", "--of", report, "--reason", "wrong form"});
     done({"withdraw", "crane", "group-01", "--stage", "review", "--of", report, "--reason", "this too"});
     EXPECT_THAT(done({"review", "release", "--at", "2026-03-09 13:00"}),
-                AllOf(HasSubstr("0 sent now"), HasSubstr("Taken out of the folder: group-0")));
+                AllOf(HasSubstr("0 sent now"), HasSubstr("Removed from the folder: group-0")));
     EXPECT_THAT(shell("ls k/outbox/crane/reviews/*/*.pdf | wc -l"), HasSubstr("0"));
 }
 
@@ -302,9 +302,9 @@ TEST_F(corrections_of_reviews, who_joins_the_authors_reviews_them_no_more) {
         shell("$DYNLAB course --course k review pairs crane | awk '$1 == \"group-01\" {print $3; exit}'").substr(0, 8);
     course_.bench().write("roster.csv", "id,name,group\ns" + author.substr(7) + ",Student,group-01\n");
     done({"import", "roster.csv"});
-    EXPECT_THAT(done({"review", "assign", "--at", "2026-03-02 12:00"}), Not(HasSubstr("0 taken back")));
+    EXPECT_THAT(done({"review", "assign", "--at", "2026-03-02 12:00"}), Not(HasSubstr("0 withdrawn")));
     EXPECT_THAT(shell("sqlite3 k/course.db \"SELECT ended_reason FROM pairs WHERE ended_at IS NOT NULL\""),
-                HasSubstr("they share a member"));
+                HasSubstr("the groups share a member"));
 }
 
 TEST_F(corrections, the_same_bytes_of_two_groups_are_told_and_a_team_s_copies_are_one) {
@@ -318,7 +318,7 @@ TEST_F(corrections, the_same_bytes_of_two_groups_are_told_and_a_team_s_copies_ar
     done({"import", "roster.csv"});
     for (const char* name : {"Student 3_900003", "Student 4_900004"})
         course_.bench().write("team/" + std::string(name) + "_assignsubmission_file_/report.pdf", small_pdf("three"));
-    EXPECT_THAT(done({"submit", "team", "--at", "2026-03-01 10:00", "--no-checks"}), HasSubstr("1 file taken"));
+    EXPECT_THAT(done({"submit", "team", "--at", "2026-03-01 10:00", "--no-checks"}), HasSubstr("1 file accepted"));
 }
 
 }  // namespace test_corrections

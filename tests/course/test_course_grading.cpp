@@ -91,7 +91,7 @@ TEST_F(course_grading, marks_above_the_maximum_are_refused_and_marks_are_taken_b
     grade();
     const ChildResult refused = course({"mark", "lab4", "221", "q", "5", "--reason", "slip"});
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.error_output, HasSubstr("5 is more than the 4 of \"q\""));
+    EXPECT_THAT(refused.error_output, HasSubstr("5 exceeds the 4 points of \"q\""));
     EXPECT_THAT(course({"mark", "lab4", "221", "nosuch", "1", "--reason", "slip"}).error_output,
                 HasSubstr("has no check \"nosuch\""));
     done({"mark", "lab4", "221", "5", "--reason", "shown at the desk"});
@@ -100,7 +100,7 @@ TEST_F(course_grading, marks_above_the_maximum_are_refused_and_marks_are_taken_b
     done({"withdraw", "lab4", "group-01", "--mark", "*", "--reason", "a mistake"});
     grade();
     EXPECT_THAT(book(), AllOf(HasSubstr("221,Kim Min-jun,group-01,partly ungraded,,"), Not(HasSubstr("graded,5"))));
-    EXPECT_THAT(course({"grade", "nosuch"}).error_output, HasSubstr("there is no assignment \"nosuch\""));
+    EXPECT_THAT(course({"grade", "nosuch"}).error_output, HasSubstr("unknown assignment \"nosuch\""));
 }
 
 // oracle: the marks that the instructor typed, in the order of typing; a command counts where the file did not change
@@ -175,7 +175,7 @@ TEST_F(course_grading, a_mark_by_a_student_s_name_goes_to_the_work_that_the_stud
     grade();
     std::string rows = work().read("k/marks/lab4/marks.csv");
     work().write("k/marks/lab4/marks.csv", rows + ",q,2,for whom\r\n");
-    EXPECT_THAT(grade().error_output, HasSubstr("the row has points and names nobody"));
+    EXPECT_THAT(grade().error_output, HasSubstr("the row has points but no name"));
     EXPECT_THAT(done({"history"}), Not(HasSubstr("for whom")));
 }
 

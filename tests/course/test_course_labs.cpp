@@ -205,7 +205,7 @@ TEST(course_labs, table_of_deadlines_becomes_extensions_and_times_of_receipt) {
     EXPECT_EQ(done.extended, 1);
     EXPECT_EQ(done.corrected, 1);
     ASSERT_EQ(done.complaints.size(), 1u);
-    EXPECT_THAT(message_text(done.complaints.front()), HasSubstr("the row of \"group-9\": there is no group"));
+    EXPECT_THAT(message_text(done.complaints.front()), HasSubstr("the row of \"group-9\": unknown group"));
     EXPECT_EQ(course.lab().costs.late_day, 20);
     EXPECT_EQ(course.earned(1), 6);  // two days begun
     EXPECT_EQ(course.earned(2), 10);
@@ -372,7 +372,7 @@ TEST(course_labs, pdf_of_a_lab_is_no_report) {
         withdraw(course.course(), course.lab(), wanted, true, "wrong file", course.at("2026-02-28 13:00"));
         FAIL() << "a lab has no report";
     } catch (const InvalidArgument& error) {
-        EXPECT_EQ(message_text(error.message()), "lab4 has no report: its parts are script, pack");
+        EXPECT_EQ(message_text(error.message()), "lab4 has no part report: its parts are script, pack");
     }
 }
 

@@ -113,7 +113,7 @@ TEST_F(document_findings, pages_beyond_the_limit_count_and_an_appendix_has_its_o
 TEST_F(document_findings, a_figure_that_is_never_mentioned_is_found_in_every_caption_style) {
     add_figure("raw", "A step", DocumentFormat::kPdf);
     const Finding finding = only(check_report(english_report(kFigure)), "figure-not-mentioned");
-    EXPECT_EQ(message_text(finding.what), "Figure 1 is never mentioned in the text.");
+    EXPECT_EQ(message_text(finding.what), "The text does not mention figure 1.");
     const std::vector<std::string> pages = inspect_pdf(file("report.pdf")).pages;
     EXPECT_THAT(pages.at(static_cast<std::size_t>(finding.page) - 1), HasSubstr("Figure"));
 
@@ -126,7 +126,7 @@ TEST_F(document_findings, a_figure_that_is_never_mentioned_is_found_in_every_cap
             captions += "\\begin{center}\\rule{3cm}{1cm}\n\n " + std::string(name) + " " + number + sign +
                         " The response to a step\\end{center}\n\n";
             mentions += "As Fig.~" + number + " shows, it is slow. ";
-            every_figure.push_back("Figure " + number + " is never mentioned in the text.");
+            every_figure.push_back("The text does not mention figure " + number + ".");
         }
     std::vector<std::string> unmentioned;
     for (const Finding& one : check_latex("", kProse + captions + kProse).findings) {

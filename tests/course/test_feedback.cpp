@@ -119,8 +119,10 @@ TEST(feedback, of_a_hand_in_that_does_not_count_says_so) {
         return work.read("out/results/" + name + "_assignsubmission_file_/feedback.md");
     };
     bench.grade({"--roster", "roster.csv"});
-    EXPECT_THAT(feedback("Zoé Lefèvre_900001"), HasSubstr("**This hand-in does not count.** Of several from you the "
-                                                          "better one counts: Ida Rhodes (900003)."));
+    EXPECT_THAT(
+        feedback("Zoé Lefèvre_900001"),
+        HasSubstr(
+            "**This submission does not count.** Of your submissions, the better one counts: Ida Rhodes (900003)."));
     EXPECT_THAT(feedback("Ida Rhodes_900003"), Not(HasSubstr("ne compte pas")));
     // A mark by hand turns it round.
     work.write("out/marks.csv",
@@ -150,7 +152,7 @@ TEST(feedback, in_french_tells_what_stopped_a_script_in_french) {
         work.read("out/results/a/feedback.md"),
         AllOf(
             HasSubstr("`analysis.lua:8`: il n'y a ni fonction ni variable «\u00A0maen\u00A0»\u202F; vouliez-vous dire"),
-            Not(HasSubstr("there is no function"))));
+            Not(HasSubstr("unknown function"))));
     EXPECT_THAT(work.shell("pdftotext out/results/a/feedback.pdf - | tr '\\n' ' '").output,
                 AllOf(HasSubstr("analysis.lua:8"), HasSubstr("damp(G, \"all\")")));
 }

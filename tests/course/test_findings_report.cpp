@@ -32,7 +32,7 @@ CheckResult some_result() {
 TEST(findings_report, rules_come_before_hints_with_place_and_remedy) {
     EXPECT_EQ(findings_in_words(some_result(), false),
               "report.pdf: checked as lab_report: 7 pages of at most 6, unfilled slots\n"
-              "\nRules broken (3)\n"
+              "\nRules violated (3)\n"
               "\n  answer-open\n    analysis.lua:12: " +
                   std::string(30, 'x') + "\n    " + std::string(80, 'y') +
                   ".\n    page 9: Another.\n    -> Write.\n"
@@ -47,27 +47,27 @@ TEST(findings_report, answers_and_checks_of_the_lesson_are_counted_by_themselves
     result.findings.push_back({"answer-missing", Severity::kRule, 0, "", Message("Missing."), Message("Give it.")});
     result.findings.push_back({"check-failed", Severity::kHint, 0, "", Message("Lost."), Message("Look.")});
     const std::string words = findings_in_words(result, false);
-    for (const char* const title : {"Answers open (1)", "Rules broken (3)", "Hints (1)", "Checks of the lesson (1)"})
+    for (const char* const title : {"Answers open (1)", "Rules violated (3)", "Hints (1)", "Checks of the lesson (1)"})
         EXPECT_THAT(words, HasSubstr(std::string("\n") + title + "\n"));
 }
 
 TEST(findings_report, hints_alone_say_that_no_rule_is_broken) {
     CheckResult result = some_result();
     result.findings.erase(result.findings.begin(), result.findings.begin() + 3);
-    EXPECT_THAT(findings_in_words(result, false), HasSubstr("\nNo rule is broken.\n"));
-    EXPECT_THAT(findings_in_words(result, false), Not(HasSubstr("Rules broken")));
+    EXPECT_THAT(findings_in_words(result, false), HasSubstr("\nNo rule is violated.\n"));
+    EXPECT_THAT(findings_in_words(result, false), Not(HasSubstr("Rules violated")));
 }
 
 TEST(findings_report, a_pass_is_one_line_that_says_what_was_checked) {
     CheckResult result = some_result();
     result.findings.clear();
     EXPECT_EQ(findings_in_words(result, false),
-              "report.pdf: nothing to mend; checked as lab_report: 7 pages of at most 6, unfilled slots.\n");
+              "report.pdf: nothing to fix; checked as lab_report: 7 pages of at most 6, unfilled slots.\n");
 }
 
 TEST(findings_report, colour_only_when_asked_for) {
     EXPECT_THAT(findings_in_words(some_result(), false), Not(HasSubstr("\033")));
-    EXPECT_THAT(findings_in_words(some_result(), true), HasSubstr("\033[31mRules broken (3)\033[0m"));
+    EXPECT_THAT(findings_in_words(some_result(), true), HasSubstr("\033[31mRules violated (3)\033[0m"));
 }
 
 TEST(findings_report, json_holds_everything_and_null_where_nothing_is_known) {

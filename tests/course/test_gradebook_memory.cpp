@@ -65,9 +65,8 @@ TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
     // A penalty of all points waits until it is accepted, and stays so.
     const ChildResult waiting = bench.grade(again);
     EXPECT_EQ(waiting.exit_code, 1);
-    EXPECT_THAT(waiting.output,
-                AllOf(HasSubstr("2 late:\n  \"a\": late by "), HasSubstr("2 notes need attention:"),
-                      HasSubstr("a penalty of 100 % is not applied yet: accept it with --accept-late")));
+    EXPECT_THAT(waiting.output, AllOf(HasSubstr("2 late:\n  \"a\": late by "), HasSubstr("2 notes need attention:"),
+                                      HasSubstr("a penalty of 100 % is not applied yet; apply it with --accept-late")));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",a,graded,5,5,0,"));
     std::vector<std::string> accepted = all;
     accepted.push_back("--accept-late");
@@ -126,9 +125,9 @@ TEST(gradebook_memory, the_terminal_lists_what_the_summary_lists) {
                "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n3,Ben Lee,group-3\n4,Uma Kepler,group-4\n");
     work.write("deadlines.csv", "submission,deadline,received\n*,2096-03-01 18:00,\ngroup-2,,2096-03-02 17:00\n");
     const ChildResult graded = bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv"});
-    for (const char* sentence : {"the script of \"group-1\" did not run to its end: ", "\"group-3\" cannot be read: ",
-                                 "\"group-2\" was late, which costs 0.2 points: ",
-                                 "group-2 has several submissions, of which the better one counts"})
+    for (const char* sentence :
+         {"the script of \"group-1\" stopped: ", "\"group-3\" cannot be read: ",
+          "\"group-2\" was late and loses 0.2 points: ", "group-2 has several submissions; the better one counts"})
         EXPECT_THAT(graded.output, HasSubstr(sentence));
     const std::string listed = work.shell("sed -n '/needs attention/,/^# /p' out/summary.md | grep -c '^- '").output;
     EXPECT_THAT(graded.output, HasSubstr(listed.substr(0, listed.find('\n')) + " notes need attention"));
@@ -145,7 +144,7 @@ TEST(gradebook_memory, other_checks_need_no_other_run) {
     work.write("own/more.lua", "check{id = 'own', points = 5, test = function(a) return a.x == 42 end}\n");
     bench.grade({"--timeout", "2", "--checks", "own", "--again"});
     EXPECT_THAT(work.read("out/logs/loop/log.txt"),
-                AllOf(HasSubstr("the runs are those of before"), Not(HasSubstr("run main"))));
+                AllOf(HasSubstr("the earlier runs were used"), Not(HasSubstr("run main"))));
     EXPECT_EQ(GradingBench::score(bench.result("loop")), 7);
     bench.grade({"--timeout", "2", "--checks", "own", "--regrade"});
     EXPECT_THAT(work.read("out/logs/loop/log.txt"), HasSubstr("run main"));
@@ -167,7 +166,7 @@ TEST(gradebook_memory, the_worked_solution_is_run_again_when_it_has_changed) {
         EXPECT_EQ(work.shell("LC_ALL=C grep -c '\"value\":42' " + memory).output, "1\n");
         work.shell("LC_ALL=C sed -i 's/\"value\":42/\"value\":13/' " + memory);
     };
-    const std::string broken = "the worked solution does not pass the check \"x\"";
+    const std::string broken = "the reference solution does not pass the check \"x\"";
     spoil();
     EXPECT_THAT(bench.grade().error_output, HasSubstr(broken));
     work.write("home/lessons/99_small/lesson.lua", GradingBench::header(kAnswers) + "answer('x', 6*7)\n");
@@ -215,7 +214,7 @@ TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
     EXPECT_THAT(one.output, HasSubstr("1 graded now, 0 unchanged"));
     EXPECT_THAT(one.error_output, HasSubstr("the marks of \"group-2\" are from before"));
     EXPECT_THAT(bench.grade({"--roster", "roster.csv", "--only", "group-4"}).error_output,
-                HasSubstr("there is no submission \"group-4\""));
+                HasSubstr("no submission, group or student is named \"group-4\""));
 }
 
 // oracle: the roster, and who handed in what
@@ -230,9 +229,9 @@ TEST(gradebook_memory, nobodys_work_is_told_and_a_list_gives_it_to_somebody) {
                "a;1;j@x;group-1\nZo\xEB;Ade;2;;group-2\nBen;Lee;3;;group-3\n");
     const ChildResult graded = bench.grade({"--roster", "roster.csv"});
     EXPECT_EQ(graded.exit_code, 1);
-    EXPECT_THAT(graded.error_output, HasSubstr("roster.csv is not UTF-8; it was read as Latin-1"));
-    EXPECT_THAT(graded.output, AllOf(HasSubstr("\"my work\" belongs to nobody in the roster: it fits no group"),
-                                     HasSubstr("\"Ben Lee\" and \"group-2\" are the same, byte for byte")));
+    EXPECT_THAT(graded.error_output, HasSubstr("roster.csv is not UTF-8; dynlab read it as Latin-1"));
+    EXPECT_THAT(graded.output, AllOf(HasSubstr("\"my work\" matches no student in the roster: it fits no group"),
+                                     HasSubstr("\"Ben Lee\" and \"group-2\" are identical byte for byte")));
     EXPECT_THAT(work.read("out/gradebook.csv"),
                 AllOf(HasSubstr("1,José García,,nothing submitted"), HasSubstr("2,Zoë Ade,group-2,graded,0,")));
     work.write("roster.csv", "id,name,group\n1,José García,group-1\n2,Zoë Ade,group-2\n3,Ben Lee,group-3\n");
@@ -263,14 +262,14 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     const std::string book = work.read("out/gradebook.csv");
     const std::string reason =
-        "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; 10 % of the points are "
-        "taken off for each day or part of a day";
+        "received 2026-03-01 18:20 CET, 20 min after the deadline of 2026-03-01 18:00 CET; the penalty is 10 % of the "
+        "points for each day or part of a day";
     EXPECT_THAT(book, HasSubstr("1,Anna Müller,group-1,graded,1.8,2,0.2,0.33,2,\"" + reason + "\"\r\n"));
     EXPECT_THAT(book, HasSubstr("2,Zoë Ade,group-2,graded,2,2,0,0,2,\r\n"));
     EXPECT_THAT(book, HasSubstr("3,Ben Lee,Ben Lee,graded,2,2,0,0,2,\r\n"));
     EXPECT_THAT(book, HasSubstr("4,Uma Kepler,Uma Kepler,graded,1.8,2,0.2,0.26,2,"));
     EXPECT_THAT(work.read("out/results/group-1/feedback.md"),
-                HasSubstr("which costs 0.2 points: received 2026-03-01 18:20 CET, 20 min after"));
+                HasSubstr("and loses 0.2 points: received 2026-03-01 18:20 CET, 20 min after"));
     EXPECT_THAT(bench.result("group-1").at("output").get<std::string>(), HasSubstr("costs 0.20 points: " + reason));
     EXPECT_THAT(bench.grade({"--timezone", "Nowhere/Land", "--again"}).error_output, HasSubstr("Nowhere/Land"));
 }
@@ -294,7 +293,7 @@ TEST(gradebook_memory, deadlines_that_are_no_time_are_refused_with_their_line) {
     EXPECT_THAT(refusal("submission,deadline,extra\ngroup-1,,2 d\n"), HasSubstr("line 2: deadline must be a time"));
     for (const std::string wrong : {"2026-02-30 18:00", "2026-03-29 02:30"})
         EXPECT_THAT(refusal("submission,deadline\n*," + wrong + "\n"),
-                    HasSubstr("line 2: deadline must be a time that there is, but \"" + wrong + "\" was given"));
+                    HasSubstr("line 2: deadline must be an existing time, but \"" + wrong + "\" was given"));
     ::tzset();
 }
 
@@ -349,7 +348,7 @@ TEST(gradebook_memory, one_run_at_a_time_and_results_are_no_submissions) {
     {
         const FileLock lock(work.path("out/.lock"));
         ASSERT_TRUE(lock.held());
-        EXPECT_THAT(bench.grade().error_output, HasSubstr("another dynlab grade is at work in out"));
+        EXPECT_THAT(bench.grade().error_output, HasSubstr("another dynlab grade is running in out"));
     }
     const auto inside = [&](const char* out) {
         return work.dynlab(
@@ -359,7 +358,7 @@ TEST(gradebook_memory, one_run_at_a_time_and_results_are_no_submissions) {
     EXPECT_THAT(inside("in/marks").output, HasSubstr("1 submission: 0 graded now, 1 unchanged"));
     const ChildResult second = inside("in/marks2");
     EXPECT_THAT(second.output, HasSubstr("1 submission: 1 graded now"));
-    EXPECT_THAT(second.error_output, HasSubstr("\"marks\" holds the results of dynlab grade; it is left out"));
+    EXPECT_THAT(second.error_output, HasSubstr("\"marks\" contains the results of dynlab grade; it was left out"));
 }
 
 // oracle: what a killed run had made until then, in a folder that was moved since
@@ -378,7 +377,7 @@ TEST(gradebook_memory, results_of_a_killed_run_are_no_submissions) {
     for (const Submission& submission : submissions_in(folder.path(), left_out)) names.push_back(submission.name);
     EXPECT_THAT(names, ElementsAre("group-1", "work"));
     ASSERT_EQ(left_out.size(), 2u);
-    EXPECT_THAT(message_text(left_out[0]), HasSubstr("\"begun\" holds the results of dynlab grade"));
+    EXPECT_THAT(message_text(left_out[0]), HasSubstr("\"begun\" contains the results of dynlab grade"));
 }
 
 }  // namespace test_gradebook_memory

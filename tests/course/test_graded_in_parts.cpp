@@ -84,7 +84,7 @@ TEST_F(graded_in_parts, options_that_do_not_fit_together_are_refused) {
     EXPECT_EQ(grade("o", "--part 3/2").exit_code, 2);
     EXPECT_EQ(grade("o", "--part 1/2 --join").exit_code, 2);
     EXPECT_EQ(grade("o", "--part 1/2 --regrade").exit_code, 2);
-    EXPECT_THAT(grade("o", "--on cloud:9").error_output, HasSubstr("is none of slurm"));
+    EXPECT_THAT(grade("o", "--on cloud:9").error_output, HasSubstr("must be slurm"));
 }
 
 }  // namespace test_graded_in_parts

@@ -205,13 +205,13 @@ TEST(hand_in_names, one_meaning_is_taken_and_two_are_told) {
     EXPECT_EQ(group("José García"), "group-2");  // an accent tells them apart where it is written
     EXPECT_EQ(group("Jose Garcia"), "group-3");
     const auto trouble = [&](const std::string& name) { return message_text(owners.find(called(name)).trouble); };
-    EXPECT_EQ(trouble("jose GARCIA"), "it fits several: group-2, group-3");
-    EXPECT_EQ(trouble("group-1-Zoë Ade_8_assignsubmission_file_"), "it fits several: group-1, group-12");
+    EXPECT_EQ(trouble("jose GARCIA"), "it matches several: group-2, group-3");
+    EXPECT_EQ(trouble("group-1-Zoë Ade_8_assignsubmission_file_"), "it matches several: group-1, group-12");
     EXPECT_EQ(trouble("Ben Lee_900003_assignsubmission_file_"),
-              "its number 900003 is that of group-12, its name fits group-1");
-    EXPECT_EQ(trouble("group-7"), "it fits no group and no student");
-    EXPECT_EQ(trouble("SYS26 group export"), "it fits no group and no student");
-    EXPECT_EQ(trouble("Anna"), "it fits no group and no student");
+              "its number 900003 belongs to group-12, but its name matches group-1");
+    EXPECT_EQ(trouble("group-7"), "it matches no group and no student");
+    EXPECT_EQ(trouble("SYS26 group export"), "it matches no group and no student");
+    EXPECT_EQ(trouble("Anna"), "it matches no group and no student");
 }
 
 // oracle: the platform's own part of the name, which stands first, and the list that the instructor wrote
@@ -242,7 +242,7 @@ with zipfile.ZipFile('all.zip', 'w') as z:
         bench.bench().dynlab({"grade", "all.zip", "--lesson", "99", "--out", "out", "--isolation", bench.level(),
                               "--no-pdf", "--roster", "roster.csv"});
     EXPECT_EQ(graded.exit_code, 1);  // of one nobody knows whose it is
-    EXPECT_THAT(graded.error_output + graded.output, HasSubstr("belongs to nobody in the roster"));
+    EXPECT_THAT(graded.error_output + graded.output, HasSubstr("matches no student in the roster"));
     std::string told;
     for (int student = 1; student <= 7; ++student)
         told += bench.bench().shell(fmt::format("grep '^{},' out/gradebook.csv | cut -d, -f4,5", student)).output;
@@ -262,8 +262,8 @@ TEST(hand_in_names, the_instructors_list_goes_before_names) {
                 ElementsAre("gone"));
     for (const auto& [table, told] :
          {std::pair("name,group\n", "the columns submission and group"),
-          std::pair("submission,group\nx,group-77\n", "line 2: there is no group \"group-77\""),
-          std::pair("submission,id\nx,9\n", "line 2: there is no student with the id \"9\""),
+          std::pair("submission,group\nx,group-77\n", "line 2: unknown group \"group-77\""),
+          std::pair("submission,id\nx,9\n", "line 2: no student has the id \"9\""),
           std::pair("submission,id\nx,1001\nx.zip,1002\n", "line 3: \"x\" has an owner already")}) {
         bench.write("bad.csv", table);
         try {
@@ -289,11 +289,12 @@ TEST(hand_in_names, a_course_takes_files_by_the_same_names) {
     work.write("in/group-78/analysis_out/01-times.pdf", small_pdf("another figure"));
     const ChildResult taken =
         bench.course({"submit", "in", "--at", "2026-03-01 10:00", "--isolation", CourseBench::level()});
-    EXPECT_THAT(taken.output, HasSubstr("4 files taken, 0 late"));
+    EXPECT_THAT(taken.output, HasSubstr("4 files accepted, 0 late"));
     for (int i = 1; i <= 4; ++i) EXPECT_THAT(taken.output, HasSubstr(CourseBench::group(i)));
-    EXPECT_THAT(taken.error_output, HasSubstr("no group and no student of the course is called \"group-77\""));
-    EXPECT_THAT(bench.course({"status", "crane"}).output, HasSubstr("Not taken: report.pdf, Sun 2026-03-01 10:00: "));
-    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("all there and unaltered"));
+    EXPECT_THAT(taken.error_output, HasSubstr("no group or student of the course is named \"group-77\""));
+    EXPECT_THAT(bench.course({"status", "crane"}).output,
+                HasSubstr("Not accepted: report.pdf, Sun 2026-03-01 10:00: "));
+    EXPECT_THAT(bench.course({"verify"}).output, HasSubstr("complete and unaltered"));
     EXPECT_THAT(taken.output + taken.error_output, Not(HasSubstr("01-times")));
 }
 
@@ -306,7 +307,7 @@ TEST(hand_in_names, a_worksheet_says_whose_a_participant_s_number_is) {
                        "3,,10,\"Sunday, 1 March 2026, 9:00 AM\"\nParticipant 9001,Student 1,,10,-\n");
     const ChildResult blind = work.course({"submit", "all", "--at", "2026-03-01 10:00", "--no-checks"});
     EXPECT_EQ(blind.exit_code, 1);
-    EXPECT_THAT(blind.error_output, HasSubstr("say whose it is"));
+    EXPECT_THAT(blind.error_output, HasSubstr("give the owner with"));
     const ChildResult told =
         work.course({"submit", "all", "--at", "2026-03-01 10:00", "--no-checks", "--times", "sheet.csv"});
     EXPECT_EQ(told.exit_code, 0) << told.error_output;
@@ -324,7 +325,7 @@ TEST(hand_in_names, a_final_version_is_of_the_group_of_the_first_one) {
     const ChildResult final =
         bench.course({"submit", "final", "--stage", "final", "--at", "2026-03-14 12:00", "--no-checks"});
     EXPECT_EQ(final.exit_code, 0) << final.error_output;
-    EXPECT_THAT(final.output, AllOf(HasSubstr("2 files taken"), HasSubstr("group-01"), HasSubstr("group-02")));
+    EXPECT_THAT(final.output, AllOf(HasSubstr("2 files accepted"), HasSubstr("group-01"), HasSubstr("group-02")));
 }
 
 }  // namespace test_hand_in_names

@@ -61,8 +61,8 @@ class lesson_reader : public testing::Test {
 
 TEST_F(lesson_reader, knows_what_authors_wrote_and_what_the_program_says) {
     add_lesson("91_first", "msgid \"quuxes abound here\"\nmsgstr \"c'est deux\"\n");
-    const Message message =
-        Message("From a clean copy of the folder no report comes out: {}", Message::verbatim("quuxes abound here"));
+    const Message message = Message("The report cannot be built from a clean copy of the folder: {}",
+                                    Message::verbatim("quuxes abound here"));
     EXPECT_EQ(LessonReader("fr", "91_first").text(message),
               "Une copie propre du dossier ne donne aucun rapport\u202F: c'est deux");
     EXPECT_EQ(LessonReader("fr").text(message),
@@ -175,8 +175,8 @@ TEST(feedback_in_french, has_the_authors_sentences_of_the_lesson) {
     Grade grade;
     grade.lesson = "03_crane";
     grade.language = "fr";
-    const Message far = Message("It is {} away from what was expected; at most {} was wanted.", significant(3.25, 3),
-                                significant(0.1, 3));
+    const Message far =
+        Message("The error is {}; the largest allowed error is {}.", significant(3.25, 3), significant(0.1, 3));
     CheckGrade check;
     check.id = "free_swing";
     check.about = Message::verbatim("The frequency of the load while the motor rests");

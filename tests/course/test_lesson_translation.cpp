@@ -51,7 +51,7 @@ TEST_F(lesson_translation, tasks_without_their_language_are_reported) {
     EXPECT_THAT(faults(), testing::Not(HasSubstr("tasks.fr.lua")));
     tasks.erase(tasks.find("-- language: fr\n"), 16);
     bench_.write("80_gain/tasks.fr.lua", tasks);
-    EXPECT_THAT(faults(), HasSubstr("tasks.fr.lua: the header says \"language: en\""));
+    EXPECT_THAT(faults(), HasSubstr("tasks.fr.lua: the header has \"language: en\""));
 }
 
 TEST_F(lesson_translation, sentences_that_are_not_translated_are_counted) {
@@ -91,7 +91,7 @@ TEST_F(lesson_translation, checks_that_give_the_answer_away_are_warned_of) {
             text += message_text(one.what) + "\n";
         return text;
     };
-    EXPECT_THAT(warnings(), HasSubstr("the check \"K\" is passed by typing in K = 8.5"));
+    EXPECT_THAT(warnings(), HasSubstr("can pass the check \"K\" by entering K = 8.5"));
     bench_.write("80_gain/checks.lua",
                  "local y, u = 17, 2\ncheck{id = 'K', test = function(a) return near(a.K, y/u) end}\n");
     EXPECT_EQ(warnings(), "");

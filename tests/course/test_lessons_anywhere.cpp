@@ -83,7 +83,7 @@ TEST_F(lessons_anywhere, are_listed_in_folders_that_a_variable_names) {
     EXPECT_EQ(bench_.shell(own + "$DYNLAB new 08 work && $DYNLAB checks try --lesson 08").exit_code, 0);
     const ChildResult missing = bench_.shell("DYNLAB_LESSONS=nowhere $DYNLAB lessons");
     EXPECT_EQ(missing.exit_code, 1);
-    EXPECT_THAT(missing.error_output, HasSubstr("DYNLAB_LESSONS: there is no folder 'nowhere'"));
+    EXPECT_THAT(missing.error_output, HasSubstr("DYNLAB_LESSONS: folder not found: 'nowhere'"));
 }
 
 // oracle: the points that grade gives where the lesson is known

@@ -92,9 +92,9 @@ TEST(manual_marks, of_doubtful_rows_are_complained_of_with_their_line) {
     const MarkedClass marked;
     marked.write("group-02,x,2,\nWei Li,x,3,\ngroup-7,x,1,\n221,z,1,\ngroup-01,y,7,\n");
     EXPECT_THAT(marked.complaints(),
-                AllOf(HasSubstr("marks.csv, line 3: \"Wei Li\" could mean several"),
-                      HasSubstr("marks.csv, line 4: there is no submission \"group-7\""),
-                      HasSubstr("marks.csv, line 5: there is no check \"z\" (for \"221\")"),
+                AllOf(HasSubstr("marks.csv, line 3: \"Wei Li\" is ambiguous"),
+                      HasSubstr("marks.csv, line 4: no submission, group or student is named \"group-7\""),
+                      HasSubstr("marks.csv, line 5: unknown check \"z\" (for \"221\")"),
                       HasSubstr("line 6: \"group-01\" gets 7 points for the check \"y\", which has 6")));
     EXPECT_EQ(marked.points("02-final"), 3);
     EXPECT_EQ(marked.points("weili-224"), 2);

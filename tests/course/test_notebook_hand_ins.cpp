@@ -50,9 +50,9 @@ TEST(notebook_hand_ins, are_graded_compared_and_told_of_by_cells) {
     EXPECT_EQ(GradingBench::score(bench.result("newer")), 2);
     EXPECT_THAT(bench.result("stopped").dump(),
                 AllOf(HasSubstr("analysis.ipynb, cell 2, line 2: "), Not(HasSubstr(".lua:"))));
-    EXPECT_THAT(GradingBench::trouble(bench.result("both")), HasSubstr("which is newer cannot be told"));
+    EXPECT_THAT(GradingBench::trouble(bench.result("both")), HasSubstr("it is unknown which one is newer"));
     EXPECT_THAT(GradingBench::trouble(bench.result("broken")),
-                HasSubstr("analysis.ipynb cannot be read: this is no Jupyter"));
+                HasSubstr("analysis.ipynb cannot be read: the file is not a Jupyter"));
     EXPECT_THAT(GradingBench::trouble(bench.result("named")), HasSubstr("under the name analysis.ipynb"));
     EXPECT_EQ(bench.bench().shell(std::string("grep -rl '") + kName + "' out").output, "");
     const ChildResult similar = bench.bench().dynlab({"similar", "in", "--lesson", "99", "--out", "alike"});
@@ -83,7 +83,7 @@ TEST(notebook_hand_ins, are_packed_and_checked_as_scripts_without_names) {
     EXPECT_THAT(bench.dynlab({"check", "w"}).output, HasSubstr("cannot be read: this is JSON, but no Jupyter"));
     const ChildResult pack = bench.dynlab({"pack", "w"});
     EXPECT_EQ(pack.exit_code, 1);
-    EXPECT_THAT(pack.error_output, HasSubstr("no Jupyter notebook"));
+    EXPECT_THAT(pack.error_output, HasSubstr("not a Jupyter notebook"));
 }
 
 }  // namespace test_notebook_hand_ins

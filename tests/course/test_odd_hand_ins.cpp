@@ -27,7 +27,7 @@ TEST(odd_hand_ins, what_a_word_processor_wrote_is_kept_and_flagged) {
     const std::string text = "PK\x03\x04 what Word writes";
     EXPECT_THAT(told(bench.hand_in("group-01.docx", text, kInTime, {"--no-checks"})),
                 AllOf(ContainsRegex("group-01 +report +v1 +in time +not-pdf: ask for a readable file"),
-                      HasSubstr("1 file taken")));
+                      HasSubstr("1 file accepted")));
     EXPECT_THAT(told(bench.course({"status", "crane", "--at", "2026-03-01 11:00"})),
                 ContainsRegex("group-01 .*ask for a readable .*\\(not-pdf\\)"));
     EXPECT_EQ(shell(bench, "cat k/files/*/* k/files/* 2>/dev/null | grep -ac 'what Word writes'"), "1\n");
@@ -37,7 +37,7 @@ TEST(odd_hand_ins, what_a_word_processor_wrote_is_kept_and_flagged) {
     bench.bench().write("in/Student 3_900003_assignsubmission_file_/mine.doc", "text");
     bench.bench().write("in/Student 3_900003_assignsubmission_file_/mine.pdf", small_pdf("three"));
     EXPECT_THAT(told(bench.course({"submit", "in", "--at", kInTime, "--isolation", bench.level()})),
-                AllOf(HasSubstr("2 files taken"), Not(HasSubstr("not-pdf"))));
+                AllOf(HasSubstr("2 files accepted"), Not(HasSubstr("not-pdf"))));
     // The same for reviews, whichever report they are of.
     told(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     bench.bench().write("review.docx", "text");
@@ -68,7 +68,7 @@ TEST(odd_hand_ins, several_reviews_are_told_in_one_call) {
                     "JOIN pairs p ON p.id = v.pair JOIN pseudonyms n ON n.group_id = p.author AND n.role = 'author' "
                     "WHERE v.stage = 'review' ORDER BY 1\""),
               "a.pdf " + second + "\nb.pdf " + first + "\n");
-    EXPECT_THAT(told(receive({first, second, first}), 1), HasSubstr("2 files and 3 times --of"));
+    EXPECT_THAT(told(receive({first, second, first}), 1), HasSubstr("2 files and 3 values of --of"));
 }
 
 TEST(odd_hand_ins, a_version_that_was_there_before_and_a_review_as_a_report_are_told) {
@@ -100,11 +100,12 @@ TEST(odd_hand_ins, another_time_of_a_known_file_is_told) {
     };
     EXPECT_THAT(receive({}), ContainsRegex("group-01 +report +v1 +late by 7 h"));
     EXPECT_THAT(receive({"--times", "times.csv"}),
-                AllOf(ContainsRegex("group-01 .*known already; by --times it came Sun 2026-03-01 11:30: dynlab course "
-                                    "set-received corrects that"),
-                      ContainsRegex("group-02 .*known already, nothing changed")));
+                AllOf(ContainsRegex("group-01 .*already received; according to --times it arrived Sun 2026-03-01 "
+                                    "11:30: correct the time with dynlab course set-received"),
+                      ContainsRegex("group-02 .*already received; nothing changed")));
     told(bench.course({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's list"}));
-    EXPECT_THAT(receive({"--times", "times.csv"}), ContainsRegex("group-01 .*in time +known already, nothing changed"));
+    EXPECT_THAT(receive({"--times", "times.csv"}),
+                ContainsRegex("group-01 .*in time +already received; nothing changed"));
 }
 
 TEST(odd_hand_ins, reports_are_held_against_what_their_lesson_asks_for) {
@@ -116,9 +117,9 @@ TEST(odd_hand_ins, reports_are_held_against_what_their_lesson_asks_for) {
     told(add("lines", "02"));
     told(add("labs", "03_crane"));
     EXPECT_THAT(add("none", "22").error_output,
-                AllOf(HasSubstr("there is no lesson or folder '22'; the lessons are "), HasSubstr("02_least_squares")));
+                AllOf(HasSubstr("unknown lesson or folder '22'; the lessons are "), HasSubstr("02_least_squares")));
     EXPECT_THAT(bench.course({"assignment", "lines", "--lesson", "22", "--reason", "a slip"}).error_output,
-                HasSubstr("there is no lesson or folder '22'"));
+                HasSubstr("unknown lesson or folder '22'"));
     told(bench.hand_in("group-01.pdf", small_pdf("The winning times"), kInTime, {"--assignment", "lines"}));
     EXPECT_THAT(bench.course({"findings", "group-01", "--assignment", "lines"}).output,
                 AllOf(HasSubstr("checked as lesson"), Not(HasSubstr("lab_report"))));
@@ -136,7 +137,7 @@ TEST(odd_hand_ins, the_findings_of_a_report_tell_that_its_copy_did_not_go_out) {
     told(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     EXPECT_THAT(told(bench.course({"review", "send", "--at", "2026-03-01 13:30"}), 1), HasSubstr("1 stopped"));
     EXPECT_THAT(told(bench.course({"findings", "group-01"}), 1),
-                HasSubstr("No copy of it has gone to others yet: dynlab course review send crane tells why"));
+                HasSubstr("No copy of it was sent to others yet: run dynlab course review send crane to see why"));
     EXPECT_THAT(told(bench.course({"findings", "group-02"}), 1), Not(HasSubstr("No copy")));
 }
 
@@ -147,7 +148,7 @@ TEST(odd_hand_ins, what_canvas_calls_late_is_told_where_the_time_does_not_say_so
     bench.bench().write("in/student1_LATE_31_77_report.pdf", small_pdf("1"));
     bench.bench().write("in/student2_32_78_report.pdf", small_pdf("2"));
     EXPECT_THAT(told(bench.course({"submit", "in", "--at", kInTime, "--no-checks", "--isolation", bench.level()})),
-                AllOf(ContainsRegex("group-01 +report +v1 +in time +the platform calls it late: see --times"),
+                AllOf(ContainsRegex("group-01 +report +v1 +in time +marked late by the platform: see --times"),
                       ContainsRegex("group-02 +report +v1 +in time *\n")));
 }
 

@@ -69,8 +69,8 @@ TEST_F(own_course, skeleton_is_tested_reported_copied_checked_and_graded) {
     };
     EXPECT_EQ(score("right"), 5);
     EXPECT_EQ(score("wrong"), 2);
-    EXPECT_EQ(bench().dynlab({"new", "lesson", kLesson}).exit_code, 1) << "it is there already";
-    EXPECT_THAT(bench().dynlab({"new", "lesson", "a lesson"}).error_output, HasSubstr("is no name for a lesson"));
+    EXPECT_EQ(bench().dynlab({"new", "lesson", kLesson}).exit_code, 1) << "it exists already";
+    EXPECT_THAT(bench().dynlab({"new", "lesson", "a lesson"}).error_output, HasSubstr("is not a valid lesson"));
 }
 
 TEST_F(own_course, brings_data_and_templates_that_come_before_the_installed_ones) {
@@ -89,11 +89,11 @@ TEST_F(own_course, brings_data_and_templates_that_come_before_the_installed_ones
     EXPECT_THAT(bench().read("a.md"), testing::ContainsRegex("The sum is [0-9]+\\."));
     const ChildResult without = bench().dynlab({"run", "a.lua"});
     EXPECT_EQ(without.exit_code, 1);
-    EXPECT_THAT(without.error_output, HasSubstr("there is no data set \"own_record\""));
+    EXPECT_THAT(without.error_output, HasSubstr("unknown data set \"own_record\""));
     bench().write("my-course/data/own_record/own_record.csv", "t,y\n0,1\n1,1002\n");
     EXPECT_THAT(in_course("run -e \"print(load('own_record').y[2])\"").output, StartsWith("1002"));
     for (const auto& [folder, words] :
-         {std::pair("nowhere", "there is no folder"), std::pair("in", "there is none of lessons")}) {
+         {std::pair("nowhere", "folder not found:"), std::pair("in", "contains none of lessons")}) {
         const ChildResult refused =
             bench().shell(std::string("mkdir -p in; DYNLAB_COURSE=") + folder + " $DYNLAB lessons");
         EXPECT_EQ(refused.exit_code, 1);
@@ -127,21 +127,21 @@ TEST_F(own_course, texts_with_faults_are_named_with_file_and_line) {
                      "lesson.lua: the header names the lesson"},
              {"lesson.lua", "-- seed: 1", "-- sede: 1", "lesson.lua:6: "},
              {"lesson.lua", "local stiffness = 1/compliance", "local stiffness = 1/complaince",
-              "lesson.lua:32: there is no function or variable 'complaince'; did you mean 'compliance'?"},
+              "lesson.lua:32: unknown function or variable 'complaince'; did you mean 'compliance'?"},
              {"lesson.lua", "-- BEGIN SOLUTION", "-- BEGIN SOLUTIONS", "lesson.lua:30: "},
-             {"lesson.lua", "answer(\"noise\", ", "print(", "lesson.lua:9: the answer \"noise\" is never handed in"},
+             {"lesson.lua", "answer(\"noise\", ", "print(", "lesson.lua:9: the answer \"noise\" is never submitted"},
              {"checks.lua", "points = 3,", "points = 3", "checks.lua:5: "},
              {"checks.lua", "near(a.stiffness, 1", "naer(a.stiffness, 1",
-              "checks.lua:6: there is no function or variable 'naer'"},
+              "checks.lua:6: unknown function or variable 'naer'"},
              {"wrong_compliance.lua", "load(\"record\")", "load(\"record\"", "wrong_compliance.lua:4: "},
-             {"hints.md", "2. With", "3. With", "hints.md:4: here hint 2 should begin"},
+             {"hints.md", "2. With", "3. With", "hints.md:4: expected hint 2, starting"},
              {"checks.fr.po", "msgid \"The measuring errors\"", "msgid The measuring errors",
               "checks.fr.po: line 19: expected text in quotation marks"},
              {"tasks.fr.lua", "-- %% [markdown]\n-- # Ce qu'on a appris", "-- # Ce qu'on a appris", "tasks.fr.lua: "},
          })
         expect_told(bench(), "texts", planted);
     const ChildResult whole = bench().dynlab({"test-lesson", "faulty/08_springs"});
-    EXPECT_THAT(whole.error_output, HasSubstr("1 fault in 08_springs; nothing was run"));
+    EXPECT_THAT(whole.error_output, HasSubstr("1 error in 08_springs; nothing was run"));
     EXPECT_EQ(bench().dynlab({"test-lesson", "faulty/08_springs", "--part", "prose"}).exit_code, 2);
     EXPECT_EQ(bench().dynlab({"test-lesson", "nowhere"}).exit_code, 1);
 }
@@ -149,19 +149,19 @@ TEST_F(own_course, texts_with_faults_are_named_with_file_and_line) {
 TEST_F(own_course, checks_that_do_not_do_what_they_are_for_are_told) {
     for (const Planted& planted : {
              Planted{"wrong_compliance.lua", "-- expects: stiffness: This is the compliance", "-- expects: noise: off",
-                     "wrong_compliance.lua:1: it passes the check \"noise\", which it is to fail"},
+                     "wrong_compliance.lua:1: the script passes the check \"noise\", which it must fail"},
              {"wrong_compliance.lua", "This is the compliance", "Upside down",
-              "wrong_compliance.lua:1: the check \"stiffness\" says \"This is the compliance in mm/N"},
+              "wrong_compliance.lua:1: the check \"stiffness\" gives the message \"This is the compliance in mm/N"},
              {"right_other_methods.lua", "1/fit.theta[1])", "fit.theta[1])",
               "right_other_methods.lua: it fails the check \"stiffness\""},
              {"lesson.lua", "answer(\"stiffness\", stiffness)", "answer(\"stiffness\", 2*stiffness)",
-              "lesson.lua: the worked solution does not pass the check \"stiffness\""},
+              "lesson.lua: the reference solution does not pass the check \"stiffness\""},
              {"lesson.lua",
               "-- BEGIN SOLUTION\nanswer(\"noise\", std(record.y - compliance*record.u))\n-- END SOLUTION",
               "answer(\"noise\", std(record.y - 0.4*record.u))\n",
               "lesson.lua: the untouched starter gets points by the check \"noise\""},
              {"checks.lua", "return near(a.noise,", "return near(nil,",
-              "lesson.lua: the worked solution does not pass the check \"noise\""},
+              "lesson.lua: the reference solution does not pass the check \"noise\""},
          })
         expect_told(bench(), "checks", planted);
 }
@@ -172,7 +172,7 @@ TEST_F(own_course, documents_with_gaps_and_copies_with_results_are_told) {
     expect_told(bench(), "documents",
                 {"lesson.lua", "-- BEGIN SOLUTION\nlocal compliance",
                  "report.value(\"given\", 2.5)\n-- BEGIN SOLUTION\nlocal compliance",
-                 "lesson.lua: the student's copy (en) gives values of the solution: given"});
+                 "lesson.lua: the student's copy (en) contains values of the solution: given"});
 }
 
 TEST_F(own_course, a_report_of_more_pages_than_its_header_allows_is_told) {

@@ -174,11 +174,11 @@ TEST_F(receipts, of_courses_of_before_are_still_known_to_the_course) {
         "INTEGER "
         "NOT NULL DEFAULT 7; ALTER TABLE allocations ADD COLUMN seed INTEGER NOT NULL DEFAULT 7; PRAGMA user_version = "
         "2\""));
-    EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("1 file, 1 version: all there and unaltered"));
+    EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("1 file, 1 version: complete and unaltered"));
     EXPECT_THAT(course_.course({"verify", "old.txt"}).output, HasSubstr("old.txt: genuine"));
     const ChildResult alone = verify({"old.txt", "--key", "mine/course.pub"});
     EXPECT_EQ(alone.exit_code, 1);
-    EXPECT_THAT(alone.output, HasSubstr("old.txt: cannot be decided: it has a code instead of a signature"));
+    EXPECT_THAT(alone.output, HasSubstr("old.txt: cannot be decided: the receipt has a code instead of a signature"));
     std::string altered = read("old.txt");
     altered.replace(altered.find("group-01"), 8, "group-02");
     write("altered.txt", altered);
@@ -188,9 +188,9 @@ TEST_F(receipts, of_courses_of_before_are_still_known_to_the_course) {
     EXPECT_EQ(read("k/course.pub"), read("mine/course.pub"));
     CourseBench::expect_done(shell("cp k/receipts/crane/*-group-02-first-report.txt new.txt"));
     EXPECT_EQ(verify({"new.txt", "--key", "mine/course.pub"}).exit_code, 0);
-    EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("2 files, 2 versions: all there and unaltered"));
+    EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("2 files, 2 versions: complete and unaltered"));
     CourseBench::expect_done(shell("sqlite3 k/course.db \"UPDATE versions SET late = 7 WHERE id = 1\""));
-    EXPECT_THAT(course_.course({"verify"}).error_output, HasSubstr("version 1: its facts are not those"));
+    EXPECT_THAT(course_.course({"verify"}).error_output, HasSubstr("version 1: its data differ from the"));
 }
 
 }  // namespace test_receipts

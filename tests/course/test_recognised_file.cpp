@@ -35,7 +35,7 @@ TEST_F(recognised_file, content_says_what_it_is) {
 TEST_F(recognised_file, what_nobody_can_read_has_its_reason) {
     const std::string empty_zip("PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22);
     for (const auto& [name, content, trouble, reason] :
-         {std::tuple("a.zip", empty_zip, "empty", "The zip is empty"),
+         {std::tuple("a.zip", empty_zip, "empty", "The zip file is empty"),
           std::tuple("b.pdf", std::string(), "empty", "The file is empty"),
           std::tuple("c.zip", std::string("Rar!\x1A\x07"), "closed-archive", "a RAR archive"),
           std::tuple("d.7z", std::string("7z\xBC\xAF\x27\x1C"), "closed-archive", "a 7z archive"),

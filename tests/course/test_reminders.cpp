@@ -39,7 +39,7 @@ TEST_F(reminders, name_what_is_missing_once_it_is_due) {
     take("group-02.rar", "Rar!\x1A\x07");
     EXPECT_EQ(
         missing("2026-03-01 11:00"),
-        "group-02: the first version, due 2026-03-01 12:00: the file that came cannot be read; submit it again\n");
+        "group-02: the first version, due 2026-03-01 12:00: the submitted file cannot be read; submit it again\n");
     EXPECT_THAT(missing("2026-03-01 12:11"), HasSubstr("group-03: the first version, due 2026-03-01 12:00\n"));
     EXPECT_THAT(missing("2026-03-01 11:00", true),
                 AllOf(HasSubstr("group-01: the final version, due 2026-03-15 12:00\n"),
@@ -53,10 +53,10 @@ TEST_F(reminders, are_messages_with_address_subject_and_text) {
     const TextTable mails = reminder_mails(course_, crane(), all);
     EXPECT_EQ(mails.names, (std::vector<std::string>{"to", "subject", "text", "id", "name", "group"}));
     ASSERT_EQ(mails.rows.size(), 3u);
-    EXPECT_EQ(mails.rows[1][1], "k, crane: please submit what is missing");
+    EXPECT_EQ(mails.rows[1][1], "k, crane: please submit the missing parts");
     EXPECT_EQ(mails.rows[1][2],
-              "Hello Student 2,\n\nthis is missing of group-02 for crane (k):\n\n* the first version, due 2026-03-01 "
-              "12:00\n\nPlease submit it now, or answer this message.\n");
+              "Hello Student 2,\n\nthe following parts of group-02 for crane are missing (k):\n\n* the first version, "
+              "due 2026-03-01 12:00\n\nPlease submit them now, or reply to this message.\n");
     EXPECT_EQ(mails.rows[1][3], "s2");
 }
 
@@ -74,7 +74,7 @@ TEST_F(reminders, are_in_the_student_s_language) {
 TEST_F(reminders, the_command_writes_mail_csv) {
     const ChildResult done = bench_.course({"remind", "crane", "--at", "2026-03-01 13:00"});
     EXPECT_EQ(done.exit_code, 1);
-    EXPECT_THAT(done.error_output, HasSubstr("no mail address is known of s1, s2"));
+    EXPECT_THAT(done.error_output, HasSubstr("the mail address of s1, s2"));
     EXPECT_THAT(bench_.bench().read("mail.csv"), StartsWith("to,subject,text,id,name,group\r\n"));
     EXPECT_THAT(bench_.course({"remind", "--at", "2026-02-01 13:00"}).output, HasSubstr("Nothing is missing."));
 }

@@ -35,7 +35,7 @@ TEST(returns, bring_what_is_new_for_whom) {
     done({"review", "send", "--at", "2026-03-02 11:00"});
     const std::string told = done({"deliver", "crane", "--out", "monday", "--moodle"});
     EXPECT_THAT(told, AllOf(HasSubstr("group-01: 00001-group-01-first-report.txt, report-"),
-                            HasSubstr("For 3 groups, in monday"), HasSubstr("no mail address is known of group-02")));
+                            HasSubstr("For 3 groups, in monday"), HasSubstr("the mail address of group-02")));
     EXPECT_EQ(shell("ls monday/*/report-*.pdf | wc -l"), "3\n");
     EXPECT_EQ(
         shell("for f in monday/*/report-*.pdf; do cmp $f k/outbox/crane/to-review/${f#monday/} || echo differs; done"),
@@ -46,7 +46,7 @@ TEST(returns, bring_what_is_new_for_whom) {
     EXPECT_THAT(shell("python3 -c \"import zipfile; print(zipfile.ZipFile('monday/moodle.zip').namelist())\""),
                 AllOf(HasSubstr("Ada Müller_900001_assignfeedback_file_/report-"),
                       HasSubstr("Student 3_900003_assignfeedback_file_/00003-group-03-first-report.txt")));
-    EXPECT_THAT(done({"deliver", "crane", "--out", "tuesday"}), HasSubstr("Nothing is new for anybody."));
+    EXPECT_THAT(done({"deliver", "crane", "--out", "tuesday"}), HasSubstr("No new files to deliver."));
     EXPECT_EQ(shell("ls -d tuesday 2>/dev/null"), "");
     // A newer version is new for its reviewer, and its receipt for the group; nothing else.
     course.hand_in("group-01.pdf", small_pdf("better"), "2026-03-02 12:00", {"--no-checks"});
@@ -146,9 +146,8 @@ TEST(returns, reviews_are_known_by_the_names_that_people_give) {
         reviewed_pair(pairs, reviewer, "review-report-12.pdf");
         FAIL();
     } catch (const EnvironmentError& error) {
-        EXPECT_THAT(error.what(),
-                    HasSubstr("it is of report-12, which group-01 was not given; it was given report-07 and "
-                              "report-68"));
+        EXPECT_THAT(error.what(), HasSubstr("it is a review of report-12, which group-01 did not receive; the reports "
+                                            "to review are report-07 and report-68"));
     }
 }
 

@@ -47,11 +47,12 @@ TEST(secret_records, a_data_set_that_was_handed_in_names_no_files_of_others) {
         ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
         for (const auto& [name, place] : places) {
             const std::string trouble = GradingBench::trouble(bench.result(name));
-            EXPECT_THAT(trouble, Not(HasSubstr("it was read"))) << level;
-            EXPECT_THAT(trouble,
-                        HasSubstr("mine/SOURCE.md: after \"Course file:\" stand names of files in that folder, "
-                                  "but the path \"" +
-                                  place + "\" was given"))
+            EXPECT_THAT(trouble, Not(HasSubstr("dynlab read"))) << level;
+            EXPECT_THAT(
+                trouble,
+                HasSubstr(
+                    "mine/SOURCE.md: \"Course file:\" must be followed by file names in that folder, but the path \"" +
+                    place + "\" was given"))
                 << level;
         }
     }
@@ -84,7 +85,7 @@ TEST(secret_records, messages_quote_neither_hidden_records_nor_answers_of_reruns
         EXPECT_FALSE(message.empty()) << check;
         EXPECT_EQ(message.find_first_of(kDigits), std::string::npos) << check;
     }
-    EXPECT_EQ(checks[4].at("message"), "The answer \"u\" was not handed in.");
+    EXPECT_EQ(checks[4].at("message"), "The answer \"u\" was not submitted.");
     const Workbench& work = bench.bench();
     EXPECT_EQ(work.shell("grep -rl 'sample' out/results out/summary.md out/gradebook.csv").output, "");
     // The instructor reads what it was.
@@ -203,7 +204,7 @@ TEST_F(secret_records_box, whose_checks_fail_altogether_quotes_nothing) {
     EXPECT_FALSE(grade.checks[0].message.empty());
     const std::string said = message_text(grade.checks[0].message);
     EXPECT_EQ(said.find_first_of(kDigits), std::string::npos) << said;
-    EXPECT_THAT(grade.log, HasSubstr("check x: it ended with code 1: sample 30.78"));
+    EXPECT_THAT(grade.log, HasSubstr("check x: the run ended with code 1: sample 30.78"));
 }
 
 }  // namespace test_secret_records

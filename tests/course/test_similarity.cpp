@@ -264,14 +264,14 @@ TEST(similarity, a_class_of_copies_and_copies_of_the_worked_solution_are_told) {
     for (int k = 0; k < 10; ++k) scripts.push_back({fmt::format("{}", k), renamed(solution)});
     scripts.push_back({"alone", Author(78).script()});
     scripts.push_back({"untouched", kStarter});
-    scripts.push_back({"the worked solution", solution, false});
+    scripts.push_back({"the reference solution", solution, false});
     scripts.push_back({"2025/a", Author(78).script(), false});
     scripts.push_back({"2025/b", solution, false});
     const auto names = names_of(scripts, similar_pairs(scripts, kStarter, kLine));
     EXPECT_EQ(names.size(), 45u + 10 + 10 + 1);
     EXPECT_TRUE(names.contains({"2025/a", "alone"}));
-    EXPECT_TRUE(names.contains({"0", "the worked solution"}));
-    EXPECT_FALSE(names.contains({"2025/b", "the worked solution"}));
+    EXPECT_TRUE(names.contains({"0", "the reference solution"}));
+    EXPECT_FALSE(names.contains({"2025/b", "the reference solution"}));
 }
 
 // oracle: the lessons' scripts that solve the same tasks by other methods, or wrongly, were written apart
@@ -371,7 +371,7 @@ TEST(similarity, the_command_compares_a_class_with_a_former_year) {
     const ChildResult found =
         bench.bench().dynlab({"similar", "Lab4.zip", "--lesson", "99", "--out", "out", "--compare", "2025"});
     EXPECT_EQ(found.exit_code, 1);
-    EXPECT_THAT(found.error_output, HasSubstr("\"d\": There is no"));
+    EXPECT_THAT(found.error_output, HasSubstr("\"d\": The submission contains no"));
     EXPECT_EQ(found.output, "3 scripts compared: 0 groups of copies, 2 pairs\nout/similarity.md\n");
     EXPECT_THAT(bench.bench().read("out/similarity.csv"), HasSubstr("a,b,100,"));
     EXPECT_THAT(bench.bench().read("out/similarity.csv"), HasSubstr("c,2025/old,100,"));

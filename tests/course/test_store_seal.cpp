@@ -48,10 +48,9 @@ TEST_F(store_seal, an_untouched_course_is_whole) {
 }
 
 TEST_F(store_seal, what_was_taken_away_or_changed_is_told) {
-    EXPECT_THAT(
-        troubles_after("DELETE FROM sendings; DELETE FROM versions WHERE id = 3"),
-        AllOf(HasSubstr("the table versions was changed by something else than dynlab: it has 2 rows, and had 3"),
-              HasSubstr("is genuine, but what it speaks of is not in the store any more")));
+    EXPECT_THAT(troubles_after("DELETE FROM sendings; DELETE FROM versions WHERE id = 3"),
+                AllOf(HasSubstr("the table versions was changed by another program: it has 2 rows, but had 3"),
+                      HasSubstr("is genuine, but its file is no longer in the store")));
     EXPECT_THAT(
         troubles_after("UPDATE pairs SET author = reviewer % 3 + 1 WHERE id = 1 AND author <> reviewer % 3 + 1; "
                        "UPDATE pairs SET ended_at = 1 WHERE id = 2"),
@@ -74,7 +73,7 @@ TEST_F(store_seal, a_copy_that_was_swapped_for_the_original_is_not_sent) {
         "&& rm -r k/outbox/crane"));
     const ChildResult sent = course_.course({"review", "send", "--at", "2026-03-02 12:00"});
     EXPECT_EQ(sent.exit_code, 1);
-    EXPECT_THAT(sent.error_output, HasSubstr("is not as it was made; nothing more was sent"));
+    EXPECT_THAT(sent.error_output, HasSubstr("was altered after dynlab made it; nothing more was sent"));
     EXPECT_EQ(shell("find k/outbox -name '*.pdf' | wc -l").output, "0\n");
     EXPECT_THAT(course_.course({"verify"}).error_output, HasSubstr("the table sendings was changed"));
 }
@@ -89,7 +88,7 @@ TEST_F(store_seal, an_import_is_whole_or_not_at_all) {
     shell("sed 's/\"way\": \"to reviewer\"/\"way\": \"nowhere\"/' all.json > bad.json");
     const ChildResult bad = course_.bench().dynlab({"course", "import", "bad.json", "copy", "--from", "k"});
     EXPECT_EQ(bad.exit_code, 1);
-    EXPECT_THAT(bad.error_output, HasSubstr("nothing was made"));
+    EXPECT_THAT(bad.error_output, HasSubstr("nothing was created"));
     EXPECT_EQ(shell("ls -d copy* 2>/dev/null | wc -l").output, "0\n");
     CourseBench::expect_done(course_.bench().dynlab({"course", "import", "all.json", "copy", "--from", "k"}));
     const ChildResult whole = course_.bench().dynlab({"course", "--course", "copy", "verify"});

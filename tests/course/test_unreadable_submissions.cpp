@@ -31,8 +31,8 @@ TEST(unreadable_submissions, that_are_left_out_whole_are_told_why) {
               0);
     EXPECT_EQ(bench.grade().exit_code, 1);
     for (const auto& [name, told] :
-         {std::pair("absolute", "Left out: \"/tmp/analysis.lua\" leads outside of the archive."),
-          std::pair("bytes", "Left out: the name of a file in it cannot be read."),
+         {std::pair("absolute", "Left out: \"/tmp/analysis.lua\" points outside the archive."),
+          std::pair("bytes", "Left out: the name of a file in the archive cannot be read."),
           std::pair("pipe", "Left out: \"analysis.lua\" is a link or not a regular file."),
           std::pair("link", "Left out: \"analysis.lua\" is a link or not a regular file.")})
         EXPECT_THAT(GradingBench::trouble(bench.result(name)), AllOf(HasSubstr(told), Not(HasSubstr("empty")))) << name;
@@ -66,14 +66,14 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     const std::string book = work.read("out/gradebook.csv");
     for (const auto& [name, told] :
          {std::pair("crane", "the script of lesson 03_crane, not of 99_small"), std::pair("pdf", "only \"report.pdf\""),
-          std::pair("disguised", "Its analysis.lua is a PDF under another name"),
+          std::pair("disguised", "Its analysis.lua is a PDF with another file extension"),
           std::pair("bytes", "Its analysis.lua is not a text"),
-          std::pair("two", "no analysis.lua in it, but \"analysis (1).lua\", \"analysis (2).lua\""),
-          std::pair("seven", ".7z archives cannot be opened here"),
-          std::pair("notebook", "this is JSON, but no Jupyter notebook"),
-          std::pair("group-9.rar", ".rar archives cannot be opened here"),
-          std::pair("nothing", "It is empty: there is no analysis.lua in it."),
-          std::pair("hollow", "It is empty: there is no analysis.lua in it."),
+          std::pair("two", "no analysis.lua, but \"analysis (1).lua\", \"analysis (2).lua\""),
+          std::pair("seven", ".7z archives cannot be opened"),
+          std::pair("notebook", "the file is JSON, but not a Jupyter notebook"),
+          std::pair("group-9.rar", ".rar archives cannot be opened"),
+          std::pair("nothing", "The submission is empty: it contains no analysis.lua."),
+          std::pair("hollow", "The submission is empty: it contains no analysis.lua."),
           std::pair("movie", "at most 2000 files and 200 MB")}) {
         EXPECT_FALSE(bench.result(name).contains("score")) << name;
         EXPECT_THAT(GradingBench::trouble(bench.result(name)), HasSubstr(told)) << name;
@@ -86,15 +86,15 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
          {std::pair("capital", "Analysis.lua"), std::pair("copy", "my analysis (2).lua"),
           std::pair("text", "analysis.lua.txt"), std::pair("encoded", "my%20analysis.lua")}) {
         EXPECT_EQ(bench.result(name).at("score"), bench.result("right").at("score")) << name;
-        EXPECT_THAT(work.read("out/summary.md"), HasSubstr(fmt::format("{}\u201D was taken as analysis.lua", file)));
+        EXPECT_THAT(work.read("out/summary.md"), HasSubstr(fmt::format("{}\u201D was used as analysis.lua", file)));
     }
-    EXPECT_THAT(graded.output, HasSubstr("  \"silent\" ran to its end but gave no answer\n"));
+    EXPECT_THAT(graded.output, HasSubstr("  \"silent\" ran to completion but gave no answer\n"));
     EXPECT_THAT(graded.output, Not(HasSubstr("right")));
     const std::string summary = work.read("out/summary.md");
     EXPECT_THAT(summary, HasSubstr("11 that cannot be read"));
-    EXPECT_THAT(summary, HasSubstr("could not be begun"));
+    EXPECT_THAT(summary, HasSubstr("could not be started"));
     const std::string feedback = work.read("out/results/cannot begin/feedback.md");
-    EXPECT_THAT(feedback, HasSubstr("Your script could not be begun"));
+    EXPECT_THAT(feedback, HasSubstr("Your script could not be started"));
     EXPECT_THAT(feedback, Not(HasSubstr("submission"))) << "where it lay in the box is nothing to its author";
     EXPECT_THAT(summary, HasSubstr("the mean is 1.43"));  // 2 five times, 0 and 0
     // The instructor may mark them all the same.
@@ -125,9 +125,9 @@ TEST(unreadable_submissions, scripts_are_found_wherever_they_lie_and_the_newest_
         EXPECT_EQ(GradingBench::score(bench.result(name)), 2) << name << bench.result(name).dump(1);
     EXPECT_EQ(GradingBench::score(bench.result("both")), 0);  // archives beside a script are not opened
     EXPECT_THAT(GradingBench::trouble(bench.result("unclear")),
-                AllOf(HasSubstr("several folders"), HasSubstr("\"one\", \"other\"")));
-    EXPECT_THAT(graded.output, AllOf(HasSubstr("\"unclear\" cannot be read"), HasSubstr("was taken as the newest")));
-    EXPECT_THAT(work.read("out/summary.md"), AllOf(HasSubstr("work_v2.zip"), HasSubstr("was taken as the newest")));
+                AllOf(HasSubstr("Several folders"), HasSubstr("\"one\", \"other\"")));
+    EXPECT_THAT(graded.output, AllOf(HasSubstr("\"unclear\" cannot be read"), HasSubstr("was used as the newest")));
+    EXPECT_THAT(work.read("out/summary.md"), AllOf(HasSubstr("work_v2.zip"), HasSubstr("was used as the newest")));
 }
 
 // oracle: what the platform put before the names

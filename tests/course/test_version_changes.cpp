@@ -98,9 +98,11 @@ TEST_F(version_changes, documents_show_changed_words_values_and_reviews) {
     EXPECT_EQ(bench_.dump(), before);
     EXPECT_THAT(result.output, ContainsRegex("group-01 +1 +[1-9][0-9]* % +[0-9]+ +[0-9]+ +1 of 2 +1"));
     EXPECT_THAT(result.output, ContainsRegex("group-02 +1 +[1-9][0-9]* % +[0-9]+ +[0-9]+ +- +1"));
-    EXPECT_THAT(result.output, ContainsRegex("group-03 +1 +0 % +0 +0 +- +1 +the final version is the first one, byte"));
+    EXPECT_THAT(
+        result.output,
+        ContainsRegex("group-03 +1 +0 % +0 +0 +- +1 +the final version is identical to the first version, byte"));
     EXPECT_THAT(result.output, ContainsRegex("group-04 .*Final version: The PDF cannot be read"));
-    EXPECT_THAT(result.output, ContainsRegex("group-05 .*no first version to compare with"));
+    EXPECT_THAT(result.output, ContainsRegex("group-05 .*no first version for comparison"));
     for (const std::string group : {"group-01", "group-02"}) {
         const std::string text = document(group);
         EXPECT_THAT(
@@ -112,8 +114,8 @@ TEST_F(version_changes, documents_show_changed_words_values_and_reviews) {
         EXPECT_THAT(printed(group), HasSubstr("The friction of the belt was never measured."));
     }
     EXPECT_THAT(document("group-01"), ContainsRegex("fit +\\| +80.0 +\\| +90.0 "));
-    EXPECT_THAT(document("group-02"), HasSubstr("Values can be compared where both versions have a pack"));
-    EXPECT_THAT(document("group-03"), HasSubstr("The final version is the first one, byte for byte."));
+    EXPECT_THAT(document("group-02"), HasSubstr("Values can be compared if both versions have a pack"));
+    EXPECT_THAT(document("group-03"), HasSubstr("The final version is identical to the first version, byte for byte."));
     EXPECT_THAT(document("group-04"), HasSubstr("The texts cannot be compared."));
     EXPECT_THAT(document("group-05"), HasSubstr("No review was released to this group."));
     const std::string pdf = bench_.bench().read("out/group-01.pdf");
@@ -160,7 +162,7 @@ TEST_F(version_changes, say_when_nothing_can_be_compared) {
     take("bad.zip", "group-01", true);
     CourseBench::expect_done(changes({"--out", "out"}));
     EXPECT_THAT(document("group-01"), HasSubstr("Final version: The pack’s analysis cannot be run"));
-    EXPECT_THAT(document("group-01"), HasSubstr("Values can be compared where both versions have a pack"));
+    EXPECT_THAT(document("group-01"), HasSubstr("Values can be compared if both versions have a pack"));
     CourseBench::expect_done(bench_.course({"assignment", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
     EXPECT_THAT(changes({"--assignment", "talk"}).error_output, HasSubstr("talk is a talk: it has no final version"));
 }

@@ -206,11 +206,11 @@ TEST(written_answers, of_a_class_are_on_one_page_without_names) {
     EXPECT_EQ(outcome.answers, 3u);
     EXPECT_EQ(outcome.groups, 2u);
     ASSERT_EQ(outcome.complaints.size(), 1u);
-    EXPECT_THAT(message_text(outcome.complaints[0]), HasSubstr("There is no analysis.lua in it"));
+    EXPECT_THAT(message_text(outcome.complaints[0]), HasSubstr("The submission contains no analysis.lua"));
     for (const fs::path& file : {outcome.page, outcome.text}) {
         const std::string page = read_file(file);
         EXPECT_THAT(page, AllOf(HasSubstr("how do you know it?"), HasSubstr("The reference."), HasSubstr("CARX"),
-                                HasSubstr("same in 1 other"), HasSubstr("Without an answer: ")));
+                                HasSubstr("same in 1 other"), HasSubstr("No answer from:")));
         for (const char* name : {"Lovelace", "Ada", "Hopper", "Mustermann", "4711", "Post"})
             EXPECT_THAT(page, Not(HasSubstr(name))) << file;
     }
@@ -254,7 +254,7 @@ TEST(written_answers, of_an_unknown_question_are_refused_with_those_that_are_kno
         collect_answers(bench.request());
         FAIL();
     } catch (const EnvironmentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("99_words has no question \"3\"; it has 1, 2"));
+        EXPECT_THAT(error.what(), HasSubstr("99_words has no question \"3\"; the questions are 1, 2"));
     }
     bench.request().question = "Conclusion";
     EXPECT_THROW(collect_answers(bench.request()), EnvironmentError);

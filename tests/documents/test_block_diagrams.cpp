@@ -50,19 +50,19 @@ TEST_F(block_diagrams, arrows_go_from_rim_to_rim) {
 }
 
 TEST_F(block_diagrams, mistakes_are_told_with_their_line) {
-    for (const auto& [list, told] : {std::pair("- r = dot 1 1: $r$\n", "the kind \"dot\" is not known"),
-                                     {"- r = block 1: $r$\n", "a node is written NAME = KIND COLUMN ROW"},
+    for (const auto& [list, told] : {std::pair("- r = dot 1 1: $r$\n", "unknown kind \"dot\""),
+                                     {"- r = block 1: $r$\n", "a node must have the form NAME = KIND COLUMN ROW"},
                                      {"- r = block 0 1: $r$\n", "whole numbers from 1 to 12"},
                                      {"- r = block 99 1: $r$\n", "whole numbers from 1 to 12"},
-                                     {"- r -> S\n", "there is no node r above this line"}}) {
+                                     {"- r -> S\n", "no node r is defined above this line"}}) {
         const std::string message = refusal(diagram(list));
         EXPECT_THAT(message, HasSubstr("report.md:4: ")) << list;
         EXPECT_THAT(message, HasSubstr(told)) << list;
     }
-    EXPECT_THAT(
-        refusal(diagram("- a = sum 1 1\n- b = sum 2 2\n- a -> b\n")),
-        HasSubstr("report.md:6: in this block diagram \"a -> b\": a and b stand neither in one row nor in one column"));
-    EXPECT_THAT(refusal(diagram("Words.\n")), HasSubstr("is a list of nodes and arrows"));
+    EXPECT_THAT(refusal(diagram("- a = sum 1 1\n- b = sum 2 2\n- a -> b\n")),
+                HasSubstr("report.md:6: in this block diagram \"a -> b\": a and b are neither in the same row nor in "
+                          "the same column"));
+    EXPECT_THAT(refusal(diagram("Words.\n")), HasSubstr("must be a list of nodes and arrows"));
 }
 
 TEST_F(block_diagrams, only_checked_labels_reach_latex_and_html) {

@@ -83,12 +83,12 @@ TEST_F(drawings, lie_within_their_frames) {
 
 TEST_F(drawings, mistakes_are_told_with_their_line) {
     const std::string unknown = refusal(drawn("crain"));
-    EXPECT_THAT(unknown, HasSubstr("report.md:3: there is no drawing \"crain\""));
+    EXPECT_THAT(unknown, HasSubstr("report.md:3: unknown drawing \"crain\""));
     EXPECT_THAT(unknown, HasSubstr("crane"));
     for (const std::string& name : all_names()) EXPECT_THAT(unknown, HasSubstr(name));
-    EXPECT_THAT(refusal("::: drawing\n:::\n"), HasSubstr("there is no drawing \"\""));
-    EXPECT_THAT(refusal(drawn("../filters/safety")), HasSubstr("there is no drawing \"../filters/safety\""));
-    EXPECT_THAT(refusal(drawn("crane", "- a list")), HasSubstr("may hold nothing but one line with its caption"));
+    EXPECT_THAT(refusal("::: drawing\n:::\n"), HasSubstr("unknown drawing \"\""));
+    EXPECT_THAT(refusal(drawn("../filters/safety")), HasSubstr("unknown drawing \"../filters/safety\""));
+    EXPECT_THAT(refusal(drawn("crane", "- a list")), HasSubstr("may contain only one line with its caption"));
     EXPECT_THAT(refusal("::: {.drawing name=crane onclick=run}\n:::\n"), HasSubstr("onclick"));
 }
 

@@ -54,7 +54,7 @@ TEST_F(hostile_documents, text_that_keeps_pandoc_busy_is_refused_with_its_line) 
     for (const std::string& text : {titles, "$a $ " + titles + "x$", std::string(20000, '`')})
         for (const char* output : {"out.pdf", "out.html"})
             EXPECT_THAT(refusal("A\n\n" + text + "\n", output),
-                        HasSubstr("report.md:3: Pandoc would take minutes for this paragraph"));
+                        HasSubstr("report.md:3: Pandoc would need minutes for this paragraph"));
     const std::string message = refusal("---\ntitle: A\nlang: en\n---\nA\n\n" + titles + "\n");
     EXPECT_EQ(message.find("Pandoc would"), message.rfind("Pandoc would")) << message;  // other texts are not to blame
 }
@@ -212,10 +212,10 @@ TEST_F(hostile_documents, attributes_are_refused_wherever_markdown_knows_them) {
     for (const auto& [text, element] : elements)
         for (const char* output : {"out.html", "out.pdf", "out.md"})
             EXPECT_THAT(refusal("A\n\n" + std::string(text) + "\n", output),
-                        HasSubstr(std::string("report.md:3: the attribute \"onfocus\" is not possible on ") + element))
+                        HasSubstr(std::string("report.md:3: the attribute \"onfocus\" is not supported on ") + element))
                 << text << " " << output;
     record_.texts["end"] = {"[x](https://example.org){onfocus=\"f()\"}"};
-    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n"), HasSubstr("\"onfocus\" is not possible on a link"));
+    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n"), HasSubstr("\"onfocus\" is not supported on a link"));
 }
 
 TEST_F(hostile_documents, metadata_in_the_middle_of_the_text_is_text) {
@@ -229,7 +229,7 @@ TEST_F(hostile_documents, what_a_script_reported_passes_the_same_checks) {
     record_.texts["end"] = {"`\\input{x}`{=latex}"};
     EXPECT_THAT(refusal("::: {.text name=end}\n:::\n", "out.pdf"), HasSubstr("{=latex}"));
     record_.texts["end"] = {"::: {.text name=end}\n:::\n"};
-    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n"), HasSubstr("cannot show another"));
+    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n"), HasSubstr("cannot include another"));
     add_figure("raw", "$\\write18{x}$", DocumentFormat::kPdf);
     EXPECT_THAT(refusal("![](figure:raw)\n", "out.pdf"), HasSubstr("\\write"));
     record_.figures.clear();

@@ -97,8 +97,7 @@ TEST_F(latex_documents, every_character_that_is_let_pass_prints) {
 TEST_F(latex_documents, control_characters_are_named_with_file_and_line) {
     EXPECT_THAT(refusal("A\n\nB \x1b c\n", "out.pdf"), HasSubstr("report.md:3: the control character U+001B"));
     record_.values["v"] = {std::nullopt, "\x1b"};
-    EXPECT_THAT(refusal("A `v`{.value}\n", "out.pdf"),
-                HasSubstr("report.md:1: in the value \"v\" the script reported: "));
+    EXPECT_THAT(refusal("A `v`{.value}\n", "out.pdf"), HasSubstr("report.md:1: in the reported value \"v\": "));
     EXPECT_THAT(refusal("---\ntitle: \x1b\n---\n", "out.pdf"), HasSubstr("in title: the control character"));
 }
 
@@ -279,7 +278,7 @@ TEST_F(latex_documents, wide_and_long_tables_stay_inside_the_page) {
     EXPECT_THAT(content.pages.back(), HasSubstr("119"));
     record_.tables["wide"] = {std::vector<std::string>(14, "column"), {std::vector<std::string>(14, "-1.2345e-05")}};
     EXPECT_THAT(refusal("::: {.table name=wide}\n:::\n", "other.pdf"),
-                HasSubstr("report.md:1: the table \"wide\" with its 14 columns is too wide"));
+                HasSubstr("report.md:1: the table \"wide\" with 14 columns is too wide"));
 }
 
 // Oracle: the page on which poppler finds the rows, wherever on the page the table is written.
@@ -347,7 +346,7 @@ TEST_F(latex_documents, a_failure_names_line_section_and_the_first_real_error) {
     EXPECT_THAT(message, HasSubstr("Double superscript"));
     EXPECT_THAT(message, HasSubstr("x^1"));
     EXPECT_LT(message.size(), 400u);
-    EXPECT_THAT(refusal("$$ \\frac{1}{2 $$\n", "out.pdf"), HasSubstr("LaTeX cannot set this document"));
+    EXPECT_THAT(refusal("$$ \\frac{1}{2 $$\n", "out.pdf"), HasSubstr("LaTeX cannot typeset this document"));
 }
 
 TEST_F(latex_documents, an_accent_that_a_formula_would_lose_is_an_error) {

@@ -82,7 +82,8 @@ TEST_F(letterheads, of_a_course_are_above_all_its_documents_but_those_with_their
         HasSubstr(
             "course/report_templates/settings.yaml: the picture \"other.png\" is not in the folder of this file"));
     write("course/report_templates/settings.yaml", "header: Nancy\ntitle: Mine\n");
-    EXPECT_THAT(refusal("Text\n", "other.pdf"), HasSubstr("\"title\" is set in templates; settings are logo, header"));
+    EXPECT_THAT(refusal("Text\n", "other.pdf"),
+                HasSubstr("\"title\" is a template setting and not allowed here; the settings are logo, header"));
 }
 
 TEST_F(letterheads, latex_of_a_course_finds_the_pictures_beside_it_and_messages_name_its_templates) {
@@ -108,7 +109,7 @@ TEST_F(letterheads, latex_of_a_course_finds_the_pictures_beside_it_and_messages_
 TEST_F(letterheads, that_name_no_picture_beside_them_are_refused) {
     for (const char* name : {"../logo.png", "/etc/logo.png", "logo.gif", ".logo.png"})
         EXPECT_THAT(refusal(std::string("---\nlogo: ") + name + "\n---\nText\n", "out.pdf"),
-                    HasSubstr("report.md:2: logo must be the name of a .png, .jpg or .pdf file beside this one"));
+                    HasSubstr("report.md:2: logo must be the name of a .png, .jpg or .pdf file in the same folder"));
     EXPECT_THAT(refusal("---\nlogo: logo.png\n---\nText\n", "out.pdf"),
                 HasSubstr("report.md: the picture \"logo.png\" is not in the folder of this file"));
 }

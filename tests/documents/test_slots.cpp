@@ -179,10 +179,10 @@ TEST_F(slots, what_is_no_slot_is_told_with_its_line_and_the_right_form) {
     EXPECT_THAT(refusal(before + "A `gain` {.value}\n"),
                 HasSubstr("report.md:7: \"`gain` {.value}\" is not a value slot; write `name`{.value}"));
     EXPECT_THAT(refusal(before + "A 'gain'{.value}\n"), HasSubstr("report.md:7: \"'{.value}\" is not a value slot"));
-    EXPECT_THAT(refusal(before + "$K = `gain`$\n"), HasSubstr("report.md:1: the formula holds `gain`"));
+    EXPECT_THAT(refusal(before + "$K = `gain`$\n"), HasSubstr("report.md:1: the formula contains `gain`"));
     EXPECT_THAT(refusal(before + "$K = `gain`{.valeu}$\n"), HasSubstr("the slot `gain`{.valeu} has an unknown class"));
-    EXPECT_THAT(refusal(before + "[a](https://x.org/`gain`{.value})\n"), HasSubstr("addresses are not filled in"));
-    EXPECT_THAT(refusal(before + "![a](`gain`{.value}.png)\n"), HasSubstr("addresses are not filled in"));
+    EXPECT_THAT(refusal(before + "[a](https://x.org/`gain`{.value})\n"), HasSubstr("is not filled in"));
+    EXPECT_THAT(refusal(before + "![a](`gain`{.value}.png)\n"), HasSubstr("is not filled in"));
 }
 
 // Oracle: lines counted by hand.
@@ -199,7 +199,7 @@ TEST_F(slots, a_picture_that_was_pasted_into_a_notebook_is_a_gap_with_a_remedy) 
         draft("# Rig\n\n![image.png](attachment:image.png)\n\nAnd ![x](attachment:b.png) here.\n");
     EXPECT_THAT(gaps, HasSubstr("report.md:3: the picture \"image.png\" was pasted into the notebook"));
     EXPECT_THAT(gaps, HasSubstr("report.md:5: the picture \"b.png\""));
-    EXPECT_THAT(gaps, HasSubstr("save it as a file beside the notebook"));
+    EXPECT_THAT(gaps, HasSubstr("save it as a file next to the notebook"));
     EXPECT_THAT(page, HasSubstr("??"));
 }
 
@@ -221,7 +221,7 @@ TEST_F(slots, pictures_are_found_by_paths_of_all_forms) {
                           Not(HasSubstr(folder_.path().string()))))
             << missing;
     }
-    EXPECT_THAT(refusal("![R](../out.svg)\n"), HasSubstr("lies outside the folder"));
+    EXPECT_THAT(refusal("![R](../out.svg)\n"), HasSubstr("is outside the folder"));
 }
 
 TEST_F(slots, a_table_has_its_caption_and_numbers_to_the_right) {
@@ -273,12 +273,12 @@ TEST_F(slots, an_entry_that_is_missing_is_named_with_the_nearest_name_and_the_li
 }
 
 TEST_F(slots, a_script_that_stopped_leaves_gaps_with_names_and_its_error_first) {
-    record_.error = RecordedError{Message("there is no function '{}'", "f`oo"), "analysis.lua", 10};
+    record_.error = RecordedError{Message("unknown function '{}'", "f`oo"), "analysis.lua", 10};
     record_.values["fit"] = {93.2, "93.2"};
     const std::string text = html(
         "Fit `fit`{.value}, later `late`{.value}, @fig:raw.\n\n![A](figure:raw){#fig:raw}\n\n"
         "::: {.table name=models}\n:::\n\n::: {.text name=end}\n:::\n");
-    EXPECT_THAT(text, HasSubstr("<pre class=\"error\"><code>analysis.lua:10: there is no function 'f`oo'"));
+    EXPECT_THAT(text, HasSubstr("<pre class=\"error\"><code>analysis.lua:10: unknown function 'f`oo'"));
     EXPECT_LT(text.find("analysis.lua:10"), text.find("Fit 93.2"));
     EXPECT_THAT(text, HasSubstr("Fit 93.2, later <strong>[late]</strong>, fig:raw."));
     for (const char* name : {"raw", "models", "end"})
@@ -288,7 +288,7 @@ TEST_F(slots, a_script_that_stopped_leaves_gaps_with_names_and_its_error_first) 
 TEST_F(slots, an_entry_of_another_kind_is_named_with_its_kind) {
     record_.tables["fit"] = {{"a"}, {{"1"}}};
     EXPECT_THAT(refusal("`fit`{.value}\n"),
-                HasSubstr("report.md:1: \"fit\" is a table in the run's record, but this slot wants a value"));
+                HasSubstr("report.md:1: \"fit\" is a table in the run results, but this slot expects a value"));
     record_.tables.clear();
     record_.values["raw"] = {1.0, "1"};
     EXPECT_THAT(refusal("![A](figure:raw)\n"), HasSubstr("\"raw\" is a value"));
@@ -303,7 +303,7 @@ TEST_F(slots, unknown_classes_are_errors_that_name_the_slot) {
 
 TEST_F(slots, a_figure_inside_a_sentence_is_refused_not_misplaced) {
     add_figure("raw", "Raw", DocumentFormat::kHtml);
-    EXPECT_THAT(refusal("See ![A](figure:raw) here.\n"), HasSubstr("must stand alone"));
+    EXPECT_THAT(refusal("See ![A](figure:raw) here.\n"), HasSubstr("must be separate"));
 }
 
 TEST_F(slots, a_figure_that_was_never_drawn_or_whose_file_is_gone_is_an_error) {

@@ -61,7 +61,7 @@ TEST_F(group_data, of_a_lesson_that_stops_are_not_guessed) {
         data_of("local c = load('crane')\nerror('no further')");
         FAIL();
     } catch (const EnvironmentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("which data lesson 99_small loads is not known"));
+        EXPECT_THAT(error.what(), HasSubstr("the data of lesson 99_small are unknown"));
         EXPECT_THAT(error.what(), HasSubstr("no further"));
     }
 }

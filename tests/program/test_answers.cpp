@@ -15,7 +15,7 @@ TEST(answers, are_in_the_record_and_missing_ones_are_reported_at_once) {
                 "-- ---\n-- title: A\n-- answers:\n--   gain: number\n--   G: model\n-- ---\nanswer('gain', 2)\n");
     const ChildResult run = bench.dynlab({"run", "a.lua", "--out", "out"});
     EXPECT_EQ(run.exit_code, 0);
-    EXPECT_EQ(run.error_output, "dynlab: answers that are not given yet: G (model)\n");
+    EXPECT_EQ(run.error_output, "dynlab: answers not given yet: G (model)\n");
     EXPECT_EQ(nlohmann::json::parse(bench.read("out/record.json")).at("answers").at("gain").at("value"), 2);
 }
 

@@ -35,7 +35,7 @@ TEST(cheat_sheet, is_a_pdf) {
     const Workbench bench;
     const ChildResult refused = bench.dynlab({"help", "--sheet", "cheat.html"});
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.error_output, HasSubstr("give a file such as cheat.pdf"));
+    EXPECT_THAT(refused.error_output, HasSubstr("give a file name such as cheat.pdf"));
     EXPECT_EQ(bench.dynlab({"help", "lsim", "--sheet", "cheat.pdf"}).exit_code, 2);
 }
 

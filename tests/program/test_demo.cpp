@@ -63,19 +63,19 @@ TEST(demo, wrong_names_and_options_are_told) {
 TEST(demo, a_terminal_gets_a_menu_and_pages_that_wait) {
     const Workbench bench;
     Terminal terminal(bench, {"demo"});
-    EXPECT_THAT(terminal.until("q to leave: "), AllOf(HasSubstr("1  getting_started"), HasSubstr("2  delays")));
+    EXPECT_THAT(terminal.until("q to quit: "), AllOf(HasSubstr("1  getting_started"), HasSubstr("2  delays")));
     terminal.enter("99");
-    EXPECT_THAT(terminal.until("q to leave: "), HasSubstr("There is no '99'"));
+    EXPECT_THAT(terminal.until("q to quit: "), HasSubstr("Unknown demonstration '99'"));
     terminal.enter("1");
-    EXPECT_THAT(terminal.until("q leaves -- "), AllOf(HasSubstr("-- 1 of "), Not(HasSubstr("idplot"))));
+    EXPECT_THAT(terminal.until("q to quit -- "), AllOf(HasSubstr("-- 1 of "), Not(HasSubstr("idplot"))));
     terminal.enter("");
-    EXPECT_THAT(terminal.until("q leaves -- "), AllOf(HasSubstr("-- 2 of "), HasSubstr("idplot")));
+    EXPECT_THAT(terminal.until("q to quit -- "), AllOf(HasSubstr("-- 2 of "), HasSubstr("idplot")));
     terminal.enter("q");
-    terminal.until("q to leave: ");
+    terminal.until("q to quit: ");
     terminal.enter("inside_srivc");
-    terminal.until("q leaves -- ");
+    terminal.until("q to quit -- ");
     terminal.enter("q");
-    terminal.until("q to leave: ");
+    terminal.until("q to quit: ");
     terminal.enter("q");
     EXPECT_EQ(terminal.wait_for_end(), 0);
 }
@@ -83,11 +83,11 @@ TEST(demo, a_terminal_gets_a_menu_and_pages_that_wait) {
 TEST(demo, control_d_and_control_c_leave_the_menu) {
     const Workbench bench;
     Terminal closed(bench, {"demo"});
-    closed.until("q to leave: ");
+    closed.until("q to quit: ");
     closed.type(kControlD);
     EXPECT_EQ(closed.wait_for_end(), 0);
     Terminal interrupted(bench, {"demo", "delays"});
-    interrupted.until("q leaves -- ");
+    interrupted.until("q to quit -- ");
     interrupted.type(kControlC);
     EXPECT_EQ(interrupted.wait_for_end(), 130);
 }

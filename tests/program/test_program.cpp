@@ -49,7 +49,7 @@ TEST(program, sliders_take_the_numbers_of_the_command_line) {
     }
     const ChildResult wrong = bench.dynlab({"run", "a.lua", "--set", "kk=5"});
     EXPECT_EQ(wrong.exit_code, 1);
-    EXPECT_THAT(wrong.error_output, HasSubstr("a.lua has no slider \"kk\"; it has k\n"));
+    EXPECT_THAT(wrong.error_output, HasSubstr("a.lua has no slider \"kk\"; the sliders are k\n"));
 }
 
 TEST(program, saves_dropped_figures_and_prints_their_paths) {
@@ -72,10 +72,9 @@ TEST(program, a_script_replaces_its_own_files_only) {
     for (int again = 0; again < 2; ++again) {
         const ChildResult kept = bench.dynlab({"run", "b.lua"});
         EXPECT_EQ(kept.exit_code, 1);
-        EXPECT_THAT(
-            kept.error_output,
-            HasSubstr("b.lua:3: save_csv: 'marks.csv' is there already and no run of dynlab wrote it; save under "
-                      "another name, move it away, or let it be replaced (dynlab run --force)"));
+        EXPECT_THAT(kept.error_output,
+                    HasSubstr("b.lua:3: save_csv: 'marks.csv' exists already and was not written by dynlab. Save under "
+                              "another name, move the file elsewhere, or replace it (dynlab run --force)"));
     }
     EXPECT_EQ(bench.read("marks.csv"), "somebody's");
     EXPECT_EQ(bench.shell("echo \"save_csv('marks.csv', {y = {1, 2}})\" | $DYNLAB; head -1 marks.csv").output,

@@ -40,7 +40,7 @@ TEST(program_errors, script_that_fails_gives_the_report_up_to_there_and_its_erro
         EXPECT_THAT(result.output, HasSubstr("out.md (up to the error)"));
     }
     const std::string report = bench.read("out.md");
-    EXPECT_THAT(report, ContainsRegex("\nbefore\n(.|\n)*on purpose(.|\n)*nothing below was run(.|\n)*print"));
+    EXPECT_THAT(report, ContainsRegex("\nbefore\n(.|\n)*on purpose(.|\n)*the cells below were not run(.|\n)*print"));
     EXPECT_THAT(report, Not(HasSubstr("\nafter\n")));
     EXPECT_THAT(report, HasSubstr("**\\[fit\\]**"));
 }
@@ -49,7 +49,7 @@ TEST(program_errors, script_that_fails_is_told_even_where_no_report_can_be_made)
     const Workbench bench;
     write_folder(bench, "error('on purpose')\n", "![A](absent.png)\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
-    expect_failure(result, 1, "on purpose\n    error('on purpose')\nThe report up to there cannot be made: ");
+    expect_failure(result, 1, "on purpose\n    error('on purpose')\nThe report up to this point cannot be made: ");
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
 
@@ -110,7 +110,7 @@ TEST(program_errors, printing_into_a_full_device_is_told) {
     for (const char* words : {"help", "help srivc", "--help", "lessons", "run -e 'print(1)'",
                               "run -e 'for i = 1, 1e4 do print(i) end'", "run -e 'report.value(\"a\", 1)'"}) {
         const ChildResult result = bench.shell("\"$DYNLAB\" " + std::string(words) + " > /dev/full");
-        expect_failure(result, 1, "dynlab: cannot write what was printed: no space left on device");
+        expect_failure(result, 1, "dynlab: cannot write the output: no space left on device");
     }
     EXPECT_EQ(bench.shell("\"$DYNLAB\" help > /dev/null").exit_code, 0);
 }
@@ -149,7 +149,7 @@ TEST(program_errors, wrong_words_are_told_in_all_programs_and_nothing_is_written
     bench.write("capital/Analysis.lua", "print(1)\n");
     expect_failure(bench.dynlab({"run"}), 2, "a script FILE or -e CODE");
     expect_failure(bench.dynlab({"raport", "mine"}), 2,
-                   "dynlab: there is no command 'raport'; did you mean 'report'?\nRun with --help");
+                   "dynlab: unknown command 'raport'; did you mean 'report'?\nRun with --help");
     expect_failure(bench.dynlab({"course", "statu", "here"}), 2,
                    "dynlab: dynlab course has no command 'statu'; did you mean 'status'?\n");
     for (const std::string command : {"report", "check"})
@@ -157,8 +157,8 @@ TEST(program_errors, wrong_words_are_told_in_all_programs_and_nothing_is_written
                        "dynlab: report.md is the report's text: give the folder, dynlab " + command + " mine\n");
     expect_failure(bench.dynlab({"run", "absent.lua"}), 1, "absent.lua");
     expect_failure(bench.dynlab({"report", "miner"}), 1,
-                   "there is no lesson or folder 'miner'; did you mean 'mine'? the lessons are ");
-    expect_failure(bench.dynlab({"lint", "capital"}), 2, "in the folder capital, but Analysis.lua: call it");
+                   "unknown lesson or folder 'miner'; did you mean 'mine'? The lessons are ");
+    expect_failure(bench.dynlab({"lint", "capital"}), 2, "in the folder capital, but Analysis.lua: rename it");
     EXPECT_EQ(bench.read("mine/report.pdf"), "%PDF the good one");
     EXPECT_THAT(bench.files(), ElementsAre("capital", "mine"));
 }
@@ -189,7 +189,7 @@ TEST(program_errors, a_folder_that_cannot_be_made_is_told_as_other_files_are) {
     const Workbench bench;
     bench.write("block", "a file");
     expect_failure(bench.dynlab({"run", "-e", "print(1)", "--out", "block/out"}), 1,
-                   "dynlab: cannot make the folder block/out: not a directory\n");
+                   "dynlab: cannot create the folder block/out: not a directory\n");
 }
 
 }  // namespace test_program_errors

@@ -61,7 +61,7 @@ TEST(programs, lesson_program_alone_runs_lessons_and_tells_how_to_build_other_co
         EXPECT_EQ(missing.exit_code, 3) << command;
         EXPECT_EQ(missing.error_output,
                   "dynlab: cannot start " + work.path("bin/dynlab-course").string() +
-                      " (No such file or directory), which has this command. Install dynlab again.\n");
+                      " (No such file or directory), the program of this command. Reinstall dynlab.\n");
     }
     work.write("share/dynlab/source", std::string(DYNLAB_SOURCE_DIR) + "\n");
     const ChildResult missing = work.shell("bin/dynlab grade --help");

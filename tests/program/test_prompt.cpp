@@ -67,7 +67,7 @@ TEST(prompt, statement_error_function_and_end_on_a_terminal) {
     terminal.enter("x");
     EXPECT_THAT(terminal.until_prompt(), HasSubstr("\n42\r\n"));
     terminal.enter("nosuch(1)");
-    EXPECT_THAT(terminal.until_prompt(), HasSubstr("\nthere is no function or variable 'nosuch'\r\n"));
+    EXPECT_THAT(terminal.until_prompt(), HasSubstr("\nunknown function or variable 'nosuch'\r\n"));
     terminal.enter("function f(a)");
     terminal.until("...> ");
     terminal.enter("return a + 1");

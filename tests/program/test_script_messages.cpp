@@ -43,8 +43,8 @@ TEST(script_messages, a_report_tells_the_same) {
               "    f(-1)\n");
     const auto checked = nlohmann::json::parse(bench.dynlab({"check", "A", "--json"}).output);
     EXPECT_EQ(checked.at("findings").at(0).at("what"),
-              "From a clean copy of the folder no report comes out: analysis.lua:2: zeros: argument 1 (n) must not be "
-              "negative, but -1 was given");
+              "The report cannot be built from a clean copy of the folder: analysis.lua:2: zeros: argument 1 (n) must "
+              "not be negative, but -1 was given");
 }
 
 TEST(script_messages, run_prints_what_is_reported) {
@@ -62,12 +62,14 @@ TEST(script_messages, run_report_and_check_tell_what_has_no_place) {
     bench.write("A/analysis.lua", "report.value('fit', 93.25, '%.1f')\nreport.value('gain', 2, '%.0f')\n");
     bench.write("A/report.md", "---\ntitle: A\n---\n\nThe fit is `fit`{.value} % of what could be had.\n");
     const std::string note =
-        "dynlab: note: the value 'gain' is reported, but has no place in the text; write `gain`{.value}\n";
+        "dynlab: note: the value 'gain' is passed to the report but never shown; write `gain`{.value}\n";
     EXPECT_EQ(bench.dynlab({"run", "A"}).error_output, note);
     EXPECT_EQ(bench.dynlab({"report", "A"}).error_output, note);
     const std::string checked = bench.dynlab({"check", "A"}).output;
-    EXPECT_THAT(checked, HasSubstr("not-shown\n    report.md: In analysis.lua the value 'gain' is reported, but has no "
-                                   "place in the text."));
+    EXPECT_THAT(
+        checked,
+        HasSubstr(
+            "not-shown\n    report.md: In analysis.lua the value 'gain' is passed to the report but never shown."));
     EXPECT_THAT(checked, HasSubstr("Write `gain`{.value} there."));
     bench.write("A/report.md", "---\ntitle: A\n---\n\nThe fit is `fit`{.value} %, the gain `gain`{.value}.\n");
     EXPECT_THAT(bench.dynlab({"run", "A"}).error_output, IsEmpty());
@@ -120,11 +122,11 @@ TEST(script_messages, a_reference_to_nothing_leaves_a_draft) {
     bench.write("A/report.md", whole + "\nAs @fig:step shows, `gain`{.value} s.\n");
     const ChildResult draft = bench.dynlab({"report", "A"});
     EXPECT_EQ(draft.exit_code, 1);
-    EXPECT_THAT(draft.output, HasSubstr("report.pdf (a draft: ?? stands where something is missing)"));
-    EXPECT_THAT(draft.error_output, HasSubstr("A/report.md:7: the cross reference @fig:step points to nothing"));
+    EXPECT_THAT(draft.output, HasSubstr("report.pdf (draft: ?? marks missing parts)"));
+    EXPECT_THAT(draft.error_output, HasSubstr("A/report.md:7: the cross reference @fig:step has no target"));
     EXPECT_THAT(draft.error_output, HasSubstr("A/report.md:7: the script reported no value \"gain\""));
     EXPECT_THAT(bench.shell("pdftotext A/report.pdf -").output, HasSubstr("As ?? shows, ?? s."));
-    EXPECT_THAT(bench.dynlab({"pack", "A"}).error_output, HasSubstr("report.pdf is a draft: ?? stands in it"));
+    EXPECT_THAT(bench.dynlab({"pack", "A"}).error_output, HasSubstr("report.pdf is a draft and contains ??; run"));
     const ChildResult checked = bench.dynlab({"check", "A"});
     EXPECT_EQ(checked.exit_code, 1);
     EXPECT_THAT(checked.output, HasSubstr("analysis-fails"));

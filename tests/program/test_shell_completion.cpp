@@ -74,7 +74,7 @@ TEST_F(shell_completion, offers_every_command_and_no_hidden_one) {
 
 TEST_F(shell_completion, offers_names_of_lessons_data_functions_and_demonstrations) {
     EXPECT_THAT(offered({"report", ""}), IsSupersetOf(folders_with("lessons", "lesson.lua")));
-    EXPECT_THAT(offered({"look", ""}), IsSupersetOf(folders_with("data", "SOURCE.md")));
+    EXPECT_THAT(offered({"inspect", ""}), IsSupersetOf(folders_with("data", "SOURCE.md")));
     EXPECT_THAT(offered({"help", "srivc"}), IsSupersetOf({"srivc", "srivcstruc"}));
     EXPECT_THAT(offered({"help", "guide-"}), Contains("guide-report"));
     EXPECT_THAT(offered({"demo", "getting"}), ElementsAre("getting_started"));

@@ -45,7 +45,7 @@ TEST_F(another_language, is_that_of_errors_where_they_are_read) {
     ASSERT_TRUE(record.error);
     EXPECT_EQ(record.error->text({catalog_of("de")}),
               "lesson.lua:1: eine Funktion oder Variable „prnt“ gibt es nicht; war „print“ gemeint?");
-    EXPECT_EQ(record.error->text(), "lesson.lua:1: there is no function or variable 'prnt'; did you mean 'print'?");
+    EXPECT_EQ(record.error->text(), "lesson.lua:1: unknown function or variable 'prnt'; did you mean 'print'?");
 }
 
 TEST_F(another_language, messages_without_a_translation_are_english) {

@@ -99,22 +99,23 @@ TEST_F(answer_values, that_do_not_fit_together_are_refused_with_their_place) {
         return refusal(answer.dump());
     };
     const std::string data = kExpressions[6], process = kExpressions[9], model = kExpressions[12];
-    EXPECT_THAT(changed(data, "/input_names", json::array()), HasSubstr("names and units differ in number"));
+    EXPECT_THAT(changed(data, "/input_names", json::array()), HasSubstr("channels, names and units differ"));
     EXPECT_THAT(changed(data, "/experiments/0/y/rows", 2), HasSubstr("experiments[1].y: "));
     EXPECT_THAT(changed(data, "/experiments/0/y/values/1", "NaN"), HasSubstr("output"));
-    EXPECT_THAT(changed(data, "/hold", "spline"), HasSubstr("hold: one of zoh, foh was wanted"));
+    EXPECT_THAT(changed(data, "/hold", "spline"), HasSubstr("hold: expected one of zoh, foh"));
     EXPECT_THAT(changed(process, "/process/structure", "P9"), HasSubstr("process.structure"));
     EXPECT_THAT(changed(process, "/process/parameters", {1.0}), HasSubstr("process"));
-    EXPECT_THAT(changed(process, "/function/den", std::vector<double>(102, 1.0)), HasSubstr("absurdly high order"));
-    EXPECT_THAT(changed(process, "/outputs", 0), HasSubstr("whole outputs"));
-    EXPECT_THAT(changed(model, "/estimate/theta", {1.0}), HasSubstr("estimate: its parameters, their names"));
+    EXPECT_THAT(changed(process, "/function/den", std::vector<double>(102, 1.0)),
+                HasSubstr("the order of a polynomial is too high"));
+    EXPECT_THAT(changed(process, "/outputs", 0), HasSubstr("complete outputs"));
+    EXPECT_THAT(changed(model, "/estimate/theta", {1.0}), HasSubstr("estimate: the numbers of parameters, names"));
     EXPECT_THAT(changed("ss(tf({2}, {1, 3}))", "/state_space/B/columns", 7), HasSubstr("state_space.B"));
     EXPECT_THAT(refusal(R"({"kind": "prize", "value": 1})"), HasSubstr("unknown kind"));
     EXPECT_THAT(refusal(R"({"kind": "number"})"), HasSubstr("its member \"value\" is missing"));
     EXPECT_THAT(refusal("{\"kind\""), HasSubstr("damaged"));
     std::string deep = R"({"kind": "number", "value": 1})";
     for (int i = 0; i < 9; ++i) deep = R"({"kind": "table", "fields": {}, "items": [)" + deep + "]}";
-    EXPECT_THAT(refusal(deep), HasSubstr("nested too deep"));
+    EXPECT_THAT(refusal(deep), HasSubstr("nested too deeply"));
     EXPECT_NE(refusal(std::string(1'000'000, '[')), "");
 }
 

@@ -163,8 +163,8 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
         {"iddata(y, u*(0/0), 0.05)", "sample 1 of the input is not a number (NaN)"},
         {"(function() y[7] = 0/0 return iddata(y, u, 0.05) end)()", "sample 7 of the output is not a number (NaN)"},
         {"(function() u[9] = 1/0 return iddata(y, u, 0.05) end)()", "sample 9 of the input is infinite"},
-        {"iddata(1e300*y, u, 0.05)", "too large to compute with squares: use another unit"},
-        {"iddata(y, 1e-300*u, 0.05)", "too small to compute with squares: use another unit"},
+        {"iddata(1e300*y, u, 0.05)", "too large for sums of squares: use another unit"},
+        {"iddata(y, 1e-300*u, 0.05)", "too small for sums of squares: use another unit"},
         {"iddata(y, u, 0)", "the sampling time must be a positive number of seconds, but it is 0"},
         {"iddata(y, u, -1)", "the sampling time must be a positive number of seconds, but it is -1"},
         {"iddata(y, u, 0/0)", "the sampling time must be a positive number of seconds, but it is NaN"},
@@ -173,10 +173,10 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
         {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2}})", "3 samples but the time vector has 2"},
         {"iddata({1, 2}, {1}, 1)", "the output has 2 samples but the input has 1"},
         {"iddata({}, {}, 1)", "must have rows or columns, but the table is empty"},
-        {"iddata({theta = y, t = u}, u, 1)", "the table holds t, theta: give one of these, such as data.t"},
+        {"iddata({theta = y, t = u}, u, 1)", "the table contains t, theta: give one of these, such as data.t"},
         {"iddata(y, u, {0, 0.1, 0.3})", "iddata(y, u, nil, {SamplingInstants = t})"},
-        {"iddata(y, matrix{u, e}, 0.05, {InputName = {'a', 'a'}})", "the name 'a' names two channels"},
-        {"iddata(y, u, 0.05, {InputName = 'a', OutputName = 'a'})", "the name 'a' names two channels"},
+        {"iddata(y, matrix{u, e}, 0.05, {InputName = {'a', 'a'}})", "the name 'a' is used for two channels"},
+        {"iddata(y, u, 0.05, {InputName = 'a', OutputName = 'a'})", "the name 'a' is used for two channels"},
         {"iddata(y, u, 0.05, {InputName = {'a', 'b'}})", "has 2 texts for 1 channel"},
     };
     for (const auto& [code, sentence] : kCases)
@@ -185,7 +185,7 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
 
 TEST(bad_input, every_method_refuses_data_it_cannot_use) {
     const auto excitation = AnyOf(HasSubstr("excit"), HasSubstr("no dynamics can be estimated"), HasSubstr("no step"),
-                                  HasSubstr("does not answer the step"), HasSubstr("not a step"));
+                                  HasSubstr("does not respond to the step"), HasSubstr("not a step"));
     const std::vector<std::pair<std::string, testing::Matcher<std::string>>> kCases = {
         {"iddata({1, 2, 3}, {1, 0, 1}, 0.1)", AnyOf(HasSubstr("sample"), HasSubstr("not a step"))},
         {"iddata({1}, {1}, 0.1)", AnyOf(HasSubstr("sample"), HasSubstr("never changes"))},
@@ -223,15 +223,15 @@ TEST(bad_input, wrong_orders_are_refused_with_their_meaning) {
                 << call;
     EXPECT_THAT(said("lssvf(d, {2, 1}, 3)"),
                 HasSubstr("{na, nb, nk} (na: poles; nb: coefficients of B; nk: samples of delay)"));
-    const auto continuous = HasSubstr("poles; nb: coefficients of B; nk: samples of delay), but nb is 4, and with na");
+    const auto continuous = HasSubstr("poles; nb: coefficients of B; nk: samples of delay), but nb is 4; with na");
     for (const char* name : {"lssvf", "lsgpmf", "ivsvf", "ivgpmf"})
         EXPECT_THAT(said(std::string(name) + "(d, {2, 4, 0}, 3)"), continuous) << name;
     for (const char* call : {"srivc(d, {4, 2, 0})", "coe(d, {4, 2, 0})", "rivc(d, {4, 0, 1, 2, 0})"})
         EXPECT_THAT(said(call), AllOf(HasSubstr("nf: poles; nk: samples of delay)"),
-                                      HasSubstr("but nb is 4, and with nf = 2 must lie between 1 and 3")))
+                                      HasSubstr("but nb is 4; with nf = 2 it must be between 1 and 3")))
             << call;
     for (const char* call : {"srivc(d, {1, 0, 0})", "coe(d, {1, 0, 0})", "rivc(d, {1, 0, 1, 0, 0})"})
-        EXPECT_THAT(said(call), HasSubstr("but nf is 0, and must be at least 1")) << call;
+        EXPECT_THAT(said(call), HasSubstr("but nf is 0; it must be at least 1")) << call;
 }
 
 TEST(bad_input, delays_must_be_shorter_than_the_record) {
@@ -240,10 +240,10 @@ TEST(bad_input, delays_must_be_shorter_than_the_record) {
           "ivgpmf(d, {2, 1, 600}, 3)", "srivc(d, {1, 2, 600})", "coe(d, {1, 2, 600})", "rivc(d, {1, 0, 1, 2, 600})",
           "arx(d, {2, 2, 600})", "iv4(d, {2, 2, 600})", "armax(d, {2, 2, 1, 600})", "bj(d, {2, 0, 1, 2, 600})",
           "oe(d, {2, 2, 600})", "sriv(d, {2, 2, 600})"})
-        EXPECT_THAT(said(call), AllOf(StartsWith("ERROR"), HasSubstr("not shorter than the record"))) << call;
+        EXPECT_THAT(said(call), AllOf(StartsWith("ERROR"), HasSubstr("not shorter than the data"))) << call;
     for (const char* call : {"tfsrivc(d, 2, 0, {TdMax = 30})", "tfrivc(d, 2, 0, {TdMax = 30})",
                              "tfcoe(d, 2, 0, {TdMax = 30})", "procsrivc(d, 'P1D', {TdMax = 30})"})
-        EXPECT_THAT(said(call), AllOf(StartsWith("ERROR"), HasSubstr("must be shorter than the record"))) << call;
+        EXPECT_THAT(said(call), AllOf(StartsWith("ERROR"), HasSubstr("must be shorter than the data"))) << call;
 }
 
 TEST(bad_input, cut_off_frequencies_are_refused_or_doubted) {
@@ -251,12 +251,12 @@ TEST(bad_input, cut_off_frequencies_are_refused_or_doubted) {
         const std::string start = std::string("local M = ") + name + "(d, {2, 1, 0}, ";
         for (const char* lambda : {"0", "-1", "0/0", "1/0"})
             EXPECT_THAT(said(start + lambda + ")"),
-                        AllOf(StartsWith("ERROR"), HasSubstr("a bit above the bandwidth of the system, and is")))
+                        AllOf(StartsWith("ERROR"), HasSubstr("slightly above the bandwidth of the system, but is")))
                 << name << lambda;
         for (const char* lambda : {"1e-4", "1e5"})
             EXPECT_THAT(said(start + lambda + ")\nprint(M.report.message)"),
-                        AllOf(HasSubstr("lies far from the poles found"),
-                              HasSubstr("the usual choice is a bit above the bandwidth")))
+                        AllOf(HasSubstr("is far from the estimated poles"),
+                              HasSubstr("choose lambda slightly above the bandwidth")))
                 << name << lambda;
         EXPECT_THAT(said(start + "3)\nprint(M.report.message)"), Not(HasSubstr("far"))) << name;
     }
@@ -268,11 +268,11 @@ TEST(bad_input, cut_off_frequencies_are_refused_or_doubted) {
 TEST(bad_input, unstable_models_are_told) {
     EXPECT_THAT(said("local M = lssvf(iddata(-lsim(tf({1}, {1, -0.2}), u, 0.05), u, 0.05), {1, 1, 0}, 1)\n"
                      "print(M.report.message)"),
-                HasSubstr("The model is unstable: unless the system is unstable, too, srivc with Stable = true"));
+                HasSubstr("The model is unstable. Unless the system is also unstable, srivc with Stable = true"));
     for (const char* call : {"arx(z, {1, 1, 1})", "iv4(z, {1, 1, 1})", "armax(z, {1, 1, 1, 1})", "oe(z, {1, 1, 1})"})
         EXPECT_THAT(said("local z = iddata(-lsim(tf({1}, {1, -0.2}), u, 0.05), u, 0.05)\nlocal M = " +
                          std::string(call) + "\nassert(not stable(M))\nprint(M.report.message)"),
-                    HasSubstr("or sriv, which keeps them inside the circle"))
+                    HasSubstr("or sriv, which keeps the poles inside the circle"))
             << call;
 }
 
@@ -292,7 +292,7 @@ TEST(bad_input, models_of_the_wrong_kind_are_refused) {
         {"fit(d, 'a')", "must be a model"},
         {"bode(d)", "must be a model, but an iddata was given"},
         {"present(d)", "must be a model, but an iddata was given"},
-        {"step_construction(P)", "must be a model that step_first_order, step_second_order or step_delayed gave"},
+        {"step_construction(P)", "must be a model returned by step_first_order, step_second_order or step_delayed"},
         {"crossvalidate(d, P)", "must be a function of a data object, but a model was given"},
         {"d2c(P)", "the model is already continuous"},
         {"forecast(3, 1)", "must be a regression"},
@@ -307,7 +307,7 @@ TEST(bad_input, static_methods_refuse_what_has_no_answer) {
         {"lsq(matrix{u*(0/0)}, y)", "not finite"},
         {"lsq(matrix{{1, 2}}, {1})", "cannot determine 2 parameters"},
         {"gradient_descent(matrix{zeros(3)}, {1, 2, 3})", "gradient_descent: all regressors are zero"},
-        {"gradient_descent(matrix{u}, y*(0/0))", "finite numbers only"},
+        {"gradient_descent(matrix{u}, y*(0/0))", "only finite numbers"},
         {"polyfit_report({1, 1, 1}, {1, 2, 3}, 1)", "at least 2 different x"},
     };
     for (const auto& [code, sentence] : kCases)

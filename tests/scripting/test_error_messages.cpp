@@ -44,8 +44,8 @@ TEST(error_messages, of_lua_itself_become_messages) {
     EXPECT_EQ(error.message, Message("{} is {}, so it has no fields or elements", Message("the variable '{}'", "x"),
                                      Message("nil (it has no value)")));
     EXPECT_EQ(error.line, 2);
-    EXPECT_EQ(error_in("local = 3").message, Message("a name is missing before '{}'", "="));
-    EXPECT_EQ(error_in("print(yy)").message, Message("there is no function or variable '{}'", "yy"));
+    EXPECT_EQ(error_in("local = 3").message, Message("expected a name before '{}'", "="));
+    EXPECT_EQ(error_in("print(yy)").message, Message("unknown function or variable '{}'", "yy"));
 }
 
 TEST(error_messages, are_translated_after_the_run) {

@@ -136,13 +136,13 @@ TEST(function_tables, name_up_to_four_options_in_a_signature) {
 TEST(function_tables, refuse_an_unknown_option_with_the_nearest_name) {
     const std::string data = "local data = iddata({0, 0.1, 0.2, 0.3}, {1, 1, 1, 1}, 0.1)\n";
     for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
-             {"srivc(data, {1, 1, 0}, {MaxIters = 3})", "option 'MaxIters' is unknown; did you mean 'MaxIter'?"},
-             {"compare(data, tf({1}, {1, 1}), {label = 'x'})", "option 'label' is unknown; did you mean 'labels'?"},
-             {"lsim(tf({1}, {1, 1}), {1, 1}, 0.1, {hodl = 'foh'})", "option 'hodl' is unknown; did you mean 'hold'?"},
-             {"plot({1, 2}, {1, 2}, {titel = 'x'})", "option 'titel' is unknown; did you mean 'title'?"},
-             {"multisine(64, {line = {1}})", "option 'line' is unknown; did you mean 'lines'?"},
-             {"slider('gain', 1, 0, 2, {lable = 'x'})", "option 'lable' is unknown; did you mean 'label'?"},
-             {"rig('crane', {sed = 3})", "option 'sed' is unknown; did you mean 'seed'?"}})
+             {"srivc(data, {1, 1, 0}, {MaxIters = 3})", "unknown option 'MaxIters'; did you mean 'MaxIter'?"},
+             {"compare(data, tf({1}, {1, 1}), {label = 'x'})", "unknown option 'label'; did you mean 'labels'?"},
+             {"lsim(tf({1}, {1, 1}), {1, 1}, 0.1, {hodl = 'foh'})", "unknown option 'hodl'; did you mean 'hold'?"},
+             {"plot({1, 2}, {1, 2}, {titel = 'x'})", "unknown option 'titel'; did you mean 'title'?"},
+             {"multisine(64, {line = {1}})", "unknown option 'line'; did you mean 'lines'?"},
+             {"slider('gain', 1, 0, 2, {lable = 'x'})", "unknown option 'lable'; did you mean 'label'?"},
+             {"rig('crane', {sed = 3})", "unknown option 'sed'; did you mean 'seed'?"}})
         EXPECT_THAT(error_of(data + call), HasSubstr(said)) << call;
 }
 
@@ -150,7 +150,7 @@ TEST(function_tables, refuse_values_beyond_the_bounds_and_choices) {
     for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
              {"multisine(64, {periods = 0})", "option 'periods' must be at least 1, but 0 was given"},
              {"rig('crane', {seed = 2^33})",
-              "option 'seed' must lie between 0 and 4294967295, but 8589934592 was given"},
+              "option 'seed' must be between 0 and 4294967295, but 8589934592 was given"},
              {"chirp(0.1, 1, 10, 0.01, {shape = 'saw'})",
               R"(option 'shape' must be one of "sine", "square", but "saw" was given)"},
              {"plot({1, 2}, {1, 2}, {legend = 'left'})",

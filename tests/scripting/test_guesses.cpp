@@ -12,27 +12,27 @@ using testing::HasSubstr;
 
 TEST(guesses, stand_beside_what_was_found) {
     EXPECT_EQ(printed("guess('delay', 0.3, 's')\noutcome('delay', 0.24)"),
-              "delay: guessed 0.3 s, found 0.24 s (off by 25 %)\n");
-    EXPECT_EQ(printed("guess('x', 1.097)\noutcome('x', 1)"), "x: guessed 1.097, found 1 (off by 10 %)\n");
-    EXPECT_EQ(printed("guess('x', 1.0000001)\noutcome('x', 1)"), "x: guessed 1, found 1 (off by less than 0.01 %)\n");
-    EXPECT_EQ(printed("guess('poles', 3)\noutcome('poles', 3)"), "poles: guessed 3, found 3 (off by 0 %)\n");
+              "delay: prediction 0.3 s, result 0.24 s (off by 25 %)\n");
+    EXPECT_EQ(printed("guess('x', 1.097)\noutcome('x', 1)"), "x: prediction 1.097, result 1 (off by 10 %)\n");
+    EXPECT_EQ(printed("guess('x', 1.0000001)\noutcome('x', 1)"), "x: prediction 1, result 1 (off by less than 0.01 %)\n");
+    EXPECT_EQ(printed("guess('poles', 3)\noutcome('poles', 3)"), "poles: prediction 3, result 3 (off by 0 %)\n");
     EXPECT_EQ(printed("guess('gain', -10, '%')\noutcome('gain', -13.87)"),
-              "gain: guessed -10 %, found -13.87 % (off by 3.9 percentage points)\n")
+              "gain: prediction -10 %, result -13.87 % (off by 3.9 percentage points)\n")
         << "28 % would read as points";
     EXPECT_EQ(printed("guess('gain', 4, '%')\noutcome('gain', 0)"),
-              "gain: guessed 4 %, found 0 % (off by 4 percentage points)\n");
-    EXPECT_EQ(printed("guess('mean', 1)\noutcome('mean', 0)"), "mean: guessed 1, found 0\n");
+              "gain: prediction 4 %, result 0 % (off by 4 percentage points)\n");
+    EXPECT_EQ(printed("guess('mean', 1)\noutcome('mean', 0)"), "mean: prediction 1, result 0\n");
 }
 
 TEST(guesses, that_are_missing_are_told_and_stop_nothing) {
     EXPECT_EQ(printed("guess('delay', nil, 's')\noutcome('delay', 0.24)"),
-              "delay: not guessed yet; type your number in the place of nil\ndelay: found 0.24 s, not guessed\n");
+              "delay: no prediction yet; replace nil with your number\ndelay: result 0.24 s, no prediction\n");
 }
 
 TEST(guesses, are_made_once_and_before) {
-    EXPECT_THAT(error_of("guess('a', 1)\nguess('a', 2)"), HasSubstr("\"a\" was guessed already"));
-    EXPECT_THAT(error_of("outcome('a', 1)"), HasSubstr("nothing called \"a\" was guessed before"));
-    EXPECT_THAT(error_of("guess('a', 'much')"), HasSubstr("your guess"));
+    EXPECT_THAT(error_of("guess('a', 1)\nguess('a', 2)"), HasSubstr("the prediction \"a\" was made before"));
+    EXPECT_THAT(error_of("outcome('a', 1)"), HasSubstr("no prediction is named \"a\""));
+    EXPECT_THAT(error_of("guess('a', 'much')"), HasSubstr("your prediction"));
 }
 
 }  // namespace test_guesses

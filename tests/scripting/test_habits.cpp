@@ -24,25 +24,25 @@ TEST(habits, are_answered_with_the_remedy) {
         // elements
         {"local A = zeros(3, 3)\nA[1][1] = 2", "A[{i, j}]"},
         {"local A = eye(2)\nprint(A[1][1])", "A[{i, j}]"},
-        {"local A = eye(2)\nprint(A(1, 1))", "the element i, j is written A[{i, j}]"},
+        {"local A = eye(2)\nprint(A(1, 1))", "write the element i, j as A[{i, j}]"},
         {"print(zeros(1, 5)[3])", "A[{i, j}]"},
         {"print(A[1,2])", "A[{1, 2}]"},
-        {"x(3) = 5", "an element is written x[3]"},
-        {"local x = vector{1, 2}\nx(3) = 5", "an element is written x[3]"},
-        {"A(1, 2) = 5", "an element of a matrix is written A[{1, 2}]"},
+        {"x(3) = 5", "write an element as x[3]"},
+        {"local x = vector{1, 2}\nx(3) = 5", "write an element as x[3]"},
+        {"A(1, 2) = 5", "write an element of a matrix as A[{1, 2}]"},
         {"x = {}\nx(end+1) = 3", "the last element is x[#x]"},
-        {"x = vector{}\nx[1] = 2", "v has 0 elements, and a vector keeps its length; zeros(n) makes one to fill"},
-        {"x = vector{1}\nx[2] = 2", "v has 1 element, and a vector keeps its length"},
+        {"x = vector{}\nx[1] = 2", "v has 0 elements, and its length is fixed; zeros(n) creates a vector to fill"},
+        {"x = vector{1}\nx[2] = 2", "v has 1 element, and its length"},
         {"local mag, ph, w = bode(tf({1}, {1, 1}))\nprint(mag[1])", "bode_values(G, w)"},
         // calls
-        {"?lsim", "help is asked for by help(\"lsim\")"},
-        {"step G", "a call is written step(G)"},
-        {"print x", "a call is written print(x)"},
+        {"?lsim", "to get help, write help(\"lsim\")"},
+        {"step G", "write a call as step(G)"},
+        {"print x", "write a call as print(x)"},
         {"format long", "string.format(\"%.10g\", x)"},
-        {"srivc(iddata(randn(50), randn(50), 1), 1, 1, 0)", "orders are written as one table {1, 1, 0}"},
+        {"srivc(iddata(randn(50), randn(50), 1), 1, 1, 0)", "write the orders as one table {1, 1, 0}"},
         {"montecarlo{system = tf({1}, {1, 1}), input = prbs(5, 4), Ts = 0.1, sigma = 0.1, runs = 3, estimators = "
          "{srivc = {1, 1, 0}}}",
-         "its orders in one inside: srivc = {{1, 1, 0}}"},
+         "contains the table of orders: srivc = {{1, 1, 0}}"},
         {"vector(1, 2, 3)", "vector{1, 2, 3}"},
         {"local d = iddata(randn(9), randn(9), 1)\nd.split(0.6)", "object:split(...)"},
         {"plot({1, 2}, {1, 2}, 'r--')", "{dash = 1}"},
@@ -53,8 +53,8 @@ TEST(habits, are_answered_with_the_remedy) {
         {"f = @(x) x^2", "function(x) return x^2 end"},
         {"for k = 1:10 print(k) end", "for k = 1, N do ... end"},
         {"x = 1\nx += 1", "x = x + 1"},
-        {"local 2x = 1", "a name begins with a letter"},
-        {"x = 3,5", "x = 3,5 gives x the value 3: a decimal number is written with a point, 3.5"},
+        {"local 2x = 1", "a name must start with a letter"},
+        {"x = 3,5", "x = 3,5 gives x the value 3: write a decimal number with a point, 3.5"},
         {"print(1)\nlocal Ts = 0,01\nprint(Ts)", "lesson.lua:2: Ts = 0,01 gives Ts the value 0"},
         {"math.randomseed(3)", "rng(seed)"},
         {"local ok = randn(9) > 0", "gt(x, y)"},
@@ -80,9 +80,10 @@ TEST(habits, of_other_programs_functions_lead_to_those_here) {
           "upper",      "trapz",    "zpkdata",  "unique",  "randperm", "exit",     "datetime", "input",
           "fminsearch", "mag2db",   "real",     "imag",    "conj",     "getpar",   "chol",     "tfestimate"}) {
         const std::string said = error_of("print(" + std::string(name) + ")");
-        const std::string::size_type hint = said.find("there is no function '" + std::string(name) + "' here; ");
+        const std::string::size_type hint = said.find("unknown function '" + std::string(name) + "'; ");
         ASSERT_NE(hint, std::string::npos) << name << ": " << said;
-        const std::string words = said.substr(said.find(" here; ") + 7);
+        const std::string words =
+            said.substr(hint + std::string("unknown function ''; ").size() + std::string(name).size());
         for (std::sregex_iterator i(words.begin(), words.end(), kCall), end; i != end; ++i)
             EXPECT_EQ(printed("print(type(" + (*i)[2].str() + "))"), "function\n") << name << ": " << said;
     }

@@ -130,7 +130,7 @@ TEST(help, numbered_items_and_formulas_keep_their_lines) {
 TEST(help, leads_on_from_toolboxes_methods_and_lua) {
     const auto all = functions();
     EXPECT_THAT(help_text("tfest", all),
-                AllOf(HasSubstr("tfest is a name of another program: write tfsrivc"), HasSubstr("\n  tfsrivc  ")));
+                AllOf(HasSubstr("tfest is a name of another program: use tfsrivc"), HasSubstr("\n  tfsrivc  ")));
     EXPECT_THAT(help_text("CARX", all), AllOf(HasSubstr("\n  lssvf  "), HasSubstr("\n  ivsvf  ")));
     EXPECT_THAT(help_text("CBJ", all), HasSubstr("\n  rivc  "));
     EXPECT_EQ(help_text("COE", all), help_text("coe", all));
@@ -164,6 +164,31 @@ TEST(help, finds_pages_by_words) {
     EXPECT_THROW(help_search("zzzz", all), InvalidArgument);
     EXPECT_THROW(help_search("", all), InvalidArgument);
     EXPECT_THROW(help_text("", all), InvalidArgument);
+}
+
+// oracle: what the terms mean in textbooks and in MATLAB
+TEST(help, finds_functions_by_terms_of_other_programs) {
+    const auto all = functions();
+    for (const auto& [term, name] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"pole-zero map", "pzmap"},
+                                                                    {"Pole zero map", "pzmap"},
+                                                                    {"dead time", "delayest"},
+                                                                    {"transport delay", "delayest"},
+                                                                    {"PID", "simloop"},
+                                                                    {"root locus", "pole"},
+                                                                    {"spike", "filloutliers"},
+                                                                    {"psd", "spa"},
+                                                                    {"ode", "greyest"},
+                                                                    {"overfitting", "crossvalidate"},
+                                                                    {"curve fitting", "polyfit"},
+                                                                    {"moving average", "idfilt"},
+                                                                    {"plot two curves", "plot"},
+                                                                    {"procest", "procsrivc"},
+                                                                    {"idtf", "tf"},
+                                                                    {"predict_first", "guess"},
+                                                                    {"reveal", "outcome"},
+                                                                    {"simulated plant", "rig"}})
+        EXPECT_THAT(help_search(term, all), HasSubstr("  " + std::string(name) + " ")) << term;
 }
 
 /// The names in calls of help that a text advises.

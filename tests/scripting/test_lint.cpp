@@ -86,8 +86,8 @@ const Planted kPlanted[] = {
     {"x = 3 % gain\n        ^", "unknown-name", "a comment starts with --"},
     {"if x = 3 then end\n     ^", "syntax", "=="},
     {"print(\"open)\n      ^", "syntax", ""},
-    {"local A = matrix{1, 2; 3, 4}\n^", "syntax", "tables of their own"},
-    {"x = 3,5\n^", "syntax", "written with a point"},
+    {"local A = matrix{1, 2; 3, 4}\n^", "syntax", "each row of a matrix is a table"},
+    {"x = 3,5\n^", "syntax", "with a point"},
     {"y = {1, 2\nz = 3\n^", "syntax", "not closed"},
     {"x = 2 end\n      ^", "syntax", ""},
     // the header
@@ -127,7 +127,7 @@ TEST(lint, compares_answers_with_the_header) {
     const std::string header = kAnswered;
     const auto told = [&](const std::string& code) { return all_of(lint_script(header + code, "a.lua")); };
     EXPECT_EQ(told("answer(\"gain\", 1)\nanswer('G', tf({1}, {1, 1}))\n"), "");
-    EXPECT_THAT(told("answer(\"gain\", 1)\n"), HasSubstr("5:6: unused-answer: the answer \"G\" is never handed in"));
+    EXPECT_THAT(told("answer(\"gain\", 1)\n"), HasSubstr("5:6: unused-answer: the answer \"G\" is never submitted"));
     EXPECT_THAT(told("answer(\"gian\", 1)\nanswer(\"G\", tf({1}, {1, 1}))\n"),
                 testing::AllOf(HasSubstr("7:8: unknown-answer"), HasSubstr("did you mean \"gain\"?"),
                                HasSubstr("4:6: unused-answer")));

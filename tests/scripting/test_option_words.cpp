@@ -28,9 +28,9 @@ const std::string kRecord =
 
 TEST(option_words, errors_name_the_options_of_scripts) {
     for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
-             {"procsrivc(d, 'P1D', {TdMin = 2, TdMax = 1})", "TdMax must be at least TdMin = 2, and is 1"},
-             {"tfsrivc(d, 2, 0, {TdMax = 1000})", "TdMax must be shorter than the record"},
-             {"tfcoe(d, 2, 0, {TdMin = -1})", "TdMin must not be negative, and is -1"},
+             {"procsrivc(d, 'P1D', {TdMin = 2, TdMax = 1})", "TdMax must be at least TdMin = 2, but is 1"},
+             {"tfsrivc(d, 2, 0, {TdMax = 1000})", "TdMax must be shorter than the data"},
+             {"tfcoe(d, 2, 0, {TdMin = -1})", "TdMin must not be negative, but is -1"},
              {"tfsrivc(d, 2, 0, {NumTd = 0})", "NumTd must be at least 1"},
              {"coe(d, {1, 2, 0}, {InitialState = 'warm'})",
               "option 'InitialState' must be one of \"none\", \"steady\", \"estimate\", \"auto\", but \"warm\" was "
@@ -41,11 +41,12 @@ TEST(option_words, errors_name_the_options_of_scripts) {
              {"n4sid(d, 3, {Weighting = 'moesp'})", "option 'Weighting' must be one of \"MOESP\", \"N4SID\", \"CVA\""},
              {"procsrivc(d, 'P1I', {InitialState = 'estimate', Offset = 'estimate'})",
               "with InitialState \"estimate\""},
-             {"srivc(d, {1, 2, 0}, {Tol = 0})", "Tol must be positive, and is 0"},
-             {"coe(d, {1, 2, 0}, {Fixed = {a3 = 1}})", "Fixed: the model has no parameter a3; it has a1, a2, b0"},
-             {"tfcoe(d, 2, 0, {Fixed = {Td = 1}})", "a delay is fixed with IODelay"},
-             {"coe(d, {1, 2, 0}, {OutputWeights = {1, 2}})", "OutputWeights holds a positive number for each"},
-             {"hammerstein(d, 2, 0, {Bins = 0})", "option 'Bins' must lie between 1 and 1000, but 0 was given"},
+             {"srivc(d, {1, 2, 0}, {Tol = 0})", "Tol must be positive, but is 0"},
+             {"coe(d, {1, 2, 0}, {Fixed = {a3 = 1}})",
+              "Fixed: the model has no parameter a3; its parameters are a1, a2, b0"},
+             {"tfcoe(d, 2, 0, {Fixed = {Td = 1}})", "a delay with IODelay"},
+             {"coe(d, {1, 2, 0}, {OutputWeights = {1, 2}})", "OutputWeights needs one positive number for each"},
+             {"hammerstein(d, 2, 0, {Bins = 0})", "option 'Bins' must be between 1 and 1000, but 0 was given"},
              {"hammerstein(d, 2, 0, {Breakpoints = {2, 1}})", "Breakpoints must increase"},
              {"n4sid(d, 3, {BlockRows = 2})", "BlockRows must be greater than the order"}}) {
         const std::string error = dynlab::test::error_of(kRecord + call);
@@ -57,11 +58,10 @@ TEST(option_words, errors_name_the_options_of_scripts) {
 TEST(option_words, messages_name_the_options_of_scripts) {
     for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
              {"procsrivc(d, 'P1D', {TdMax = 0.2})",
-              "The delay lies at TdMax = 0.2 s, the edge of what was searched: "
-              "raise TdMax."},
-             {"tfsrivc(d, 2, 0, {TdMin = 0.8, TdMax = 1.5})", "lower TdMin"},
-             {"coe(d, {1, 2, 0}, {MaxIter = 1})", "had not settled after MaxIter = 1 iterations"},
-             {"oe(d, {2, 2, 1}, {MaxIter = 0})", "had not settled after MaxIter = 0 iterations"},
+              "The delay is TdMax = 0.2 s, at the limit of the search: increase TdMax."},
+             {"tfsrivc(d, 2, 0, {TdMin = 0.8, TdMax = 1.5})", "decrease TdMin"},
+             {"coe(d, {1, 2, 0}, {MaxIter = 1})", "did not converge within MaxIter = 1 iterations"},
+             {"oe(d, {2, 2, 1}, {MaxIter = 0})", "did not converge within MaxIter = 0 iterations"},
              {"tfcoe(d, 1, 1, {TdMax = 1})", "Fix the delay with IODelay"}}) {
         const std::string message = dynlab::test::printed(kRecord + "print(" + call + ".report.message)");
         EXPECT_THAT(message, HasSubstr(said)) << call;

@@ -83,7 +83,7 @@ TEST(prompt_statement, understands_habits) {
     EXPECT_EQ(session({"help tf"}), session({"help('tf')"}));
     EXPECT_EQ(session({"help"}), session({"help()"}));
     EXPECT_THAT(session({"help report.value"}), HasSubstr("report.value"));
-    EXPECT_THAT(session({"hold on"}), HasSubstr("give all curves to one call"));
+    EXPECT_THAT(session({"hold on"}), HasSubstr("give all curves in one call"));
     EXPECT_THAT(session({"x = [1 2 3]"}), HasSubstr("vector{1, 2, 3}"));
 }
 
@@ -97,7 +97,7 @@ TEST(prompt_statement, locals_of_one_statement_are_seen_by_the_next) {
 }
 
 TEST(prompt_statement, inner_locals_stay_inside) {
-    EXPECT_THAT(session({"do local inner = 1 end", "inner"}), HasSubstr("no function or variable 'inner'"));
+    EXPECT_THAT(session({"do local inner = 1 end", "inner"}), HasSubstr("unknown function or variable 'inner'"));
     EXPECT_THAT(session({"function f() local inner = 1 end f()", "inner"}), HasSubstr("'inner'"));
     EXPECT_THAT(session({"repeat local inner = 1 until inner == 1", "inner"}), HasSubstr("'inner'"));
     EXPECT_EQ(session({"if true then local k = 1 end local k = 2", "k"}), "2\n");
@@ -123,7 +123,7 @@ TEST(prompt_statement, a_script_that_is_run_leaves_its_variables) {
     EXPECT_EQ(session({"G = tf({2, 1}, {1, 0.5}, {IODelay = 2})", "who"}), "G  exp(-2 s) (2 s + 1)/(s + 0.5)\n");
     EXPECT_EQ(session({"G = tf({1}, {1, 0.5}, 0.1)", "who"}), "G  1/(z + 0.5), Ts = 0.1 s\n");
     EXPECT_THAT(session({"run('" + path + "/wrong.lua')"}), HasSubstr("wrong.lua:2: "));
-    EXPECT_THAT(session({"run('absent.lua')"}), HasSubstr("there is no script absent.lua"));
+    EXPECT_THAT(session({"run('absent.lua')"}), HasSubstr("script not found: absent.lua"));
     EXPECT_THAT(error_of("run('x.lua')"), HasSubstr("in a script write require(name)"));
 }
 

@@ -24,7 +24,8 @@ TEST(sandbox, has_no_way_to_files_processes_or_other_code) {
             "print(name) end end\n"
             "for _, name in ipairs{'dump'} do if pcall(function() return string[name] end) then print(name) end end"),
         "");
-    EXPECT_EQ(error_of("\x1bLua"), "this is not Lua text but a compiled chunk, which is not accepted");
+    EXPECT_EQ(error_of("\x1bLua"),
+              "this is a compiled Lua chunk, which dynlab does not accept; submit the source text");
 }
 
 TEST(sandbox, hides_the_metatables) {
@@ -44,19 +45,20 @@ TEST(sandbox, ends_scripts_that_take_too_much_memory) {
     RunOptions options;
     options.memory_limit_bytes = 64 << 20;
     EXPECT_EQ(error_of("local t = {}\nfor i = 1, 1e9 do\n  t[i] = {i}\nend", options),
-              "lesson.lua:3: the script needs more memory than the 67.1 MB it may use");
+              "lesson.lua:3: the script needs more memory than the limit of 67.1 MB");
     EXPECT_EQ(error_of("local s = string.rep('x', 1e12)", options),
-              "lesson.lua:1: rep: the text would take 1e+03 GB, but the script may use 67.1 MB");
-    EXPECT_NE(error_of("zeros(1e12)", options)
-                  .find("zeros: a vector of 1000000000000 values needs 8e+03 GB, but the script may use 67.1 MB"),
-              std::string::npos);
+              "lesson.lua:1: rep: the text would take 1e+03 GB, but the limit of the script is 67.1 MB");
+    EXPECT_NE(
+        error_of("zeros(1e12)", options)
+            .find("zeros: a vector of 1000000000000 values needs 8e+03 GB, but the limit of the script is 67.1 MB"),
+        std::string::npos);
     EXPECT_NE(error_of("zeros(1e9, 1e9)", options).find("needs"), std::string::npos);
     EXPECT_NE(error_of("local s = 'x'\nwhile true do s = s .. s end", options)
                   .find("lesson.lua:2: the script needs more memory"),
               std::string::npos);
     EXPECT_EQ(printed("print(pcall(string.rep, '', 1e18))\nprint((select(2, pcall(table.concat, {}, '', 1, 1e18))))",
                       options),
-              "true\t\nlesson.lua:2: the range from 1 to 1000000000000000000 is longer than a table can be\n");
+              "true\t\nlesson.lua:2: the range from 1 to 1000000000000000000 is longer than the longest table\n");
     EXPECT_NE(
         error_of("table.insert(setmetatable({}, {__len = function() return 1 << 60 end}), 1, 1)").find("more elements"),
         std::string::npos);
@@ -82,7 +84,7 @@ TEST(sandbox, limits_printed_text) {
     RunOptions options;
     options.output_limit_bytes = 10'000;
     EXPECT_EQ(error_of("while true do print('flood') end", options),
-              "lesson.lua:1: the script printed more text than a run may keep");
+              "lesson.lua:1: the script printed more text than allowed");
 }
 
 /// Seconds until `code` ends by itself or by the limit of 0.2 s of processor time.
@@ -122,7 +124,7 @@ TEST(sandbox, stops_every_endless_loop_at_the_time_limit) {
 TEST(sandbox, stops_at_the_clock_what_uses_less_processor_time_than_it_may) {
     RunOptions options;
     options.time = TimeLimits{std::chrono::milliseconds(200), 1};
-    EXPECT_EQ(error_of("while true do end", options), "lesson.lua:1: the script had not ended after 0.2 s");
+    EXPECT_EQ(error_of("while true do end", options), "lesson.lua:1: the script did not finish within 0.2 s");
 }
 
 /// Runs `code` and presses Ctrl-C after 50 ms; gives the seconds from there to the end of the run.

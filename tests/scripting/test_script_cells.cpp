@@ -140,12 +140,12 @@ TEST(script_cells, handles_that_cannot_move_say_why) {
              {"{x = 1, y = 2}", "a handle moves a slider: x or y must be a function of its number"},
              {"{x = 1}", "a handle needs y = number, or y = function(number of the slider) and y_slider = \"NAME\""},
              {"{x = 1, x_slider = 'k', y = 1}", "a handle needs x = number, or x = function"},
-             {"{x = abs, y = 1}", "'x' is a function: x_slider = \"NAME\" must say of which slider"},
-             {"{x = abs, x_slider = 'l', y = 1}", "the script has not asked for a slider \"l\" yet"},
+             {"{x = abs, y = 1}", "'x' is a function: x_slider = \"NAME\" must name its slider"},
+             {"{x = abs, x_slider = 'l', y = 1}", "the script has not requested a slider \"l\" yet"},
              {"{x = math.abs, x_slider = 'k', y = 1}",
-              "the function 'x' of the handle must rise or fall all the way as the slider \"k\" goes from -1 to 2"},
-             {"{x = print, x_slider = 'k', y = 1}", "must give a number, but for -1 it gave nil"},
-             {"{x = math.log, x_slider = 'k', y = 1}", "must rise or fall"},
+              "the function 'x' of the handle must be monotonic for the slider \"k\" from -1 to 2"},
+             {"{x = print, x_slider = 'k', y = 1}", "must return a number, but for -1 it returned nil"},
+             {"{x = math.log, x_slider = 'k', y = 1}", "must be monotonic for"},
              {"{y = function(k) return k.a end, y_slider = 'k', x = 1}", "is a number, so it has no fields"}})
         EXPECT_THAT(test::error_of(begin + call), testing::HasSubstr(sentence)) << call;
 }
@@ -169,14 +169,14 @@ TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
               "run2\trun2.0\n");
     EXPECT_EQ(record_from_json(to_json(record)).sliders.at("k").to, 10);
     for (const auto& [call, sentence] : std::vector<std::pair<std::string, std::string>>{
-             {"slider('k', 3, 10, 1)", "the slider \"k\" must go from a number to a greater one, not from 10 to 1"},
-             {"slider('k', 0, 1, 2)", "the slider \"k\" goes from 1 to 2; 0 lies outside"},
-             {"slider('k', 1, 0, 2, {log = true})", "must begin above 0"},
+             {"slider('k', 3, 10, 1)", "the range of the slider \"k\" must increase, but it is from 10 to 1"},
+             {"slider('k', 0, 1, 2)", "the range of the slider \"k\" is 1 to 2; 0 is outside"},
+             {"slider('k', 1, 0, 2, {log = true})", "must start above 0"},
              {"slider('k', 1, 0, 2, {step = -1})", "must be above 0 and at most 2"},
-             {"slider('k', 1, 1, 2, {log = true, step = 1})", "it takes no step"},
-             {"slider('k', 1, 1, 2) slider('k', 1, 1, 2)", "is taken already"},
-             {"slider('a b', 1, 1, 2)", "must be made of letters"},
-             {"slider('k', 0/0, 1, 2)", "lies outside"}})
+             {"slider('k', 1, 1, 2, {log = true, step = 1})", "and cannot have a step"},
+             {"slider('k', 1, 1, 2) slider('k', 1, 1, 2)", "is used already"},
+             {"slider('a b', 1, 1, 2)", "may contain only letters"},
+             {"slider('k', 0/0, 1, 2)", "is outside"}})
         EXPECT_THAT(test::error_of(call), testing::HasSubstr(sentence)) << call;
 }
 
@@ -216,12 +216,12 @@ TEST(script_cells, show_curves_as_described) {
     EXPECT_EQ(panel.x_range->second, 2);
     EXPECT_TRUE(panel.references.at(0).horizontal);
     EXPECT_EQ(test::error_of("plot({1, 2}, {1, 2}, {xlable = 'x'})"),
-              "lesson.lua:1: plot: option 'xlable' is unknown; did you mean 'xlabel'?");
-    EXPECT_EQ(
-        test::error_of("plot({1, 2}, {1, 2}, '--')"),
-        "lesson.lua:1: plot: a text names the curve; for the look \"--\" write {style = \"points\"} or {dash = 1}");
+              "lesson.lua:1: plot: unknown option 'xlable'; did you mean 'xlabel'?");
+    EXPECT_EQ(test::error_of("plot({1, 2}, {1, 2}, '--')"),
+              "lesson.lua:1: plot: a text is the name of the curve; for the style \"--\" use {style = \"points\"} or "
+              "{dash = 1}");
     EXPECT_EQ(test::error_of("save(plot({1, 2}, {1, 2}), '/etc/x.pdf')"),
-              "lesson.lua:1: save: '/etc/x.pdf' lies outside the script's folder and the output folder; scripts write "
+              "lesson.lua:1: save: '/etc/x.pdf' is outside the script's folder and the output folder; scripts write "
               "only there");
 }
 

@@ -60,11 +60,10 @@ TEST(script_course, combines_models) {
               "[1]\t[1 1]\t[2]\n");
     EXPECT_EQ(printed("local G = idproc('P1D', {Kp = 2, Tp1 = 4, Td = 1})\nprint(G.Kp, G.param, G.den, G.names[3])"),
               "2\t[2 4 1]\t[1 0.25]\tTd\n");
-    EXPECT_EQ(
-        error_of("print(tf({1}, {1, 2}).std)"),
-        "lesson.lua:1: std: this model was written down, not estimated, so it has no standard errors and no report");
+    EXPECT_EQ(error_of("print(tf({1}, {1, 2}).std)"),
+              "lesson.lua:1: std: this model was specified, not estimated, so it has no standard errors and no report");
     EXPECT_EQ(error_of("tf({1}, {1}, {IODelya = 1})"),
-              "lesson.lua:1: tf: option 'IODelya' is unknown; did you mean 'IODelay'?");
+              "lesson.lua:1: tf: unknown option 'IODelya'; did you mean 'IODelay'?");
     EXPECT_EQ(error_of("lsim(1, 'x', 1)"),
               "lesson.lua:1: lsim: argument 2 (u) must be a vector, but the text \"x\" was given");
 }
@@ -78,8 +77,8 @@ TEST(script_course, fits_a_process_model_to_noise_free_data) {
               "true\ttrue\ttrue\ttrue\n");
     EXPECT_EQ(
         error_of("procsrivc(iddata({1, 2}, {1, 2}, 1), 'P4')"),
-        "lesson.lua:1: procsrivc: process model: \"P4\" is not the structure of a process model; write P1, P2 or P3 "
-        "and after it any of D (delay), I (integrator), Z (zero), U (under-damped pair, from P2 on), as in P2DU");
+        "lesson.lua:1: procsrivc: process model: \"P4\" is not the structure of a process model. Write P1, P2 or P3 "
+        "followed by any of D (delay), I (integrator), Z (zero), U (underdamped pair, from P2 on), as in P2DU");
     EXPECT_EQ(printed("local u = prbs(6, 8)\nlocal G = idproc('P3DIZU', {Kp = 0.5, Tp3 = 0.3, Tw = 0.4, Zeta = 0.2, "
                       "Tz = -0.2, Td = 0.23})\n"
                       "local a = iddata(lsim(G, u, 0.05), u, 0.05)\n"
@@ -88,7 +87,7 @@ TEST(script_course, fits_a_process_model_to_noise_free_data) {
                       "#M.report.output == 2*#u)"),
               "true\t2\ttrue\n");
     EXPECT_EQ(error_of("procsrivc(iddata({1, 2}, {1, 2}, 1), 'P1', {TdMx = 0})"),
-              "lesson.lua:1: procsrivc: option 'TdMx' is unknown; did you mean 'TdMax'?");
+              "lesson.lua:1: procsrivc: unknown option 'TdMx'; did you mean 'TdMax'?");
 }
 
 TEST(script_course, fits_lines) {
@@ -118,25 +117,25 @@ TEST(script_course, has_every_function_in_help) {
     }
     EXPECT_NE(printed("help('matlab')").find("gt(x, 2)"), std::string::npos);
     EXPECT_EQ(printed("help(rng)"), printed("help('rng')"));
-    EXPECT_EQ(error_of("help('lsimm')"), "lesson.lua:1: help: there is no help about 'lsimm'; did you mean 'lsim'?");
+    EXPECT_EQ(error_of("help('lsimm')"), "lesson.lua:1: help: no help for 'lsimm'; did you mean 'lsim'?");
 }
 
 TEST(script_course, takes_short_curve_names_but_no_line_specifications) {
     EXPECT_EQ(printed("plot({1, 2}, {3, 4}, 'rms', {1, 2}, {4, 3}, 'box') print('drawn')"), "drawn\n");
     for (const char* look : {"r--", "ro", ".-"}) {
-        EXPECT_NE(error_of("plot({1, 2}, {3, 4}, '" + std::string(look) + "')").find("a text names the curve"),
+        EXPECT_NE(error_of("plot({1, 2}, {3, 4}, '" + std::string(look) + "')").find("a text is the name of the curve"),
                   std::string::npos)
             << look;
     }
     EXPECT_EQ(error_of("plot({1, 2}, {3, 4}, {colour = 1.7})"),
-              "lesson.lua:1: plot: option 'colour' must be a whole number from 0 on, or a name such as \"red\", but "
-              "1.7 was given");
+              "lesson.lua:1: plot: option 'colour' must be a whole number from 0, or a name such as \"red\", but 1.7 "
+              "was given");
 }
 
 TEST(script_course, counts_samples_and_channels_in_whole_numbers) {
     const std::string data = "local d = iddata(zeros(5), ones(5), 1) ";
     EXPECT_EQ(error_of(data + "print(d[{1.5, 3}])"),
-              "lesson.lua:1: samples and channels are counted in whole numbers, but 1.5 was given");
+              "lesson.lua:1: samples and channels must be whole numbers, but 1.5 was given");
     EXPECT_NE(error_of(data + "d:select({1.7})").find("but 1.7 was given"), std::string::npos);
 }
 

@@ -25,9 +25,9 @@ void check(std::initializer_list<Expected> cases) {
 
 TEST(script_errors, say_which_name_is_unknown_and_which_is_near) {
     check({
-        {"\n\nlocal x = zeors(3)", "lesson.lua:3: there is no function or variable 'zeors'; did you mean 'zeros'?"},
-        {"local gain = 2\nprint(gian)", "lesson.lua:2: there is no function or variable 'gian'; did you mean 'gain'?"},
-        {"print(qqqqqqq)", "lesson.lua:1: there is no function or variable 'qqqqqqq'"},
+        {"\n\nlocal x = zeors(3)", "lesson.lua:3: unknown function or variable 'zeors'; did you mean 'zeros'?"},
+        {"local gain = 2\nprint(gian)", "lesson.lua:2: unknown function or variable 'gian'; did you mean 'gain'?"},
+        {"print(qqqqqqq)", "lesson.lua:1: unknown function or variable 'qqqqqqq'"},
         {"string.fromat('%d', 1)", "lesson.lua:1: 'string' has no member 'fromat'; did you mean 'format'?"},
         {"local v = vector{1}\nv:rnge(1, 1)",
          "lesson.lua:2: a vector has no field or method 'rnge'; did you mean 'range'?"},
@@ -36,14 +36,13 @@ TEST(script_errors, say_which_name_is_unknown_and_which_is_near) {
 
 TEST(script_errors, name_the_lua_form_of_a_matlab_function) {
     check({
-        {"disp(3)", "lesson.lua:1: there is no function 'disp' here; write print(x)"},
-        {"local n = length({1})", "lesson.lua:1: there is no function 'length' here; write #v"},
-        {"numel({1})", "lesson.lua:1: there is no function 'numel' here; write #v"},
+        {"disp(3)", "lesson.lua:1: unknown function 'disp'; write print(x)"},
+        {"local n = length({1})", "lesson.lua:1: unknown function 'length'; write #v"},
+        {"numel({1})", "lesson.lua:1: unknown function 'numel'; write #v"},
         {"size({1})",
-         "lesson.lua:1: there is no function 'size' here; write #v for a vector, A.rows and A.columns for a matrix"},
-        {"fprintf('%d', 1)",
-         "lesson.lua:1: there is no function 'fprintf' here; write print(string.format(\"%.3f\", x))"},
-        {"local w = 2*pi", "lesson.lua:1: there is no function 'pi' here; write math.pi"},
+         "lesson.lua:1: unknown function 'size'; write #v for a vector, A.rows and A.columns for a matrix"},
+        {"fprintf('%d', 1)", "lesson.lua:1: unknown function 'fprintf'; write print(string.format(\"%.3f\", x))"},
+        {"local w = 2*pi", "lesson.lua:1: unknown function 'pi'; write math.pi"},
     });
 }
 
@@ -63,7 +62,7 @@ TEST(script_errors, lead_from_the_toolboxes_functions_to_those_here) {
           "isstable", "zpplot",  "zpk",     "tfdata",    "nlhw",       "nlarx",    "rarx",   "rpem",    "roots",
           "xcorr",    "filter",  "etime",   "allmargin", "shadedplot", "sidgpmf",  "hsrivc", "poly",    "os"}) {
         const std::string said = error_of(std::string(name) + "()");
-        const std::string::size_type hint = said.find(" here; ");
+        const std::string::size_type hint = said.find("'; ");
         ASSERT_NE(hint, std::string::npos) << name << ": " << said;
         for (const std::string& function : functions_of(said.substr(hint)))
             EXPECT_EQ(printed("print(type(" + function + "))"), "function\n") << name << ": " << said;
@@ -93,14 +92,15 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"local m = {}\nm.fit()",
          "lesson.lua:2: the field 'fit' is nil (it has no value), so it cannot be called like a function"},
         {"local v = vector{1, 2}\nprint(v(1))",
-         "lesson.lua:2: the variable 'v' is a vector, so it cannot be called like a function; the element i is written "
+         "lesson.lua:2: the variable 'v' is a vector, so it cannot be called like a function; write the element i as "
          "v[i]"},
         {"local a\nlocal b = a + 1",
-         "lesson.lua:2: the variable 'a' is nil (it has no value), so it cannot be calculated with"},
+         "lesson.lua:2: the variable 'a' is nil (it has no value), so arithmetic with it is not possible"},
         {"local a = {1, 2}\nlocal b = 2*a",
-         "lesson.lua:2: the variable 'a' is a table, so it cannot be calculated with; make a vector of it: vector(t)"},
+         "lesson.lua:2: the variable 'a' is a table, so arithmetic with it is not possible; convert it to a vector: "
+         "vector(t)"},
         {"local a\nlocal b = 'x' .. a",
-         "lesson.lua:2: the variable 'a' is nil (it has no value), so .. cannot join it to a text; use tostring(x)"},
+         "lesson.lua:2: the variable 'a' is nil (it has no value), so .. cannot join it to a string; use tostring(x)"},
         {"local a\nlocal n = #a",
          "lesson.lua:2: the variable 'a' is nil (it has no value), so # cannot count its elements"},
         {"local ok = 1 < 'x'", "lesson.lua:1: a number cannot be compared with a text by < or >"},
@@ -109,10 +109,10 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"for i = 1, 'x' do end", "lesson.lua:1: the limit of a for loop must be a number, but a text was given"},
         {"for i = 1, 2, 0 do end", "lesson.lua:1: the step of a for loop must not be zero"},
         {"local y = 1//0", "lesson.lua:1: a whole number cannot be divided by zero with //"},
-        {"local y = 1%0", "lesson.lua:1: the remainder of a division by zero does not exist"},
+        {"local y = 1%0", "lesson.lua:1: the remainder of a division by zero is undefined"},
         {"local t = {}\nt[nil] = 1", "lesson.lua:2: the key of the table is nil (it has no value)"},
         {"local function f() return 1 + f() end\nf()",
-         "lesson.lua:1: functions call each other without end (stack overflow)"},
+         "lesson.lua:1: functions call each other endlessly (stack overflow)"},
         {"error()", "lesson.lua:1: error() was called without a message"},
         {"error('my own words')", "lesson.lua:1: my own words"},
         {"error({code = 2})", "lesson.lua:1: {code = 2}"},
@@ -121,41 +121,38 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
 
 TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
     check({
-        {"local y = x'",
-         "lesson.lua:1: a text is not closed with its quote; the transpose is A:t(); vectors are columns already"},
+        {"local y = x'", "lesson.lua:1: unterminated string; the transpose is A:t(); a vector is already a column"},
         {"local z = x.*y",
-         "lesson.lua:1: a name is missing before '*'; for vectors write x*y, for matrices A:times(B), instead of .*"},
-        {"local z = x./y", "lesson.lua:1: a name is missing before '/'; for vectors write x/y instead of ./"},
-        {"local z = x.^2", "lesson.lua:1: a name is missing before '^'; for vectors write x^2 instead of .^"},
+         "lesson.lua:1: expected a name before '*'; write x*y for vectors and A:times(B) for matrices, instead of .*"},
+        {"local z = x./y", "lesson.lua:1: expected a name before '/'; for vectors write x/y instead of ./"},
+        {"local z = x.^2", "lesson.lua:1: expected a name before '^'; for vectors write x^2 instead of .^"},
         {"local k = 0:N-1",
-         "lesson.lua:1: ':' cannot stand here; a range is range(first, last) or range(first, step, last), a part of a "
-         "vector v:range(i, j)"},
+         "lesson.lua:1: unexpected ':'; write a range as range(first, last) or range(first, step, last), a part of a "
+         "vector v as v:range(i, j)"},
         {"local v = [1 2 3]",
-         "lesson.lua:1: '[' cannot stand here; a vector is written vector{1, 2, 3}, a matrix matrix{{1, 2}, {3, 4}}"},
+         "lesson.lua:1: unexpected '['; write a vector as vector{1, 2, 3}, a matrix as matrix{{1, 2}, {3, 4}}"},
         {"% a comment", "lesson.lua:1: a comment starts with -- in Lua"},
         {"local a = 1\n% my comment\nprint(a)", "lesson.lua:2: a comment starts with -- in Lua"},
         {"local a = 1\n\n  % my comment\n\nprint(a)", "lesson.lua:3: a comment starts with -- in Lua"},
         {"# comment\nprint(1)", "lesson.lua:1: a comment starts with -- in Lua"},
-        {"local a = 1 % gain", "lesson.lua:1: there is no variable 'gain'; a comment starts with -- in Lua"},
-        {"y = 3 % comment", "lesson.lua:1: there is no variable 'comment'; a comment starts with -- in Lua"},
-        {"local y = 3 # comment", "lesson.lua:1: '#' cannot stand here; a comment starts with -- in Lua"},
+        {"local a = 1 % gain", "lesson.lua:1: unknown variable 'gain'; a comment starts with -- in Lua"},
+        {"y = 3 % comment", "lesson.lua:1: unknown variable 'comment'; a comment starts with -- in Lua"},
+        {"local y = 3 # comment", "lesson.lua:1: unexpected '#'; a comment starts with -- in Lua"},
         {"local x = vector{1}\nprint(x[end])",
-         "lesson.lua:2: 'end' cannot stand here; the last element is x[#x]; vector{x, y} appends y to x"},
+         "lesson.lua:2: unexpected 'end'; the last element is x[#x]; vector{x, y} appends y to x"},
         {"local x = {}\nx(end+1) = 3",
-         "lesson.lua:2: 'end' cannot stand here; the last element is x[#x]; vector{x, y} appends y to x"},
-        {"print(A[1,2])", "lesson.lua:1: ']' is missing before ','; the element in row 1 and column 2 is A[{1, 2}]"},
-        {"local b = a > 1 ? 2 : 3",
-         "lesson.lua:1: '?' cannot stand here; write if ... then ... else ... end instead of ?"},
-        {"print(1) end", "lesson.lua:1: this 'end' closes nothing: there is one too many"},
+         "lesson.lua:2: unexpected 'end'; the last element is x[#x]; vector{x, y} appends y to x"},
+        {"print(A[1,2])", "lesson.lua:1: expected ']' before ','; the element in row 1 and column 2 is A[{1, 2}]"},
+        {"local b = a > 1 ? 2 : 3", "lesson.lua:1: unexpected '?'; write if ... then ... else ... end instead of ?"},
+        {"print(1) end", "lesson.lua:1: unexpected 'end': it closes nothing"},
         {"print(2 + 1i)",
-         "lesson.lua:1: '1i' cannot stand here; there are no complex numbers to calculate with; those that "
-         "functions "
-         "give have the fields re, im, abs, arg"},
-        {"if a != b then end", "lesson.lua:1: 'then' is missing before '!'; 'not equal' is ~= in Lua"},
-        {"if a = b then end", "lesson.lua:1: 'then' is missing before '='; to compare, write == instead of ="},
-        {"local s = 1 + ...\n 2", "lesson.lua:2: '2' cannot stand here"},
-        {"for k = 1:10\nend", "lesson.lua:1: ',' is missing before ':'; a loop is written: for k = 1, N do ... end"},
-        {"local x = A\\b", "lesson.lua:1: '\\' cannot stand here; A\\b is written solve(A, b)"},
+         "lesson.lua:1: unexpected '1i'; dynlab has no complex arithmetic; complex numbers returned by functions have "
+         "the fields re, im, abs, arg"},
+        {"if a != b then end", "lesson.lua:1: expected 'then' before '!'; write 'not equal' as ~= in Lua"},
+        {"if a = b then end", "lesson.lua:1: expected 'then' before '='; to compare, write == instead of ="},
+        {"local s = 1 + ...\n 2", "lesson.lua:2: unexpected '2'"},
+        {"for k = 1:10\nend", "lesson.lua:1: expected ',' before ':'; write a loop as for k = 1, N do ... end"},
+        {"local x = A\\b", "lesson.lua:1: unexpected '\\'; write A\\b as solve(A, b)"},
         {"if true then\nprint(1)\n", "lesson.lua:1: the 'if' of line 1 has no 'end'"},
         {"for i = 1, 2 do print(1)", "lesson.lua:1: the 'for' of line 1 has no 'end'"},
         {"for i = 1, 2 do\nprint(1)", "lesson.lua:1: the 'for' of line 1 has no 'end'"},
@@ -174,8 +171,8 @@ TEST(script_errors, name_the_line_where_something_is_missing) {
         {"if 1 > 2 then\n  print(1)\nelse if 2 > 1 then\n  print(2)\nend\n" + below,
          "lesson.lua:3: an 'end' is missing: 'else if' opens a second block; write elseif"},
         {"for i = 1, 2 do if i > 1 then print(i) end\n" + below, "lesson.lua:1: the 'for' of line 1 has no 'end'"},
-        {"local x = 1 +\n" + below, "lesson.lua:1: this statement goes on, but the cell ends here"},
-        {"local v = {1, 2,\n" + below, "lesson.lua:1: this statement goes on, but the cell ends here"},
+        {"local x = 1 +\n" + below, "lesson.lua:1: the statement is incomplete at the end of the cell"},
+        {"local v = {1, 2,\n" + below, "lesson.lua:1: the statement is incomplete at the end of the cell"},
         {"print(1)\nprint(1, {2,\n3\n", "lesson.lua:2: the '{' of line 2 is not closed: '}' is missing"},
         {"print(1 +\n2,\n3 3)\n" + below, "lesson.lua:3: the '(' of line 1 is not closed: ')' is missing"},
     });
@@ -184,25 +181,26 @@ TEST(script_errors, name_the_line_where_something_is_missing) {
 // Characters of word processors and printed pages.
 TEST(script_errors, name_characters_that_no_program_can_hold) {
     check({
-        {"print(\u201ca\u201d)", "lesson.lua:1: the character \u201c (U+201C) cannot stand here; write \" instead"},
-        {"local x = 3 \u2013 2", "lesson.lua:1: the character \u2013 (U+2013) cannot stand here; write - instead"},
-        {"local x = s\u02c62", "lesson.lua:1: the character \u02c6 (U+02C6) cannot stand here; write ^ instead"},
-        {"local x = 2\u00b7pi", "lesson.lua:1: the character \u00b7 (U+00B7) cannot stand here; write * instead"},
-        {"local x =\u00a03", "lesson.lua:1: the character \u00a0 (U+00A0) cannot stand here; write a space instead"},
+        {"print(\u201ca\u201d)", "lesson.lua:1: unexpected character \u201c (U+201C); replace it with \""},
+        {"local x = 3 \u2013 2", "lesson.lua:1: unexpected character \u2013 (U+2013); replace it with -"},
+        {"local x = s\u02c62", "lesson.lua:1: unexpected character \u02c6 (U+02C6); replace it with ^"},
+        {"local x = 2\u00b7pi", "lesson.lua:1: unexpected character \u00b7 (U+00B7); replace it with *"},
+        {"local x =\u00a03", "lesson.lua:1: unexpected character \u00a0 (U+00A0); replace it with a space"},
         {"local l\u00e9ger = 1",
-         "lesson.lua:1: the character \u00e9 (U+00E9) cannot stand here; names are made of the letters a to z, digits "
-         "and _"},
-        {"local x = '\u00e9' -- \u2013\nprint(y)", "lesson.lua:2: there is no function or variable 'y'"},
-        {"local x = 1 \xe9", "lesson.lua:1: a byte that is not UTF-8 cannot stand here; save the script as UTF-8"},
+         "lesson.lua:1: unexpected character \u00e9 (U+00E9); a name may contain only the letters a to z, digits and "
+         "_"},
+        {"local x = '\u00e9' -- \u2013\nprint(y)", "lesson.lua:2: unknown function or variable 'y'"},
+        {"local x = 1 \xe9", "lesson.lua:1: unexpected byte that is not UTF-8; save the script as UTF-8"},
     });
 }
 
 TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
     check({
         {"print(string.format('%d', 3.5))",
-         "lesson.lua:1: format: argument 2 is not a whole number, which %d wants; write %g or %.0f"},
+         "lesson.lua:1: format: argument 2 is not a whole number, which %d requires; write %g or %.0f"},
         {"print('a = ' + {})",
-         "lesson.lua:1: a text cannot be calculated with; two dots join texts and numbers: \"a = \" .. x"},
+         "lesson.lua:1: arithmetic with a string is not possible; use two dots to join strings and numbers: \"a = \" "
+         ".. x"},
         {"local d = iddata(randn(9), randn(9), 1)\nprint(#d)",
          "lesson.lua:2: the variable 'd' is an iddata, so # cannot count its elements; data.N is the number of "
          "samples"},
@@ -211,20 +209,19 @@ TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
          "colon: "
          "object:split(...)"},
         {"randn(20):range(10)", "lesson.lua:1: range: argument 2 (last) is missing; it must be a whole number"},
-        {"vector(1, 2, 3)", "lesson.lua:1: vector: a vector is written with braces: vector{1, 2, 3}"},
+        {"vector(1, 2, 3)", "lesson.lua:1: vector: write a vector with braces: vector{1, 2, 3}"},
         {"matrix({1, 2}, {3, 4})",
-         "lesson.lua:1: matrix: a matrix is written with braces: matrix{{1, 2}, {3, 4}} (rows) or matrix{v1, v2} "
-         "(columns)"},
+         "lesson.lua:1: matrix: write a matrix with braces: matrix{{1, 2}, {3, 4}} (rows) or matrix{v1, v2} (columns)"},
         {"plot({1, 2}, {1, 2}, 'LineWidth', 2)",
          "lesson.lua:1: plot: \"LineWidth\" is an option of MATLAB's plot; write the options as one table, plot(x, y, "
          "{line_width = 2, colour = \"red\", style = \"points\"})"},
         {"plot({1, 2}, {colour = 'pinkish'})",
-         "lesson.lua:1: plot: option 'colour' must be a number from 0 on, or one of \"blue\", \"orange\", \"black\", "
+         "lesson.lua:1: plot: option 'colour' must be a number from 0, or one of \"blue\", \"orange\", \"black\", "
          "\"green\", \"purple\", \"cyan\", \"red\", \"magenta\", \"grey\", \"gray\", but \"pinkish\" was given"},
         {"io.open('x')",
-         "lesson.lua:1: there is no function 'io' here; scripts read with load(name), write with save_csv(path, data), "
-         "and print with print(x)"},
-        {"strcmp('a', 'b')", "lesson.lua:1: there is no function 'strcmp' here; write a == b"},
+         "lesson.lua:1: unknown function 'io'; scripts read with load(name), write with save_csv(path, data), and "
+         "print with print(x)"},
+        {"strcmp('a', 'b')", "lesson.lua:1: unknown function 'strcmp'; write a == b"},
     });
 }
 
@@ -232,7 +229,7 @@ TEST(script_errors, carry_the_line_of_the_script_record) {
     const auto record = run("local x = 1\n\nvector(3)\n");
     ASSERT_TRUE(record.error);
     EXPECT_EQ(record.error->line, 3);
-    EXPECT_EQ(record.error->text(), "lesson.lua:3: vector: a vector is written with braces: vector{1, 2, 3}");
+    EXPECT_EQ(record.error->text(), "lesson.lua:3: vector: write a vector with braces: vector{1, 2, 3}");
 }
 
 TEST(script_errors, name_argument_wanted_and_given) {
@@ -247,9 +244,9 @@ TEST(script_errors, name_argument_wanted_and_given) {
         {"mean({})", "lesson.lua:1: mean: argument 1 (v) has no elements"},
         {"dot({1}, {1, 2})", "lesson.lua:1: dot: a has 1 value, but b has 2"},
         {"rng(-1)", "lesson.lua:1: rng: the seed must be a whole number from 0 to 4294967295, but -1 was given"},
-        {"sqrt(-2)", "lesson.lua:1: sqrt: it is not defined for the negative number -2"},
+        {"sqrt(-2)", "lesson.lua:1: sqrt: the function is undefined for the negative number -2"},
         {"norm({1}, {2})",
-         "lesson.lua:1: norm: takes at most 1 argument, but 2 were given; options are written as one table {name = "
+         "lesson.lua:1: norm: takes at most 1 argument, but 2 were given; write the options as one table {name = "
          "value}"},
     });
 }
@@ -259,15 +256,15 @@ TEST(script_errors, count_one_in_the_singular) {
     check({
         {"lsim(tf({1, 0}, {2}), {1, 2}, 1)",
          "lesson.lua:1: lsim: the transfer function has 1 zero but only 0 poles; an improper model cannot be "
-         "simulated, it needs at least as many poles as zeros"},
+         "simulated, because it needs at least as many poles as zeros"},
         {"lsq(matrix{{1}, {2}}, {1})",
          "lesson.lua:1: lsq: least squares: the matrix has 2 rows but the right-hand side has 1 value"},
         {"local y = vector{1} + vector{1, 2}",
          "lesson.lua:1: x + y needs equal sizes, but x is a vector of 1 value and y is a vector of 2 values"},
         {"report.table('t', {{'a', 'b'}, {1}})", "lesson.lua:1: report.table: row 2 has 1 cell, but the header has 2"},
-        {"local v = vector{5}\nprint(v[2])", "lesson.lua:2: v[2] does not exist: v has the element 1 only"},
-        {"zeros(1, 2):row(2)", "lesson.lua:1: row 2 does not exist: there is 1 only"},
-        {record + "d:experiment(2)", "lesson.lua:2: experiment 2 does not exist: there is 1 only"},
+        {"local v = vector{5}\nprint(v[2])", "lesson.lua:2: v[2] does not exist: v has only the element 1"},
+        {"zeros(1, 2):row(2)", "lesson.lua:1: row 2 does not exist: there is only 1"},
+        {record + "d:experiment(2)", "lesson.lua:2: experiment 2 does not exist: there is only 1"},
         {record + "srivc(d, {2})",
          "lesson.lua:2: srivc: argument 2 (orders) must be {nb, nf, nk} (nb: coefficients of B; nf: poles; nk: samples "
          "of delay), but it has 1 entry"},
@@ -278,14 +275,14 @@ TEST(script_errors, count_one_in_the_singular) {
 
 TEST(script_errors, stay_with_their_line_in_coroutines_and_protected_calls) {
     EXPECT_EQ(error_of("local f = coroutine.wrap(function()\n  zeors(1)\nend)\nf()"),
-              "lesson.lua:2: there is no function or variable 'zeors'; did you mean 'zeros'?");
+              "lesson.lua:2: unknown function or variable 'zeors'; did you mean 'zeros'?");
     EXPECT_EQ(printed("print(pcall(function() local a; return a.b end))"),
               "false\tlesson.lua:1: the variable 'a' is nil (it has no value), so it has no fields or elements\n");
     EXPECT_EQ(printed("print(xpcall(error, function(m) return 'seen ' .. m end, 'x', 0))"),
               "false\tseen lesson.lua:1: x\n");
     EXPECT_EQ(printed("local t = {}\nlocal ok, e = pcall(error, t)\nprint(e == t)"), "true\n");
     EXPECT_EQ(printed("local co = coroutine.create(function() local x = nil + 1 end)\nprint(coroutine.resume(co))"),
-              "false\tlesson.lua:1: this value is nil (it has no value), so it cannot be calculated with\n");
+              "false\tlesson.lua:1: this value is nil (it has no value), so arithmetic with it is not possible\n");
     EXPECT_EQ(printed("local g = coroutine.wrap(function() print(pcall(function() coroutine.yield(1) error('late', 0) "
                       "end)) end)\n"
                       "print(g())\ng()"),
@@ -295,14 +292,11 @@ TEST(script_errors, stay_with_their_line_in_coroutines_and_protected_calls) {
 TEST(script_errors, refuse_to_replace_functions_of_dynlab) {
     EXPECT_EQ(error_of("mean = 3"),
               "lesson.lua:1: 'mean' is a function or table of dynlab and cannot be replaced; choose another name, or "
-              "write 'local mean = "
-              "...' to use the name for a variable of your own");
-    EXPECT_EQ(
-        error_of("string.trim = 1"),
-        "lesson.lua:1: 'string' belongs to dynlab and cannot be changed; use a table or a local function of your own");
-    EXPECT_EQ(
-        error_of("dynlab.mean = 1"),
-        "lesson.lua:1: 'dynlab' belongs to dynlab and cannot be changed; use a table or a local function of your own");
+              "write 'local mean = ...' to define a variable with this name");
+    EXPECT_EQ(error_of("string.trim = 1"),
+              "lesson.lua:1: 'string' belongs to dynlab and cannot be changed; use a table or a local function");
+    EXPECT_EQ(error_of("dynlab.mean = 1"),
+              "lesson.lua:1: 'dynlab' belongs to dynlab and cannot be changed; use a table or a local function");
     EXPECT_EQ(printed("answer_to_all = 42\nanswer_to_all = 43\nprint(answer_to_all, dynlab.sum{1, 2})\nlocal mean = "
                       "5\nprint(mean)"),
               "43\t3\n5\n");

@@ -37,7 +37,7 @@ TEST(script_estimators, rivc_shows_the_noise_model_with_its_errors) {
               "1\t2\t1\ttrue\t0\ttrue\ntrue\ntrue\ntrue\ntrue\n");
     EXPECT_THAT(printed(kColoured + "present(rivc(data, {1, 0, 1, 2, 6}))"),
                 AllOf(HasSubstr("Noise C(q^-1)/D(q^-1) e"), HasSubstr("  d1"), Not(HasSubstr("  c1"))));
-    EXPECT_THAT(printed(kColoured + "present(rivc(data, {1, 0, 0, 2, 6}))"), HasSubstr("Noise: taken as white"));
+    EXPECT_THAT(printed(kColoured + "present(rivc(data, {1, 0, 0, 2, 6}))"), HasSubstr("Noise: assumed white"));
 }
 
 // Oracle: where errors are white both kinds of standard errors are the same on average, whatever the weights.
@@ -83,15 +83,16 @@ TEST(script_estimators, rivc_and_tfrivc_can_be_studied) {
 }
 
 TEST(script_estimators, models_without_a_noise_model_say_who_has_one) {
-    EXPECT_THAT(error_of(kColoured + "print(srivc(data, {1, 2, 6}).C)"), HasSubstr("rivc gives C and D"));
+    EXPECT_THAT(error_of(kColoured + "print(srivc(data, {1, 2, 6}).C)"), HasSubstr("rivc B, C, D and F"));
 }
 
 TEST(script_estimators, difference_equations_have_robust_errors_too) {
     for (const char* method : {"oe", "sriv"})
-        EXPECT_THAT(printed(kColoured + "local G = " + method +
-                            "(data, {1, 2, 7})\nprint(#G.robust_std, G.robust_std[3] > G.std[3], G.report.white)\n"
-                            "present(G)"),
-                    AllOf(HasSubstr("3\ttrue\tfalse"), HasSubstr("(robust ± "), HasSubstr("are the ones to use")))
+        EXPECT_THAT(
+            printed(kColoured + "local G = " + method +
+                    "(data, {1, 2, 7})\nprint(#G.robust_std, G.robust_std[3] > G.std[3], G.report.white)\n"
+                    "present(G)"),
+            AllOf(HasSubstr("3\ttrue\tfalse"), HasSubstr("(robust ± "), HasSubstr("Use the robust standard errors")))
             << method;
 }
 
@@ -106,7 +107,7 @@ TEST(script_estimators, a_model_or_a_delay_starts_the_search) {  // oracle: the 
                                  "same(tfcoe(data, 2, 0, {Td0 = 0.25}).param, free.param))\n"
                                  "print(#tfcoe(data, tf({1.5}, {1, 3, 2})).param)"),
               "true\ttrue\n3\n");
-    EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}), {Td0 = 1})"), HasSubstr("it has its own delay"));
+    EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}), {Td0 = 1})"), HasSubstr("which has its own delay"));
     EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}, {Ts = 1}))"), HasSubstr("continuous time"));
 }
 

@@ -60,13 +60,13 @@ end, names, {states = 2})
 local called = greyest(data, m)
 print(max(abs(called.param - traced.param)) < 1e-5, max(abs(called.std - traced.std)) < 1e-5)
 )");
-    EXPECT_THAT(text, HasSubstr("some hundred times as long"));
+    EXPECT_THAT(text, HasSubstr("about a hundred times as long"));
     EXPECT_THAT(text, HasSubstr("where(c, a, b) is a where c > 0"));
     EXPECT_THAT(text, HasSubstr("true\ttrue\n"));
     EXPECT_THAT(printed(kRecord + R"(
 local m = idgrey(function(t, x, u, p) return {x[2], p.b*u - p.a2*math.sin(x[1]) - p.a1*x[2]} end, names, {states = 2})
 )"),
-                HasSubstr("math.sin takes numbers alone: write sin(...) without math"));
+                HasSubstr("math.sin accepts only numbers: write sin(...) without math"));
     // A decision that Lua makes in silence: == of two kinds of values is false.
     EXPECT_THAT(printed(kRecord + R"(
 local m = idgrey(function(t, x, u, p)
@@ -74,7 +74,7 @@ local m = idgrey(function(t, x, u, p)
     return {x[2], p.b*u - p.a2*x[1] - p.a1*x[2]}
 end, names, {states = 2})
 )"),
-                HasSubstr("does not give the same when it is called again"));
+                HasSubstr("the function returns different results when called again"));
 }
 
 TEST(script_grey_box, follows_all_functions) {  // oracle: the same functions of numbers
@@ -128,11 +128,11 @@ TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
                 HasSubstr("p has no parameter a3; the parameters are a1, a2, b"));
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {x.v, x.q} end, names, {states = {'y', 'v'}})"),
                 HasSubstr("x has no state q; the states are y, v"));
-    EXPECT_THAT(refusal("idgrey(f, {a1 = {1, mn = 0}}, {states = 2})"), HasSubstr("'mn' is none of these"));
+    EXPECT_THAT(refusal("idgrey(f, {a1 = {1, mn = 0}}, {states = 2})"), HasSubstr("'mn' is not an option"));
     EXPECT_THAT(refusal("idgrey(f, {a1 = {3, max = 2}, a2 = 1, b = 1}, {states = 2})"),
                 HasSubstr("a1 starts from 3, outside its bounds -Inf and 2"));
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {p.a1*x[1] + u}, {x[1]} end, {a1 = 1}, {states = 1})"),
-                HasSubstr("must return the derivatives alone, in one table"));
+                HasSubstr("must return only the derivatives, in one table"));
     EXPECT_THAT(refusal("idgrey(f, names, {states = 2, outputs = function(t, x, u, p) return x[1], x[2] end})"),
                 HasSubstr("must return the outputs in one table"));
     EXPECT_THAT(refusal("idgrey(f, names, {states = 2, x0 = function(p) return 1, 2 end})"),
@@ -143,10 +143,10 @@ TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
     EXPECT_THAT(
         refusal(
             "greyest(data, idgrey(f, names, {states = 2, outputs = function(t, x, u, p) return {x[1], x[2]} end}))"),
-        HasSubstr("greyest: the model gives 2 outputs, and the record has 1"));
+        HasSubstr("greyest: the model gives 2 outputs, but the data have 1"));
     EXPECT_THAT(
         refusal("greyest(data, idgrey(function(t, x, u, p) return {p.a1*x[1]^3 + u[2]} end, {a1 = 1}, {states = 1}))"),
-        HasSubstr("greyest: the model has 2 inputs, and the record has 1"));
+        HasSubstr("greyest: the model has 2 inputs, but the data have 1"));
     EXPECT_THAT(
         refusal(
             "greyest(data, idgrey(function(t, x, u, p) return {p.a1*x[1]^3 + u} end, {a1 = 50}, {states = {'h'}}))"),
@@ -156,12 +156,12 @@ TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
                 HasSubstr("the derivative of the state h is NaN, where h = -"));
     EXPECT_THAT(refusal("greyest(data, idgrey(function(t, x, u, p) return {-p.a1/p.b*x[1] + u} end, "
                         "{a1 = 1, b = {0, fixed = true}}, {states = {'h'}}))"),
-                HasSubstr("a coefficient in the derivative of the state h is no finite number"));
+                HasSubstr("a coefficient in the derivative of the state h is not a finite number"));
     EXPECT_THAT(refusal("greyest(data, idgrey(f, names, {states = 2}), {RelTol = 2})"),
-                HasSubstr("option 'RelTol' must lie between 1e-13 and 0.01, but 2 was given"));
+                HasSubstr("option 'RelTol' must be between 1e-13 and 0.01, but 2 was given"));
     EXPECT_THAT(refusal("greyest(data, idgrey(function(t, x, u, p) return {p.a1*sqrt(x[1] - 1) + u} end, {a1 = 1}, "
                         "{states = {'h'}}))"),
-                HasSubstr("sqrt: it is not defined for the negative number -1"));
+                HasSubstr("sqrt: the function is undefined for the negative number -1"));
 }
 
 }  // namespace test_script_grey_box

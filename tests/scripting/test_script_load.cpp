@@ -27,12 +27,11 @@ class script_load : public testing::Test {
 
 TEST_F(script_load, tells_what_was_guessed_and_feeds_fillmissing) {
     write("a.txt", "time (ms);u [V]\n0;1\n10;\n20;3,5\n");
-    EXPECT_EQ(says("local d = load(\"a.txt\") print(fillmissing(d.u)[2], d[\"u [V]\"][3], d.units.u)"),
-              "a.txt: units from the headers: time in ms, u in V\n"
-              "a.txt: numbers are missing and become NaN: 1 of 3 in u (first in line 3); fillmissing(u, {method = "
-              "\"previous\"}) holds an input that is logged when it changes, fillmissing(y) interpolates an output\n"
-              "a.txt: numbers are written with a decimal comma, such as 3,5\n"
-              "2.25\t3.5\tV\n");
+    EXPECT_EQ(
+        says("local d = load(\"a.txt\") print(fillmissing(d.u)[2], d[\"u [V]\"][3], d.units.u)"),
+        "a.txt: units from the headers: time in ms, u in V\na.txt: missing numbers were replaced with NaN: 1 of 3 in u "
+        "(first in line 3); fillmissing(u, {method = \"previous\"}) holds an input that is logged when it changes, "
+        "fillmissing(y) interpolates an output\na.txt: the numbers have a decimal comma, as in 3,5\n2.25\t3.5\tV\n");
     EXPECT_THAT(complains("print(load(\"a.txt\").y)"), HasSubstr("have no variable 'y'; they have time, u"));
 }
 
@@ -56,11 +55,11 @@ TEST_F(script_load, data_of_no_use_are_refused_or_doubted_in_words) {
         {"local d = load('uneven.csv') iddata(d.y, d.u, d.t)", "{SamplingInstants = t}"},
         {"local d = load('uneven.csv') arx(iddata(d.y, d.u, nil, {SamplingInstants = d.t}), {1, 1, 1})", "regular"},
         {"srivc(iddata({0, 1, 0.5, 0.2, 1}, {1, 0, 0, 1, 0}, 0.1), {2, 2, 0})", "at least 12 samples are needed"},
-        {crane + "iddata(e, 0.02)", "the table holds t, theta, u, x"},
+        {crane + "iddata(e, 0.02)", "the table contains t, theta, u, x"},
     };
     for (const auto& [code, words] : refused) EXPECT_THAT(complains(code), HasSubstr(words)) << code;
     const std::pair<std::string, std::string> doubted[] = {
-        {"e.theta*180/math.pi, e.u, 0.02, {OutputUnit = 'rad'}", "probably in degrees"},
+        {"e.theta*180/math.pi, e.u, 0.02, {OutputUnit = 'rad'}", "probably degrees"},
         {"e.u, e.theta, 0.02", "probably exchanged"},
         {"ones(#e.u), e.u, 0.02", "stays at 1 throughout"},
     };

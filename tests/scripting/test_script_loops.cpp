@@ -45,8 +45,8 @@ TEST(script_loops, four_routes) {
                 "print(clsrivc(data, {1, 2, 0}, {route = 'direct'}).param[1] == srivc(data, {1, 2, 0}).param[1])"),
         "true\ttrue\ntrue\ntrue\ntrue\ntrue\n");
     EXPECT_THAT(printed(kLoop + "print(clsrivc(data, {1, 2, 0}, {controller = C}).report.message)"),
-                HasSubstr("whose controller answers 1 sample late"));
-    EXPECT_THAT(error_of(kLoop + "clsrivc(data, {1, 2, 0}, {route = 'indirect'})"), HasSubstr("must be known"));
+                HasSubstr("with a controller delay of 1 sample"));
+    EXPECT_THAT(error_of(kLoop + "clsrivc(data, {1, 2, 0}, {route = 'indirect'})"), HasSubstr("needs a known controller"));
     EXPECT_THAT(error_of(kLoop + "clsrivc(data, {1, 2, 0}, {controller = 'C'})"),
                 HasSubstr("the controller must be a model"));
     EXPECT_THAT(error_of(kLoop + "clivsvf(data, {2, 1, 0}, 4, {ComputingDelay = 1})"),
@@ -68,8 +68,8 @@ TEST(script_loops, an_unstable_plant_is_measured_in_its_loop) {
                     "\nprint(G.report.fit_percent > 90, math.abs(G.noise_variance/1e-4 - 1) < 0.5)\n" +
                     "print(table.concat(G.report.warnings, ' '))");
         EXPECT_THAT(told, HasSubstr("true\ttrue\n")) << call;
-        EXPECT_THAT(told, HasSubstr("look at the controller, the orders and the cut-off frequency")) << call;
-        EXPECT_THAT(told, HasSubstr("those of the model in its loop")) << call;
+        EXPECT_THAT(told, HasSubstr("check the controller, the orders and the cut-off frequency")) << call;
+        EXPECT_THAT(told, HasSubstr("to the model in its loop")) << call;
         EXPECT_THAT(told, testing::Not(HasSubstr("Stable"))) << call;
     }
 }
@@ -79,7 +79,7 @@ TEST(script_loops, records_of_loops_say_what_they_cannot) {
         "local r = prbs(5, 5)\nlocal a = simloop(tf({2}, {1, 4}), tf({1}, {0.1, 1}), r, 0.05)\n"
         "local b = simloop(tf({2}, {1, 4}), tf({1}, {1}, 0.05), r, 0.05)\n";
     const std::string english = printed(moving), french = printed(moving, {}, "fr");
-    EXPECT_THAT(english, testing::StartsWith("simloop: with a controller in continuous time u moves"));
+    EXPECT_THAT(english, testing::StartsWith("simloop: with a continuous-time controller, u changes"));
     EXPECT_EQ(std::count(english.begin(), english.end(), '\n'), 1) << "a sampled controller holds u";
     EXPECT_THAT(french, testing::StartsWith("simloop : avec un régulateur en temps continu"));
     EXPECT_THAT(error_of("simloop(tf({2}, {1, 4}), 3, 1, 0.05)"), HasSubstr("r is the reference at every sample"));
@@ -97,7 +97,7 @@ TEST(script_loops, studies_of_loops) {
         "true\ttrue\ttrue\tnil\n");
     EXPECT_THAT(
         error_of(kLoop + "montecarlo{system = G0, controller = C, input = r, Ts = Ts, sigma = 1, estimators = {}}"),
-        HasSubstr("give no 'input'"));
+        HasSubstr("omit 'input'"));
 }
 
 TEST(script_loops, recursive_methods_tell_their_history) {
@@ -110,8 +110,8 @@ TEST(script_loops, recursive_methods_tell_their_history) {
               "true\t620\t3\ntrue\ta1 a2 b0\n10\tfigure: 3 panels, 8 curves\n");
     const std::string record = "local u = prbs(5, 20)\nlocal d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05), u, 0.05)\n";
     EXPECT_THAT(error_of(record + "rlssvf(d, {2, 1, 0}, 4, {forgetting = 1.1})"),
-                HasSubstr("forgetting must lie above 0"));
-    EXPECT_THAT(error_of(record + "print(lssvf(d, {2, 1, 0}, 4).history)"), HasSubstr("looks at all samples at once"));
+                HasSubstr("forgetting must be above 0"));
+    EXPECT_THAT(error_of(record + "print(lssvf(d, {2, 1, 0}, 4).history)"), HasSubstr("processes all samples at once"));
     // A fixed model for filters and instruments: the end is the batch estimate with the same.
     EXPECT_EQ(
         printed("rng(2)\nlocal u = prbs(5, 20)\nlocal y = lsim(tf({2}, {1, 4, 3}), u, 0.05) + 0.02*randn(#u)\n"

@@ -79,12 +79,11 @@ TEST(script_motion, where_scripts_are_graded_draws_nothing_and_stops_nothing) {
 
 TEST(script_motion, says_what_is_missing) {
     const auto told = [](const std::string& options) { return error_of(kRecord + "motion{" + options + "}"); };
-    EXPECT_THAT(
-        told("t = t, measured = s"),
-        HasSubstr("there is no rig '' that moves; there are crane, drifting_process, drive, thruster, two_tanks"));
-    EXPECT_THAT(told("rig = 'suspension', t = t, measured = s"), HasSubstr("no rig 'suspension' that moves"));
+    EXPECT_THAT(told("t = t, measured = s"),
+                HasSubstr("unknown moving plant ''; the plants are crane, drifting_process, drive, thruster, two_tanks"));
+    EXPECT_THAT(told("rig = 'suspension', t = t, measured = s"), HasSubstr("unknown moving plant 'suspension'"));
     EXPECT_THAT(told("rig = 'crane', t = t, measured = {angle = s.angle}"),
-                HasSubstr("option 'measured' lacks the position (m), which moves the rig"));
+                HasSubstr("option 'measured' lacks the position (m), which moves the animated plant"));
     EXPECT_THAT(told("rig = 'thruster', t = t, simulated = {force = {1, 2}}"),
                 HasSubstr("the simulated force has 2 values for 201 instants"));
     EXPECT_THAT(told("rig = 'thruster', t = t, simulated = {force = 'much'}"),

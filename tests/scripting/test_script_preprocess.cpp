@@ -39,12 +39,12 @@ TEST(script_preprocess, stretches_are_kept_or_discarded) {
               "2\t20\t5\n");
     EXPECT_EQ(said("local k = d:discard{{11, 50}, {40, 90}} print(k.experiments, k.N)"), "2\t20\n");
     EXPECT_THAT(refused("d:keep{1, 10}"), HasSubstr("{{1, 200}, {350, 900}}"));
-    EXPECT_THAT(refused("d:discard{{1, 99}}"), HasSubstr("nothing would be left"));
-    EXPECT_THAT(refused("d:keep{{90, 101}}"), HasSubstr("the record has samples 1 to 100"));
-    EXPECT_THAT(refused("d:keep{{4, 7}, {1, 5}}"), HasSubstr("the stretches 1 to 5 and 4 to 7 overlap"));
+    EXPECT_THAT(refused("d:discard{{1, 99}}"), HasSubstr("no samples would remain"));
+    EXPECT_THAT(refused("d:keep{{90, 101}}"), HasSubstr("the data have samples 1 to 100"));
+    EXPECT_THAT(refused("d:keep{{4, 7}, {1, 5}}"), HasSubstr("the ranges 1 to 5 and 4 to 7 overlap"));
     EXPECT_THAT(refused("iddata({1, 2}, {1, 2}, 1, {Tstart = 0/0})"), HasSubstr("'Tstart' must be a finite number"));
     EXPECT_THAT(refused("iddata({1, 2}, {1, 2}, nil, {SamplingInstants = {0, 1}, Tstart = 2})"),
-                HasSubstr("'Tstart' does not go with 'SamplingInstants'"));
+                HasSubstr("'Tstart' cannot be combined with 'SamplingInstants'"));
 }
 
 TEST(script_preprocess, missing_and_wild_samples_are_replaced) {
@@ -58,12 +58,12 @@ TEST(script_preprocess, missing_and_wild_samples_are_replaced) {
 TEST(script_preprocess, misuse_is_told_with_the_remedy) {
     EXPECT_THAT(refused("idfilt(d, {0, 50})"), HasSubstr("must have an edge between 0 and pi/Ts = 31.416"));
     EXPECT_THAT(refused("idfilt(d, {3})"), HasSubstr("{0, w} is a low-pass filter"));
-    EXPECT_THAT(refused("idfilt(d, {0, 3}, {Ts = 1})"), HasSubstr("data have their own"));
+    EXPECT_THAT(refused("idfilt(d, {0, 3}, {Ts = 1})"), HasSubstr("a data object has a sampling time"));
     EXPECT_THAT(refused("idfilt(d, {0, 3}, {zero_phase = true, start = 'zero'})"), HasSubstr("continued at both ends"));
     EXPECT_THAT(refused("idfilt(d, {0, 3}, {ordre = 3})"), HasSubstr("order"));
     EXPECT_THAT(refused("detrend(d, 'cubic')"), HasSubstr("\"linear\", \"mean\" or \"start\""));
-    EXPECT_THAT(refused("detrend(d, 'mean', {samples = 3})"), HasSubstr("belongs to the kind \"start\""));
-    EXPECT_THAT(refused("detrend(y, 'start')"), HasSubstr("say how many samples"));
+    EXPECT_THAT(refused("detrend(d, 'mean', {samples = 3})"), HasSubstr("requires the kind \"start\""));
+    EXPECT_THAT(refused("detrend(y, 'start')"), HasSubstr("give its number of samples"));
     EXPECT_THAT(refused("resample(d, 1, 0)"), HasSubstr("between 1 and 1000"));
     EXPECT_THAT(refused("merge(d, d:resample(1, 2))"),
                 AllOf(HasSubstr("has the sampling time 0.2 s but the first has 0.1 s"), HasSubstr("resample")));

@@ -43,7 +43,7 @@ TEST(script_rigs, static_curve_of_the_thruster_ends_at_its_greatest_thrusts) {
 TEST(script_rigs, refuse_what_there_is_not) {
     std::string names;
     for (const Rig& rig : rig_catalogue()) names += (names.empty() ? "" : ", ") + rig.name;
-    const std::string expected = "there is no rig 'cranes'; there are " + names;
+    const std::string expected = "unknown simulated plant 'cranes'; the plants are " + names;
     EXPECT_NE(error_of("rig('cranes')").find(expected), std::string::npos) << error_of("rig('cranes')");
     EXPECT_NE(error_of("rig_truth('cranes')").find(expected), std::string::npos);
 }

@@ -72,9 +72,9 @@ TEST(script_simulation, sim_takes_a_signal_to_noise_ratio) {
               "true\ttrue\ntrue\n");
     EXPECT_THAT(error_of("sim(tf({1}, {1, 1}), ones(9), 1, {noise = true})"), HasSubstr("give the option snr, in dB"));
     EXPECT_THAT(error_of(kEstimate + "sim(lssvf(d, {2, 1, 0}, 3), d, {noise = true})"),
-                HasSubstr("the error of its equation"));
+                HasSubstr("estimates an equation error"));
     EXPECT_THAT(error_of(kEstimate + "sim(rivc(d, {1, 0, 1, 2, 0}), u, 0.1, {noise = true})"),
-                HasSubstr("counts samples of 0.05 s"));
+                HasSubstr("has the sampling time 0.05 s"));
 }
 
 TEST(script_simulation, bands_as_numbers) {
@@ -123,7 +123,7 @@ TEST(script_simulation, simsd_agrees_with_the_band_of_the_step) {
               "true\ttrue\t30\ntrue\ttrue\t30\ntrue\ttrue\t30\n");
     EXPECT_THAT(error_of("rng(1)\nlocal u = prbs(7, 4)\nlocal d = iddata(lsim(tf({2}, {1, 3}), u, 0.1) + "
                          "0.05*randn(#u), u, 0.1)\nsimsd(srivc(d, {1, 1, 0}), matrix{{1, 2}, {3, 4}}, 0.1)"),
-                HasSubstr("the model has 1 input, and 2 were given"));
+                HasSubstr("the model has 1 input, but 2 were given"));
 }
 
 TEST(script_simulation, data_of_inputs_are_refused_where_an_output_is_needed) {
@@ -134,7 +134,7 @@ TEST(script_simulation, data_of_inputs_are_refused_where_an_output_is_needed) {
           "predict(d, tf({1}, {1, 1}))", "crossvalidate(d, function(x) return tf({1}, {1, 1}) end)",
           "srivcstruc(d, {poles = {1, 2}, zeros = {0, 1}})", "test_your_model(tf({1}, {1, 1}), d)"})
         EXPECT_THAT(error_of(std::string("local d = iddata(nil, prbs(5, 4), 0.1)\n") + call),
-                    HasSubstr("(data) must have an output, and these data hold inputs only"))
+                    HasSubstr("(data) must have an output, but these data contain only inputs"))
             << call;
     EXPECT_EQ(
         printed("local d = iddata(nil, prbs(5, 4), 0.1)\n"
@@ -154,8 +154,8 @@ TEST(script_simulation, delays_in_loops_and_states) {
                       "  print(re^2 + im^2 < 1e-24)\nend\n"
                       "print(ss(P).A.rows)"),
               "true\ntrue\ntrue\n4\n");
-    EXPECT_THAT(error_of("feedback(tf({1}, {1, 1}, {IODelay = 1}), 1)"), HasSubstr("give pade(G, n)"));
-    EXPECT_THAT(error_of("ss(tf({1}, {1, 1}, {IODelay = 1}))"), HasSubstr("give pade(G, n)"));
+    EXPECT_THAT(error_of("feedback(tf({1}, {1, 1}, {IODelay = 1}), 1)"), HasSubstr("use pade(G, n)"));
+    EXPECT_THAT(error_of("ss(tf({1}, {1, 1}, {IODelay = 1}))"), HasSubstr("use pade(G, n)"));
     EXPECT_EQ(printed("local Gm, Pm, Wcg, Wcp, Dm = margin(tf({2}, {1, 0}, {IODelay = 0.25}))\n"
                       "print(string.format('%.6f %.6f %.6f %.6f %.6f', Gm, Pm, Wcg, Wcp, Dm))\n"
                       "print(pade(tf({1}, {1, 1}, {IODelay = 1}), 2).IODelay)"),
@@ -174,7 +174,7 @@ TEST(script_simulation, habits_of_the_toolboxes) {
     EXPECT_THAT(error_of("detrend({1, 2, 3}, 2)"), HasSubstr("degree 0"));
     EXPECT_THAT(error_of("bode(tf({1}, {1, 1}), 'sd', 3)"), HasSubstr("{confidence = 0.99}"));
     EXPECT_THAT(error_of("local u = prbs(5, 4)\nsrivc(iddata(u, matrix{u, u^2}, 1), {1, 1, 2, 2, 0, 0})"),
-                HasSubstr("an entry is a list of one value for each"));
+                HasSubstr("an entry is a list with one value for each"));
 }
 
 // Oracle: counted by hand; a line and a gap are three values.

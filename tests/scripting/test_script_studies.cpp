@@ -48,7 +48,7 @@ TEST(script_studies, a_method_can_appear_twice) {
                          "print(table.concat(M.labels, ' '), M.slow.mean[1] ~= M.fast.mean[1])"),
         "slow fast third\ttrue\n");
     EXPECT_THAT(error_of(kStudy + "study{{'lssvf', {2, 1, 0}, 3}, {'lssvf', {2, 1, 0}, 30}}"),
-                HasSubstr("two estimators are called 'lssvf'"));
+                HasSubstr("two estimators are named 'lssvf'"));
 }
 
 TEST(script_studies, print_shows_truth_scatter_bias_and_failures) {
@@ -66,14 +66,14 @@ TEST(script_studies, figures_need_parameters_that_exist) {
                                  "print(pcall(function() return M:scatter('a1', 'b7') end))"),
                 HasSubstr("lssvf has no parameter 'b7'; its parameters are a1, a2, b0"));
     EXPECT_THAT(error_of(kStudy + "print(study{lssvf = {{2, 1, 0}, 3}}.ivsvf)"),
-                HasSubstr("no estimator or field 'ivsvf'; its estimators are lssvf"));
+                HasSubstr("unknown estimator or field of this study: 'ivsvf'; the estimators are lssvf"));
 }
 
 TEST(script_studies, wrong_studies_say_what_is_wrong) {
     EXPECT_THAT(error_of(kStudy + "study{lssvf = {{2, 1}, 3}}"), HasSubstr("lssvf"));
     EXPECT_THAT(error_of(kStudy + "study{lssvf = {{2, 1, 0}}}"), HasSubstr("lambda"));
     EXPECT_THAT(error_of(kStudy + "study{lssvf = {{2, 1, 0}, 3, {hold = 'foh'}}}"), HasSubstr("option 'hold'"));
-    EXPECT_THAT(error_of(kStudy + "study{nosuch = {{2, 1, 0}, 3}}"), HasSubstr("'nosuch' is none of lssvf"));
+    EXPECT_THAT(error_of(kStudy + "study{nosuch = {{2, 1, 0}, 3}}"), HasSubstr("unknown estimator 'nosuch'; the estimators are lssvf"));
     EXPECT_THAT(error_of(kStudy + "study{own = function(d) error('always') end}"),
                 AllOf(HasSubstr("every run of 'own' failed"), HasSubstr("always")));
     EXPECT_THAT(error_of(kStudy + "montecarlo{system = G0, input = u, Ts = 0.01, estimators = {}}"),
@@ -93,7 +93,7 @@ TEST(script_studies, order_search_recommends_the_true_orders) {
                                  "local G = selcstruc(V)\nprint(#G.den, V.rows[3].delay, V.best.validation_fit > 50)"),
                 AllOf(HasSubstr("val. (%)"), HasSubstr("3\t0.05\ttrue\n")));
     EXPECT_THAT(error_of(record + "selcstruc(srivcstruc(data, {poles = 2, zeros = 0}), 'validation')"),
-                HasSubstr("second record"));
+                HasSubstr("validation data"));
     EXPECT_THAT(error_of(record + "selcstruc(srivcstruc(data, {poles = 2, zeros = 0}), 'nonsense')"),
                 HasSubstr("criterion must be"));
     EXPECT_THAT(error_of(record + "srivcstruc(data, {poles = {2, 1}})"), HasSubstr("poles must be a range"));
@@ -134,8 +134,8 @@ TEST(script_studies, arx_orders_are_chosen_and_go_on_to_arx) {
     EXPECT_THAT(error_of(record + "selstruc(arxstruc(data), 'FPE')"),
                 HasSubstr("\"loss\", \"AIC\", \"BIC\" or \"MDL\""));
     EXPECT_THAT(error_of(record + "arxstruc(data, second, {{1, 1, 1}})"), HasSubstr("takes at most 2 arguments"));
-    EXPECT_THAT(error_of(record + "arxstruc(data, {n = 2})"), HasSubstr("option 'n' is unknown"));
-    EXPECT_THAT(error_of(record + "selstruc(3)"), HasSubstr("what arxstruc gave"));
+    EXPECT_THAT(error_of(record + "arxstruc(data, {n = 2})"), HasSubstr("unknown option 'n'"));
+    EXPECT_THAT(error_of(record + "selstruc(3)"), HasSubstr("the result of arxstruc"));
 }
 
 // Oracle: srivc() with Integration, called by itself.

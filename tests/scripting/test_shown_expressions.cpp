@@ -37,11 +37,11 @@ TEST(shown_expressions, are_shown_in_blocks_and_over_several_lines) {
 TEST(shown_expressions, are_hidden_by_a_semicolon) {
     EXPECT_EQ(printed("local x = 3\nx;\nx + 1;\nx"), "3\n");
     EXPECT_EQ(error_of("local x\nx + 1;"),
-              "lesson.lua:2: the variable 'x' is nil (it has no value), so it cannot be calculated with");
+              "lesson.lua:2: the variable 'x' is nil (it has no value), so arithmetic with it is not possible");
 }
 
 TEST(shown_expressions, keep_lines_in_messages_and_change_nothing_that_is_lua) {
-    EXPECT_EQ(error_of("local x = 1\nx\nprint(y)"), "lesson.lua:3: there is no function or variable 'y'");
+    EXPECT_EQ(error_of("local x = 1\nx\nprint(y)"), "lesson.lua:3: unknown function or variable 'y'");
     for (const char* code : {"local x = 1\nprint(x)\n", "f(x)\n(g or h)(y)\n", "-- only a comment", ""})
         EXPECT_EQ(with_shown_expressions(code, shown_calls()), code);
 }
@@ -134,7 +134,7 @@ TEST(shown_expressions, show_figures_too) {
 
 TEST(shown_expressions, rows_of_a_matrix_are_not_set_apart_by_semicolons) {
     EXPECT_THAT(error_of("local x = 1\nlocal A = matrix{{1, 2;\n3, 4}}"),
-                HasSubstr("lesson.lua:2: the rows of a matrix are tables of their own: matrix{{1, 2}, {3, 4}}"));
+                HasSubstr("lesson.lua:2: each row of a matrix is a table: matrix{{1, 2}, {3, 4}}"));
     EXPECT_FALSE(line_with_semicolon_rows("local t = {1; 2}\nlocal A = matrix{{1, 2}, {3, 4}};"));
 }
 
@@ -153,19 +153,18 @@ TEST(shown_expressions, files_of_the_folder_can_be_required) {
     EXPECT_EQ(printed("print(require('lib.more'))", options), "true\n");
     EXPECT_THAT(error_of("require('wrong')", options), HasSubstr("wrong.lua:2: "));
     EXPECT_THAT(error_of("require('fails')", options), HasSubstr("fails.lua:3: no luck"));
-    EXPECT_THAT(error_of("require('absent')", options),
-                HasSubstr("there is no file absent.lua in the script's folder"));
+    EXPECT_THAT(error_of("require('absent')", options), HasSubstr("file not found: absent.lua in the script's folder"));
     for (const char* outside : {"../tools", "/etc/passwd", "lib..more", ""})
         EXPECT_THAT(error_of(std::string("require('") + outside + "')", options),
-                    HasSubstr("named without its ending"));
+                    HasSubstr("folder without its extension"));
     std::filesystem::create_symlink("/etc/hostname", folder.path() / "link.lua");
-    EXPECT_THAT(error_of("require('link')", options), HasSubstr("leads outside the script's folder"));
+    EXPECT_THAT(error_of("require('link')", options), HasSubstr("is outside the script's folder"));
 }
 
 TEST(shown_expressions, scripts_can_be_timed) {
     EXPECT_EQ(printed("tic()\nlocal a = toc()\nlocal b = toc()\nprint(a >= 0, b >= a, clock() >= 0)"),
               "true\ttrue\ttrue\n");
-    EXPECT_EQ(error_of("toc()"), "lesson.lua:1: toc: tic() has to be called before");
+    EXPECT_EQ(error_of("toc()"), "lesson.lua:1: toc: call tic() before toc()");
 }
 
 }  // namespace test_shown_expressions

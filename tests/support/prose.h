@@ -150,13 +150,19 @@ inline std::vector<std::vector<std::string>> sentences_of(const std::string& pag
     return sentences;
 }
 
-/// The refused phrases in the sentences.
-inline std::vector<std::string> refused_in(const std::vector<std::vector<std::string>>& sentences) {
+/// " a sentence . the next one . ", for searches of phrases.
+inline std::string spaced(const std::vector<std::vector<std::string>>& sentences) {
     std::string words = " ";
     for (const auto& sentence : sentences) {
         for (const std::string& word : sentence) words += word + " ";
         words += ". ";
     }
+    return words;
+}
+
+/// The refused phrases in the sentences.
+inline std::vector<std::string> refused_in(const std::vector<std::vector<std::string>>& sentences) {
+    const std::string words = spaced(sentences);
     std::vector<std::string> found;
     for (const std::string phrase : kRefusedPhrases)
         if (words.find(" " + phrase + " ") != words.npos) found.push_back(phrase);

@@ -42,7 +42,7 @@ class workbench_page : public testing::Test {
     }
     static bool is_ready(Browser& browser) {
         return browser.comes(
-            "['up to date', 'à jour', 'stopped at a mistake'].includes(document.getElementById('state').textContent)");
+            "['up to date', 'à jour', 'stopped at an error'].includes(document.getElementById('state').textContent)");
     }
     /// Opens a session of the record of write_record() and waits for its picture.
     std::unique_ptr<PageProgram> open(Browser& browser) const {

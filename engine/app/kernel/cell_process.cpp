@@ -25,7 +25,7 @@ constexpr std::size_t kLargestPiece = std::size_t{64} << 10;
 /// A copy of this process that ends with it. True in the copy.
 bool fork_bound(pid_t& process) {
     process = fork_bound_copy();
-    if (process < 0) throw EnvironmentError("cannot start a process for the cells: {}", system_reason(errno));
+    if (process < 0) throw EnvironmentError("cannot start a process for cells: {}", system_reason(errno));
     return process == 0;
 }
 
@@ -79,7 +79,7 @@ CellProcess::~CellProcess() {
 void CellProcess::start() {
     std::optional<Channel::Message> answer;
     if (keeper_.send("start")) answer = keeper_.receive();
-    if (!answer) throw EnvironmentError("the process that starts those for cells has ended");
+    if (!answer) throw EnvironmentError("the process that starts cell processes has exited");
     const auto news = from_cbor<CellNews>(answer->bytes);
     const std::lock_guard lock(mutex_);
     line_ = Channel(std::move(answer->file));
@@ -145,7 +145,7 @@ std::optional<std::string> CellProcess::ask(const CellOrder& order, const Listen
     held_.reset();
     start();
     return fmt::format(
-        "The process that ran this cell has ended ({}). Its variables are gone; the next cell begins in a new process.",
+        "The process that ran this cell has exited ({}). Its variables are lost; the next cell starts a new process.",
         ended_);
 }
 

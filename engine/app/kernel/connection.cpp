@@ -28,14 +28,15 @@ KernelConnection read_connection(const std::filesystem::path& file) {
             connection.*port = told.at(name).get<int>();
         if (connection.key.empty())
             throw EnvironmentError(
-                "{} has no key, so that everybody on this machine could run cells; let Jupyter write the file, which "
-                "makes one (do not set Session.key to nothing)",
+                "{} has no key, so any user of this machine could run cells. Let Jupyter write the file with a key; do "
+                "not set Session.key to an empty string",
                 file.string());
         const std::string scheme = told.value("signature_scheme", "hmac-sha256");
         if (scheme != "hmac-sha256")
-            throw EnvironmentError("{}: messages signed by {}, and dynlab's are by hmac-sha256", file.string(), scheme);
+            throw EnvironmentError("{}: the messages are signed with {}, but dynlab supports only hmac-sha256",
+                                   file.string(), scheme);
     } catch (const json::exception&) {
-        throw EnvironmentError("{} is no connection file of Jupyter, which starts a kernel by itself: jupyter notebook",
+        throw EnvironmentError("{} is not a Jupyter connection file. Jupyter starts the kernel: run jupyter notebook",
                                file.string());
     }
     return connection;

@@ -239,20 +239,21 @@ class Kernel {
     }
 
     json about() const {
-        return {{"status", "ok"},
-                {"protocol_version", "5.3"},
-                {"implementation", "dynlab"},
-                {"implementation_version", version_},
-                {"language_info",
-                 {{"name", kKernelLanguage},
-                  {"version", "5.4"},
-                  {"mimetype", "text/x-lua"},
-                  {"file_extension", ".lua"},
-                  {"codemirror_mode", "lua"},
-                  {"pygments_lexer", "lua"},
-                  {"nbconvert_exporter", "script"}}},
-                {"banner", "dynlab " + version_ + ": help() lists the functions, help(\"tf\") tells of one; tf? too."},
-                {"help_links", json::array()}};
+        return {
+            {"status", "ok"},
+            {"protocol_version", "5.3"},
+            {"implementation", "dynlab"},
+            {"implementation_version", version_},
+            {"language_info",
+             {{"name", kKernelLanguage},
+              {"version", "5.4"},
+              {"mimetype", "text/x-lua"},
+              {"file_extension", ".lua"},
+              {"codemirror_mode", "lua"},
+              {"pygments_lexer", "lua"},
+              {"nbconvert_exporter", "script"}}},
+            {"banner", "dynlab " + version_ + ": help() lists the functions, help(\"tf\") or tf? shows help for one."},
+            {"help_links", json::array()}};
     }
 
     void end(const KernelMessage& request, zmq::socket_t& socket) {
@@ -308,7 +309,7 @@ class Kernel {
             const std::string text = said_of(*subject, subject->size());
             payload.push_back({{"source", "page"},
                                {"start", 0},
-                               {"data", {{"text/plain", text.empty() ? "nothing is known of " + *subject : text}}}});
+                               {"data", {{"text/plain", text.empty() ? "no help for " + *subject : text}}}});
         } else {
             failure = run(code, request, silent, result);
         }

@@ -20,7 +20,7 @@ constexpr std::size_t kPartsBehind = 5;           // signature, header, parent, 
 
 json object_of(const std::string& frame, const char* what) {
     json object = json::parse(frame, nullptr, false);
-    if (!object.is_object()) throw BadMessage("a message whose {} is no object of JSON", what);
+    if (!object.is_object()) throw BadMessage("a message in which {} is not a JSON object", what);
     return object;
 }
 
@@ -59,7 +59,7 @@ KernelMessage MessageWire::read(const std::vector<std::string>& frames) {
 /// A header has a name of its own, so that no two messages have the same signature.
 void MessageWire::refuse_repetition(const std::string& signature) {
     const std::lock_guard lock(reading_);
-    if (!read_.insert(signature).second) throw BadMessage("a message that has come before");
+    if (!read_.insert(signature).second) throw BadMessage("a repeated message");
     order_.push_back(signature);
     if (order_.size() <= kMostRemembered) return;
     read_.erase(order_.front());

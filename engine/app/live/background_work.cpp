@@ -64,7 +64,7 @@ BackgroundWork::Pdf BackgroundWork::pdf() {
     changed_.notify_all();
     changed_.wait(lock, [this] { return end_ || pdf_version_ == version_; });
     --waiting_for_pdf_;
-    return pdf_version_ == version_ ? pdf_ : Pdf{{}, Message("dynlab is ending")};
+    return pdf_version_ == version_ ? pdf_ : Pdf{{}, Message("dynlab is shutting down")};
 }
 
 bool BackgroundWork::hands_in() const {
@@ -96,7 +96,7 @@ BackgroundWork::Made BackgroundWork::make(std::vector<std::string> command) {
     try {
         const ChildResult result = run_child(child, "dynlab");
         SaidMessages said = read_said_messages(messages);
-        if (result.timed_out) said.complaints.push_back(Message("it took longer than ten minutes"));
+        if (result.timed_out) said.complaints.push_back(Message("the work took longer than ten minutes"));
         made = {result.exit_code == 0,
                 said.empty() ? Message::verbatim(result.output + result.error_output) : said.all()};
     } catch (const std::exception& error) {

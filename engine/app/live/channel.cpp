@@ -53,7 +53,7 @@ struct Head {
 std::pair<Channel, Channel> Channel::pair() {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-        throw EnvironmentError("cannot make a line to another process: {}", system_reason(errno));
+        throw EnvironmentError("cannot open a connection to another process: {}", system_reason(errno));
     return {Channel(FileDescriptor(ends[0])), Channel(FileDescriptor(ends[1]))};
 }
 

@@ -37,7 +37,7 @@ Notes PageNotes::read() const {
 
 void PageNotes::put(const PageNote& note) {
     const std::lock_guard lock(mutex_);
-    if (file_.empty()) throw EnvironmentError("notes of a page cannot be kept: neither HOME nor XDG_STATE_HOME is set");
+    if (file_.empty()) throw EnvironmentError("page notes cannot be stored: neither HOME nor XDG_STATE_HOME is set");
     std::int64_t& last = last_[note.name];
     if (note.at < last) return;
     last = note.at;
@@ -47,7 +47,7 @@ void PageNotes::put(const PageNote& note) {
     else
         notes[note.name] = note.text;
     const std::string text = json_of(notes);
-    if (text.size() > kMaxBytes) throw EnvironmentError("a page keeps at most 8 MB of drafts");
+    if (text.size() > kMaxBytes) throw EnvironmentError("the drafts of a page exceed the limit of 8 MB");
     fs::create_directories(file_.parent_path());
     fs::permissions(file_.parent_path(), fs::perms::owner_all);
     write_file_atomically(file_, text);

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 /// How the document is read, now and after every change.
 std::function<ReportRequest()> reader_of(const std::string& document) {
     const bool names_file = document.ends_with(".lua") || document.find('/') != std::string::npos;
-    if (names_file && !fs::exists(document)) throw EnvironmentError("there is no file or folder {}", document);
+    if (names_file && !fs::exists(document)) throw EnvironmentError("file or folder not found: {}", document);
     if (fs::exists(document) && !fs::is_directory(document))
         return [document] { return report_of_script(read_percent_script(document), "preview.html"); };
     return [document] { return report_of(document, "preview.html", ""); };
@@ -87,7 +87,7 @@ DYNLAB_DESCRIBE(MadeReply, done, words)
 
 PageReply not_allowed(const LivePage& page) {
     constexpr int kForbidden = 403;
-    return {page.told(Message("This document has not been allowed to run: say so on the page.")), kPlainText,
+    return {page.told(Message("This document is not allowed to run yet. Allow it on the page.")), kPlainText,
             kForbidden};
 }
 

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Message none_left() {
-    return Message("the process that runs scripts has ended; start dynlab again");
+    return Message("the process that runs scripts has exited; restart dynlab");
 }
 
 /// What a change of which makes every part run anew: the file's place, the seed, the header.
@@ -162,7 +162,7 @@ RunnerNews ScriptRunner::next() {
             if (send_order()) return next();
         }
         RunnerNews died{.kind = "ended", .part = under_way_};
-        died.record.error = RecordedError{split_ ? Message("the process that ran the script has ended") : none_left()};
+        died.record.error = RecordedError{split_ ? Message("the process that ran the script has exited") : none_left()};
         split_ = true;
         stop();
         return died;

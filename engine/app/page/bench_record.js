@@ -142,7 +142,7 @@ async function take(name) {
 function offeredRecord() {
   const box = element("input", { type: "number", className: "sampling", min: 0, step: "any", placeholder: say("asFile"), value: offered.Ts ?? "", oninput: () => { offered.Ts = box.value; } });
   const node = element("div", { className: "controls" }, element("h3", { textContent: offered.data }), columnsTable(), labelled(say("sampling"), box));
-  node.append(element("details", {}, element("summary", { textContent: "dynlab look" }), element("pre", { textContent: offered.look, tabIndex: 0 })));
+  node.append(element("details", {}, element("summary", { textContent: "dynlab inspect" }), element("pre", { textContent: offered.look, tabIndex: 0 })));
   node.append(button(say("take"), () => take("data"), { className: "main" }));
   if (roles().raw) node.append(button(say("second"), takeSecond));
   node.append(button(say("close"), () => { offered = null; document.dispatchEvent(new Event("benchdraw")); }));

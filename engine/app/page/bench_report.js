@@ -58,17 +58,17 @@ const headText = (head, write = told) => `{${head.map((one) => luaText(write(one
 /// By view: the figure's code, its caption and what a sentence says that it shows.
 const FIGURES = {
   record: [({ raw }) => `idplot(${raw})`,
-    tr("The record: output above, input below"), tr("the record as it was measured")],
+    tr("The data: output above, input below"), tr("the measured data")],
   second: [({ second }) => `idplot(${second})`,
-    tr("The second record: output above, input below"), tr("the record on which the models are judged")],
+    tr("The validation data: output above, input below"), tr("the validation data")],
   compare: [({ validation }, models) => compared(validation, models),
-    tr("Measured output and outputs that the models simulate, with the fit of each"),
-    tr("what was measured and what the models simulate")],
+    tr("Measured output and simulated outputs of the models, with the fit of each"),
+    tr("measured and simulated outputs")],
   residuals: [({ validation }, models) => `(resid(${partOf(validation, models.at(-1))}, ${models.at(-1)}))`,
-    tr("Autocorrelation of the simulation error, and its correlation with the input; the grey bands are the bounds of chance"),
-    tr("what the model leaves unexplained")],
+    tr("Autocorrelation of the simulation error, and its correlation with the input; the gray bands are chance bounds"),
+    tr("the residual of the model")],
   step: [(_, models) => together("step", models),
-    tr("Step response, with the band of its confidence where it is known"),
+    tr("Step response, with its confidence band if known"),
     tr("the response to a unit step")],
   impulse: [(_, models) => together("impulse", models), tr("Impulse response"), tr("the response to an impulse")],
   bode: [(_, models) => together("bode", models),
@@ -76,18 +76,18 @@ const FIGURES = {
   nyquist: [(_, models) => together("nyquist", models),
     tr("Nyquist plot"), tr("the frequency response in the complex plane")],
   poles: [(_, models) => together("pzmap", models),
-    tr("Poles (crosses) and zeros (circles) with the regions of their confidence where they are known"),
+    tr("Poles (crosses) and zeros (circles) with their confidence regions if known"),
     tr("poles and zeros")],
   spectrum: [({ raw }) => panels(outputsOf(raw).map((name, i, all) => (all.length > 1 ? spectrumOf(raw, `${raw}.y:col(${i + 1})`, name) : spectrumOf(raw, `${raw}.y`)))),
-    tr("Spectrum of the measured outputs"), tr("at which frequencies the output has its power")],
+    tr("Spectrum of the measured outputs"), tr("the distribution of the output power over frequency")],
   correlation: [({ estimation }, models) => panels(pairsOf(estimation).map(([pair, i, j]) => {
     const parts = models.map((model) => [channelsOf([model]).find((one) => !one.output || (one.output === i && one.input === j))?.code, model]).filter(([code]) => code);
     return `(impulseest(${[`${estimation}${pair}`, ...parts.map(([code]) => code), ...(parts.length > 0 ? [labels(parts.map(([, model]) => model))] : [])].join(", ")}))`;
   })),
-    tr("Impulse response by correlation; the grey band is what chance alone would give"),
-    tr("the impulse response that the record shows without any model")],
+    tr("Impulse response by correlation; the gray band shows the chance bounds"),
+    tr("the impulse response estimated from the data without a model")],
   reading: [({ raw, reading }) => `compare(${raw}, ${reading}_model, ${labels([told(BY_HAND)])})`,
-    tr("The record and the model that was read off it by hand"), tr("the model that was read off by hand")],
+    tr("The data and the model determined by hand"), tr("the model determined by hand")],
   study: [({ study }) => `${study}:histograms()`,
     tr("Estimates of all runs of the Monte Carlo study, with the true values"),
     tr("the estimates of all runs")],
@@ -100,16 +100,16 @@ const TABLES = {
     const cell = (part, model, i) => number(outputs.length > 1 && partOf(part, model) === part ? `(select(${i + 1}, fit(${part}, ${model})))` : `fit(${partOf(part, model)}, ${model})`, 1);
     const rows = models.flatMap((model) => outputs.map((output, i) => [output, i]).filter(([, i]) => [undefined, i + 1].includes(channelOfModel(model).output)).map(([output, i]) => `{${luaText(outputs.length > 1 ? `${model}, ${output}` : model)}, ${cell(estimation, model, i)}, ${cell(validation, model, i)}}`));
     return `report.table("${name}", {\n  ${headText(HEADS.models)},\n  ${rows.join(",\n  ")}})`;
-  }, tr("Fit of the simulated output"), tr("how well the models simulate the records")],
+  }, tr("Fit of the simulated output"), tr("how well the models simulate the data")],
   orders: [({ orders }, _, name) =>
     `local structures = {${headText(HEADS.orders)}}\nfor _, row in ipairs(${orders}.rows) do\n  if not row.failure and #structures <= 10 then\n`
       + `    structures[#structures + 1] = {row.poles, row.zeros, ${number("row.fit_percent", 1)}, ${number("row.yic", 1)}}\n  end\nend\nreport.table("${name}", structures)`,
-    tr("Structures that were compared"), tr("the structures that were compared")],
+    tr("Compared structures"), tr("the compared structures")],
 };
 export const goesIntoReport = (view) => Object.hasOwn(FIGURES, view) || Object.hasOwn(TABLES, view);
 
 /// Views of one kind come under one heading.
-const SECTIONS = [[tr("Record"), ["record", "second", "spectrum", "correlation"]], [tr("Reading by hand"), ["reading"]], [tr("Choice of the structure"), ["orders"]],
+const SECTIONS = [[tr("Data"), ["record", "second", "spectrum", "correlation"]], [tr("Manual reading"), ["reading"]], [tr("Choice of the structure"), ["orders"]],
   [tr("Models"), ["parameters", "models"]], [tr("Validation"), ["compare", "residuals"]], [tr("Responses"), ["step", "impulse", "bode", "nyquist", "poles"]],
   [tr("Monte Carlo study"), ["study"]]];
 

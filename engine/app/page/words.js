@@ -21,6 +21,6 @@ export function label() {
 }
 
 addWords({
-  stop: tr("Stop"), allow: tr("Run it"), mistake: tr("stopped at a mistake"),
-  noAnswer: tr("no answer from dynlab; waiting for it"),
+  stop: tr("Stop"), allow: tr("Run it"), mistake: tr("stopped at an error"),
+  noAnswer: tr("no response from dynlab; waiting"),
 });

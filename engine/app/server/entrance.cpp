@@ -79,27 +79,27 @@ void Entrance::admit(const RequestHead& head) {
     check_origin(head, visits);
     const bool changes = head.method == "POST";
     if (!changes && head.method != "GET" && head.method != "HEAD")
-        throw LastReply{{405, kPlainText, "Pages are asked by GET, HEAD and POST."}};
+        throw LastReply{{405, kPlainText, "Use GET, HEAD or POST."}};
     if (!head.body || head.has("expect") || (changes ? !head.has("content-length") : *head.body != 0))
-        throw LastReply{{400, kPlainText, "A body comes with POST, its length and nothing else."}};
+        throw LastReply{{400, kPlainText, "A body requires POST, its length and nothing else."}};
     const auto [first, last] = head.fields.equal_range("cookie");
     const bool known = std::any_of(first, last, [&](const auto& field) { return has_cookie(field.second, cookie_); });
     if (visits) visit(head, known);
     if (!known) throw forbidden(kNoEntrance);
     const bool from_page =
         head.field("x-dynlab") == "1" && head.field("sec-fetch-site") == "same-origin" && head.has("origin");
-    if (changes && !from_page) throw forbidden("Only the page itself may ask for this.");
+    if (changes && !from_page) throw forbidden("Only the page itself may request this.");
 }
 
 void Entrance::check_origin(const RequestHead& head, bool visits) const {
     const std::string host = key_.host();
-    if (head.field("host") != host) throw forbidden("This address is not that of a dynlab.");
+    if (head.field("host") != host) throw forbidden("This is not the address of a dynlab page.");
     if (head.has("origin") && head.field("origin") != "http://" + host)
-        throw forbidden("Other sites may not ask here.");
+        throw forbidden("Other sites may not make requests here.");
     // A first visit may come from a file that holds the address: the browser takes it for another site.
     if (head.has("sec-fetch-site") && !visits) {
         const auto site = head.field("sec-fetch-site");
-        if (site != "same-origin" && site != "none") throw forbidden("Other sites may not ask here.");
+        if (site != "same-origin" && site != "none") throw forbidden("Other sites may not make requests here.");
     }
 }
 

@@ -45,19 +45,19 @@ std::string decoded(std::string_view text, bool plus_is_blank) {
             plain += text[i];
         } else {
             if (i + 2 >= text.size() || digit(text[i + 1]) < 0 || digit(text[i + 2]) < 0)
-                throw refusal(400, "The address is not encoded as addresses are.");
+                throw refusal(400, "The address is not encoded correctly.");
             plain += static_cast<char>(16 * digit(text[i + 1]) + digit(text[i + 2]));
             i += 2;
         }
     }
-    if (plain.find('\0') != std::string::npos) throw refusal(400, "The address is not encoded as addresses are.");
+    if (plain.find('\0') != std::string::npos) throw refusal(400, "The address is not encoded correctly.");
     return plain;
 }
 
 void read_target(std::string_view target, RequestHead& head) {
     const std::size_t mark = target.find('?');
     head.path = decoded(target.substr(0, mark), false);
-    if (!head.path.starts_with('/')) throw refusal(400, "The address does not begin with a slash.");
+    if (!head.path.starts_with('/')) throw refusal(400, "The address does not start with a slash.");
     if (mark == target.npos) return;
     std::string_view rest = target.substr(mark + 1);
     while (!rest.empty()) {
@@ -131,10 +131,10 @@ std::optional<RequestHead> HttpConnection::next_head() {
         boost::beast::error_code error;
         const std::size_t used = parser.put(boost::asio::buffer(unread_), error);
         unread_.erase(0, used);
-        if (error == http::error::header_limit) throw refusal(431, "The request's head is too long.");
-        if (error && error != http::error::need_more) throw refusal(400, "This is no request that can be read.");
+        if (error == http::error::header_limit) throw refusal(431, "The head of the request is too long.");
+        if (error && error != http::error::need_more) throw refusal(400, "The request cannot be read.");
         if (parser.is_header_done()) return head_of(parser);
-        if (unread_.size() > kLargestHead) throw refusal(431, "The request's head is too long.");
+        if (unread_.size() > kLargestHead) throw refusal(431, "The head of the request is too long.");
         if (!read_more(until)) {
             if (wait(POLLIN, steady_clock::now()) == Wait::kLate) throw refusal(408, "The request came too slowly.");
             return {};

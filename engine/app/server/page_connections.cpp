@@ -44,9 +44,7 @@ PageConnections::PageConnections(int port) : ending_(::eventfd(0, EFD_CLOEXEC)) 
     bool taken = false;
     for (int tries = port == 0 ? kTries : 1; tries > 0 && !taken; --tries) taken = take(port);
     if (!taken || !ending_)
-        throw EnvironmentError(
-            "the port {} cannot be used: another program has it, or it is not allowed; leave --port out for a free one",
-            port);
+        throw EnvironmentError("port {} is in use or not permitted; omit --port to use a free port", port);
 }
 
 bool PageConnections::take(int port) {

@@ -97,7 +97,7 @@ class WebServer::Work {
         const auto& handlers = head.method == "POST" ? posts_ : gets_;
         auto found = handlers.find(head.path);
         if (found == handlers.end()) found = handlers.find(head.path.substr(0, head.path.rfind('/') + 1) + "*");
-        if (found == handlers.end()) throw LastReply{{404, kPlainText, "There is no such page."}};
+        if (found == handlers.end()) throw LastReply{{404, kPlainText, "This page does not exist."}};
         return found->second;
     }
 
@@ -113,7 +113,7 @@ class WebServer::Work {
     void stream(HttpConnection& connection) {
         std::unique_lock sending(sending_);
         const std::shared_ptr<EventStreams::Stream> stream = streams_.open();
-        if (!stream) throw LastReply{{503, kPlainText, "There are too many tabs of this page; close some."}};
+        if (!stream) throw LastReply{{503, kPlainText, "Too many tabs of this page are open; close some."}};
         const std::shared_ptr<void> place(nullptr, [&](void*) { streams_.close(stream); });
         if (first_) stream->put(EventStreams::written("page", first_()));
         sending.unlock();
@@ -135,7 +135,7 @@ class WebServer::Work {
 
 const std::string& PageRequest::parameter(const std::string& name) const {
     const auto found = parameters.find(name);
-    if (found == parameters.end()) throw EnvironmentError("what was asked lacks the parameter \"{}\"", name);
+    if (found == parameters.end()) throw EnvironmentError("the request lacks the parameter \"{}\"", name);
     return found->second;
 }
 

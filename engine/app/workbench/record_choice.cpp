@@ -196,10 +196,10 @@ RecordChoice look_at_record(const std::string& data, bool tells) {
 std::string record_lines(const RecordOrder& order) {
     if (!is_variable_name(order.name))
         throw EnvironmentError(
-            "a record's name is made of letters, digits and _, begins with no digit and is no word of Lua, such as "
-            "end");
+            "the name of a data set must consist of letters, digits and _. It must not start with a digit or be a Lua "
+            "keyword, such as end");
     if (order.inputs.empty() || order.outputs.empty())
-        throw EnvironmentError("a record needs an input and an output at least");
+        throw EnvironmentError("a data set needs at least one input and one output");
     const auto time_unit = order.units.find(order.time);
     Recording recording(order.data, order.inputs, order.outputs, order.Ts > 0 ? std::optional(order.Ts) : std::nullopt,
                         order.time, time_unit == order.units.end() ? "" : time_unit->second);
@@ -217,7 +217,7 @@ RecordOrder suggested_order(const RecordChoice& choice) {
         if (column.role == "time") order.time = column.name;
     }
     if (order.inputs.empty() || order.outputs.empty())
-        throw EnvironmentError("{} has no two signals of the same length that change", choice.data);
+        throw EnvironmentError("{} does not contain two signals of equal length that vary", choice.data);
     return order;
 }
 
@@ -240,7 +240,7 @@ std::string with_record(const std::string& source, const RecordOrder& order, con
 
 void expect_plain_name(const std::string& name) {
     if (std::ranges::any_of(name, [](unsigned char c) { return std::iscntrl(c); }))
-        throw EnvironmentError("there are control characters in the name of the file {}", in_one_line(name));
+        throw EnvironmentError("the file name {} contains control characters", in_one_line(name));
 }
 
 std::string new_session(const std::string& title, const std::string& lines, const std::string& language) {

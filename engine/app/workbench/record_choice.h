@@ -21,7 +21,7 @@ DYNLAB_DESCRIBE(RecordColumn, name, unit, role, smallest, largest, trouble, usab
 struct RecordChoice {
     std::string data;  ///< file or data set, as load() takes it
     std::vector<RecordColumn> columns;
-    std::string look;  ///< what `dynlab look` says
+    std::string look;  ///< what `dynlab inspect` says
 };
 DYNLAB_DESCRIBE(RecordChoice, data, columns, look)
 

@@ -68,7 +68,7 @@ void SessionText::take_from_file() {
 void SessionText::change(std::string text, bool goes_on) {
     if (text == text_) return;
     if (text.size() > kMostSourceBytes)
-        throw DocumentError(Message("not taken over: a script has at most {} MB", kMostSourceBytes >> 20));
+        throw DocumentError(Message("not applied: the script exceeds {} MB", kMostSourceBytes >> 20));
     if (!goes_on) past_.push_back(text_);
     if (past_.size() > kMostSteps) past_.erase(past_.begin());
     future_.clear();

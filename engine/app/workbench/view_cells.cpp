@@ -39,10 +39,10 @@ std::string workbench_prelude() {
 
 std::string view_cells(const ViewOrder& order) {
     json quick = parsed_json(order.settings);
-    if (!quick.is_object()) throw ValueError("the settings of the views are no object");
+    if (!quick.is_object()) throw ValueError("the view settings are not an object");
     std::string variables;
     for (const std::string& name : order.variables) {
-        if (!is_name(name) || name.find('-') != std::string::npos) throw ValueError("'{}' is no name", name);
+        if (!is_name(name) || name.find('-') != std::string::npos) throw ValueError("'{}' is not a valid name", name);
         variables += fmt::format("{0} = value_or_nil(function() return {0} end), ", name);
     }
     const json views = quick.value("views", json::array());

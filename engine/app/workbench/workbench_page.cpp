@@ -43,7 +43,7 @@ std::string record_of_lesson(const Lesson& lesson) {
     static const RE2 kLoad(R"(\bload\("([^"]+)\"\))", RE2::Latin1);
     std::string record;
     if (!RE2::PartialMatch(read_text(lesson.script()), kLoad, &record))
-        throw EnvironmentError("lesson {} loads no record; name a data file or a data set", lesson.slug);
+        throw EnvironmentError("lesson {} loads no data set; give a data file or a data set", lesson.slug);
     return record;
 }
 
@@ -55,10 +55,10 @@ Subject subject_of(const std::string& words) {
     expect_plain_name(words);
     if (words.empty()) return {"session.lua", "", "Session"};
     if (words.ends_with(".lua")) {
-        if (!fs::exists(words)) throw EnvironmentError("there is no file {}", words);
+        if (!fs::exists(words)) throw EnvironmentError("file not found: {}", words);
         return {words, "", ""};
     }
-    if (is_data_file(words) && !fs::exists(words)) throw EnvironmentError("there is no file {}", words);
+    if (is_data_file(words) && !fs::exists(words)) throw EnvironmentError("file not found: {}", words);
     const std::vector<std::string> sets = dataset_names();
     const bool is_record = fs::exists(words) || std::find(sets.begin(), sets.end(), words) != sets.end();
     if (is_record) return {session_of(words), words, "Identification from " + fs::path(words).filename().string()};
@@ -79,7 +79,7 @@ std::string lines_of_order(const RecordOrder& order) {
     try {
         return record_lines(order);
     } catch (const UnknownSampling& error) {
-        throw EnvironmentError("{}; choose the column of the time, or type the sampling time below", error.message());
+        throw EnvironmentError("{}; select the time column, or enter the sampling time below", error.message());
     }
 }
 
@@ -105,8 +105,9 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
     server.on_post("/script", [&](const PageRequest& asked) {
         constexpr int kConflict = 409;
         const auto revision = bench.change(from_json<ScriptOrder>(asked.body));
-        return revision ? PageReply{std::to_string(*revision), kJson}
-                        : PageReply{bench.told(Message("The script has changed meanwhile.")), kPlainText, kConflict};
+        return revision
+                   ? PageReply{std::to_string(*revision), kJson}
+                   : PageReply{bench.told(Message("The script has changed in the meantime.")), kPlainText, kConflict};
     });
     server.on_post("/look", [&](const PageRequest& asked) {
         return PageReply{std::to_string(bench.look(from_json<ViewOrder>(asked.body))), kJson};
@@ -121,7 +122,7 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
 bool is_created(const fs::path& file) {
     constexpr mode_t kForAll = 0666;
     const FileDescriptor made(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForAll));
-    if (!made && errno != EEXIST) throw EnvironmentError("{}: not written: {}", file.string(), system_reason(errno));
+    if (!made && errno != EEXIST) throw EnvironmentError("{} was not written: {}", file.string(), system_reason(errno));
     return static_cast<bool>(made);
 }
 
@@ -130,7 +131,7 @@ fs::path free_name(const std::string& wanted) {
     expect_plain_name(wanted);
     const fs::path name = fs::path(wanted).filename();
     if (!is_data_file(name))
-        throw EnvironmentError("{} is no data file: wanted .csv, .txt, .dat, .tsv, .xlsx or .mat", name.string());
+        throw EnvironmentError("{} is not a data file: expected .csv, .txt, .dat, .tsv, .xlsx or .mat", name.string());
     fs::path file = name;
     for (int k = 2; !is_created(file); ++k)
         file = fmt::format("{}-{}{}", name.stem().string(), k, name.extension().string());
@@ -144,7 +145,8 @@ const std::string& checked_record(const std::string& data, const std::string& su
     const fs::path within = fs::weakly_canonical(data).lexically_relative(fs::current_path());
     const bool leads_out = within.empty() || *within.begin() == "..";
     if (data == subject || std::find(sets.begin(), sets.end(), data) != sets.end() || !leads_out) return data;
-    throw EnvironmentError("{} lies outside the session's folder; drop the file on the page to copy it there", data);
+    throw EnvironmentError("{} is outside the session folder; drop the file on the page to copy it into the folder",
+                           data);
 }
 
 void serve_records(WebServer& server, WorkbenchSession& bench, const std::string& subject) {
@@ -176,7 +178,7 @@ void serve_help(WebServer& server, const WorkbenchSession& bench) {
     server.on_get("/help", [&](const PageRequest& asked) {
         const auto page = find_help_page(asked.parameter("name"));
         constexpr int kMissing = 404;
-        if (!page) return PageReply{bench.told(Message("There is no help page of this name.")), kPlainText, kMissing};
+        if (!page) return PageReply{bench.told(Message("No help page has this name.")), kPlainText, kMissing};
         return PageReply{page_text(*page, find_function(std::string(page->name))), kPlainText};
     });
 }
@@ -192,9 +194,9 @@ void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork&
     server.on_get("/document.pdf", [&](const PageRequest&) {
         constexpr int kFailed = 500, kForbidden = 403, kConflict = 409;
         if (!permissions.granted())
-            return PageReply{bench.told(Message("This script has not been allowed to run.")), kPlainText, kForbidden};
+            return PageReply{bench.told(Message("This script is not allowed to run yet.")), kPlainText, kForbidden};
         if (const auto mistake = bench.mistake())
-            return PageReply{bench.told(Message("There is no report of a script with a mistake: {}", *mistake)),
+            return PageReply{bench.told(Message("A report cannot be made from a script with an error: {}", *mistake)),
                              kPlainText, kConflict};
         background.document_changed({});
         const BackgroundWork::Pdf pdf = background.pdf();

@@ -34,10 +34,9 @@ void add_answers_options(CLI::App& command, AnswersArguments& args) {
 }
 
 constexpr char kFiles[] =
-    "Submissions have numbers, and names and ids of the roster become [name]. Equal and nearly equal answers are "
-    "shown\n"
-    "once. Fill in points and reason in answers-qN.csv, then copy submission (as who), check, points and reason into\n"
-    "marks.csv of the results. A further call keeps the numbers and everything that you filled in.\n";
+    "Numbers replace the names of submissions, and [name] replaces names and ids of the roster. Equal and nearly "
+    "equal\nanswers are shown once. Enter points and reason in answers-qN.csv. Then copy submission (as who), check, "
+    "points\nand reason into marks.csv of the results. A further call keeps the numbers and all entries.\n";
 
 int print_answers(AnswersRequest request) {
     request.isolation = strongest_isolation();
@@ -91,7 +90,7 @@ int answers_of_course(const CourseArguments& where, const AnswersArguments& args
         Course course(where.folder);
         const Assignment assignment = assignment_named(course, args.assignment);
         const std::string lesson = args.lesson.empty() ? assignment.lesson : args.lesson;
-        if (lesson.empty()) throw EnvironmentError("{} has no lesson; name it with --lesson NN", assignment.name);
+        if (lesson.empty()) throw EnvironmentError("{} does not name a lesson; give --lesson NN", assignment.name);
         request.lesson = find_lesson(lesson);
         request.submissions = work.path() / "submissions";
         request.roster = students_of(course);
@@ -108,7 +107,8 @@ int answers_of_course(const CourseArguments& where, const AnswersArguments& args
 
 void add_answers(CLI::App& app, Action& action) {
     auto args = std::make_shared<AnswersArguments>();
-    CLI::App* command = app.add_subcommand("answers", "Put all written answers to a question on one anonymous page");
+    CLI::App* command =
+        app.add_subcommand("answers", "Collect all written answers to a question on one anonymous page");
     command
         ->add_option("FOLDER", args->submissions, "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
         ->required()
@@ -119,15 +119,16 @@ void add_answers(CLI::App& app, Action& action) {
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command->footer(std::string(kFiles) +
-                    "Example:  dynlab answers Lab4.zip --lesson 04 --question 3 --roster roster.csv --out answers\n"
-                    "Exit codes: 0 all submissions were read, 1 some could not be, 2 wrong usage.");
+                    "Example:  dynlab answers Lab4.zip --lesson 04 --question 3 --roster roster.csv --out "
+                    "answers\nExit codes: 0 all submissions were read, 1 some could not be read, 2 wrong usage.");
     command->callback([args, &action] { action = [args] { return answers_of_folder(*args); }; });
 }
 
 void add_course_answers(CLI::App& course, CourseArguments& where, Action& action) {
     auto args = std::make_shared<AnswersArguments>();
-    CLI::App* command = course.add_subcommand("answers", "Put all written answers to a question on one anonymous page");
-    command->add_option("ASSIGNMENT", args->assignment, "Assignment. Needed when there are several.");
+    CLI::App* command =
+        course.add_subcommand("answers", "Collect all written answers to a question on one anonymous page");
+    command->add_option("ASSIGNMENT", args->assignment, "Assignment. Required if there are several.");
     add_answers_options(*command, *args);
     command->add_option("--lesson", args->lesson, "Lesson of the question. Default: the assignment's.")
         ->type_name("NN");
@@ -135,8 +136,8 @@ void add_course_answers(CLI::App& course, CourseArguments& where, Action& action
         ->check(CLI::IsMember({"first", "final"}))
         ->capture_default_str();
     command->footer(std::string(kFiles) +
-                    "Example:  dynlab course answers crane --question 3 --out answers\n"
-                    "Exit codes: 0 all submissions were read, 1 some could not be, 2 wrong usage.");
+                    "Example:  dynlab course answers crane --question 3 --out answers\nExit codes: 0 all submissions "
+                    "were read, 1 some could not be read, 2 wrong usage.");
     command->callback([&where, args, &action] { action = [&where, args] { return answers_of_course(where, *args); }; });
 }
 

@@ -86,8 +86,7 @@ LessonReader reader_for(const fs::path& subject, const CheckResult& result) {
 
 Message words_of(CheckStep step) {
     if (step == CheckStep::kAnalysis) return Message("running the analysis");
-    return step == CheckStep::kLessonChecks ? Message("trying the checks of the lesson")
-                                            : Message("reading the report");
+    return step == CheckStep::kLessonChecks ? Message("running the lesson's checks") : Message("reading the report");
 }
 
 CheckResult check_work(const fs::path& subject, CheckOptions wishes) {
@@ -115,7 +114,7 @@ int check(const CheckArguments& words) {
     } catch (const std::runtime_error& error) {
         return misuse(message_of(error));
     }
-    if (!fs::exists(words.subject)) return misuse(Message("there is no file or folder '{}'", words.subject));
+    if (!fs::exists(words.subject)) return misuse(Message("file or folder not found: '{}'", words.subject));
     const CheckResult result = check_work(words.subject, wishes);
     std::cout << (words.as_json ? findings_as_json(result)
                                 : findings_in_words(result, in_colour(), reader_for(words.subject, result).reader()));
@@ -126,35 +125,32 @@ int check(const CheckArguments& words) {
 
 void add_check(CLI::App& app, Action& action) {
     auto words = std::make_shared<CheckArguments>();
-    CLI::App* command =
-        app.add_subcommand("check", "Look at a report as an instructor does first: what must be mended");
+    CLI::App* command = app.add_subcommand("check", "Check a report for problems before submission");
     command
         ->add_option("FOLDER|FILE.lua|FILE.ipynb|FILE.pdf", words->subject,
-                     "A folder made by dynlab new, a script or notebook that stands alone, or a PDF from anywhere")
+                     "Folder made by dynlab new, single script or notebook, or any PDF")
         ->required();
-    command
-        ->add_option("--template", words->template_name, "Hold it against this template, such as lab_report or slides")
+    command->add_option("--template", words->template_name, "Template to check against, such as lab_report or slides")
         ->type_name("NAME|FILE.md");
-    command->add_option("--roster", words->roster, "Look for these people too: columns id, name, email, group")
+    command->add_option("--roster", words->roster, "People to search for as well: columns id, name, email, group")
         ->type_name("CSV");
-    command->add_option("--pages", words->pages, "The most pages that are allowed, whatever the template says")
+    command->add_option("--pages", words->pages, "Maximum number of pages, instead of the template's")
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
-    command->add_flag("--document-only", words->document_only, "Leave out the lesson's checks of the answers");
-    command->add_flag("--json", words->as_json, "Print the findings as JSON, for programs");
+    command->add_flag("--document-only", words->document_only, "Skip the lesson's checks of the answers");
+    command->add_flag("--json", words->as_json, "Print the findings as JSON");
     command->footer(
-        "A folder is copied and its analysis run in the clean copy; nothing is written into it. A script, such as a\n"
-        "session of dynlab app, is taken as a folder with the files that it names.\n"
-        "What is demanded comes from the template that analysis.lua names; of a PDF alone, wide pages are slides, the\n"
-        "headings of a review make it a peer_review, and others are a lab_report. Pages, sections, figures that the\n"
-        "text never mentions, unfilled slots, languages, text size and margins are looked at. The members in\n"
-        "group.toml and the people of a roster are searched for in the text, bookmarks, targets of links, document\n"
-        "information and the file name, home folders too: dynlab help names.\n"
-        "Examples:  dynlab check my-crane     dynlab check report.pdf     dynlab check talk.pdf --template slides "
-        "--json\n"
-        "Exit codes: 0 no rule is broken (there may be hints), 1 a rule is broken, 2 wrong usage.\n"
-        "JSON: {subject, template, language, pages, passed, checked: [text],\n"
-        "       findings: [{id, severity: \"rule\"|\"hint\", page, place, what, remedy}]}; what is not known is null.");
+        "dynlab runs the analysis in a clean copy of the folder and does not write into the folder. A single script, "
+        "such\nas a session of dynlab app, is checked as a folder with the files that it names.\nThe template that "
+        "analysis.lua names sets the rules. For a PDF alone, wide pages are slides, the headings of a\nreview make it "
+        "a peer_review, and other documents are a lab_report. dynlab checks pages, sections, figures that\nthe text "
+        "does not mention, unfilled slots, languages, text size and margins. It searches for the members "
+        "in\ngroup.toml and the people of a roster, and for home folders: in the text, bookmarks, link targets, "
+        "document\ninformation and the file name (see dynlab help names).\nExamples:  dynlab check my-crane     dynlab "
+        "check report.pdf     dynlab check talk.pdf --template slides --json\nExit codes: 0 no rule is violated (there "
+        "may be hints), 1 a rule is violated, 2 wrong usage.\nJSON: {subject, template, language, pages, passed, "
+        "checked: [text],\n       findings: [{id, severity: \"rule\"|\"hint\", page, place, what, remedy}]}; unknown "
+        "values are null.");
     command->callback([words, &action] {
         if (ending_of(words->subject) != ".pdf") expect_script(words->subject, "check");
         action = [words] { return check(*words); };

@@ -25,23 +25,24 @@ int try_them(const ChecksArguments& words) {
 }  // namespace
 
 void add_checks(CLI::App& app, Action& action) {
-    CLI::App* group = app.add_subcommand("checks", "Try checks before a class meets them");
+    CLI::App* group = app.add_subcommand("checks", "Test checks before a class uses them");
     group->require_subcommand(1);
     auto words = std::make_shared<ChecksArguments>();
     CLI::App* command =
-        group->add_subcommand("try", "Run the checks of a lesson, and your own, on what is known to be right or wrong");
-    command->add_option("FOLDER", words->folder, "Your own checks (*.lua); the lesson's alone unless given")
+        group->add_subcommand("try", "Run the checks of a lesson, and your own, on correct and incorrect scripts");
+    command
+        ->add_option("FOLDER", words->folder, "Folder with your own checks (*.lua). Default: only the lesson's checks.")
         ->type_name("FOLDER");
-    command->add_option("--lesson", words->lesson, "The lesson")->type_name("NN")->required();
+    command->add_option("--lesson", words->lesson, "Lesson")->type_name("NN")->required();
     add_secret_option(*command, words->secret);
     add_timeout_option(*command, words->timeout);
     command->footer(
-        "Tried are the worked solution, the untouched starter, the lesson's wrong_*.lua and right_*.lua, your own\n"
-        "scripts FOLDER/try/*.lua, and the worked solution with one answer 1.5 times as large, of the other sign, or\n"
-        "left out. For each the points and what is said of those that are missing; at the end the checks that the\n"
-        "worked solution fails, and those that nothing fails.\n"
-        "Example:  dynlab checks try my-checks --lesson 04\n"
-        "Exit codes: 0 the worked solution passes all checks, 1 it does not, 2 wrong usage.");
+        "The checks run on the reference solution, the untouched starter, the lesson's wrong_*.lua and right_*.lua, "
+        "and your\nown scripts FOLDER/try/*.lua. They also run on the reference solution with one answer 1.5 times as "
+        "large, with the\nopposite sign, or missing. For each script, dynlab prints the points and the messages of "
+        "missing points. At the end\nit lists the checks that the reference solution fails, and the checks that no "
+        "script fails.\nExample:  dynlab checks try my-checks --lesson 04\nExit codes: 0 the reference solution passes "
+        "all checks, 1 it does not, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return try_them(*words); }; });
 }
 

@@ -29,9 +29,9 @@ void add_init(CLI::App& course, Action& action) {
     };
     auto words = std::make_shared<Arguments>();
     CLI::App* command = course.add_subcommand("init", "Make a course: a folder with its store and its key");
-    command->add_option("DIR", words->folder, "The course's folder; it may exist")->required();
-    command->add_option("--name", words->name, "The course's name, for receipts; the folder's unless given");
-    command->add_option("--timezone", words->zone, "Times are read and shown in it")
+    command->add_option("DIR", words->folder, "Folder of the course; it may exist")->required();
+    command->add_option("--name", words->name, "Name of the course, for receipts. Default: the name of the folder.");
+    command->add_option("--timezone", words->zone, "Time zone for all times of the course")
         ->type_name("ZONE")
         ->capture_default_str();
     command->footer("Example:  dynlab course init signals-2026 --name \"Signals 2026\" --timezone Europe/Paris");
@@ -41,10 +41,9 @@ void add_init(CLI::App& course, Action& action) {
             const std::string own = (folder.has_filename() ? folder : folder.parent_path()).filename();
             Course::create(folder, words->name.empty() ? own : words->name, words->zone);
             std::cout << fmt::format(
-                "Course made in {}, times in {}.\n"
-                "course.key signs the receipts: keep a copy of the whole folder, and give the key to nobody.\n"
-                "course.pub verifies them: give it to your students, who need dynlab verify and no course.\n"
-                "Next: cd {} and dynlab course import roster.csv\n",
+                "Course made in {}, times in {}.\ncourse.key signs the receipts: keep a copy of the whole folder, and "
+                "keep the key secret.\ncourse.pub verifies them: give it to your students, who need only dynlab "
+                "verify.\nNext: cd {} and dynlab course import roster.csv\n",
                 folder.string(), words->zone, words->folder);
             return kDone;
         };
@@ -56,9 +55,9 @@ int import_people(const CourseArguments& where, const std::string& file, bool no
     const RosterChange change = import_roster(opened, file, no_groups);
     if (change.converted)
         std::cerr << terminal_text(
-            fmt::format("dynlab: {} is not UTF-8; it was read as Latin-1 (Windows-1252)\n", file));
+            fmt::format("dynlab: {} is not UTF-8; dynlab read it as Latin-1 (Windows-1252)\n", file));
     if (!change.unknown_columns.empty())
-        std::cerr << terminal_text(fmt::format("dynlab: {}: not read: the unknown columns {}\n", file,
+        std::cerr << terminal_text(fmt::format("dynlab: {}: unknown columns were ignored: {}\n", file,
                                                fmt::join(change.unknown_columns, ", ")));
     if (!change.short_ids.empty())
         std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", file, message_text(change.short_ids)));
@@ -66,7 +65,7 @@ int import_people(const CourseArguments& where, const std::string& file, bool no
                              change.students, change.new_students, change.changed, change.moved, change.new_groups);
     if (!change.absent.empty())
         std::cout << terminal_text(
-            fmt::format("Not in this file, but in the course (they stay; drop GROUP takes a group out): {}\n",
+            fmt::format("In the course, but not in this file (not changed; drop GROUP removes a group): {}\n",
                         fmt::join(change.absent, ", ")));
     return kDone;
 }
@@ -88,27 +87,23 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
         bool no_groups = false;
     };
     auto words = std::make_shared<Arguments>();
-    CLI::App* command = course.add_subcommand("import", "Read students and groups from a CSV; may be repeated");
-    command->add_option("FILE", words->file, "Roster or list of participants: columns id, group, name, email, ...")
+    CLI::App* command = course.add_subcommand("import", "Read students and groups from a CSV file");
+    command
+        ->add_option("FILE", words->file,
+                     "Roster or list of participants: columns id, group, name, email, ...; may be repeated")
         ->required();
-    command->add_option("DIR", words->folder, "Of a JSON export instead of a roster: folder of the new course");
-    command->add_flag("--no-groups", words->no_groups, "The file has no column group: new students work alone");
-    command->add_option("--deadlines", words->assignment, "FILE is a table of deadlines of this assignment")
+    command->add_option("DIR", words->folder, "For a JSON export: folder of the new course");
+    command->add_flag("--no-groups", words->no_groups, "The file has no column group: each new student works alone");
+    command->add_option("--deadlines", words->assignment, "Read FILE as the deadlines of this assignment")
         ->type_name("ASSIGNMENT");
-    command->add_option("--from", words->from, "Of a JSON export: folder of the old course, with its files and key")
+    command->add_option("--from", words->from, "For a JSON export: folder of the old course, with its files and key")
         ->capture_default_str();
     command->footer(
-        "Columns: id and group, and optionally name, email (or mail), moodle, canvas, language, seed; those of "
-        "Moodle's "
-        "and\n"
-        "Canvas's own exports are known. A student without a group is one alone; several groups are joined by |. Who "
-        "is "
-        "not\n"
-        "in the file stays, and so does what has no column in it.\n"
-        "Examples:\n"
-        "  dynlab course import roster.csv\n"
-        "  dynlab course import deadlines.csv --deadlines lab4    as dynlab grade takes them\n"
-        "  dynlab course import course.json copy --from signals-2026    from course export --json");
+        "Columns: id and group, and optionally name, email (or mail), moodle, canvas, language, seed. dynlab also "
+        "reads the\nexports of Moodle and Canvas. A student without a group works alone; | joins several groups. "
+        "Students and columns\nthat are not in the file do not change.\nExamples:\n  dynlab course import roster.csv\n "
+        " dynlab course import deadlines.csv --deadlines lab4    with the columns of dynlab grade\n  dynlab course "
+        "import course.json copy --from signals-2026    from course export --json");
     command->callback([&where, words, &action] {
         action = [&where, words]() -> int {
             if (!words->assignment.empty()) return import_table(where, words->assignment, words->file);
@@ -126,10 +121,10 @@ void add_drop(CLI::App& course, CourseArguments& where, Action& action) {
         bool end = false;
     };
     auto words = std::make_shared<Arguments>();
-    CLI::App* command = course.add_subcommand("drop", "Mark a group as dropped out, or as back");
-    command->add_option("GROUP", words->group, "The group, or one of its students")->required();
-    command->add_flag("--end", words->end, "The group is back");
-    command->add_option("--reason", words->reason, "For the history");
+    CLI::App* command = course.add_subcommand("drop", "Mark a group as dropped out, or as returned");
+    command->add_option("GROUP", words->group, "Group, or one of its students")->required();
+    command->add_flag("--end", words->end, "Mark the group as returned");
+    command->add_option("--reason", words->reason, "Reason; recorded in the history");
     command->footer("Example:  dynlab course drop group-07 --reason \"left the course\"");
     command->callback([&where, words, &action] {
         action = [&where, words] {
@@ -137,8 +132,8 @@ void add_drop(CLI::App& course, CourseArguments& where, Action& action) {
             const std::string group = group_named(opened, words->group).name;
             set_group_dropped_out(opened, group, !words->end, words->reason);
             std::cout << fmt::format(
-                "{} {}; repeat dynlab course review assign where reviews are under way.\n", group,
-                words->end ? "is in the course again" : "has dropped out: its work and the reviews it wrote stay");
+                "{} {}; if reviews are already assigned, repeat dynlab course review assign.\n", group,
+                words->end ? "has returned to the course" : "has dropped out; its work and its reviews are kept");
             return kDone;
         };
     });
@@ -207,41 +202,40 @@ int enter_assignment(const CourseArguments& where, const AssignmentArguments& wo
         a.criteria = criteria_of(words.criteria);
     else if (known == all.end() || other_kind)
         a.criteria = usual_criteria(a.kind);
-    if (a.is_lab() && a.lesson.empty()) throw InvalidArgument("a lab is graded by the checks of a lesson: --lesson NN");
+    if (a.is_lab() && a.lesson.empty()) throw InvalidArgument("a lab needs the checks of a lesson: give --lesson NN");
     if (known == all.end() && !words.reason.empty() && !all.empty()) assignment_named(course, words.name);  // throws
     const bool changed = set_assignment(course, a, words.reason);
-    std::cout << (changed ? "" : "Nothing new. ") << terminal_text(course_summary(course, CourseClock::now()));
+    std::cout << (changed ? "" : "No changes. ") << terminal_text(course_summary(course, CourseClock::now()));
     return kDone;
 }
 
 /// Those that may be changed later.
 void add_settings(CLI::App& command, AssignmentArguments& words) {
-    command.add_option("--lesson", words.lesson, "The lesson it belongs to")->type_name("NN");
+    command.add_option("--lesson", words.lesson, "Lesson of the assignment")->type_name("NN");
     command.add_option("--first", words.first, "Deadline of the first version (or the slides): \"2026-03-01 18:00\"")
         ->type_name("TIME");
     command.add_option("--review", words.review, "Deadline of the reviews")->type_name("TIME");
     command.add_option("--final", words.final, "Deadline of the final version")->type_name("TIME");
-    command.add_option("--grace", words.grace, "So much later counts as in time: 15min, 2h, 1d; 0 at first")
+    command.add_option("--grace", words.grace, "Grace period after a deadline: 15min, 2h, 1d. Default: 0.")
         ->type_name("DURATION");
     command
         .add_option("--costs", words.costs,
-                    "Percent points off marks: late-day:10 off the work for each day or part of a day, late-most:50 in "
-                    "all, missing-final:30; late-review:5,missing-review:25 off the reviews. Default: none.")
+                    "Penalties in percent points: late-day:10 of the work for each day or part of a day, late-most:50 "
+                    "in total, missing-final:30; late-review:5,missing-review:25 of the reviews. Default: none.")
         ->type_name("NAME:POINTS,...");
     command
         .add_option("--final-weight", words.final_weight,
-                    "Percent of the work's mark that the final version has once it is scored; 50 at first")
+                    "Weight of the final version in the work's mark, in percent, once it is scored. Default: 50.")
         ->check(CLI::Range(0, 100));
-    command.add_option("--weight", words.weight, "Weight in the course's total. Default: 1.")
+    command.add_option("--weight", words.weight, "Weight in the total of the course. Default: 1.")
         ->check(CLI::Range(0, 1000));
     command
         .add_option("--reviews-weight", words.reviews_weight,
-                    "Percent of a report's mark in the total that the mark of its reviews makes. Default: 20.")
+                    "Weight of the reviews in the total mark of a report, in percent. Default: 20.")
         ->check(CLI::Range(0, 100));
-    command.add_option("--checks", words.checks, "Of a lab: folder with your own checks (*.lua)")->type_name("FOLDER");
-    command.add_option("--secret", words.secret, "Of a lab: file from which the hidden data are drawn")
-        ->type_name("FILE");
-    command.add_option("--keep", words.keep, "Of a lab: which of several versions counts. Default: best.")
+    command.add_option("--checks", words.checks, "For a lab: folder with your own checks (*.lua)")->type_name("FOLDER");
+    command.add_option("--secret", words.secret, "For a lab: file that determines the hidden data")->type_name("FILE");
+    command.add_option("--keep", words.keep, "For a lab: which of several versions counts. Default: best.")
         ->type_name("best|newest")
         ->check(CLI::IsMember({"best", "newest"}));
 }
@@ -249,32 +243,30 @@ void add_settings(CLI::App& command, AssignmentArguments& words) {
 void add_assignment_command(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<AssignmentArguments>();
     CLI::App* command = course.add_subcommand("assignment", "Add, change or remove an assignment");
-    command->add_option("NAME", words->name, "A short word, such as crane")->required();
+    command->add_option("NAME", words->name, "Short name, such as crane")->required();
     command
         ->add_option("--kind", words->kind,
-                     "lab: graded by checks; report: reviewed, improved; talk: slides. Default: report.")
+                     "lab: graded by checks; report: reviewed, then improved; talk: slides. Default: report.")
         ->type_name("lab|report|talk")
         ->check(CLI::IsMember({"lab", "report", "talk", "presentation"}));
     add_settings(*command, *words);
-    command->add_option("--reviews", words->reviews, "Reviews that each group writes and gets. Default: 2.")
+    command->add_option("--reviews", words->reviews, "Number of reviews that each group writes and gets. Default: 2.")
         ->check(CLI::Range(1, 20));
-    command->add_option("--criteria", words->criteria,
-                        "What reviewers (or you, at a talk) score: name:points,... Default: data, steps, conclusions, "
-                        "strength, suggestions; of a talk content, slides, delivery, answers; of 5 each.");
-    command->add_option("--reason", words->reason,
-                        "For the history. Needed to change what was submitted for, and to remove.");
-    command->add_flag("--remove", words->remove, "Remove the assignment, while nothing depends on it");
+    command->add_option(
+        "--criteria", words->criteria,
+        "Criteria that reviewers score (at a talk, you): name:points,... Default: data, steps, conclusions, strength, "
+        "suggestions; for a talk content, slides, delivery, answers; 5 points each.");
+    command->add_option(
+        "--reason", words->reason,
+        "Reason; recorded in the history. Required to change an assignment with submissions, and to remove one.");
+    command->add_flag("--remove", words->remove, "Remove the assignment if nothing depends on it");
     command->footer(
-        "Times are in the course's time zone. What is not named stays, and the same command again changes nothing. "
-        "Once "
-        "work\n"
-        "was submitted, deadlines only move to later without --reason; lateness and marks follow at once.\n"
-        "Examples:\n"
-        "  dynlab course assignment lab4 --kind lab --lesson 04 --first \"2026-03-09 18:00\" --secret secret.txt "
-        "--weight 10\n"
-        "  dynlab course assignment crane --lesson 03_crane --first \"2026-02-28 13:00\" \\\n"
-        "            --review \"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews 2\n"
-        "  dynlab course assignment crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
+        "Times are in the course's time zone. Options that you omit keep their values. Once files were submitted, "
+        "--reason is\nrequired to move a deadline to an earlier time. Lateness and marks follow "
+        "immediately.\nExamples:\n  dynlab course assignment lab4 --kind lab --lesson 04 --first \"2026-03-09 18:00\" "
+        "--secret secret.txt --weight 10\n  dynlab course assignment crane --lesson 03_crane --first \"2026-02-28 "
+        "13:00\" \\\n            --review \"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews "
+        "2\n  dynlab course assignment crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
     command->callback(
         [&where, words, &action] { action = [&where, words] { return enter_assignment(where, *words); }; });
 }
@@ -285,8 +277,8 @@ void add_who(CLI::App& course, CourseArguments& where, Action& action) {
     };
     auto words = std::make_shared<Arguments>();
     CLI::App* command =
-        course.add_subcommand("who", "Show all about a student or a group: work, receipts, marks, history");
-    command->add_option("NAME", words->name, "A group in any spelling, or a student's name, id or address")->required();
+        course.add_subcommand("who", "Show all data of a student or a group: work, receipts, marks, history");
+    command->add_option("NAME", words->name, "Group in any spelling, or a student's name, id or address")->required();
     add_time_option(*command, words->at);
     command->footer("Example:  dynlab course who \"Kim Min-jun\"");
     command->callback([&where, words, &action] {
@@ -303,8 +295,8 @@ void add_status(CLI::App& course, CourseArguments& where, Action& action) {
         std::string assignment, at;
     };
     auto words = std::make_shared<Arguments>();
-    CLI::App* command = course.add_subcommand("status", "What was submitted, what is late, and what to do about it");
-    command->add_option("ASSIGNMENT", words->assignment, "All unless given");
+    CLI::App* command = course.add_subcommand("status", "Show submissions, late and missing work, and what to do next");
+    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Default: all.");
     command->footer(
         "Examples:\n"
         "  dynlab course status\n"
@@ -332,7 +324,7 @@ void add_status(CLI::App& course, CourseArguments& where, Action& action) {
 }  // namespace
 
 void add_time_option(CLI::App& command, std::string& text) {
-    command.add_option("--at", text, "As if it were this time, in the course's zone; now unless given")
+    command.add_option("--at", text, "Time to use instead of now, in the course's time zone")
         ->type_name("TIME")
         ->group("");  // the help of all commands says it once
 }
@@ -343,9 +335,10 @@ Instant time_of(const Course& course, const std::string& text) {
 
 void add_course(CLI::App& app, Action& action) {
     static CourseArguments where;
-    CLI::App* course = app.add_subcommand("course", "A course from roster to marks: labs, reports, talks");
+    CLI::App* course = app.add_subcommand("course", "Run a course from roster to marks: labs, reports, talks");
     course->require_subcommand(1);
-    course->add_option("--course", where.folder, "The course's folder; this one, or one above it, unless given")
+    course
+        ->add_option("--course", where.folder, "Folder of the course. Default: this folder, or the nearest one above.")
         ->type_name("DIR");
     add_init(*course, action);
     add_import(*course, where, action);
@@ -363,18 +356,16 @@ void add_course(CLI::App& app, Action& action) {
     add_status(*course, where, action);
     add_who(*course, where, action);
     course->footer(
-        "Every command is all or nothing and may be repeated; nothing is ever deleted.\n"
-        "  dynlab course init signals-2026 --timezone Europe/Paris    then, in that folder:\n"
-        "  dynlab course import roster.csv\n"
-        "  dynlab course assignment lab4 --kind lab --lesson 04 --first ...\n"
-        "  dynlab course submit lab4.zip --assignment lab4            what Moodle or Canvas exports, or files\n"
-        "  dynlab course status lab4                                  who is late, and what to do\n"
-        "  dynlab course grade lab4                                   marks and feedback\n"
-        "  dynlab course export -o term.csv                           all marks, and the total\n"
-        "A term in 20 commands: dynlab help guide-instructor\n"
-        "Commands that depend on the date take --at TIME, too: they work as if it were that time.\n"
-        "More: dynlab help review_marks (how marks come out of scores), dynlab help names (what is searched for)\n"
-        "Exit codes: 0 done, 1 something failed or was not taken, 2 wrong usage.");
+        "Each command changes either everything or nothing, and can be repeated. dynlab deletes nothing.\n  dynlab "
+        "course init signals-2026 --timezone Europe/Paris    then, in that folder:\n  dynlab course import "
+        "roster.csv\n  dynlab course assignment lab4 --kind lab --lesson 04 --first ...\n  dynlab course submit "
+        "lab4.zip --assignment lab4            an export of Moodle or Canvas, or files\n  dynlab course status lab4    "
+        "                              late submissions, and what to do next\n  dynlab course grade lab4               "
+        "                    marks and feedback\n  dynlab course export -o term.csv                           all "
+        "marks, and the total\nA term in 20 commands: dynlab help guide-instructor\nCommands that depend on the date "
+        "have the option --at TIME, which replaces the current time.\nMore: dynlab help review_marks (how marks follow "
+        "from scores), dynlab help names (which names are searched for)\nExit codes: 0 done, 1 something failed or was "
+        "not accepted, 2 wrong usage.");
 }
 
 }  // namespace dynlab::inline cli

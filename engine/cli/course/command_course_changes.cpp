@@ -48,21 +48,20 @@ CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action) 
     auto words = std::make_shared<ChangesArguments>();
     CLI::App* command = course.add_subcommand("changes", "Compare first and final versions word by word");
     command->add_option("GROUP", words->groups, "Groups. Default: all groups.");
-    command->add_option("--assignment", words->assignment, "Assignment. Needed when there are several.")
+    command->add_option("--assignment", words->assignment, "Assignment. Required if there are several.")
         ->type_name("NAME");
     command->add_option("--out", words->out, "Folder for GROUP.pdf and GROUP.md of each final version")
         ->type_name("DIR");
-    command->add_option("--isolation", words->isolation, "How far the work on the groups' files is kept apart")
+    command->add_option("--isolation", words->isolation, "Isolation of the work on the groups' files")
         ->type_name("full|process")
         ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
     command->footer(
-        "Compares each final version with the version that its reviewers read: report.md where both versions have a\n"
-        "pack whose analysis runs, otherwise the text of the PDFs. The documents show deleted and inserted words, the\n"
-        "values, answers and table cells that changed, and the released reviews.\n"
-        "Examples:\n"
-        "  dynlab course changes --assignment crane\n"
-        "  dynlab course changes group-03 group-07 --assignment crane --out changes");
+        "Compares each final version with the version that its reviewers read. If both versions have a pack with "
+        "an\nanalysis that runs, dynlab compares report.md, otherwise the text of the PDFs. The documents show deleted "
+        "and inserted words, the\nchanged values, answers and table cells, and the released reviews.\nExamples:\n  "
+        "dynlab course changes --assignment crane\n  dynlab course changes group-03 group-07 --assignment crane --out "
+        "changes");
     command->callback([&where, words, &action] { action = [&where, words] { return changes(where, *words); }; });
     return command;
 }

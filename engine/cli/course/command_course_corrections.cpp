@@ -34,7 +34,7 @@ int withdraw_mark(Course& course, const Assignment& a, const CorrectionArguments
     take_back_mark(course, a, words.wanted.group, words.alone, item, words.reason, time_of(course, words.at));
     transaction.commit();
     std::cout << terminal_text(
-        fmt::format("{}: your mark of {} ({}) is taken back.\n", a.name, words.wanted.group, words.mark));
+        fmt::format("{}: your mark of {} ({}) is withdrawn.\n", a.name, words.wanted.group, words.mark));
     return kDone;
 }
 
@@ -44,7 +44,7 @@ int tell_withdrawn(Course& course, const Assignment& a, const CorrectionArgument
     for (const std::int64_t version : versions) {
         const Receipt receipt = receipt_of(course, version);
         std::cout << terminal_text(fmt::format("{}: {} v{} of {} {}.\n", a.name, receipt.part, receipt.version,
-                                               receipt.group, withdrawn ? "is withdrawn" : "stands again"));
+                                               receipt.group, withdrawn ? "is withdrawn" : "is reinstated"));
     }
     return kDone;
 }
@@ -58,7 +58,7 @@ int restore_files(Course& course, const Assignment& a, const CorrectionArguments
 
 int extend_for_one(Course& course, const Assignment& a, const CorrectionArguments& words) {
     if (words.time.empty() != words.end)
-        throw InvalidArgument("say until when, or --end where the deadline of all holds again");
+        throw InvalidArgument("give the new end date, or --end to return to the deadline of the class");
     std::optional<Instant> due;
     if (!words.end) due = course.clock().parse(words.time, "TIME");
     extend(course, a, words.wanted.group, words.wanted.stage, due, words.reason, time_of(course, words.at));
@@ -70,7 +70,7 @@ int extend_for_one(Course& course, const Assignment& a, const CorrectionArgument
 
 int hold_back(Course& course, const Assignment& a, const CorrectionArguments& words) {
     hold(course, a, words.wanted, !words.end, words.reason, time_of(course, words.at));
-    std::cout << fmt::format("{}; dynlab course {} {} does the rest.\n", words.end ? "Free again" : "Held back",
+    std::cout << fmt::format("{}; run dynlab course {} {} to complete this.\n", words.end ? "Released" : "Withheld",
                              words.wanted.stage == "review" ? "review release" : "review send", a.name);
     return kDone;
 }
@@ -96,12 +96,12 @@ CorrectionCommand add_correction(CLI::App& course, const char* name, const char*
 }
 
 void add_reason(const CorrectionCommand& command) {
-    command.app->add_option("--reason", command.words->reason, "Stands in the history")->required();
+    command.app->add_option("--reason", command.words->reason, "Reason; recorded in the history")->required();
     add_time_option(*command.app, command.words->at);
 }
 
 void add_stage(const CorrectionCommand& command) {
-    command.app->add_option("--stage", command.words->wanted.stage, "Of which version")
+    command.app->add_option("--stage", command.words->wanted.stage, "Version of the submission")
         ->type_name("first|review|final")
         ->capture_default_str()
         ->check(CLI::IsMember({"first", "review", "final"}));
@@ -109,12 +109,14 @@ void add_stage(const CorrectionCommand& command) {
 
 void add_file_options(const CorrectionCommand& command) {
     add_stage(command);
-    command.app->add_option("--of", command.words->wanted.report, "Of a review: which report it reviews")
+    command.app->add_option("--of", command.words->wanted.report, "For a review: the reviewed report")
         ->type_name("report-NN");
     command.app
-        ->add_option("--part", command.words->wanted.part, "Only that; the document and what came with it unless given")
+        ->add_option("--part", command.words->wanted.part,
+                     "Submission to withdraw. Default: the document and all files submitted with it.")
         ->check(CLI::IsMember({"report", "slides", "script", "review", "pack", "unreadable"}));
-    command.app->add_option("--version", command.words->wanted.number, "The newest unless given")->type_name("N");
+    command.app->add_option("--version", command.words->wanted.number, "Number of the submission. Default: the newest.")
+        ->type_name("N");
 }
 
 int show_history(const CourseArguments& where) {
@@ -125,20 +127,20 @@ int show_history(const CourseArguments& where) {
 }
 
 void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
-    const auto away = add_correction(course, "withdraw", "Withdraw a submitted file or a mark of yours", where, action,
-                                     withdraw_files);
+    const auto away =
+        add_correction(course, "withdraw", "Withdraw a submitted file or a manual mark", where, action, withdraw_files);
     add_file_options(away);
     away.app->add_option("--mark", away.words->mark,
-                         "Your own mark instead of a file: work or reviews, of a lab a check or *");
-    away.app->add_flag("--alone", away.words->alone, "The mark of this student only, as course mark --alone set it")
+                         "Withdraw a manual mark instead of a file: work or reviews; for a lab, a check or *");
+    away.app
+        ->add_flag("--alone", away.words->alone, "Withdraw the mark of this student only, set by course mark --alone")
         ->needs("--mark");
     add_reason(away);
     away.app->footer(
-        "The version before holds then, or none. The file, its receipt and this entry stay.\n"
-        "Examples:\n"
-        "  dynlab course withdraw crane group-05 --reason \"group-06's file by mistake\"\n"
-        "  dynlab course withdraw crane group-05 --stage review --of report-17 --reason \"empty form\"\n"
-        "  dynlab course withdraw crane group-05 --mark work --reason \"the paper was found\"");
+        "Afterwards the previous version counts, if there is one. The file, its receipt and this entry are "
+        "kept.\nExamples:\n  dynlab course withdraw crane group-05 --reason \"group-06's file by mistake\"\n  dynlab "
+        "course withdraw crane group-05 --stage review --of report-17 --reason \"empty form\"\n  dynlab course "
+        "withdraw crane group-05 --mark work --reason \"the paper was found\"");
     const auto back = add_correction(course, "restore", "Reinstate a withdrawn file", where, action, restore_files);
     add_file_options(back);
     add_reason(back);
@@ -150,35 +152,39 @@ void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
 void add_correction_commands(CLI::App& course, CourseArguments& where, Action& action) {
     const auto time =
         add_correction(course, "set-received", "Correct when a file was received", where, action, correct_time);
-    time.app->add_option("TIME", time.words->time, "\"2026-03-01 17:30\", in the course's zone")->required();
+    time.app
+        ->add_option("TIME", time.words->time,
+                     "Time of receipt, such as \"2026-03-01 17:30\", in the course's time zone")
+        ->required();
     add_file_options(time);
     add_reason(time);
     time.app->footer(
-        "Lateness follows, and the group gets a further signed receipt. The first one stays.\n"
-        "Example:  dynlab course set-received crane group-05 \"2026-02-28 12:55\" --reason \"Moodle's log\"");
+        "dynlab updates the lateness, and the group gets another signed receipt. The first receipt is kept.\nExample:  "
+        "dynlab course set-received crane group-05 \"2026-02-28 12:55\" --reason \"Moodle's log\"");
     add_withdrawals(course, where, action);
 
     const auto longer =
-        add_correction(course, "extend", "Another deadline for one group", where, action, extend_for_one);
-    longer.app->add_option("TIME", longer.words->time, "The deadline that holds for it");
+        add_correction(course, "extend", "Set another deadline for one group", where, action, extend_for_one);
+    longer.app->add_option("TIME", longer.words->time, "Deadline of the group");
     add_stage(longer);
-    longer.app->add_flag("--end", longer.words->end, "The deadline of all holds again");
+    longer.app->add_flag("--end", longer.words->end, "Return to the deadline of the class");
     add_reason(longer);
     longer.app->footer(
-        "Also for what came already. The grace of the assignment comes on top.\n"
-        "Example:  dynlab course extend crane group-05 \"2026-03-03 13:00\" --reason \"illness\"");
+        "Applies also to files that were received before. The grace of the assignment is added.\nExample:  dynlab "
+        "course extend crane group-05 \"2026-03-03 13:00\" --reason \"illness\"");
 
-    const auto kept = add_correction(
-        course, "withhold", "Keep a report from its reviewers, or a review from the authors", where, action, hold_back);
+    const auto kept =
+        add_correction(course, "withhold", "Withhold a report from its reviewers, or a review from the authors", where,
+                       action, hold_back);
     add_stage(kept);
-    kept.app->add_option("--of", kept.words->wanted.report, "Of a review: which report it reviews")
+    kept.app->add_option("--of", kept.words->wanted.report, "For a review: the reviewed report")
         ->type_name("report-NN");
-    kept.app->add_flag("--end", kept.words->end, "Do not hold it back any more");
+    kept.app->add_flag("--end", kept.words->end, "Stop withholding");
     add_reason(kept);
     kept.app->footer(
         "Example:  dynlab course withhold crane group-05 --stage review --of report-17 --reason \"insulting\"");
 
-    CLI::App* history = course.add_subcommand("history", "Everything that was done in the course, with the reasons");
+    CLI::App* history = course.add_subcommand("history", "Show all actions of the course, with their reasons");
     history->footer("Example:  dynlab course history");
     history->callback([&where, &action] { action = [&where] { return show_history(where); }; });
 }

@@ -34,7 +34,7 @@ void tell_of_copies(Course& course, const Assignment& assignment, const Group& g
         missing = missing || (own && !out);
     }
     if (others && missing)
-        std::cout << fmt::format("No copy of {} has gone to others yet: dynlab course {} {} tells why\n",
+        std::cout << fmt::format("No copy of {} was sent to others yet: run dynlab course {} {} to see why\n",
                                  reviews ? "a review" : "it", reviews ? "review release" : "review send",
                                  assignment.name);
 }
@@ -45,16 +45,16 @@ int show_findings(const CourseArguments& where, const FindingsArguments& words) 
     const Group group = group_named(course, words.group);
     const auto found = stored_findings(course, assignment, group, words.stage, words.version);
     if (found.empty())
-        throw words.version ? InvalidArgument("{} has handed in no {} for {} numbered {}", group.name,
+        throw words.version ? InvalidArgument("{} has submitted no {} for {} with number {}", group.name,
                                               stage_in_words(words.stage), assignment.name, *words.version)
-                            : InvalidArgument("{} has handed in no {} for {}", group.name, stage_in_words(words.stage),
+                            : InvalidArgument("{} has submitted no {} for {}", group.name, stage_in_words(words.stage),
                                               assignment.name);
     bool passed = true;
     for (const StoredFindings& one : found) {
         std::cout << fmt::format("{}, {}: {}{} v{}, received {}\n", group.name, stage_in_words(words.stage), one.part,
                                  one.about.empty() ? "" : " of " + one.about, one.version,
                                  course.clock().show(one.received_at));
-        std::cout << (one.result ? findings_in_words(*one.result, in_colour()) : "not looked at\n") << '\n';
+        std::cout << (one.result ? findings_in_words(*one.result, in_colour()) : "not checked\n") << '\n';
         passed = passed && (!one.result || one.result->passed());
     }
     tell_of_copies(course, assignment, group, words);
@@ -65,17 +65,19 @@ int show_findings(const CourseArguments& where, const FindingsArguments& words) 
 
 void add_findings_command(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<FindingsArguments>();
-    CLI::App* command = course.add_subcommand("findings", "What was found in a group's files when they were received");
+    CLI::App* command = course.add_subcommand("findings", "Show the findings in a group's files at their receipt");
     command->add_option("GROUP", words->group)->required();
-    command->add_option("--assignment", words->assignment, "Which; needed when there are several")->type_name("NAME");
-    command->add_option("--stage", words->stage, "Of which version")
+    command->add_option("--assignment", words->assignment, "Assignment. Required if there are several.")
+        ->type_name("NAME");
+    command->add_option("--stage", words->stage, "Version of the submission")
         ->type_name("first|review|final")
         ->capture_default_str()
         ->check(CLI::IsMember({"first", "review", "final"}));
-    command->add_option("--version", words->version, "An earlier one; the newest unless given")->type_name("N");
+    command->add_option("--version", words->version, "Number of an earlier submission. Default: the newest.")
+        ->type_name("N");
     command->footer(
-        "Printed as dynlab check does. Exit codes: 0 no rule is broken, 1 a rule is broken, or nothing was received.\n"
-        "Example:  dynlab course findings group-07 --stage review");
+        "The output is the same as for dynlab check.\nExample:  dynlab course findings group-07 --stage review\nExit "
+        "codes: 0 no rule is violated, 1 a rule is violated, or nothing was received.");
     command->callback([&where, words, &action] { action = [&where, words] { return show_findings(where, *words); }; });
 }
 

@@ -78,13 +78,14 @@ int set_mark(const CourseArguments& where, const MarkWords& words) {
     mark.points = number_in_cell(words.mark.back());
     mark.reason = words.reason;
     if (!mark.points || *mark.points < 0)
-        throw InvalidArgument("a mark is a number from 0, but \"{}\" was given", words.mark.back());
+        throw InvalidArgument("a mark must be a number from 0, but \"{}\" was given", words.mark.back());
     const double most = most_points(course, a, mark.item).value_or(*mark.points);
     if (*mark.points > most && !words.force)
-        throw InvalidArgument("{} is more than the {} of \"{}\"; correct it, or give --force", *mark.points, most,
-                              mark.item);
+        throw InvalidArgument("{} exceeds the {} points of \"{}\"; correct the mark, or give --force", *mark.points,
+                              most, mark.item);
     if (!a.is_lab() && *mark.points > kMaxPercent)
-        throw InvalidArgument("a mark is a number from 0 to {} percent, but {} was given", kMaxPercent, *mark.points);
+        throw InvalidArgument("a mark must be a number from 0 to {} percent, but {} was given", kMaxPercent,
+                              *mark.points);
     refuse_without_reason(words.reason);
     Transaction transaction(course.database());
     give_mark(course, a, mark, time_of(course, words.at));
@@ -99,25 +100,24 @@ int set_mark(const CourseArguments& where, const MarkWords& words) {
 
 void add_mark(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<MarkWords>();
-    CLI::App* command = course.add_subcommand("mark", "Set a mark yourself; it always wins");
+    CLI::App* command = course.add_subcommand("mark", "Set a manual mark, which takes precedence");
     command->add_option("ASSIGNMENT", words->assignment)->required();
-    command->add_option("WHO", words->who, "A group, or a student by name or id")->required();
+    command->add_option("WHO", words->who, "Group, or a student by name or id")->required();
     command
         ->add_option("MARK", words->mark,
-                     "Of a lab [CHECK] POINTS, without a check of the whole; of others [work|reviews] PERCENT")
+                     "For a lab [CHECK] POINTS, without CHECK for the complete lab; otherwise [work|reviews] PERCENT")
         ->required()
         ->expected(1, 2);
-    command->add_option("--reason", words->reason, "For the history; the student reads it")->required();
-    command->add_flag("--alone", words->alone, "Of this student only, not of the group");
-    command->add_flag("--force", words->force, "Although it is more than the maximum");
+    command->add_option("--reason", words->reason, "Reason; recorded in the history and shown to the student")
+        ->required();
+    command->add_flag("--alone", words->alone, "Set the mark of this student only, not of the group");
+    command->add_flag("--force", words->force, "Accept a mark above the maximum");
     add_time_option(*command, words->at);
     command->footer(
-        "dynlab course withdraw takes a mark back. Marks of a lab may also be written into marks.csv beside its "
-        "results.\n"
-        "Examples:\n"
-        "  dynlab course mark lab4 \"Wei Li\" q3 2 --reason \"right idea\"\n"
-        "  dynlab course mark lab4 group-08 14 --reason \"shown at the desk\"\n"
-        "  dynlab course mark crane group-09 work 60 --reason \"submitted on paper\"");
+        "dynlab course withdraw withdraws a mark. For a lab, you can also enter marks in marks.csv in the folder of "
+        "its results.\nExamples:\n  dynlab course mark lab4 \"Wei Li\" q3 2 --reason \"right idea\"\n  dynlab course "
+        "mark lab4 group-08 14 --reason \"shown at the desk\"\n  dynlab course mark crane group-09 work 60 --reason "
+        "\"submitted on paper\"");
     command->callback([&where, words, &action] { action = [&where, words] { return set_mark(where, *words); }; });
 }
 
@@ -126,24 +126,25 @@ void add_mark(CLI::App& course, CourseArguments& where, Action& action) {
 void add_grade_commands(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<GradeWords>();
     CLI::App* command = course.add_subcommand("grade", "Grade the submissions of a lab: marks, feedback, summary");
-    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Needed when there are several.");
-    command->add_option("--only", words->only, "A group or student; may be repeated")->type_name("NAME");
-    command->add_flag("--regrade", words->regrade, "Grade again what has a result; your own marks stay");
+    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Required if there are several.");
+    command->add_option("--only", words->only, "Group or student; may be repeated")->type_name("NAME");
+    command->add_flag("--regrade", words->regrade, "Grade submissions again that have a result; manual marks are kept");
     command->add_option("--jobs", words->jobs, "Number of parallel jobs. Default: number of cores.")
         ->type_name("N")
         ->check(CLI::Range(1, 256));
     add_timeout_option(*command, words->timeout);
-    command->add_option("--isolation", words->isolation, "full: file system, network and processes of its own")
+    command
+        ->add_option("--isolation", words->isolation,
+                     "full: separate file system, network and processes. Default: full.")
         ->type_name("full|process")
         ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
-    command->add_flag("--force", words->force, "Take marks that are above the points of their check");
-    command->add_flag("--no-pdf", words->no_pdf, "Feedback and summary as Markdown only");
+    command->add_flag("--force", words->force, "Accept marks above the points of their check");
+    command->add_flag("--no-pdf", words->no_pdf, "Write feedback and summary as Markdown only");
     command->footer(
-        "The assignment says which lesson, checks and secret (dynlab course assignment). Results are in "
-        "marks/ASSIGNMENT\n"
-        "of the course's folder: gradebook.csv, summary.pdf, feedback, and marks.csv for your own marks.\n"
-        "Example:  dynlab course grade lab4");
+        "The assignment determines lesson, checks and secret (dynlab course assignment). The results are in "
+        "marks/ASSIGNMENT\nof the course's folder: gradebook.csv, summary.pdf, feedback, and marks.csv for manual "
+        "marks.\nExample:  dynlab course grade lab4");
     command->callback([&where, words, &action] { action = [&where, words] { return grade(where, *words); }; });
     add_mark(course, where, action);
 }

@@ -46,7 +46,8 @@ int sheet(const CourseArguments& where, const MarkArguments& words) {
 
 int scores(const CourseArguments& where, const MarkArguments& words) {
     if (words.make_sheet) return sheet(where, words);
-    if (words.file.empty()) throw InvalidArgument("give the CSV with the scores, or --sheet to get one to fill in");
+    if (words.file.empty())
+        throw InvalidArgument("give the CSV file with the scores, or --sheet to create a score sheet");
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     const Instant now = time_of(course, words.at);
@@ -74,19 +75,19 @@ void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) 
             const auto tell_zeros = [&](const std::string& whose, const std::vector<std::string>& zeros) {
                 if (!zeros.empty())
                     std::cout << terminal_text(message_text(
-                                     Message("{}: no points for {}, counted as 0.", whose, listed(zeros, Join::kAnd))))
+                                     Message("{}: no points for {}; counted as 0.", whose, listed(zeros, Join::kAnd))))
                               << '\n';
             };
             tell_zeros(group.name, mark.zeros);
             for (const StudentMark& own : mark.students) tell_zeros(group.name + ", " + own.student, own.zeros);
             if (a.is_report() && mark.scored == 1 && a.reviews > 1)
-                std::cout << terminal_text(message_text(Message("{} rests on one review.", group.name))) << '\n';
+                std::cout << terminal_text(message_text(Message("{} is based on one review.", group.name))) << '\n';
             std::vector<std::string> forgotten;
             for (std::size_t c = 0; c < a.criteria.size(); ++c)
                 if (!mark.medians[c]) forgotten.push_back(a.criteria[c].name);
             if (!forgotten.empty() && forgotten.size() < a.criteria.size())
                 std::cout << terminal_text(
-                    fmt::format("{}: no points for {}; its mark is of the other criteria only.\n", group.name,
+                    fmt::format("{}: no points for {}; its mark depends on the other criteria only.\n", group.name,
                                 fmt::join(forgotten, " and ")));
         }
 }
@@ -117,7 +118,7 @@ void tell_students_and_comments(Course& course, const Assignment& a, const Marks
             }
         }
     }
-    if (!rows.empty()) std::cout << "\nWith points of their own:\n" << terminal_text(aligned_table(header, rows));
+    if (!rows.empty()) std::cout << "\nStudents with separate points:\n" << terminal_text(aligned_table(header, rows));
     if (!comments.empty()) std::cout << "\nComments:\n" << terminal_text(comments);
 }
 
@@ -159,7 +160,8 @@ int marks(const CourseArguments& where, const MarkArguments& words) {
         for (const ReviewMark& mark : all.reviews)
             if (mark.pair == pair.id && mark.outlier)
                 std::cout << terminal_text(fmt::format(
-                    "Look at the review of {} by {}: far below the others{}.\n", pair.author_name, pair.reviewer_name,
+                    "Check the review of {} by {}: its scores are far below the others{}.\n", pair.author_name,
+                    pair.reviewer_name,
                     mark.retaliation ? fmt::format("; {} had given {} few points", pair.author_name, pair.reviewer_name)
                                      : ""));
     if (!a.is_report()) tell_students_and_comments(course, a, all);
@@ -191,15 +193,16 @@ MarkCommand add_one(CLI::App& course, const char* name, const char* about, Cours
 }  // namespace
 
 void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action) {
-    const auto scored = add_one(course, "scores", "Read scores of reviewers or of a talk, or make a sheet for them",
-                                where, action, scores);
+    const auto scored = add_one(course, "scores", "Read scores of reviewers or of a talk, or make a score sheet", where,
+                                action, scores);
     scored.app->add_option("ASSIGNMENT", scored.words->assignment)->required();
     scored.app->add_option("CSV", scored.words->file,
-                           "Columns reviewer, report (of a talk group, student, comment), criteria");
-    scored.app->add_flag("--sheet", scored.words->make_sheet, "Of a talk: make a marking sheet to be filled in");
-    scored.app->add_option("-o,--out", scored.words->out, "File of the sheet. Default: printed.")->type_name("CSV");
-    scored.app->add_flag("--students", scored.words->sheet.students, "The sheet has a row for each student, too");
-    scored.app->add_flag("--drawn", scored.words->sheet.drawn, "The sheet is in an order drawn by lot");
+                           "Columns reviewer, report (for a talk group, student, comment), and criteria");
+    scored.app->add_flag("--sheet", scored.words->make_sheet, "For a talk: make an empty score sheet");
+    scored.app->add_option("-o,--out", scored.words->out, "File of the sheet. Default: standard output.")
+        ->type_name("CSV");
+    scored.app->add_flag("--students", scored.words->sheet.students, "Add a row for each student to the sheet");
+    scored.app->add_flag("--drawn", scored.words->sheet.drawn, "Put the groups of the sheet in random order");
     add_time_option(*scored.app, scored.words->at);
     scored.app
         ->add_option("--stage", scored.words->stage,
@@ -207,42 +210,37 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         ->check(CLI::IsMember({"first", "final"}))
         ->capture_default_str();
     scored.app->footer(
-        "A line a review: reviewer,report,data,... with the reviewing group and the report's\n"
-        "pseudonym, as review pairs has them; the reviewer \"instructor\" is you. The latest score counts; - takes a "
-        "score\n"
-        "back, an empty cell changes nothing. Scores of a withdrawn review do not count until it is restored. Scores "
-        "in\n"
-        "the pack of a review (dynlab new review) are read when it is received.\n"
-        "Of a talk, points in a student's row are that student's; where a cell is empty, the points of the group "
-        "count.\n"
-        "Examples:\n"
-        "  dynlab course scores final-talk --sheet --students -o sheet.csv\n"
-        "  dynlab course scores crane scores.csv\n"
-        "  dynlab course scores crane finals.csv --stage final");
+        "Each line is a review: reviewer,report,data,... with the reviewing group and the report's pseudonym (see "
+        "review\npairs). The reviewer \"instructor\" is you. The latest score counts; - withdraws a score, an empty "
+        "cell changes\nnothing. Scores of a withdrawn review do not count until it is restored. dynlab reads the "
+        "scores in the pack of a\nreview (dynlab new review) when it receives the review.\nFor a talk, points in a "
+        "student's row are only for that student; empty cells get the points of the group.\nExamples:\n  dynlab course "
+        "scores final-talk --sheet --students -o sheet.csv\n  dynlab course scores crane scores.csv\n  dynlab course "
+        "scores crane finals.csv --stage final");
 
-    const auto shown =
-        add_one(course, "marks", "Medians, marks of reports and reviewers, odd reviews", where, action, marks);
-    shown.app->add_option("ASSIGNMENT", shown.words->assignment, "Assignment. Needed when there are several.");
+    const auto shown = add_one(course, "marks", "Show medians, marks of reports and reviewers, and unusual reviews",
+                               where, action, marks);
+    shown.app->add_option("ASSIGNMENT", shown.words->assignment, "Assignment. Required if there are several.");
     add_time_option(*shown.app, shown.words->at);
     shown.app->footer(
-        "A report's mark: 100 times the sum of the medians over that of the most points. A reviewer's: 100 (1 - 2 d),\n"
-        "never below 0, averaged over the reviews; d is the mean of |points - median of the others| / most. Far below\n"
-        "the others: more than 0.35 of the scale on average. An example: dynlab help review_marks");
+        "Mark of a report: 100 times the sum of the medians over the sum of the maximum points. Mark of a "
+        "reviewer:\n100 (1 - 2 d), at least 0, averaged over the reviews; d is the mean of |points - median of the "
+        "others| / maximum.\nA review is far below the others if the average difference exceeds 0.35 of the scale. An "
+        "example: dynlab help\nreview_marks");
 
     const auto given =
-        add_one(course, "export", "A row a student as CSV, or the whole store as JSON", where, action, export_course);
-    given.app->add_option("ASSIGNMENT", given.words->assignment, "Default: all of them, and the weighted total");
+        add_one(course, "export", "Export one row for each student as CSV, or the complete store as JSON", where,
+                action, export_course);
+    given.app->add_option("ASSIGNMENT", given.words->assignment,
+                          "Assignment. Default: all assignments, and the weighted total.");
     add_time_option(*given.app, given.words->at);
-    given.app->add_option("-o,--out", given.words->out, "Printed unless given")->type_name("FILE");
-    given.app->add_flag("--json", given.words->json, "The whole store, for import");
+    given.app->add_option("-o,--out", given.words->out, "Output file. Default: standard output.")->type_name("FILE");
+    given.app->add_flag("--json", given.words->json, "Export the complete store, for import");
     given.app->footer(
-        "Without an assignment: the percent of each one by student, and the total by the weights of the assignments. "
-        "What\n"
-        "is missing after its deadline counts 0; what is not marked yet does not count and is named.\n"
-        "Examples:\n"
-        "  dynlab course export -o term.csv\n"
-        "  dynlab course export crane -o marks.csv\n"
-        "  dynlab course export --json -o course.json");
+        "Without an assignment, the CSV contains the percentages of each student and the total, weighted by "
+        "assignment. Work\nthat is missing after its deadline counts 0. Unmarked work does not count; dynlab lists "
+        "it.\nExamples:\n  dynlab course export -o term.csv\n  dynlab course export crane -o marks.csv\n  dynlab "
+        "course export --json -o course.json");
 }
 
 }  // namespace dynlab::inline cli

@@ -25,13 +25,14 @@ int assign(const CourseArguments& where, const PeerArguments& words) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
     const AssignOutcome done = assign_reviews(course, assignment, time_of(course, words.at), words.early);
-    std::cout << message_text(Message("{}: {}, {}: {} new, {} taken back.", assignment.name,
+    std::cout << message_text(Message("{}: {}, {}: {} new, {} withdrawn.", assignment.name,
                                       plural(done.groups, "{} group", "{} groups"),
                                       plural(done.pairs, "{} review", "{} reviews"), done.fresh, done.ended))
               << '\n';
     for (const Message& remark : done.remarks) std::cout << terminal_text(message_text(remark)) << '\n';
     if (done.remarks.empty())
-        std::cout << "Nobody reviews their own report, one twice, one of a common member, or each other.\n";
+        std::cout << "No group reviews its own report, a report twice, a report of a common member, or a report of its "
+                     "reviewer.\n";
     return kDone;
 }
 
@@ -44,13 +45,13 @@ int show_pairs(const CourseArguments& where, const PeerArguments& words) {
         const char* const state = pair.released      ? "released"
                                   : pair.voluntary() ? "voluntary"
                                   : pair.written     ? "written"
-                                  : pair.ended       ? "taken back"
+                                  : pair.ended       ? "withdrawn"
                                   : pair.sent        ? "sent"
                                                      : "allotted";
         rows.push_back(
             {pair.reviewer_name, pair.report_pseudonym(), pair.author_name, pair.reviewer_pseudonym(), state});
     }
-    std::cout << terminal_text(aligned_table({"reviewer", "reads", "written by", "who knows them as", "state"}, rows));
+    std::cout << terminal_text(aligned_table({"reviewer", "report", "author", "reviewer as", "state"}, rows));
     return kDone;
 }
 
@@ -85,16 +86,16 @@ int send(const CourseArguments& where, const PeerArguments& words, Way way) {
                                          words.early, {words.accepted, words.reason});
     for (const auto* lines : {&done.hits, &done.hints})
         for (const Message& line : *lines) std::cerr << "dynlab: " << terminal_text(message_text(line)) << '\n';
-    std::cout << fmt::format("{}: {} sent now{}, {} before, {} stopped, {} not come yet{}; in {}\n", assignment.name,
+    std::cout << fmt::format("{}: {} sent now{}, {} before, {} stopped, {} outstanding{}; in {}\n", assignment.name,
                              done.sent, done.again > 0 ? fmt::format(" ({} in a newer version)", done.again) : "",
                              done.before, done.stopped, done.waiting,
-                             done.held > 0 ? fmt::format(", {} held back", done.held) : "", done.folder.string());
+                             done.held > 0 ? fmt::format(", {} withheld", done.held) : "", done.folder.string());
     if (!done.unreviewed.empty())
         std::cout << terminal_text(message_text(Message("No review: {}.", listed(done.unreviewed)))) << '\n';
     if (!done.reviewed_once.empty())
-        std::cout << terminal_text(message_text(Message("One review only: {}.", listed(done.reviewed_once)))) << '\n';
+        std::cout << terminal_text(message_text(Message("Only one review: {}.", listed(done.reviewed_once)))) << '\n';
     for (const std::string& file : done.removed)
-        std::cout << terminal_text(fmt::format("Taken out of the folder: {}\n", file));
+        std::cout << terminal_text(fmt::format("Removed from the folder: {}\n", file));
     return done.stopped == 0 ? kDone : kFailed;
 }
 
@@ -102,7 +103,7 @@ int wish(const CourseArguments& where, const PeerArguments& words, const char* w
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
     wish_pair(course, assignment, words.reviewer, words.author, wanted, words.reason, time_of(course, words.at));
-    std::cout << fmt::format("Noted; dynlab course review assign {} does it.\n", assignment.name);
+    std::cout << fmt::format("Recorded; run dynlab course review assign {} to apply it.\n", assignment.name);
     return kDone;
 }
 
@@ -112,8 +113,8 @@ int pairs(const CourseArguments& where, const PeerArguments& words) {
     if (wishes == 0 && words.reviewer.empty()) return show_pairs(where, words);
     if (wishes != 1 || words.author.empty() || words.reason.empty())
         throw InvalidArgument(
-            "say which pair and what about it: review pairs ASSIGNMENT REVIEWER AUTHOR with --set, --forbid or --free, "
-            "and --reason");
+            "name a pair and an action: review pairs ASSIGNMENT REVIEWER AUTHOR with --set, --forbid or --free, and "
+            "--reason");
     return wish(where, words, words.set ? "set" : words.forbid ? "forbid" : "free");
 }
 
@@ -138,25 +139,25 @@ int give_back(const CourseArguments& where, const ReturnArguments& words) {
     if (done.other_numbers > 0)
         std::cerr << "dynlab: note: "
                   << message_text(plural(done.other_numbers,
-                                         "{} participant number in the roster's column moodle is of another "
-                                         "assignment; the one of this assignment is used",
-                                         "{} participant numbers in the roster's column moodle are of another "
-                                         "assignment; those of this assignment are used"))
+                                         "{} participant number in the roster's column moodle belongs to another "
+                                         "assignment; dynlab uses the number of this assignment",
+                                         "{} participant numbers in the roster's column moodle belong to another "
+                                         "assignment; dynlab uses the numbers of this assignment"))
                   << '\n';
     for (const auto& [group, files] : done.files)
         std::cout << terminal_text(fmt::format("{}: {}\n", group, fmt::join(files, ", ")));
-    std::cout << message_text(done.files.empty() ? Message("Nothing is new for anybody.")
+    std::cout << message_text(done.files.empty() ? Message("No new files to deliver.")
                                                  : plural(static_cast<std::int64_t>(done.files.size()),
                                                           "For {} group, in {}", "For {} groups, in {}", words.out))
               << '\n';
     if (!done.without_mail.empty())
         std::cerr << terminal_text(
-            fmt::format("dynlab: no mail address is known of {}; the roster's column mail has them\n",
+            fmt::format("dynlab: the mail address of {} is unknown; add it in the roster's column mail\n",
                         fmt::join(done.without_mail, ", ")));
     if (!done.without_number.empty())
         std::cerr << terminal_text(
-            fmt::format("dynlab: not in moodle.zip, because their number there is not known: {}; give Moodle's grading "
-                        "worksheet with --worksheet\n",
+            fmt::format("dynlab: not in moodle.zip, because their Moodle numbers are unknown: {}; give Moodle's "
+                        "grading worksheet with --worksheet\n",
                         fmt::join(done.without_number, ", ")));
     return done.without_number.empty() ? kDone : kFailed;
 }
@@ -164,23 +165,23 @@ int give_back(const CourseArguments& where, const ReturnArguments& words) {
 void add_return(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<ReturnArguments>();
     CLI::App* command =
-        course.add_subcommand("deliver", "Deliver new files to each student: copies, reviews, receipts");
-    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Needed when there are several.");
-    command->add_option("-o,--out", words->out, "A new folder: one below it for each group, and mail.csv")
+        course.add_subcommand("deliver", "Deliver new files to each student: copies to review, reviews, receipts");
+    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Required if there are several.");
+    command->add_option("-o,--out", words->out, "New folder, with a folder for each group and mail.csv")
         ->type_name("DIR")
         ->required();
-    command->add_flag("--moodle", words->moodle, "Also moodle.zip, which Moodle takes as feedback files");
+    command->add_flag("--moodle", words->moodle, "Also write moodle.zip, for Moodle's upload of feedback files");
     command
         ->add_option("--worksheet", words->worksheet,
                      "Moodle's grading worksheet of this assignment, for the participants' numbers; implies --moodle")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
-    command->add_flag("--all", words->all, "Also what was returned before");
+    command->add_flag("--all", words->all, "Include files that were delivered before");
     add_time_option(*command, words->at);
     command->footer(
-        "After review send and release. mail.csv has a row a student: id, name, group, mail, files, new. What was\n"
-        "returned is remembered; newer versions are new again.\n"
-        "Example:  dynlab course deliver crane --out monday --moodle");
+        "Use this command after review send and release. mail.csv has a row for each student: id, name, group, mail, "
+        "files,\nnew. dynlab keeps a list of the delivered files; newer versions are new again.\nExample:  dynlab "
+        "course deliver crane --out monday --moodle");
     command->callback([&where, words, &action] { action = [&where, words] { return give_back(where, *words); }; });
 }
 
@@ -188,23 +189,23 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseA
                   int (*run)(const CourseArguments&, const PeerArguments&)) {
     auto words = std::make_shared<PeerArguments>();
     CLI::App* command = parent.add_subcommand(name, about);
-    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Needed when there are several.");
+    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Required if there are several.");
     if (run == pairs) {
         command->add_option("REVIEWER", words->reviewer, "A group");
         command->add_option("AUTHOR", words->author, "Another group");
-        command->add_flag("--set", words->set, "The group reviews the report of the other");
-        command->add_flag("--forbid", words->forbid, "The two groups do not review each other");
-        command->add_flag("--free", words->free, "Take back what was set or forbidden");
-        command->add_option("--reason", words->reason, "For the history");
+        command->add_flag("--set", words->set, "Let the group review the report of the other group");
+        command->add_flag("--forbid", words->forbid, "Keep the two groups from reviewing each other");
+        command->add_flag("--free", words->free, "Undo --set or --forbid");
+        command->add_option("--reason", words->reason, "Reason; recorded in the history");
     }
     add_time_option(*command, words->at);
-    if (run == assign) command->add_flag("--early", words->early, "Although first versions may still come");
-    if (run == release) command->add_flag("--early", words->early, "Although reviews may still come");
+    if (run == assign) command->add_flag("--early", words->early, "Do not wait for further first versions");
+    if (run == release) command->add_flag("--early", words->early, "Do not wait for further reviews");
     if (run == send_reports || run == release) {
         auto* const accept =
-            command->add_option("--accept", words->accepted, "Send this group's document although names were found");
+            command->add_option("--accept", words->accepted, "Send this group's document although it contains names");
         auto* const reason =
-            command->add_option("--reason", words->reason, "Why; recorded in the history")->type_name("TEXT");
+            command->add_option("--reason", words->reason, "Reason; recorded in the history")->type_name("TEXT");
         accept->type_name("GROUP")->needs(reason);
         reason->needs(accept);
     }
@@ -216,30 +217,28 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseA
 
 void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action) {
     CLI::App* peer = course.get_subcommand("review");
-    add_one(*peer, "assign", "Allocate the reviews at random, or adjust them after late-comers and drop-outs", where,
-            action, assign)
+    add_one(*peer, "assign", "Allocate the reviews at random, or adjust them after late submissions and drop-outs",
+            where, action, assign)
         ->footer(
-            "Each group writes, and gets, the same number of reviews; what is written or sent stays. May be repeated.\n"
-            "Example:  dynlab course review assign crane");
-    add_one(*peer, "send", "Make anonymous copies of the reports for their reviewers", where, action, send_reports)
+            "Each group writes, and gets, the same number of reviews. Existing reviews and sent copies are kept. You "
+            "can repeat\nthe command.\nExample:  dynlab course review assign crane");
+    add_one(*peer, "send", "Make anonymized copies of the reports for their reviewers", where, action, send_reports)
         ->footer(
-            "A name in a copy stops that copy; dynlab prints where it is. Where no person is meant, --accept sends "
-            "it.\n"
-            "Repeated, the command makes only what is new.\n"
-            "Examples:  dynlab course review send crane\n"
-            "           dynlab course review send crane --accept group-01 --reason \"Page is a word there\"");
-    add_one(*peer, "release", "Make anonymous copies of the reviews for the authors", where, action, release)
+            "A copy that contains a name is not sent; dynlab prints where the name is. If the text means no person, "
+            "--accept\nsends the copy. If you repeat the command, it makes only new copies.\nExamples:  dynlab course "
+            "review send crane\n           dynlab course review send crane --accept group-01 --reason \"Page is a word "
+            "there\"");
+    add_one(*peer, "release", "Make anonymized copies of the reviews for the authors", where, action, release)
         ->footer(
-            "A review with a name in it is stopped, like a report. Repeated, the command makes only what is new.\n"
-            "Example:  dynlab course review release crane");
+            "A review that contains a name is not sent, like a report. If you repeat the command, it makes only new "
+            "copies.\nExample:  dynlab course review release crane");
     add_return(course, where, action);
-    add_one(*peer, "pairs", "Show the pairs with their pseudonyms (for you only), or set or forbid one", where, action,
-            pairs)
+    add_one(*peer, "pairs", "Show the pairs with their pseudonyms (confidential), or set or forbid a pair", where,
+            action, pairs)
         ->footer(
-            "A review that is forbidden and not written yet goes to another group with the next review assign.\n"
-            "Examples:\n"
-            "  dynlab course review pairs crane\n"
-            "  dynlab course review pairs crane group-02 group-07 --forbid --reason \"they share a flat\"");
+            "If a forbidden review is not written yet, the next review assign gives it to another group.\nExamples:\n  "
+            "dynlab course review pairs crane\n  dynlab course review pairs crane group-02 group-07 --forbid --reason "
+            "\"they share a flat\"");
 }
 
 }  // namespace dynlab::inline cli

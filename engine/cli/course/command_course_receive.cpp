@@ -29,25 +29,28 @@ struct ReceiveArguments {
 };
 
 Message remark(const Received& r) {
-    if (!r.trouble.empty() && r.part == "pack") return Message("{}: ask for a pack that opens", r.trouble);
+    if (!r.trouble.empty() && r.part == "pack") return Message("{}: ask for a pack that can be opened", r.trouble);
     if (!r.trouble.empty()) return Message("{}: ask for a readable file", r.trouble);
-    if (!r.missing.empty()) return Message("{}: ask for one", r.missing);
-    if (r.withdrawn) return Message("known and withdrawn; dynlab course restore lets it stand again");
+    if (!r.missing.empty()) return Message("{}: ask for this file", r.missing);
+    if (r.withdrawn) return Message("already received and withdrawn; dynlab course restore reinstates it");
     if (!r.other_time.empty())
-        return Message("known already; by --times it came {}: dynlab course set-received corrects that", r.other_time);
-    if (r.known) return Message("known already, nothing changed");
+        return Message(
+            "already received; according to --times it arrived {}: correct the time with dynlab course set-received",
+            r.other_time);
+    if (r.known) return Message("already received; nothing changed");
     MessageList clauses{{}, Join::kSemicolon};
-    if (r.voluntary) clauses.items.push_back(Message("voluntary: the report was taken back; the review has no marks"));
+    if (r.voluntary)
+        clauses.items.push_back(Message("voluntary: the author withdrew the report; the review gets no marks"));
     if (!r.remark.empty()) clauses.items.push_back(r.remark);
     if (!r.twin.empty()) clauses.items.push_back(Message("the same file as {}", r.twin));
     if (!r.earlier.empty()) clauses.items.push_back(Message("the same file as {}", r.earlier));
-    if (r.marked_late) clauses.items.push_back(Message("the platform calls it late: see --times"));
-    if (r.made) clauses.items.push_back(Message("made here, as the pack has no PDF"));
+    if (r.marked_late) clauses.items.push_back(Message("marked late by the platform: see --times"));
+    if (r.made) clauses.items.push_back(Message("made by dynlab, because the pack contains no PDF"));
     if (r.scores > 0) clauses.items.push_back(plural(r.scores, "{} score read", "{} scores read"));
     if (r.rules_broken > 0)
-        clauses.items.push_back(
-            r.names ? plural(r.rules_broken, "{} rule broken: it names somebody", "{} rules broken: it names somebody")
-                    : plural(r.rules_broken, "{} rule broken", "{} rules broken"));
+        clauses.items.push_back(r.names ? plural(r.rules_broken, "{} rule violated: a name was found",
+                                                 "{} rules violated: a name was found")
+                                        : plural(r.rules_broken, "{} rule violated", "{} rules violated"));
     return Message("{}", clauses);
 }
 
@@ -67,13 +70,13 @@ void show(const ReceiveOutcome& outcome, const std::string& stage, bool timed) {
         late += !r.known && r.late > 0;
         if (!r.known && r.late > 0) late_by.push_back(r.late);
     }
-    std::cout << fmt::format("{}, {}: {} taken, {} late{}\n", outcome.assignment.name,
+    std::cout << fmt::format("{}, {}: {} accepted, {} late{}\n", outcome.assignment.name,
                              stage == "first"    ? "first version"
                              : stage == "review" ? "reviews"
                                                  : "final version",
                              message_text(plural(fresh, "{} file", "{} files")), late,
                              rows.size() > static_cast<std::size_t>(fresh)
-                                 ? fmt::format(", {} known already", rows.size() - static_cast<std::size_t>(fresh))
+                                 ? fmt::format(", {} already received", rows.size() - static_cast<std::size_t>(fresh))
                                  : "");
     if (!rows.empty())
         std::cout << terminal_text(aligned_table(
@@ -94,8 +97,8 @@ bool confirm_penalties(Course& course, const ReceiveOutcome& outcome, bool accep
         if (!accept)
             std::cerr << "dynlab: "
                       << terminal_text(message_text(Message(
-                             "{} is late by {}; the penalty of {} % is not applied until you confirm it: repeat this "
-                             "with --accept-late, or correct the time with dynlab course set-received",
+                             "{} is late by {}; the penalty of {} % is not applied until you confirm it. Repeat the "
+                             "command with --accept-late, or correct the time with dynlab course set-received",
                              r.group, duration_message(r.late), significant(r.waiting, 4))))
                       << '\n';
     }
@@ -125,7 +128,7 @@ int receive_files(const CourseArguments& where, const ReceiveArguments& words, c
     request.program = running_program();
     request.take_as_first = words.first;
     request.checks = !words.no_checks;
-    WorkBar bar("looking at the files");
+    WorkBar bar("checking the files");
     request.progress = bar.progress();
     const ReceiveOutcome outcome = receive(course, request);
     bar.finish();
@@ -138,48 +141,49 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
                  const std::string& example, CourseArguments& where, Action& action) {
     auto words = std::make_shared<ReceiveArguments>();
     CLI::App* command = parent.add_subcommand(name, about);
-    command->add_option("FILE", words->files, "PDFs, packs, folders, or the zip that Moodle or Canvas exports")
+    command->add_option("FILE", words->files, "PDFs, packs, folders, or the zip file that Moodle or Canvas exports")
         ->required();
-    command->add_option("--assignment", words->assignment, "Which; needed when there are several")->type_name("NAME");
-    command->add_option("--from", words->from, "Whose; by the names of files and folders unless given")
+    command->add_option("--assignment", words->assignment, "Assignment. Required if there are several.")
+        ->type_name("NAME");
+    command
+        ->add_option("--from", words->from,
+                     "Group that submits the files. Default: determined from the names of files and folders.")
         ->type_name("GROUP");
     words->stage = stage;
     if (stage == "first") {
-        command->add_option("--stage", words->stage, "Which version")
+        command->add_option("--stage", words->stage, "Version")
             ->type_name("first|final")
             ->capture_default_str()
             ->check(CLI::IsMember({"first", "final"}));
         command->add_flag("--accept-late", words->accept_late, "Apply penalties of half the points or more");
-        command->add_flag("--first", words->first, "A first version, even of a report whose reviews are out");
+        command->add_flag("--first", words->first,
+                          "Submit a first version, even if the reviews of the report are released");
     }
     if (stage == "review")
         command
-            ->add_option("--of", words->of,
-                         "Which report it reviews; by the file's name unless given. Of several files one --of each")
+            ->add_option(
+                "--of", words->of,
+                "Reviewed report. Default: determined from the file name. Repeat it for each of several files.")
             ->type_name("report-NN")
             ->allow_extra_args(false);
     add_time_option(*command, words->at);
     command->get_option("--at")->group("Options");
     command
-        ->add_option(
-            "--times", words->times,
-            "When each was handed in: Moodle's grading worksheet or another CSV (column id, identifier, group, "
-            "name or mail, and time), or `archive` for the files' own times; --at for the others. The worksheet says "
-            "also whose a participant's number is")
+        ->add_option("--times", words->times,
+                     "Times of submission: Moodle's grading worksheet or another CSV (column id, identifier, group, "
+                     "name or mail, and time), or `archive` for the times in the archive; --at for the other files. "
+                     "The worksheet also identifies participant numbers")
         ->type_name("CSV|archive");
-    command->add_option("--isolation", words->isolation, "How far archives are kept apart while they are unpacked")
+    command->add_option("--isolation", words->isolation, "Isolation while archives are unpacked")
         ->type_name("full|process")
         ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
-    command->add_flag("--no-checks", words->no_checks, "Do not look into the PDFs");
+    command->add_flag("--no-checks", words->no_checks, "Do not check the PDFs");
     command->footer(
-        "The sender of a file is known by its name or its folder's: a group, a student's name or id, or what the "
-        "platform\n"
-        "wrote; never by its content. A pack's report.pdf (slides.pdf, review.pdf), or its only PDF, counts as\n"
-        "if it had been handed in alone; of a pack without any PDF it is made. Every version is kept and gets a signed "
-        "receipt; a file that cannot be read "
-        "is kept\n"
-        "and flagged. Example:\n  " +
+        "dynlab identifies the owner of a file by the name of the file or its folder: a group, a student's name or id, "
+        "or a\nname from the platform. It never uses the content. A pack's report.pdf (slides.pdf, review.pdf), or its "
+        "only PDF,\ncounts like a separate PDF; if a pack has no PDF, dynlab makes it. dynlab keeps every version and "
+        "signs a receipt\nfor it. It keeps and flags a file that cannot be read. Example:\n  " +
         example);
     command->callback(
         [&where, words, &action] { action = [&where, words] { return receive_files(where, *words, words->stage); }; });
@@ -200,7 +204,7 @@ int verify_course(const CourseArguments& where, const std::vector<std::string>& 
             std::cerr << "dynlab: " << terminal_text(message_text(trouble)) << '\n';
         const Message files = plural(check.files, "{} file", "{} files"),
                       versions = plural(check.versions, "{} version", "{} versions");
-        std::cout << message_text(check.troubles.empty() ? Message("{}, {}: all there and unaltered", files, versions)
+        std::cout << message_text(check.troubles.empty() ? Message("{}, {}: complete and unaltered", files, versions)
                                                          : Message("{}, {}: see above", files, versions))
                   << '\n';
         well = check.troubles.empty();
@@ -219,13 +223,13 @@ int show_key(const CourseArguments& where) {
 void add_course_verify(CLI::App& course, CourseArguments& where, Action& action) {
     auto receipts = std::make_shared<std::vector<std::string>>();
     auto key = std::make_shared<bool>(false);
-    CLI::App* command = course.add_subcommand("verify", "Check receipts, or the whole store");
+    CLI::App* command = course.add_subcommand("verify", "Check receipts, or the complete store");
     command->add_flag("--key", *key, "Show the public key, with which students verify receipts");
-    command->add_option("RECEIPT", *receipts, "Receipts that students show");
+    command->add_option("RECEIPT", *receipts, "Receipts from students");
     command->footer(
-        "Students verify theirs without the course: dynlab verify.\n"
-        "It also lists temporary files and folders of killed commands; the next course command removes them.\n"
-        "Example:  dynlab course verify 00012-group-07-first-report.txt");
+        "Students verify their receipts without the course: dynlab verify.\nThe command also lists temporary files and "
+        "folders of interrupted commands; the next course command removes them.\nExample:  dynlab course verify "
+        "00012-group-07-first-report.txt");
     command->callback([&where, receipts, key, &action] {
         action = [&where, receipts, key] { return *key ? show_key(where) : verify_course(where, *receipts); };
     });
@@ -234,11 +238,11 @@ void add_course_verify(CLI::App& course, CourseArguments& where, Action& action)
 }  // namespace
 
 void add_receive_commands(CLI::App& course, CourseArguments& where, Action& action) {
-    add_receive(course, "submit", "Take submissions: files, folders, or what Moodle or Canvas exports", "first",
+    add_receive(course, "submit", "Submit files, folders, or an export of Moodle or Canvas", "first",
                 "dynlab course submit \"Crane-12345.zip\" --assignment crane", where, action);
-    CLI::App* review = course.add_subcommand("review", "Peer review: assign, send, collect, release");
+    CLI::App* review = course.add_subcommand("review", "Run the peer review: assign, send, collect, release");
     review->require_subcommand(1);
-    add_receive(*review, "collect", "Take reviews", "review",
+    add_receive(*review, "collect", "Submit reviews", "review",
                 "dynlab course review collect review-report-07.pdf --from group-02", where, action);
     add_course_verify(course, where, action);
 }

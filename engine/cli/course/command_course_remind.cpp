@@ -38,8 +38,8 @@ int remind(const CourseArguments& where, const RemindArguments& words) {
               << '\n';
     if (!without.empty())
         std::cerr << "dynlab: "
-                  << terminal_text(message_text(
-                         Message("no mail address is known of {}; the roster's column mail has them", listed(without))))
+                  << terminal_text(message_text(Message(
+                         "the mail address of {} is unknown; add it in the roster's column mail", listed(without))))
                   << '\n';
     return without.empty() ? kDone : kFailed;
 }
@@ -48,19 +48,16 @@ int remind(const CourseArguments& where, const RemindArguments& words) {
 
 void add_remind_command(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<RemindArguments>();
-    CLI::App* command = course.add_subcommand("remind", "Write reminders for what is missing or cannot be read");
+    CLI::App* command = course.add_subcommand("remind", "Write reminders for missing or unreadable work");
     command->add_option("ASSIGNMENT", words->assignment, "Assignment. Default: the only one");
     command->add_option("-o,--out", words->out, "File to write")->type_name("CSV")->capture_default_str();
-    command->add_flag("--early", words->early, "Also for what is not due yet");
+    command->add_flag("--early", words->early, "Include work that is not due yet");
     add_time_option(*command, words->at);
     command->footer(
-        "A row for each student: to, subject, text, id, name, group; for the mail merge of any mail program. Subject "
-        "and\n"
-        "text are in the language of the roster's column language. Missing are first versions, reviews, final "
-        "versions,\n"
-        "slides and scripts whose deadline is over, and files that cannot be read.\n"
-        "Example:  dynlab course remind crane\n"
-        "Exit codes: 0 done, 1 no address is known of somebody, 2 wrong usage.");
+        "The file has a row for each student: to, subject, text, id, name, group, for the mail merge of any mail "
+        "program. The\ncolumn language of the roster sets the language of subject and text. Missing work is a first "
+        "version, review, final\nversion, slides or script after its deadline, or a file that cannot be "
+        "read.\nExample:  dynlab course remind crane\nExit codes: 0 done, 1 an address is unknown, 2 wrong usage.");
     command->callback([&where, words, &action] { action = [&where, words] { return remind(where, *words); }; });
 }
 

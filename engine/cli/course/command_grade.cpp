@@ -60,7 +60,7 @@ int grade(const GradeArguments& words) {
     FolderGrading grading(request);
     const GradingOptions& options = grading.options();
     if (options.setup.secret.empty())
-        std::cerr << "dynlab: no --secret FILE: anybody who reads the project can compute the hidden records\n";
+        std::cerr << "dynlab: no --secret FILE: anyone who reads the project can compute the hidden data sets\n";
     const fs::path parts = options.out / "parts";
     if (request.part) {
         note_parts(parts, request.part->count);
@@ -85,28 +85,28 @@ void add_grade(CLI::App& app, Action& action) {
         ->add_option("FOLDER", words->submissions,
                      "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
         ->required();
-    command->add_option("--lesson", words->request.lesson, "The lesson whose checks are used; required for a new OUT")
-        ->type_name("NN");
     command
-        ->add_option(
-            "--out", words->out,
-            "Folder for the results; kept and added to. A later call goes on with the options it was made with")
+        ->add_option("--lesson", words->request.lesson,
+                     "Lesson that provides the checks. Required for a new results folder.")
+        ->type_name("NN");
+    command->add_option("--out", words->out, "Results folder. A later call adds to the folder and uses its options")
         ->type_name("OUT")
         ->required();
     command
         ->add_option("--checks", words->request.checks, "Folder with your own checks (*.lua), which students never see")
         ->type_name("FOLDER");
-    command->add_option("--secret", words->request.secret, "File whose content the hidden records are drawn from")
+    command->add_option("--secret", words->request.secret, "File that determines the hidden data sets")
         ->type_name("FILE")
         ->check(CLI::ExistingFile | CLI::IsMember({kNoFile}));
     command
-        ->add_option("--roster", words->request.roster,
-                     "CSV with the columns id, name, group (also language: en or fr): a row of marks a student")
+        ->add_option(
+            "--roster", words->request.roster,
+            "CSV with the columns id, name, group (also language: en or fr): adds a row of marks for each student")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
         ->add_option("--owners", words->request.owners,
-                     "CSV with the columns submission and group (or id): whose those are that no name tells")
+                     "CSV mapping unmatched submissions to groups (columns: submission and group or id)")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
@@ -119,78 +119,65 @@ void add_grade(CLI::App& app, Action& action) {
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
-        ->add_option(
-            "--times", words->request.times,
-            "When each was submitted: Moodle's grading worksheet or another CSV (column id, identifier, group, "
-            "name or mail, and time). Default: the times of the files")
+        ->add_option("--times", words->request.times,
+                     "Times of submission: Moodle's grading worksheet or another CSV (column id, identifier, group, "
+                     "name or mail, and time). Default: the times of the files")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
         ->add_option("--timezone", words->request.timezone,
-                     "Time zone of deadlines and of times in zips. Default: this machine's")
+                     "Time zone of deadlines and of times in zip files. Default: the zone of this machine")
         ->type_name("ZONE");
     command
         ->add_option("--only", words->request.grading.only,
-                     "Grade this submission only, by its name, group, id or student; may be repeated")
+                     "Grade only this submission, given by its name, group, id or student; may be repeated")
         ->type_name("NAME");
-    command->add_flag("--again", words->request.again, "Grade all with these inputs where OUT was made with others");
+    command->add_flag("--again", words->request.again,
+                      "Grade all submissions with the new inputs if OUT was made with other inputs");
     words->parts.add_to(*command);
     CLI::Option* const regrade = command->add_flag("--regrade", words->request.grading.regrade,
-                                                   "Grade those again that have a result; your own marks stay");
+                                                   "Grade submissions again that have a result; manual marks are kept");
     for (const char* option : {"--part", "--join", "--on"}) regrade->excludes(command->get_option(option));
-    command->add_option("--jobs", words->jobs, "So many at once; as many as there are cores unless given")
+    command->add_option("--jobs", words->jobs, "Number of parallel jobs. Default: number of cores.")
         ->type_name("N")
         ->check(CLI::Range(1, 256));
     command
         ->add_option("--timeout", words->request.timeout,
-                     "Processor time of each run of a script, in seconds; by the clock a run may take five times as "
-                     "long. Default: 60")
+                     "Processor time of each run of a script, in seconds; the elapsed time may be five times as long. "
+                     "Default: 60")
         ->type_name("S")
         ->check(CLI::Range(1, 3600));
     command
         ->add_option("--isolation", words->request.isolation,
-                     "full: file system, network and processes of its own. Default: full")
+                     "full: separate file system, network and processes. Default: full")
         ->type_name("full|process")
         ->check(CLI::IsMember({"full", "process"}));
     command->add_flag(
         "--answers", words->answers,
-        "Model answers for all, OUT/model_answers.pdf: the worked solution's text; dynlab hand-back adds them");
+        "Make OUT/model_answers.pdf with the text of the reference solution; dynlab export-grades adds it for all");
     command->add_flag("--force", words->request.grading.above_maximum,
-                      "Take marks in marks.csv that are above the points of their check");
+                      "Accept marks in marks.csv above the points of their check");
     command->add_flag("--accept-late", words->request.accept_late, "Apply penalties of half the points or more");
-    command->add_flag("--no-pdf", words->no_pdf, "Feedback and summary as Markdown only");
+    command->add_flag("--no-pdf", words->no_pdf, "Write feedback and summary as Markdown only");
     command->footer(
-        "Every submission is run and checked alone in a box; what it breaks is its own. A run that was ended goes on\n"
-        "where it was. Your own marks go into OUT/marks.csv (who,check,points,reason) and survive every regrade: who "
-        "is a\n"
-        "group, an id, a name or a submission, check is a check or * for the whole submission. Checks that "
-        "need a mark by hand\n"
-        "get rows there; dynlab never takes one away.\n"
-        "In OUT: gradebook.csv, summary.pdf, and for each submission results/NAME/results.json (Gradescope),\n"
-        "feedback.md and feedback.pdf.\n"
-        "Example:  dynlab grade handed-in --lesson 04 --out marks --secret secret.txt --roster roster.csv\n"
-        "OUT holds a course (OUT/course) that keeps every version of each submission, the roster, deadlines and "
-        "owners, "
-        "and\n"
-        "the options: a later call needs FOLDER and --out only. Other checks, secrets and deadlines are refused "
-        "unless\n"
-        "--again is given; --checks none and --secret none go on without them. What the scripts did is kept, so "
-        "--again\n"
-        "takes seconds.\n"
-        "A script that uses more processor time than --timeout is ended, and one that takes five times as long by the\n"
-        "clock; answers that it gave before count.\n"
-        "Deadlines: submission, deadline, and where wanted extra (\"2 d\" beyond the deadline of *) and received; in "
-        "the "
-        "row\n"
-        "of * also grace (\"15 min\"), percent_per_day and most_percent, for all.\n"
-        "A penalty of half the points or more is not applied until --accept-late is given once, or the row received\n"
-        "says when it came.\n"
-        "What cannot be read (a PDF alone, a .rar, another lesson's script) is \"unreadable\": it has no marks until "
-        "you\n"
-        "give some in marks.csv. What needs attention is listed here and in the summary: that, what belongs to\n"
-        "nobody in the roster, scripts that stop, late submissions with a penalty, several of one student.\n"
-        "Exit codes: 0 all is graded, 1 something is left ungraded, unreadable, unconfirmed or nobody's, 2 wrong "
-        "usage.");
+        "Each submission runs in its own sandbox and cannot affect the others. An interrupted run resumes where it "
+        "stopped.\nManual marks in OUT/marks.csv (who,check,points,reason) survive every regrade: who is a group, an "
+        "id, a name or a\nsubmission, check is a check or * for the complete submission. dynlab adds rows for checks "
+        "that need a manual mark,\nand never removes rows.\nIn OUT: gradebook.csv, summary.pdf, and for each "
+        "submission results/NAME/results.json (Gradescope),\nfeedback.md and feedback.pdf.\nExample:  dynlab grade "
+        "submissions --lesson 04 --out marks --secret secret.txt --roster roster.csv\nOUT/course keeps every version "
+        "of each submission, the roster, deadlines, owners and options: a later call needs\nonly FOLDER and --out. "
+        "dynlab refuses other checks, secrets and deadlines unless you give --again; --checks none and\n--secret none "
+        "remove them. dynlab keeps the results of the scripts, so --again takes seconds.\nA script that exceeds "
+        "--timeout in processor time, or five times --timeout in elapsed time, is stopped. Answers that\nit gave "
+        "before count.\nDeadlines: submission, deadline, and optionally extra (\"2 d\" after the deadline of *) and "
+        "received; in the row of *\nalso grace (\"15 min\"), percent_per_day and most_percent, for all.\nA penalty of "
+        "half the points or more is applied only after --accept-late was given once, or if the row "
+        "contains\nreceived.\nA submission that cannot be read (a single PDF, a .rar, another lesson's script) is "
+        "\"unreadable\": it has no marks\nuntil you enter some in marks.csv. The output and the summary list what "
+        "needs attention: unreadable and unmatched\nsubmissions, scripts that stop, late submissions with a penalty, "
+        "several submissions of one student.\nExit codes: 0 all submissions are graded, 1 some are ungraded, "
+        "unreadable, unconfirmed or unmatched, 2 wrong usage.");
     command->callback([words, &action] {
         if (words->request.lesson.empty() && !is_graded_folder(words->out)) throw CLI::RequiredError("--lesson");
         action = [words] { return grade(*words); };

@@ -34,21 +34,23 @@ int make_autograder(const GradescopeArguments& words) {
 
 void add_gradescope(CLI::App& app, Action& action) {
     auto words = std::make_shared<GradescopeArguments>();
-    CLI::App* command = app.add_subcommand("gradescope", "Make the autograder of a lesson for Gradescope, as one zip");
-    command->add_option("LESSON", words->lesson, "The lesson's number or name, or its folder")->required();
+    CLI::App* command =
+        app.add_subcommand("gradescope", "Make the autograder of a lesson for Gradescope, as one zip file");
+    command->add_option("LESSON", words->lesson, "Number, name or folder of the lesson")->required();
     add_secret_option(*command, words->secret)->required();
-    command->add_option("-o,--output", words->output, "The zip to make; NN_name-autograder.zip here unless given")
+    command
+        ->add_option("-o,--output", words->output,
+                     "Zip file to make. Default: NN_name-autograder.zip in the current folder.")
         ->type_name("FILE.zip");
     command->add_option("--checks", words->checks, "Folder with your own checks (*.lua), which students never see")
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory);
     add_timeout_option(*command, words->timeout);
     command->footer(
-        "The zip holds setup.sh, run_autograder and all they need; upload it, and choose a base image that is at "
-        "least\n"
-        "as new as this machine (x86-64). Students hand in analysis.lua, or the zip of dynlab pack, and see points,\n"
-        "messages and hints as dynlab grade gives them; of your own checks points and hints only.\n"
-        "Example:  dynlab gradescope 04 --secret secret.txt --checks my-checks");
+        "The zip file contains setup.sh, run_autograder and all they need. Upload it, and choose a base image that is "
+        "at least\nas new as this machine (x86-64). Students submit analysis.lua, or the zip file from dynlab pack, "
+        "and see the same\npoints, messages and hints as from dynlab grade; for your own checks, they see only points "
+        "and hints.\nExample:  dynlab gradescope 04 --secret secret.txt --checks my-checks");
     command->callback([words, &action] { action = [words] { return make_autograder(*words); }; });
 }
 

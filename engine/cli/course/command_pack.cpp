@@ -51,7 +51,7 @@ void tell_of_report(const fs::path& folder, const std::string& subject) {
         if (!entry.is_regular_file() || entry.path().extension() != ".pdf") continue;
         made = std::max(made.value_or(entry.last_write_time()), entry.last_write_time());
         if (is_draft(entry.path()))
-            complain(Message("{} is a draft: ?? stands in it; dynlab check {} says what is missing",
+            complain(Message("{} is a draft and contains ??; run dynlab check {} to see what is missing",
                              entry.path().filename().string(), shell_word(subject)));
     }
     bool older = false;
@@ -59,10 +59,11 @@ void tell_of_report(const fs::path& folder, const std::string& subject) {
         older = older || (made && fs::exists(folder / source) && fs::last_write_time(folder / source) > *made);
     if (!made)
         complain(
-            Message("there is no PDF of the report in it: dynlab report {}, then pack again", shell_word(subject)));
+            Message("the pack has no PDF of the report; run dynlab report {}, then pack again", shell_word(subject)));
     else if (older)
-        complain(Message("the PDF in it is older than the report's text or script: dynlab report {}, then pack again",
-                         shell_word(subject)));
+        complain(Message(
+            "the PDF in the pack is older than the report's text or script; run dynlab report {}, then pack again",
+            shell_word(subject)));
 }
 
 int pack(const PackArguments& words) {
@@ -126,7 +127,8 @@ int bundle_groups(const Lesson& lesson, const PackArguments& words) {
         say(Message::verbatim(file.string()));
     }
     if (!complete)
-        note(Message("seeds were drawn for groups without one: use {} as the roster from now on", copy.string()));
+        note(
+            Message("new seeds were drawn for groups without a seed; use {} as the roster from now on", copy.string()));
     return kDone;
 }
 
@@ -145,17 +147,19 @@ int bundle(const PackArguments& words) {
 
 void add_pack(CLI::App& app, Action& action) {
     auto words = std::make_shared<PackArguments>();
-    CLI::App* command = app.add_subcommand("pack", "Make one file of your folder, to hand in");
+    CLI::App* command = app.add_subcommand("pack", "Pack your folder into one file for submission");
     command
         ->add_option("DIR|FILE.lua", words->subject,
-                     "The folder that dynlab new made, or a script, which becomes analysis.lua of such a folder")
+                     "Folder made by dynlab new, or a script, which becomes analysis.lua in the pack")
         ->required()
         ->check(CLI::ExistingPath);
-    command->add_option("-o,--output", words->output, "The zip to make; DIR.zip or FILE.zip here unless given")
+    command
+        ->add_option("-o,--output", words->output,
+                     "Zip file to make. Default: DIR.zip or FILE.zip in the current folder.")
         ->type_name("FILE.zip");
     command->footer(
-        "The data link and the figures that dynlab run saved (analysis_out) are left out. Equal folders give equal "
-        "files, byte by byte.\nExample:  dynlab pack my-work");
+        "The data link and the figures that dynlab run saved (analysis_out) are left out. Equal folders give identical "
+        "files, byte for byte.\nExample:  dynlab pack my-work");
     command->callback([words, &action] {
         expect_script(words->subject, "pack");
         action = [words] { return pack(*words); };
@@ -164,20 +168,20 @@ void add_pack(CLI::App& app, Action& action) {
 
 void add_bundle(CLI::App& app, Action& action) {
     auto words = std::make_shared<PackArguments>();
-    CLI::App* command = app.add_subcommand("bundle", "Make the students' zip of a lesson, without solutions");
-    command->add_option("LESSON", words->subject, "The lesson's number or name, or its folder")->required();
+    CLI::App* command = app.add_subcommand("bundle", "Make the students' zip file of a lesson, without solutions");
+    command->add_option("LESSON", words->subject, "Number, name or folder of the lesson")->required();
     command
-        ->add_option("-o,--output", words->output, "The zip to make, or with --roster the folder; NN_name unless given")
+        ->add_option("-o,--output", words->output, "Zip file to make, or with --roster the folder. Default: NN_name.")
         ->type_name("FILE.zip|FOLDER");
     CLI::Option* seed = command
                             ->add_option("--group-seed", words->group_seed,
-                                         "Records of the group's own: another specimen of each apparatus, other noise")
+                                         "Seed of the group's own data: another unit of each plant, other noise")
                             ->type_name("N")
                             ->check(CLI::Range(1u, 4294967295u));
     command
         ->add_option("--roster", words->roster,
-                     "A zip for each group, with records by the roster's column seed, in the language of its column "
-                     "language")
+                     "Make a zip file for each group, with data from the roster's column seed, in the language of its "
+                     "column language")
         ->type_name("CSV")
         ->check(CLI::ExistingFile)
         ->excludes(seed);
@@ -185,9 +189,10 @@ void add_bundle(CLI::App& app, Action& action) {
         ->add_option("--lang", words->language, "Language of tasks and report. Default: the lesson's, or the roster's")
         ->check(CLI::IsMember(languages()));
     command->footer(
-        "A zip holds the starter, the visible checks, the data, the task sheet and how to start.\n"
-        "Groups without a seed get one at random: FOLDER/roster.csv is the roster with all seeds, for dynlab grade.\n"
-        "Examples:  dynlab bundle 04 -o lesson-4.zip     dynlab bundle 03_crane --roster roster.csv -o bundles");
+        "A zip file contains the starter, the visible checks, the data, the task sheet and a file with the first "
+        "steps.\nGroups without a seed get a random one: FOLDER/roster.csv is the roster with all seeds, for dynlab "
+        "grade.\nExamples:  dynlab bundle 04 -o lesson-4.zip     dynlab bundle 03_crane --roster roster.csv -o "
+        "bundles");
     command->callback([words, &action] { action = [words] { return bundle(*words); }; });
 }
 

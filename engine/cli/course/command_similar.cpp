@@ -42,7 +42,7 @@ int compare(const SimilarArguments& words) {
 
 void add_similar(CLI::App& app, Action& action) {
     auto words = std::make_shared<SimilarArguments>();
-    CLI::App* command = app.add_subcommand("similar", "List scripts of a class that look alike");
+    CLI::App* command = app.add_subcommand("similar", "List similar scripts in a class for you to review");
     command
         ->add_option("FOLDER", words->submissions,
                      "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
@@ -54,21 +54,21 @@ void add_similar(CLI::App& app, Action& action) {
     command->add_option("--out", words->out, "Folder for similarity.md and similarity.csv")
         ->type_name("OUT")
         ->required();
-    command->add_option("--compare", words->others, "Submissions or scripts of a former year; may be repeated")
+    command->add_option("--compare", words->others, "Submissions or scripts of an earlier year; may be repeated")
         ->type_name("FOLDER")
         ->check(CLI::ExistingPath);
     command
         ->add_option("--line", words->line,
-                     "Least code in common that is listed, in percent of the shorter script's own")
+                     "Minimum of common code for the list, in percent of the shorter script's own code")
         ->type_name("P")
         ->capture_default_str()
         ->check(CLI::Range(1.0, 100.0));
     command->footer(
-        "Comments, layout and chosen names do not count, and code that many scripts share counts little. Scripts are\n"
-        "also compared with the lesson's worked solution. Copies of one script are one group. The list shows both\n"
-        "sides of the code in common. It is no verdict: there may be good reasons.\n"
-        "Example:  dynlab similar Lab4.zip --lesson 04 --out marks --compare 2025/handed-in\n"
-        "Exit codes: 0 all scripts were compared, 1 some could not be, 2 wrong usage.");
+        "Comments, layout and chosen names do not count, and code that many scripts share counts little. dynlab also "
+        "compares\nthe scripts with the lesson's reference solution. Copies of one script form one group. The list "
+        "shows both sides of\nthe common code. Similarity does not prove copying.\nExample:  dynlab similar Lab4.zip "
+        "--lesson 04 --out marks --compare 2025/submissions\nExit codes: 0 all scripts were compared, 1 some could not "
+        "be compared, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return compare(*words); }; });
 }
 

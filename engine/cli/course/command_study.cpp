@@ -28,7 +28,7 @@ int study(const StudyArguments& words) {
         note_parts(folder, part->count);
         const bool goes_on = !run_study_part(script, seed, folder, part->count, part).parts.empty();
         std::cout << "part " << part->text()
-                  << (goes_on ? ": done, as far as the other parts are; each call needs all parts of the one before\n"
+                  << (goes_on ? ": done until another part is needed; each call needs all parts of the previous call\n"
                               : ": nothing left to do\n");
         return kDone;
     }
@@ -43,24 +43,23 @@ int study(const StudyArguments& words) {
 
 void add_study(CLI::App& app, Action& action) {
     auto words = std::make_shared<StudyArguments>();
-    CLI::App* command = app.add_subcommand("study", "Run a script whose montecarlo is made in parts");
-    command->add_option("FILE", words->run.file, "The script")->required()->check(CLI::ExistingFile);
+    CLI::App* command = app.add_subcommand("study", "Run a script and compute its montecarlo calls in parts");
+    command->add_option("FILE", words->run.file, "Script to run")->required()->check(CLI::ExistingFile);
     words->parts.add_to(*command);
-    command->add_option("--out", words->run.out, "Folder for figures, saved files and the run's record (record.json)")
+    command->add_option("--out", words->run.out, "Folder for figures, saved files and the run results (record.json)")
         ->type_name("DIR");
-    command->add_flag("--force", words->run.force, "Let the script replace files that no run of dynlab wrote");
+    command->add_flag("--force", words->run.force, "Let the script replace files that dynlab did not write");
     words->run.seed.add_to(*command);
     command->footer(
-        "Everything is as with dynlab run, to the last bit, but the calls of montecarlo are made in parts. Each part\n"
-        "runs the script up to the call, so functions of yours are estimators as well as any; what comes before it\n"
-        "should be quick and must not ask for the time. A script with two such calls needs its parts twice. Parts\n"
-        "that are there are not made again.\n"
-        "Example:  dynlab study bias.lua --on processes:8\n"
-        "Exit codes: 0 done, 1 the script failed or parts are missing, 2 wrong usage.");
+        "The results are the same as with dynlab run, to the last bit, but the calls of montecarlo are computed in "
+        "parts. Each\npart runs the script up to the call, so your own functions can be estimators. The code before "
+        "the call should be\nfast and must not depend on the time. A script with two montecarlo calls needs its parts "
+        "twice. Existing parts are\nnot computed again.\nExample:  dynlab study bias.lua --on processes:8\nExit codes: "
+        "0 done, 1 the script failed or parts are missing, 2 wrong usage.");
     command->callback([words, &action] {
         expect_script(words->run.file, "study");
         if (!words->parts.any())
-            throw CLI::ValidationError("study", "give --part, --join or --on; without parts it is dynlab run");
+            throw CLI::ValidationError("study", "give --part, --join or --on; without parts, use dynlab run");
         if (words->run.seed.text == "random")
             throw CLI::ValidationError("--seed", "a random seed differs from part to part; give a number");
         action = [words] { return study(*words); };

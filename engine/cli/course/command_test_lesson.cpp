@@ -33,7 +33,7 @@ int test_lesson(const TestLessonArguments& words) {
             std::cout << terminal_text(
                 fmt::format("{}{}: {}\n", (lesson.folder / fault.file).string(), line, message_text(fault.what)));
         }
-        if (found.empty()) std::cout << what << ": in order\n";
+        if (found.empty()) std::cout << what << ": no errors\n";
         faults += found.size();
         return found.empty();
     };
@@ -58,9 +58,9 @@ int test_lesson(const TestLessonArguments& words) {
     }
     if (faults > 0)
         std::cerr << "dynlab: "
-                  << message_text(readable ? plural(faults, "{} fault in {}", "{} faults in {}", lesson.slug)
-                                           : plural(faults, "{} fault in {}; nothing was run",
-                                                    "{} faults in {}; nothing was run", lesson.slug))
+                  << message_text(readable ? plural(faults, "{} error in {}", "{} errors in {}", lesson.slug)
+                                           : plural(faults, "{} error in {}; nothing was run",
+                                                    "{} errors in {}; nothing was run", lesson.slug))
                   << '\n';
     return faults == 0 ? kDone : kFailed;
 }
@@ -69,27 +69,26 @@ int test_lesson(const TestLessonArguments& words) {
 
 void add_test_lesson(CLI::App& app, Action& action) {
     auto words = std::make_shared<TestLessonArguments>();
-    CLI::App* command = app.add_subcommand("test-lesson", "Test a lesson before a class meets it");
-    command->add_option("LESSON", words->lesson, "The lesson's folder, number or name")->required();
-    command->add_option("--part", words->part, "Only a part of it")
+    CLI::App* command = app.add_subcommand("test-lesson", "Test a lesson before a class uses it");
+    command->add_option("LESSON", words->lesson, "Folder, number or name of the lesson")->required();
+    command->add_option("--part", words->part, "Part of the test to run")
         ->type_name("PART")
         ->check(CLI::IsMember({"texts", "checks", "documents"}));
     command
         ->add_option("--skeleton", words->skeleton,
-                     "Test nothing; write tasks.LANG.lua and checks.LANG.po with the texts to translate")
+                     "Run no test; write tasks.LANG.lua and checks.LANG.po with the texts to translate")
         ->type_name("LANG")
         ->check(CLI::IsMember(languages()));
     add_secret_option(*command, words->secret);
     add_timeout_option(*command, words->timeout);
     command->footer(
-        "texts: headers, cells, Lua, names and options, hints, tasks in other languages; nothing is run.\n"
-        "checks: the worked solution gets full marks, the untouched starter none, right_*.lua all; each wrong_*.lua\n"
-        "fails what its lines \"-- expects: CHECK: words\" name, with these words, and nothing else.\n"
-        "Warned of, as students read checks.lua: a number in it that passes a check when it is typed in as the "
-        "answer.\n"
-        "documents: in each language the report is whole and fits its pages, and the student's copy runs and has one.\n"
-        "Example:  dynlab new lesson lessons/08_springs && dynlab test-lesson lessons/08_springs\n"
-        "Exit codes: 0 all is in order, 1 something is not, 2 wrong usage.");
+        "texts: headers, cells, Lua, names and options, hints, tasks in other languages; no script runs.\nchecks: the "
+        "reference solution and right_*.lua get full marks, the untouched starter none; each wrong_*.lua\nfails "
+        "exactly what its lines \"-- expects: CHECK: words\" name, with these words.\nStudents read checks.lua: dynlab "
+        "warns if it contains a number that passes a check when entered as the answer.\ndocuments: in each language "
+        "the report is complete and fits its pages, and the student's copy runs and has one.\nExample:  dynlab new "
+        "lesson lessons/08_springs && dynlab test-lesson lessons/08_springs\nExit codes: 0 no errors, 1 errors were "
+        "found, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return test_lesson(*words); }; });
 }
 

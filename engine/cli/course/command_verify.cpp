@@ -38,11 +38,11 @@ int verify(const VerifyWords& words) {
     if (verdict.genuine)
         signer = known ? fmt::format(", signed by the course \"{}\"", known->course)
                        : fmt::format(
-                             ", signed with the key that it names itself:\n{}\nIs that your course's? See its "
-                             "{} or its page.",
+                             ", signed with the key that it contains:\n{}\nCheck that this is your course's key: see "
+                             "its {} or its page.",
                              own, kPublicKeyFile);
     std::cout << terminal_text(fmt::format("{}: {}{}{}\n", words.receipt, verdict.reason,
-                                           verdict.genuine && !words.file.empty() ? ", for this very file" : "",
+                                           verdict.genuine && !words.file.empty() ? ", for exactly this file" : "",
                                            signer));
     return verdict.genuine ? kDone : kFailed;
 }
@@ -51,23 +51,20 @@ int verify(const VerifyWords& words) {
 
 void add_verify(CLI::App& app, Action& action) {
     auto words = std::make_shared<VerifyWords>();
-    CLI::App* command =
-        app.add_subcommand("verify", "Check that a course signed a receipt, anywhere, without the course");
-    command->add_option("RECEIPT", words->receipt, "The receipt of what was handed in")
-        ->required()
-        ->check(CLI::ExistingFile);
-    command->add_option("FILE", words->file, "What was handed in: the receipt must be for this very file")
+    CLI::App* command = app.add_subcommand("verify", "Verify the receipt of a course, without access to the course");
+    command->add_option("RECEIPT", words->receipt, "Receipt of a submission")->required()->check(CLI::ExistingFile);
+    command->add_option("FILE", words->file, "Submitted file: the receipt must be for exactly this file")
         ->check(CLI::ExistingFile);
     command
         ->add_option("--key", words->key,
-                     "The course's public key; course.pub beside the receipt or here unless given, else the one that "
-                     "the receipt names")
+                     "Public key of the course. Default: course.pub in the folder of the receipt or in the current "
+                     "folder, otherwise the key in the receipt.")
         ->type_name("FILE")
         ->check(CLI::ExistingFile);
     command->footer(
-        "A receipt of a course of before, with a code instead of a signature, can be verified by the course only\n"
-        "(dynlab course verify). Exit code 1: not genuine, or not for the file.\n"
-        "Example:  dynlab verify 00012-group-07-first-report.txt report.pdf --key course.pub");
+        "A receipt with a code instead of a signature, from an early version of dynlab, can be verified only by the "
+        "course\n(dynlab course verify).\nExample:  dynlab verify 00012-group-07-first-report.txt report.pdf --key "
+        "course.pub\nExit codes: 0 genuine, 1 not genuine, or not for the file, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return verify(*words); }; });
 }
 

@@ -10,16 +10,15 @@
 namespace dynlab::inline cli {
 
 CLI::Option* add_secret_option(CLI::App& command, std::string& secret) {
-    return command.add_option("--secret", secret, "File whose content the hidden records are drawn from")
+    return command.add_option("--secret", secret, "File that determines the hidden data sets")
         ->type_name("FILE")
         ->check(CLI::ExistingFile);
 }
 
 CLI::Option* add_timeout_option(CLI::App& command, int& seconds) {
     return command
-        .add_option(
-            "--timeout", seconds,
-            "Processor time of each run of a script, in seconds; by the clock a run may take five times as long")
+        .add_option("--timeout", seconds,
+                    "Processor time of each run of a script, in seconds; the elapsed time may be five times as long")
         ->type_name("S")
         ->capture_default_str()
         ->check(CLI::Range(1, 3600));

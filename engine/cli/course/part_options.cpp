@@ -10,16 +10,17 @@ namespace dynlab::inline cli {
 
 void PartOptions::add_to(CLI::App& command) {
     const auto check = [](const std::string& given) -> std::string {
-        return part_in(given) ? std::string() : "wanted a part such as 3/8, not '" + given + "'";
+        return part_in(given) ? std::string() : "expected a part such as 3/8, not '" + given + "'";
     };
-    CLI::Option* const one = command.add_option("--part", part, "Do one part of the work only, on whatever machine")
+    CLI::Option* const one = command.add_option("--part", part, "Process one part of the work, on any machine")
                                  ->type_name("I/N")
                                  ->check(CLI::Validator(check, ""));
-    CLI::Option* const all = command.add_flag("--join", join, "Join the parts, all of which are done")->excludes(one);
+    CLI::Option* const all =
+        command.add_flag("--join", join, "Join the parts after all of them are processed")->excludes(one);
     command
         .add_option("--on", on,
-                    "Have the parts done and joined: slurm[:tasks=N,partition=P,...], hosts:HOST,N/HOST by ssh, or "
-                    "processes:N; dynlab help guide-cluster")
+                    "Process and join the parts: slurm[:tasks=N,partition=P,...], hosts:HOST,N/HOST by ssh, or "
+                    "processes:N; see dynlab help guide-cluster")
         ->type_name("WHERE")
         ->excludes(one)
         ->excludes(all);
@@ -32,8 +33,8 @@ bool done_on(const std::string& on, const std::filesystem::path& folder,
     for (MissingParts left = missing(machines.parts), before; !left.parts.empty(); left = missing(machines.parts)) {
         if (left == before)
             throw EnvironmentError(
-                "the parts were done, but their results are not in {}: all hosts must see that "
-                "folder under the same name",
+                "the parts were processed, but their results are not in {}; all hosts must see that folder under the "
+                "same name",
                 folder.parent_path().string());
         if (machines.kind == Machines::Kind::kSlurm) {
             std::cout << terminal_text(message_text(submit_to_slurm(machines, {folder, left.parts})));
@@ -50,13 +51,12 @@ void refuse_missing_parts(const std::set<int>& missing, int parts) {
     if (missing.empty()) return;
     std::vector<std::string> commands;
     for (const int index : missing) commands.push_back(shown_command("--part " + WorkPart{index, parts}.text()));
-    throw EnvironmentError(
-        "{}", plural(static_cast<std::int64_t>(missing.size()),
-                     "{} part of {} cannot be joined: it was not made yet, or from other files or by another version "
-                     "of dynlab. Make it by\n{}",
-                     "{} parts of {} cannot be joined: they were not made yet, or from other files or by another "
-                     "version of dynlab. Make them by\n{}",
-                     parts, listed(commands, Join::kLines)));
+    throw EnvironmentError("{}", plural(static_cast<std::int64_t>(missing.size()),
+                                        "{} part of {} cannot be joined: it is missing, or was made from other files "
+                                        "or by another version of dynlab. Make it with\n{}",
+                                        "{} parts of {} cannot be joined: they are missing, or were made from other "
+                                        "files or by another version of dynlab. Make them with\n{}",
+                                        parts, listed(commands, Join::kLines)));
 }
 
 }  // namespace dynlab::inline cli

@@ -65,7 +65,8 @@ int show(const Demonstration& demonstration) {
     for (std::size_t i = 0; i < pages.size(); ++i) {
         std::cout << pages[i] << '\n' << std::flush;
         if (!on_terminal() || i + 1 == pages.size()) continue;
-        const auto answer = ask(fmt::format("-- {} of {}: Enter goes on, q leaves -- ", i + 1, pages.size()));
+        const auto answer =
+            ask(fmt::format("-- {} of {}: Enter for the next page, q to quit -- ", i + 1, pages.size()));
         if (!answer || *answer == "q") return kDone;
         std::cout << '\n';
     }
@@ -95,13 +96,14 @@ int menu() {
         std::cout << "\nDemonstrations\n\n";
         for (std::size_t i = 0; i < all.size(); ++i)
             std::cout << fmt::format("  {}  {:<20} {}\n", i + 1, all[i].name, all[i].title);
-        const auto answer = ask(fmt::format("\nNumber (1 to {}), or q to leave: ", all.size()));
+        const auto answer = ask(fmt::format("\nNumber (1 to {}), or q to quit: ", all.size()));
         if (!answer || *answer == "q") return kDone;
         if (answer->empty()) continue;
         if (const Demonstration* one = chosen(all, *answer)) {
             show(*one);
         } else {
-            std::cout << fmt::format("There is no '{}'; type a number from 1 to {}, or q.\n", *answer, all.size());
+            std::cout << fmt::format("Unknown demonstration '{}'; type a number from 1 to {}, or q.\n", *answer,
+                                     all.size());
         }
     }
 }
@@ -110,13 +112,13 @@ int menu() {
 
 void add_demo(CLI::App& app, Action& action) {
     auto words = std::make_shared<DemoArguments>();
-    CLI::App* command = app.add_subcommand("demo", "Show what can be done: short guided demonstrations");
-    auto* name = command->add_option("DEMO", words->name, "The demonstration; without it a menu on a terminal");
-    command->add_flag("--list", words->list, "List the demonstrations, name and one line each")->excludes(name);
+    CLI::App* command = app.add_subcommand("demo", "Show short guided demonstrations");
+    auto* name =
+        command->add_option("DEMO", words->name, "Name of the demonstration. Default: a menu in the terminal.");
+    command->add_flag("--list", words->list, "List the demonstrations, each with one line")->excludes(name);
     command->footer(
-        "On a terminal each page waits for Enter, and q goes back. Figures are saved in NAME_out and their paths "
-        "shown.\n"
-        "Examples:  dynlab demo     dynlab demo getting_started     dynlab demo --list");
+        "In a terminal, press Enter for the next page and q to go back. Figures are saved in NAME_out; dynlab prints "
+        "their paths.\nExamples:  dynlab demo     dynlab demo getting_started     dynlab demo --list");
     command->callback([words, &action] {
         action = [words] {
             if (words->list) return list(demonstrations());

@@ -14,13 +14,13 @@ void add_help(CLI::App& app, Action& action) {
     auto words_asked = std::make_shared<std::vector<std::string>>();
     auto word = std::make_shared<std::string>();
     auto sheet = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand("help", "What a function of the scripts does, with an example");
-    CLI::Option* page = command->add_option(
-        "PAGE", *words_asked,
-        "A function (tf, lsim, ...), a method (iddata.split), a word of MATLAB or Lua, or a "
-        "subject: guide-first-hour, lua, matlab, checks, names, review_marks; without it the list of all");
+    CLI::App* command = app.add_subcommand("help", "Show help for a function, with an example");
+    CLI::Option* page =
+        command->add_option("PAGE", *words_asked,
+                            "Function (tf, lsim, ...), method (iddata.split), word of MATLAB or Lua, or subject: "
+                            "guide-first-hour, lua, matlab, checks, names, review_marks. Default: the list of all.");
     CLI::Option* search =
-        command->add_option("--search", *word, "List the pages that speak of it")->type_name("WORD")->excludes(page);
+        command->add_option("--search", *word, "List the pages that mention a term")->type_name("WORD")->excludes(page);
     command->add_option("--sheet", *sheet, "Write all functions and MATLAB's phrases on two pages (.pdf)")
         ->type_name("FILE")
         ->excludes(page)

@@ -48,7 +48,7 @@ int list_hints(const Lesson& lesson, const Hints& hints, const std::string& name
     for (const auto& [question, stages] : hints)
         say(Message("question {}   {} hints, {} seen", fmt::format("{:>2}", question), stages.size(),
                     std::min(HintsSeen(lesson.slug, question).count(), stages.size())));
-    say(Message("\nThe first one of a question:  dynlab hint {} {}", name, hints.begin()->first));
+    say(Message("\nThe first hint for a question:  dynlab hint {} {}", name, hints.begin()->first));
     return kDone;
 }
 
@@ -64,16 +64,16 @@ int give_hint(HintArguments words) {
     const std::string name = shell_word(words.lesson);
     const Lesson lesson = lesson_to_help(words);
     const Hints hints = hints_of(lesson, words.language);
-    if (hints.empty()) throw EnvironmentError("the hints of lesson {} are empty", lesson.slug);
+    if (hints.empty()) throw EnvironmentError("lesson {} has a hint file without hints", lesson.slug);
     if (words.question == 0) return list_hints(lesson, hints, name);
     const auto found = hints.find(words.question);
     if (found == hints.end())
-        throw EnvironmentError("lesson {} has no hints for question {}; it has some for {} to {}", lesson.slug,
-                               words.question, hints.begin()->first, hints.rbegin()->first);
+        throw EnvironmentError("lesson {} has no hints for question {}; it has hints for questions {} to {}",
+                               lesson.slug, words.question, hints.begin()->first, hints.rbegin()->first);
     const std::vector<std::string>& stages = found->second;
     const HintsSeen seen(lesson.slug, words.question);
     if (words.next && !seen.lasting())
-        throw EnvironmentError("--next needs to remember what was seen, which is not possible here; --all shows all");
+        throw EnvironmentError("--next cannot work here, because dynlab cannot store which hints were seen; use --all");
     const std::size_t before = std::min(seen.count(), stages.size());
     const std::size_t shown = words.all    ? stages.size()
                               : words.next ? std::min(before + 1, stages.size())
@@ -85,8 +85,8 @@ int give_hint(HintArguments words) {
         say(Message("\n{} more:  dynlab hint {} {} --next", left, name, words.question));
     else
         say(words.language.empty() || words.language == "en"
-                ? Message("\nThis is the last one. The worked solution:  dynlab report {}", lesson.slug)
-                : Message("\nThis is the last one. The worked solution:  dynlab report {} --lang {}", lesson.slug,
+                ? Message("\nThis is the last hint. The reference solution:  dynlab report {}", lesson.slug)
+                : Message("\nThis is the last hint. The reference solution:  dynlab report {} --lang {}", lesson.slug,
                           words.language));
     return kDone;
 }
@@ -95,13 +95,13 @@ int give_hint(HintArguments words) {
 
 void add_hint(CLI::App& app, Action& action) {
     auto words = std::make_shared<HintArguments>();
-    CLI::App* command = app.add_subcommand("hint", "Help with a question of a lesson, a little at a time");
-    command->add_option("LESSON", words->lesson, "The lesson's number or name, or your folder")->required();
-    command->add_option("QUESTION", words->question, "Its number; without it, what there is")
+    CLI::App* command = app.add_subcommand("hint", "Show hints for a question of a lesson, one at a time");
+    command->add_option("LESSON", words->lesson, "Number or name of the lesson, or your folder")->required();
+    command->add_option("QUESTION", words->question, "Number of the question. Default: list the questions with hints.")
         ->check(CLI::Range(1, 999));
-    CLI::Option* next = command->add_flag("--next", words->next, "One hint more than were seen so far");
-    command->add_flag("--all", words->all, "All hints of the question")->excludes(next);
-    add_language(*command, words->language, "Language, where the lesson has hints in it");
+    CLI::Option* next = command->add_flag("--next", words->next, "Show one hint beyond those already seen");
+    command->add_flag("--all", words->all, "Show all hints for the question")->excludes(next);
+    add_language(*command, words->language, "Language, if the lesson has hints in it");
     command->footer("Examples:  dynlab hint 04 4     dynlab hint 04 4 --next     dynlab hint my-work");
     command->callback([words, &action] { action = [words] { return give_hint(*words); }; });
 }

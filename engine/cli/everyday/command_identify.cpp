@@ -23,7 +23,7 @@ template <class Number>
 std::optional<Number> number_or_auto(const std::string& text, const char* option, const std::string& wanted) {
     const auto number = read_number<Number>(text);
     if (number || text == "auto") return number;
-    throw CLI::ValidationError(option, "wanted " + wanted + " or the word auto, not '" + text + "'");
+    throw CLI::ValidationError(option, "expected " + wanted + " or the word auto, not '" + text + "'");
 }
 
 /// identification_script(), with what somebody at the terminal can do about a file without a sampling time.
@@ -32,7 +32,7 @@ std::string script_of(const IdentifyRequest& request) {
         return identification_script(request);
     } catch (const UnknownSampling& error) {
         throw EnvironmentError(
-            "{}; give --Ts SECONDS or --time NAME, or write '# Ts: 0.01' into the first line of a CSV file",
+            "{}; give --Ts SECONDS or --time NAME, or write '# Ts: 0.01' in the first line of a CSV file",
             message_of(error));
     }
 }
@@ -55,18 +55,21 @@ int identify(const IdentifyArguments& words) {
 void add_identify(CLI::App& app, Action& action) {
     auto words = std::make_shared<IdentifyArguments>();
     IdentifyRequest& request = words->request;
-    CLI::App* command = app.add_subcommand("identify", "A model and a report from a data file, without writing Lua");
+    CLI::App* command =
+        app.add_subcommand("identify", "Estimate a model and make a report from a data file, without Lua");
     command
         ->add_option("DATA", request.data,
-                     "The record: a .mat file, a table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or a data set's name")
+                     "Data: a .mat file, a table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or the name of a data set")
         ->required();
     command
         ->add_option("--input", request.inputs,
-                     "Names of the inputs' columns or variables, with commas between them or one option each")
+                     "Columns or variables of the inputs, separated by commas or one option each")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->required();
-    command->add_option("--output", request.outputs, "Names of the outputs, with commas between them; one model each")
+    command
+        ->add_option("--output", request.outputs,
+                     "Columns or variables of the outputs, separated by commas; one model is estimated for each")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->required();
@@ -76,10 +79,10 @@ void add_identify(CLI::App& app, Action& action) {
             [&request](const std::string& text) {
                 request.poles = number_or_auto<int>(text, "--poles", "a whole number");
             },
-            "Number of poles, or the word auto: then srivcstruc finds it, and the zeros with it")
+            "Number of poles, or auto: srivcstruc then finds the numbers of poles and zeros")
         ->type_name("N|auto")
         ->required();
-    command->add_option("--zeros", request.zeros, "Number of zeros; 0 unless given, with --poles auto found")
+    command->add_option("--zeros", request.zeros, "Number of zeros. Default: 0; found automatically with --poles auto.")
         ->type_name("N");
     command
         ->add_option_function<std::string>(
@@ -87,10 +90,10 @@ void add_identify(CLI::App& app, Action& action) {
             [&request](const std::string& text) {
                 request.delay = number_or_auto<double>(text, "--delay", "a number of seconds");
             },
-            "Delay in seconds, or the word auto: then it is estimated. 0 unless given")
+            "Delay in seconds, or auto to estimate it. Default: 0")
         ->type_name("SECONDS|auto");
-    command->add_option("--Ts", request.Ts, "Sampling time, instead of what the file says")->type_name("SECONDS");
-    command->add_option("--time", request.time, "Name of the column that holds the time")->type_name("NAME");
+    command->add_option("--Ts", request.Ts, "Sampling time, instead of the one in the file")->type_name("SECONDS");
+    command->add_option("--time", request.time, "Name of the time column")->type_name("NAME");
     command
         ->add_option("--time-unit", request.time_unit,
                      "Unit of the time: s, ms, us, min, h, days; dd/mm/yyyy or mm/dd/yyyy")
@@ -98,27 +101,22 @@ void add_identify(CLI::App& app, Action& action) {
     command
         ->add_option_function<std::string>(
             "--inter-sample", [&request](const std::string& text) { request.moving_input = text == "foh"; },
-            "Inputs between the samples: zoh (held) or foh (straight lines). Default: zoh")
+            "Input between the samples: zoh (held) or foh (linear interpolation). Default: zoh")
         ->type_name("zoh|foh")
         ->check(CLI::IsMember({"zoh", "foh"}));
-    command->add_option("--validate", request.validation, "A record with the same names, to test the model on")
-        ->type_name("FILE");
+    command->add_option("--validate", request.validation, "Validation data with the same names")->type_name("FILE");
     auto* report = command->add_option("-o,--output-file", words->report,
-                                       "The report (.pdf, .html or .md), DATA_model.pdf unless given");
+                                       "Report to make (.pdf, .html or .md). Default: DATA_model.pdf.");
     report->type_name("FILE");
-    command->add_flag("--script", words->script, "Print the Lua script that does it, and do nothing else")
-        ->excludes(report);
+    command->add_flag("--script", words->script, "Only print the Lua script")->excludes(report);
     command->footer(
-        "The sampling time is that of the column --time, or of the one that is called a time (t, time_ms, ...) or has "
-        "a\n"
-        "unit of time; its steps may differ, and ms, min and h become seconds. Without such a column it is the one a "
-        "CSV\n"
-        "file states (# Ts: 0.01), or a MAT file's variable Ts. A column of a matrix y is called y1, y2, ...; dynlab "
-        "look\n"
-        "DATA shows what there is. Missing samples of inputs hold the value before them, those of outputs are "
-        "interpolated.\nThe summary is printed; the report also shows figures.\n"
-        "A message such as identify.lua:35 speaks of line 35 of what --script prints.\n"
-        "Example:  dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate second.csv");
+        "The sampling time comes from the column --time, or from the column with a name (t, time_ms, ...) or unit of "
+        "time. The\nsteps may differ, and dynlab converts ms, min and h to seconds. Without a time column, the "
+        "sampling time comes from\n# Ts: 0.01 in a CSV file, or from the variable Ts of a MAT file. The columns of a "
+        "matrix y are named y1, y2, ...;\ndynlab inspect DATA lists the names. Missing samples of inputs hold the "
+        "previous value; those of outputs are linearly\ninterpolated. dynlab prints the summary; the report also "
+        "contains figures.\nA message such as identify.lua:35 refers to line 35 of the output of --script.\nExample:  "
+        "dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate second.csv");
     command->callback([words, &action] {
         try {
             words->request.validate();

@@ -16,7 +16,7 @@ int list_lessons() {
         if (!header.subtitle.empty()) lines += fmt::format("{:<22} {}\n", "", header.subtitle);
         std::cout << terminal_text(lines);
     }
-    std::cout << "\nRead one with its solution: dynlab report 02.  Work on one: dynlab new 02 my-work.\n";
+    std::cout << "\nRead a lesson with its solution: dynlab report 02.  Work on it: dynlab new 02 my-work.\n";
     return kDone;
 }
 
@@ -25,9 +25,8 @@ int list_lessons() {
 void add_lessons(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("lessons", "List the lessons of the course");
     command->footer(
-        "Lessons of your own: folders NN_name with lesson.lua (and checks.lua, data/NAME or NAME.csv) in a folder "
-        "that\n"
-        "DYNLAB_LESSONS lists, separated by colons; or name the lesson's folder wherever a lesson is wanted.");
+        "Your own lessons are folders NN_name with lesson.lua (and checks.lua, data/NAME or NAME.csv). Put them in a "
+        "folder\nthat DYNLAB_LESSONS lists, separated by colons, or give the lesson's folder instead of its name.");
     command->callback([&action] { action = list_lessons; });
 }
 

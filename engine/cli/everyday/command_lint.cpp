@@ -72,7 +72,7 @@ std::string complaint_about(const std::string& given) {
     if (given == kStandardInput || fs::is_regular_file(given)) return {};
     if (fs::is_regular_file(fs::path(given) / "analysis.lua")) return {};
     try {
-        return message_text(Message("there is no file {}", meant_script(given).string()), user());
+        return message_text(Message("file not found: {}", meant_script(given).string()), user());
     } catch (const EnvironmentError& error) {
         return message_text(error.message(), user());
     }
@@ -82,17 +82,16 @@ std::string complaint_about(const std::string& given) {
 
 void add_lint(CLI::App& app, Action& action, const CheckNames& check_names) {
     auto words = std::make_shared<LintArguments>();
-    CLI::App* command = app.add_subcommand("lint", "Look for mistakes in scripts without running them");
+    CLI::App* command = app.add_subcommand("lint", "Find errors in scripts without running them");
     command
         ->add_option("FILE", words->files, "Scripts, notebooks, folders with an analysis.lua, or - for standard input")
         ->required()
         ->check(CLI::Validator([](std::string& given) { return complaint_about(given); }, "", "file"));
     command->add_flag("--json", words->json, "Print {findings: [{file, line, column, kind, message}]}");
     command->footer(
-        "Told are text that Lua cannot read, names that nothing defines, options that a function does not know, and\n"
-        "answers that the header does not declare or that are never handed in, each as FILE:LINE:COLUMN: what.\n"
-        "Example:  dynlab lint analysis.lua\n"
-        "Exit codes: 0 nothing was found, 1 something was, 2 wrong usage.");
+        "The command reports text that Lua cannot read, undefined names, unknown options of functions, and answers "
+        "that the\nheader does not declare or that are never submitted, each as FILE:LINE:COLUMN: message.\nExample:  "
+        "dynlab lint analysis.lua\nExit codes: 0 no errors, 1 errors were found, 2 wrong usage.");
     command->callback([words, check_names, &action] {
         for (const std::string& file : words->files) expect_script(file, "lint");
         action = [words, check_names] { return lint(*words, check_names); };

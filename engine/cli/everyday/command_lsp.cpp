@@ -43,10 +43,11 @@ int serve() {
 }  // namespace
 
 void add_lsp(CLI::App& app, Action& action) {
-    CLI::App* command = app.add_subcommand("lsp", "Serve an editor by the Language Server Protocol, over its pipe");
+    CLI::App* command = app.add_subcommand("lsp", "Run the language server for an editor");
     command->footer(
-        "Editors start it: mistakes while you type, completion, what a function does. See dynlab help guide-editors.\n"
-        "Exit codes: 0 the editor has shut it down, 1 the pipe ended before, 2 wrong usage.");
+        "Editors start this command. It reports errors while you type, completes names and shows help. See dynlab "
+        "help\nguide-editors.\nExit codes: 0 the editor has shut it down, 1 the connection ended before, 2 wrong "
+        "usage.");
     command->callback([&action] { action = serve; });
 }
 

@@ -20,18 +20,18 @@ struct NewArguments {
 };
 
 int make_editor_files(const std::string& folder) {
-    if (!std::filesystem::is_directory(folder)) throw EnvironmentError("there is no folder {}", folder);
+    if (!std::filesystem::is_directory(folder)) throw EnvironmentError("folder not found: {}", folder);
     for (const std::string& kept : write_editor_files(folder))
-        say(Message("{} is there already and stays as it is", kept));
-    say(Message("{}: editors complete and check the functions of dynlab in it", folder));
+        say(Message("{} exists already and was not changed", kept));
+    say(Message("{}: lets editors complete and check dynlab functions", folder));
     return kDone;
 }
 
 int make_lesson(const std::string& folder) {
     for (const std::string& name : make_lesson_skeleton(folder)) std::cout << name << '\n';
     say(
-        Message("{}: a small lesson that runs; lesson.lua holds its text, code and worked solution.\n"
-                "Try:  dynlab test-lesson {}    then    dynlab report {}",
+        Message("{}: a small lesson that runs; lesson.lua contains its text, code and reference solution.\nTry:  "
+                "dynlab test-lesson {}    then    dynlab report {}",
                 folder, shell_word(folder), shell_word(folder)));
     return kDone;
 }
@@ -43,8 +43,8 @@ int make_new(const NewArguments& words) {
     if (words.lesson == "review") {
         make_review_folder(words.folder, words.language);
         say(
-            Message("{}: report.md has the five questions, analysis.lua takes scores.\n"
-                    "Then:  dynlab report {}    and    dynlab check {}",
+            Message("{}: report.md contains the five questions, analysis.lua the scores.\nNext:  dynlab report {}    "
+                    "and    dynlab check {}",
                     words.folder, folder, folder));
         return kDone;
     }
@@ -52,13 +52,13 @@ int make_new(const NewArguments& words) {
     {
         ActivityLine activity;
         if (words.group_seed)
-            activity.begin_step(message_text(Message("finding out which data the lesson loads"), user()));
+            activity.begin_step(message_text(Message("finding the data that the lesson loads"), user()));
         make_student_copy(lesson, words.folder, words.group_seed, words.language, write_editor_files);
         note_made_folder(words.folder);
     }
     say(
-        Message("{}: analysis.lua is yours to edit, report.md is your report's text.\n"
-                "Try:  dynlab run {}    then    dynlab report {}",
+        Message("{}: edit analysis.lua for your analysis and report.md for your text.\nTry:  dynlab run {}    then    "
+                "dynlab report {}",
                 words.folder, folder, folder));
     return kDone;
 }
@@ -69,21 +69,20 @@ void add_new(CLI::App& app, Action& action) {
     auto words = std::make_shared<NewArguments>();
     CLI::App* command =
         app.add_subcommand("new", "Make your own copy of a lesson, without its solutions, or a folder for a review");
-    command->add_option("LESSON", words->lesson, "The lesson's number or name, its folder, review, lesson, or editor")
+    command->add_option("LESSON", words->lesson, "Number, name or folder of the lesson; or review, lesson, or editor")
         ->required();
-    command->add_option("DIR", words->folder, "The folder to make")->required();
+    command->add_option("DIR", words->folder, "Folder to make")->required();
     command
         ->add_option("--group-seed", words->group_seed,
-                     "Records of the group's own: another specimen of each simulated apparatus, other noise")
+                     "Seed of the group's own data: another unit of each simulated plant, other noise")
         ->type_name("N")
         ->check(CLI::Range(1u, 4294967295u));
-    add_language(*command, words->language, "Language of the report, where it is not the lesson's");
+    add_language(*command, words->language, "Language of the report. Default: the lesson's language.");
     command->footer(
-        "Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr\n"
-        "dynlab new lesson DIR makes a small lesson of your own with checks, to be changed: dynlab help "
-        "guide-own-course.\n"
-        "dynlab new editor DIR writes what editors want into a folder that is there: .luarc.json with all functions\n"
-        "(completion, signatures), tasks of VS Code, .editorconfig; a student's copy has them.");
+        "Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr\ndynlab new lesson DIR makes a "
+        "small lesson with checks, for you to change: see dynlab help guide-own-course.\ndynlab new editor DIR adds "
+        "files for editors to an existing folder: .luarc.json with all functions (completion,\nsignatures), tasks for "
+        "VS Code, .editorconfig. A student's copy contains them.");
     command->callback([words, &action] { action = [words] { return make_new(*words); }; });
 }
 

@@ -28,7 +28,7 @@ void write(const NotebookArguments& words, const char* ending, const std::string
                          words.force ? WrittenFiles::Others::kReplaced : WrittenFiles::Others::kKept);
     const fs::path folder = fs::absolute(file).parent_path();
     if (fs::exists(file) && read_file(file) == content) {
-        say(Message("{} says the same already", file.string()));
+        say(Message("{} is up to date", file.string()));
         return;
     }
     written.take(fs::weakly_canonical(folder / file.filename()));
@@ -77,16 +77,16 @@ int convert(const NotebookArguments& words) {
 void add_notebook(CLI::App& app, Action& action) {
     auto words = std::make_shared<NotebookArguments>();
     CLI::App* command =
-        app.add_subcommand("notebook", "Make a Jupyter notebook of a script, and a script of a notebook");
-    command->add_option("FILE.lua|FILE.ipynb", words->file, "A script, or a notebook in Lua")->required();
-    command->add_option("-o", words->output, "The file that is made (default: beside it, with the other ending)")
+        app.add_subcommand("notebook", "Convert a script to a Jupyter notebook, or a notebook to a script");
+    command->add_option("FILE.lua|FILE.ipynb", words->file, "Script, or notebook in Lua")->required();
+    command->add_option("-o", words->output, "File to make. Default: in the same folder, with the other extension.")
         ->type_name("FILE");
-    command->add_flag("--run", words->run, "Run the script, and put what it prints and draws into the notebook");
-    command->add_flag("--force", words->force, "Replace a file that was changed since it was made, or is another's");
+    command->add_flag("--run", words->run, "Run the script, and add its output and figures to the notebook");
+    command->add_flag("--force", words->force, "Replace a file that dynlab did not write, or that was changed");
     command->footer(
-        "A script becomes the same script again, byte for byte, where the notebook is not changed. Jupyter runs the\n"
-        "notebook by the kernel that dynlab kernel install makes known; dynlab help guide-notebook.\n"
-        "Examples:  dynlab notebook my-crane/analysis.lua     dynlab notebook analysis.ipynb");
+        "An unchanged notebook becomes the same script again, byte for byte. Jupyter runs the notebook with the kernel "
+        "that\ndynlab kernel install registers; see dynlab help guide-notebook.\nExamples:  dynlab notebook "
+        "my-crane/analysis.lua     dynlab notebook analysis.ipynb");
     command->callback([words, &action] { action = [words] { return convert(*words); }; });
 }
 

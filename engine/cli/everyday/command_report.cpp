@@ -25,20 +25,19 @@ int report(const ReportArguments& words) {
 
 void add_report(CLI::App& app, Action& action) {
     auto words = std::make_shared<ReportArguments>();
-    CLI::App* command = app.add_subcommand("report", "Make the PDF of a lesson, or of your own folder or script");
+    CLI::App* command = app.add_subcommand("report", "Make the PDF of a lesson, your folder or your script");
     command
         ->add_option("LESSON|FOLDER|FILE.lua", words->subject,
-                     "A lesson's number or name, a folder made by dynlab new, or a script")
+                     "Number or name of a lesson, folder made by dynlab new, or script")
         ->required();
     command
-        ->add_option(
-            "-o,--output", words->output,
-            "Where to write it (.pdf, .html or .md); else a folder's into it, a script's beside it, a lesson's here")
+        ->add_option("-o,--output", words->output,
+                     "Document to make (.pdf, .html or .md). Default: in the folder, in the script's folder, or for a "
+                     "lesson in the current folder.")
         ->type_name("FILE");
-    command->add_option("--record", words->record, "Where to write what the script gave, too (.json)")
-        ->type_name("FILE");
-    add_language(*command, words->language, "Language of a lesson's report, where it has several");
-    command->add_flag("--timings", words->timings, "Say how long each step took");
+    command->add_option("--record", words->record, "File for the run results (.json)")->type_name("FILE");
+    add_language(*command, words->language, "Language of the report, if the lesson has several");
+    command->add_flag("--timings", words->timings, "Print the time of each step");
     command->add_flag("--stay-in-folder", words->stay_in_folder, "")->group("");  // what check wants
     words->seed.add_to(*command);
     words->sliders.add_to(*command);

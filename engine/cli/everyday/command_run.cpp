@@ -118,7 +118,7 @@ int run_and_show(const RunArguments& words, CallsInParts* parts) {
     show_reported(request.script, record);
     if (!record.error) {
         if (const std::string missing = missing_answers(request.script, record); !missing.empty())
-            complain(Message("answers that are not given yet: {}", missing));
+            complain(Message("answers not given yet: {}", missing));
         return kDone;
     }
     complain(error_message(*record.error, request.script));
@@ -127,31 +127,29 @@ int run_and_show(const RunArguments& words, CallsInParts* parts) {
 
 void add_run(CLI::App& app, Action& action, const FigureView& view) {
     auto words = std::make_shared<RunArguments>();
-    CLI::App* command = app.add_subcommand("run", "Run a Lua script, or code given on the command line");
-    auto* file = command->add_option("FILE", words->file, "The script or notebook, or a folder with an analysis.lua");
+    CLI::App* command = app.add_subcommand("run", "Run a Lua script, or code from the command line");
+    auto* file = command->add_option("FILE", words->file, "Script or notebook, or folder with an analysis.lua");
     auto* code = command->add_option("-e", words->code, "Code to run instead of a file")->type_name("CODE");
     file->excludes(code);
     command->add_flag("-i,--interactive", words->interactive, "Open the prompt afterwards, with the script's variables")
         ->needs(file);
-    command->add_flag("--view", words->view, "The same, and show the figures in the browser")->needs(file);
-    command->add_option("--out", words->out, "Folder for figures, saved files and the run's record (record.json)")
+    command->add_flag("--view", words->view, "Open the prompt afterwards, and show the figures in the browser")
+        ->needs(file);
+    command->add_option("--out", words->out, "Folder for figures, saved files and the run results (record.json)")
         ->type_name("DIR");
-    command->add_flag("--gnuplot", words->gnuplot, "Write beside each figure NAME.gp, which `gnuplot NAME.gp` draws");
+    command->add_flag("--gnuplot", words->gnuplot, "Write NAME.gp next to each figure, for `gnuplot NAME.gp`");
     CLI::Option* force =
-        command->add_flag("--force", words->force, "Let the script replace files that no run of dynlab wrote");
+        command->add_flag("--force", words->force, "Let the script replace files that dynlab did not write");
     words->seed.add_to(*command);
     words->sliders.add_to(*command);
     for (CLI::Option* option : {force, command->get_option("--set")})
         option->excludes(command->get_option("--interactive"))->excludes(command->get_option("--view"));
     command->footer(
-        "Figures that the script makes are saved as PDF in NAME_out beside the script and their paths printed; those "
-        "of\n"
-        "an earlier run are removed. What it saves by itself goes beside it, too; a file that is there and that no "
-        "run\n"
-        "wrote, or that was changed since, stays (--force). Values and tables that it reports "
-        "are\n"
-        "printed, and what the report's text has no place for is told.\n"
-        "Example:  dynlab run -e 's = tf(\"s\") step(2/(s^2 + s + 1))'");
+        "dynlab saves the script's figures as PDF in NAME_out, in the folder of the script, and prints their paths. It "
+        "removes\nthe figures of an earlier run. Other files that the script saves go into the folder of the script. "
+        "An existing file\nis replaced only if dynlab wrote it and it was not changed since (see --force). dynlab "
+        "prints reported values and\ntables, and lists the entries that the text of the report does not "
+        "show.\nExample:  dynlab run -e 's = tf(\"s\") step(2/(s^2 + s + 1))'");
     command->callback([words, view, &action] {
         if (words->file.empty() && words->code.empty()) {
             throw CLI::RequiredError("a script FILE or -e CODE");

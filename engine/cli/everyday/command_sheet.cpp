@@ -9,14 +9,13 @@ void add_sheet(CLI::App& app, Action& action) {
     auto output = std::make_shared<std::string>(), language = std::make_shared<std::string>();
     auto talk = std::make_shared<bool>(false), answers = std::make_shared<bool>(false);
     CLI::App* command = app.add_subcommand("sheet", "Make the task sheet of a lesson, without its solutions");
-    command->add_option("LESSON", *lesson, "The lesson's number or name, or its folder")->required();
-    command
-        ->add_option("-o,--output", *output, "Where to write it (.pdf, .html or .md); NN_name_sheet.pdf unless given")
+    command->add_option("LESSON", *lesson, "Number, name or folder of the lesson")->required();
+    command->add_option("-o,--output", *output, "Document to make (.pdf, .html or .md). Default: NN_name_sheet.pdf.")
         ->type_name("FILE");
-    CLI::Option* questions =
-        command->add_flag("--talk", *talk, "Instead: questions that a talk on the lesson may meet (NN_name_talk.pdf)");
-    command->add_flag("--answers", *answers, "With the model answers, for whoever asks")->needs(questions);
-    add_language(*command, *language, "Language of the tasks, where the lesson has several")->excludes(questions);
+    CLI::Option* questions = command->add_flag(
+        "--talk", *talk, "Make a list of questions for a talk on the lesson instead (NN_name_talk.pdf)");
+    command->add_flag("--answers", *answers, "Include the model answers")->needs(questions);
+    add_language(*command, *language, "Language of the tasks, if the lesson has several")->excludes(questions);
     command->footer(
         "Examples:  dynlab sheet 02     dynlab sheet 03_crane --lang fr     dynlab sheet 05 --talk --answers");
     command->callback([lesson, output, language, talk, answers, &action] {

@@ -25,12 +25,10 @@ int weave(const WeaveArguments& words) {
 
 void add_weave(CLI::App& app, Action& action) {
     auto words = std::make_shared<WeaveArguments>();
-    CLI::App* command = app.add_subcommand("weave", "Run any script and make a document of its text, code and results");
-    command->add_option("FILE", words->script, "The script (percent format: -- %% starts a cell)")->required();
-    command->add_option("-o,--output", words->output, "The document: .pdf, .html or .md")
-        ->type_name("FILE")
-        ->required();
-    command->add_flag("--timings", words->timings, "Say how long each step took");
+    CLI::App* command = app.add_subcommand("weave", "Run a script and make a document of its text, code and results");
+    command->add_option("FILE", words->script, "Script (percent format: -- %% starts a cell)")->required();
+    command->add_option("-o,--output", words->output, "Document: .pdf, .html or .md")->type_name("FILE")->required();
+    command->add_flag("--timings", words->timings, "Print the time of each step");
     words->seed.add_to(*command);
     words->sliders.add_to(*command);
     command->footer("Example:  dynlab weave analysis.lua -o analysis.html");

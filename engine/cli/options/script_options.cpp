@@ -35,9 +35,9 @@ CLI::Option* add_language(CLI::App& command, std::string& language, const std::s
 void SeedOption::add_to(CLI::App& command) {
     const auto check = [](const std::string& given) -> std::string {
         if (given == "random" || read_number<std::uint32_t>(given)) return {};
-        return "wanted a whole number from 0 to 4294967295 or the word random, not '" + given + "'";
+        return "expected a whole number from 0 to 4294967295 or the word random, not '" + given + "'";
     };
-    command.add_option("--seed", text, "Seed of the random numbers instead of the script's, or the word random")
+    command.add_option("--seed", text, "Seed of the random numbers, instead of the script's, or the word random")
         ->type_name("N|random")
         ->check(CLI::Validator(check, ""));
 }
@@ -53,9 +53,9 @@ std::optional<std::uint32_t> SeedOption::value() const {
 void SliderOption::add_to(CLI::App& command) {
     const auto check = [](const std::string& given) -> std::string {
         if (parse_setting(given)) return {};
-        return "wanted a slider's name and a number, such as lambda=3, not '" + given + "'";
+        return "expected a slider's name and a number, such as lambda=3, not '" + given + "'";
     };
-    command.add_option("--set", texts, "The number of a slider of the script; for each slider")
+    command.add_option("--set", texts, "Value of a slider of the script; may be repeated")
         ->type_name("NAME=NUMBER")
         ->expected(1)
         ->take_all()

@@ -17,7 +17,7 @@ struct AppWords {
 int show_workbench(AppWords words) {
     DesktopBrowser browser;
     words.options.opened = [&](const std::string& address, Visit visit, const std::filesystem::path& script) {
-        std::cout << address << "\nThe session is " << script.string() << "\n(Ctrl-C ends it)" << std::endl;
+        std::cout << address << "\nThe session is " << script.string() << "\n(Ctrl-C to stop)" << std::endl;
         if (visit != Visit::kLate && !words.no_browser) browser.open(address);
     };
     try {
@@ -35,20 +35,18 @@ void add_app(CLI::App& app, Action& action) {
     auto words = std::make_shared<AppWords>();
     CLI::App* command = app.add_subcommand(
         "app",
-        "Look at a record, prepare it, find models and compare them in the browser; every click is a line of a script");
+        "Inspect and preprocess data, estimate and compare models in the browser; every action is a line of a script");
     command->add_option("DATA|LESSON|FILE.lua", words->options.subject,
-                        "A data file, a data set, a lesson (its record), or a script; none: an empty session");
-    command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")
+                        "Data file, data set, lesson (for its data), or script. Default: an empty session.");
+    command->add_option("--port", words->options.port, "Port of the page. Default: a free port.")
         ->check(CLI::Range(1, 65535));
     command->add_flag("--run", words->options.run_at_once,
-                      "Run the scripts of this folder without being asked on the page, now and later");
-    command->add_flag("--no-browser", words->no_browser, "Only print the address");
+                      "Allow the scripts of this folder to run without asking, now and later");
+    command->add_flag("--no-browser", words->no_browser, "Print the address without opening the browser");
     command->footer(
-        "The session is a Lua script in the current folder, NAME_session.lua, written with every step: dynlab run, "
-        "report,\n"
-        "check and pack take it as it is, and dynlab app goes on with it.\n"
-        "Examples:  dynlab app record.csv     dynlab app crane     dynlab app 03_crane     dynlab app "
-        "record_session.lua");
+        "The session is a Lua script in the current folder, NAME_session.lua, updated with every step. dynlab run, "
+        "report,\ncheck and pack accept the script, and dynlab app resumes it.\nExamples:  dynlab app record.csv     "
+        "dynlab app crane     dynlab app 03_crane     dynlab app record_session.lua");
     command->callback([words, &action] { action = [words] { return show_workbench(*words); }; });
 }
 

@@ -42,10 +42,9 @@ int complete(const CLI::App& program, const std::vector<std::string>& words) {
 }  // namespace
 
 void add_complete(CLI::App& app, Action& action) {
-    CLI::App* command =
-        app.add_subcommand("complete", "What shells ask when Tab is pressed; not for people")->group("");
+    CLI::App* command = app.add_subcommand("complete", "Internal: complete a command line for a shell")->group("");
     const auto words = std::make_shared<std::vector<std::string>>();
-    command->add_option("words", *words, "What stands behind the name of the program so far");
+    command->add_option("words", *words, "Words of the command line after the program name");
     command->callback([&app, &action, words] { action = [&app, words] { return complete(app, *words); }; });
 }
 

@@ -94,7 +94,7 @@ std::set<std::string> check_data() {
     for (const std::string& name : names) {
         const auto package = missing_package(name);
         if (!package) continue;
-        show(name, "missing: measured record", false);
+        show(name, "missing: measured data", false);
         missing.insert(*package);
     }
     return missing;
@@ -106,10 +106,10 @@ void check_kernel() {
     std::error_code gone;
     const bool there = kernel && std::filesystem::exists(*kernel, gone);
     const std::string state = !kernel  ? "not installed (dynlab kernel install, for notebooks)"
-                              : !there ? kernel->string() + " is gone: dynlab kernel install"
+                              : !there ? kernel->string() + " does not exist: dynlab kernel install"
                               : std::filesystem::equivalent(*kernel, running_program(), gone)
                                   ? "installed"
-                                  : "installed, of another program: " + kernel->string();
+                                  : "installed by another program: " + kernel->string();
     show("Jupyter kernel", state, !kernel || there);
 }
 
@@ -121,24 +121,24 @@ int examine() {
     missing.merge(check_data());
     check_isolation();
     check_copies();
-    show("inner loops", processor_level() + std::string(" (instructions of the processor that they use)"), true);
-    show("editor of pages", has_editor() ? "CodeMirror" : "a plain field of text (libjs-codemirror has more)", true);
+    show("inner loops", processor_level() + std::string(" (processor instructions in use)"), true);
+    show("editor of pages", has_editor() ? "CodeMirror" : "a plain text field (libjs-codemirror has more)", true);
     check_kernel();
     show("caches", Cache().root().string() + " (safe to delete)", true);
     if (missing.empty()) {
-        std::cout << "\nEverything is in place.\n";
+        std::cout << "\nNo problems found.\n";
         return kDone;
     }
     std::string command = "sudo apt install";
     for (const std::string& package : missing) command += " " + package;
-    std::cout << "\nInstall what is missing:  " << command << '\n';
+    std::cout << "\nTo install missing packages:  " << command << '\n';
     return kMissingProgram;
 }
 
 }  // namespace
 
 void add_doctor(CLI::App& app, Action& action) {
-    CLI::App* command = app.add_subcommand("doctor", "Check that everything dynlab needs is installed");
+    CLI::App* command = app.add_subcommand("doctor", "Check that all dependencies of dynlab are installed");
     command->callback([&action] { action = examine; });
 }
 

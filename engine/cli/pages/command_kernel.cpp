@@ -14,14 +14,14 @@ struct KernelArguments {
 
 int install_it(const KernelArguments& words) {
     std::cout << install_kernel(kernels_folder(words.prefix), running_program()).string()
-              << "\nNow: jupyter notebook, and New, dynlab (Lua).\n";
+              << "\nNext: run jupyter notebook, and select New, dynlab (Lua).\n";
     return kDone;
 }
 
 int remove_it(const KernelArguments& words) {
     const auto folder = kernels_folder(words.prefix);
     if (remove_kernel(folder)) return kDone;
-    std::cerr << "dynlab: there is no kernel of dynlab in " << folder.string() << '\n';
+    std::cerr << "dynlab: no kernel of dynlab in " << folder.string() << '\n';
     return kFailed;
 }
 
@@ -29,18 +29,19 @@ int remove_it(const KernelArguments& words) {
 
 void add_kernel(CLI::App& app, Action& action) {
     auto words = std::make_shared<KernelArguments>();
-    CLI::App* command = app.add_subcommand("kernel", "Let Jupyter run notebooks by dynlab");
+    CLI::App* command = app.add_subcommand("kernel", "Manage the Jupyter kernel of dynlab");
     command->require_subcommand(1);
     const auto add_one = [&](const char* name, const char* what, int (*work)(const KernelArguments&)) {
         CLI::App* one = command->add_subcommand(name, what);
-        one->add_option("--prefix", words->prefix, "Below this folder, as /usr/local for all users of the machine")
+        one->add_option("--prefix", words->prefix,
+                        "Folder to install to, such as /usr/local for all users of the machine")
             ->type_name("DIR");
         one->callback([words, work, &action] { action = [words, work] { return work(*words); }; });
     };
-    add_one("install", "Make the kernel known to Jupyter", install_it);
-    add_one("remove", "Undo that", remove_it);
-    CLI::App* run = command->add_subcommand("run", "Be the kernel: what Jupyter calls");
-    run->add_option("FILE", words->connection, "The connection file that Jupyter has written")->required();
+    add_one("install", "Register the kernel with Jupyter", install_it);
+    add_one("remove", "Remove the kernel from Jupyter", remove_it);
+    CLI::App* run = command->add_subcommand("run", "Run the kernel (called by Jupyter)");
+    run->add_option("FILE", words->connection, "Connection file written by Jupyter")->required();
     run->callback([words, &action] {
         action = [words] {
             serve_kernel(words->connection, DYNLAB_VERSION);

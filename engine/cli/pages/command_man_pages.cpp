@@ -25,9 +25,9 @@ int write_pages(const CLI::App& program, const std::filesystem::path& folder) {
 
 void add_man_pages(CLI::App& app, Action& action) {
     CLI::App* command =
-        app.add_subcommand("man-pages", "Writes the pages of man(1), for packages; not for people")->group("");
+        app.add_subcommand("man-pages", "Internal: write the manual pages of man(1), for packages")->group("");
     const auto folder = std::make_shared<std::string>();
-    command->add_option("folder", *folder, "Where to")->required();
+    command->add_option("folder", *folder, "Output folder")->required();
     command->callback([&app, &action, folder] { action = [&app, folder] { return write_pages(app, *folder); }; });
 }
 

@@ -12,11 +12,10 @@ namespace dynlab::inline cli {
 void add_manual(CLI::App& app, Action& action) {
     auto request = std::make_shared<ManualRequest>();
     auto timings = std::make_shared<bool>(false);
-    CLI::App* command = app.add_subcommand("manual",
-                                           "Make a site of lessons, guides, functions and methods, to be read "
-                                           "without a network");
-    command->add_option("DIR", request->folder, "A new or empty folder, or an older manual")->required();
-    command->add_flag("--timings", *timings, "Say how long each step took");
+    CLI::App* command =
+        app.add_subcommand("manual", "Make a site of lessons, guides, functions and methods, for reading offline");
+    command->add_option("DIR", request->folder, "New or empty folder, or folder of an older manual")->required();
+    command->add_flag("--timings", *timings, "Print the time of each step");
     command->footer("Examples:  dynlab manual site     xdg-open site/index.html");
     command->callback([request, timings, &action] {
         action = [request, timings]() -> int {

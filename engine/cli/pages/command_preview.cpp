@@ -18,7 +18,7 @@ struct PreviewWords {
 int show_preview(PreviewWords words) {
     DesktopBrowser browser;
     words.options.opened = [&](const std::string& address, Visit visit) {
-        std::cout << address << (visit == Visit::kElsewhere ? "\n(it is shown there already)" : "\n(Ctrl-C ends it)")
+        std::cout << address << (visit == Visit::kElsewhere ? "\n(the document is already open)" : "\n(Ctrl-C to stop)")
                   << std::endl;
         if (visit != Visit::kLate && !words.no_browser) browser.open(address);
     };
@@ -39,15 +39,14 @@ void add_preview(CLI::App& app, Action& action) {
         app.add_subcommand("preview", "Show a document in the browser; the page follows every change of its files");
     command
         ->add_option("LESSON|FOLDER|FILE.lua", words->options.document,
-                     "A script, a folder with analysis.lua and report.md, or a lesson")
+                     "Script, folder with analysis.lua and report.md, or lesson")
         ->required();
-    command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")
+    command->add_option("--port", words->options.port, "Port of the page. Default: a free port.")
         ->check(CLI::Range(1, 65535));
-    command->add_flag("--edit", words->options.edit,
-                      "Show the script and the text beside the page, to be changed there");
-    command->add_flag("--no-browser", words->no_browser, "Only print the address");
+    command->add_flag("--edit", words->options.edit, "Show an editor for the script and the text next to the page");
+    command->add_flag("--no-browser", words->no_browser, "Print the address without opening the browser");
     command->add_flag("--run", words->options.run_at_once,
-                      "Run the scripts of this folder without being asked on the page, now and later");
+                      "Allow the scripts of this folder to run without asking, now and later");
     command->footer("Examples:  dynlab preview my-work     dynlab preview my-work --edit     dynlab preview 02");
     command->callback([words, &action] {
         expect_script(words->options.document, "preview");

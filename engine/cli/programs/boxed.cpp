@@ -25,7 +25,7 @@ int main(int count, char** args) {
         else if (work == DocumentJob::kWork)
             do_boxed_job(make_boxed_document);
         else
-            return std::fputs("dynlab-boxed is for dynlab grade, not for people\n", stderr), 2;
+            return std::fputs("dynlab-boxed is an internal program of dynlab grade\n", stderr), 2;
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());

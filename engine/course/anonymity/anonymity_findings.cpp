@@ -92,7 +92,7 @@ InsideOfPdf read_inside(const fs::path& file, const PdfObjectLimits& limits) {
     try {
         return from_cbor<InsideOfPdf>(answer);
     } catch (const ValueError&) {
-        throw PdfRefusal(PdfFault::kDamaged, Message("The file is damaged: what is inside it cannot be read."));
+        throw PdfRefusal(PdfFault::kDamaged, Message("The file is damaged: its contents cannot be read."));
     }
 }
 
@@ -130,11 +130,11 @@ const PlaceText& text_about(TextPlace place) {
     static const std::array<PlaceText, 5> places = {{
         {"name-in-text", Message("in the text"), Message("Remove it: reports are read anonymously.")},
         {"name-in-metadata", Message("in the document information"),
-         Message("Make the PDF with dynlab report, or clear author, title and keywords in the document's properties.")},
+         Message("Make the PDF with dynlab report, or clear author, title and keywords in the document properties.")},
         {"name-in-link", Message("in the target of a link"), Message("Remove the link or change its target.")},
         {"name-in-bookmark", Message("in a bookmark"),
          Message("Change the heading, or save the PDF without bookmarks.")},
-        {"name-in-file-name", Message("in the file name"), Message("Rename the file before you pass it on.")},
+        {"name-in-file-name", Message("in the file name"), Message("Rename the file before you submit it.")},
     }};
     return places[static_cast<std::size_t>(place)];
 }
@@ -144,21 +144,21 @@ Message sentence_about(const NameHit& hit, const Message& where, const std::stri
     const bool sure = hit.certain;
     switch (hit.kind) {
         case NameKind::kNumber:
-            return sure ? Message("The number of {} is {}: \"{}\".", who, where, excerpt)
-                        : Message("The number of {} may be {}: \"{}\".", who, where, excerpt);
+            return sure ? Message("The number of {} appears {}: \"{}\".", who, where, excerpt)
+                        : Message("The number of {} may appear {}: \"{}\".", who, where, excerpt);
         case NameKind::kMail:
-            return sure ? Message("The mail address or account of {} is {}: \"{}\".", who, where, excerpt)
-                        : Message("The mail address or account of {} may be {}: \"{}\".", who, where, excerpt);
+            return sure ? Message("The mail address or account of {} appears {}: \"{}\".", who, where, excerpt)
+                        : Message("The mail address or account of {} may appear {}: \"{}\".", who, where, excerpt);
         case NameKind::kGroup:
-            return sure ? Message("The group {} is {}: \"{}\".", who, where, excerpt)
-                        : Message("The group {} may be {}: \"{}\".", who, where, excerpt);
+            return sure ? Message("The group {} appears {}: \"{}\".", who, where, excerpt)
+                        : Message("The group {} may appear {}: \"{}\".", who, where, excerpt);
         case NameKind::kHome:
-            return Message("A home folder is {}: \"{}\".", where, excerpt);
+            return Message("A home folder appears {}: \"{}\".", where, excerpt);
         case NameKind::kName:
             break;
     }
-    return sure ? Message("The name of {} is {}: \"{}\".", who, where, excerpt)
-                : Message("The name of {} may be {}: \"{}\".", who, where, excerpt);
+    return sure ? Message("The name of {} appears {}: \"{}\".", who, where, excerpt)
+                : Message("The name of {} may appear {}: \"{}\".", who, where, excerpt);
 }
 
 std::string excerpt_of(const NameHit& hit) {
@@ -229,27 +229,28 @@ class AnonymitySearch {
         Findings result(found_.begin(), found_.begin() + std::min(std::ssize(found_), std::ptrdiff_t{kMaxFindings}));
         if (found_.size() > kMaxFindings)
             result.push_back({"names-not-listed", Severity::kRule, 0, "",
-                              Message("{} further places that name people, or may do so, are not listed here.",
+                              Message("{} further places that name people, or may name people, are not listed here.",
                                       found_.size() - kMaxFindings),
-                              Message("Correct the places that are listed and check the document again.")});
+                              Message("Correct the listed places and check the document again.")});
         if (!trouble_.empty())
             result.push_back(
                 {"not-searched", Severity::kRule, 0, "",
                  sentences({Message("Links and document information cannot be searched for names."), trouble_}),
-                 Message("Make the PDF again, best with dynlab report.")});
+                 Message("Make the PDF again, preferably with dynlab report.")});
         if (!words_.empty())
-            result.push_back({"name-ordinary-word", Severity::kHint, first_word_, "",
-                              Message("Words in the text are also names of students: {}.", Message::verbatim(words_)),
-                              Message("Check whether a student is meant.")});
+            result.push_back(
+                {"name-ordinary-word", Severity::kHint, first_word_, "",
+                 Message("These words in the text are also names of students: {}.", Message::verbatim(words_)),
+                 Message("Check whether the text means a student.")});
         if (!author_.empty())
             result.push_back({"author-named", Severity::kHint, 0, "",
-                              Message("The document information names an author: \"{}\".", printable(author_, 60)),
+                              Message("The document information contains an author: \"{}\".", printable(author_, 60)),
                               Message("Leave the author empty: reports are read anonymously.")});
         if (!unsearchable_.empty() && !matcher_.empty())
             result.push_back({"not-searchable", Severity::kHint, unsearchable_.front(), "",
-                              Message("Pictures, or pages without text, cannot be searched for names (pages: {}).",
+                              Message("Pictures, and pages without text, cannot be searched for names (pages: {}).",
                                       list_of_pages(unsearchable_)),
-                              Message("Look at them.")});
+                              Message("Look at these pages.")});
         return result;
     }
 

@@ -111,7 +111,7 @@ class CopyingAnonymously {
         if (pdf)
             result_.not_rebuilt = std::exchange(result_.trouble, Message());
         else if (result_.trouble.empty())
-            result_.trouble = Message("There is neither a report that can be made again nor one PDF.");
+            result_.trouble = Message("The report cannot be made again, and there is not exactly one PDF.");
         return pdf;
     }
 
@@ -133,13 +133,14 @@ class CopyingAnonymously {
         if (!made) refuse_full_disk(report().parent_path(), kRoomForReport);
         if (made && bytes_below(report().parent_path()) <= kMaxMade) return true;
         result_.trouble = Message("The report cannot be made again: {}",
-                                  made ? Message("it is too large") : reason_of(child, inside));
+                                  made ? Message("the report is too large") : reason_of(child, inside));
         return false;
     }
 
     Message reason_of(const ChildResult& child, const fs::path& folder) const {
         if (child.timed_out) return reason_of_end(child, setup_.report_time);
-        if (child.exit_code == 128 + SIGXFSZ) return Message("it writes a file of more than {} MB", kMaxFile >> 20);
+        if (child.exit_code == 128 + SIGXFSZ)
+            return Message("the script writes a file of more than {} MB", kMaxFile >> 20);
         const std::string first_line = child.error_output.substr(0, child.error_output.find('\n'));
         return Message::verbatim(without_full_stop(terminal_text(told_outside(first_line, folder))));
     }

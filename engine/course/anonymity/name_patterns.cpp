@@ -264,7 +264,7 @@ Message numbers_too_short(const std::vector<Student>& students) {
     const auto is_short = [](const Student& student) { return !is_searched_number(student.id); };
     const auto first = std::ranges::find_if(students, is_short);
     if (first == students.end()) return {};
-    return Message("documents are not searched for ids of fewer than {} letters and digits ({}, such as {})",
+    return Message("ids with fewer than {} letters and digits are not searched for in documents ({}, such as {})",
                    kShortestSearched, std::ranges::count_if(students, is_short), first->id);
 }
 

@@ -116,7 +116,7 @@ class AnswerCollection {
             }
         }
         for (const Message& clause : submissions.left_out())
-            outcome.complaints.push_back(Message("{}; it is left out", clause));
+            outcome.complaints.push_back(Message("{}; it was left out", clause));
         outcome.submissions = submissions.all().size();
         outcome.answers = static_cast<std::size_t>(
             std::ranges::count_if(answers_, [](const Answer& answer) { return !answer.text.empty(); }));
@@ -156,8 +156,8 @@ class AnswerCollection {
             known.clear();
             for (const std::string& heading : given_.headings()) known.push_back("\"" + folded_title(heading) + "\"");
         }
-        throw EnvironmentError("{} has no question \"{}\"; it has {}", request_.lesson.slug, request_.question,
-                               listed(known));
+        throw EnvironmentError("{} has no question \"{}\"; the questions are {}", request_.lesson.slug,
+                               request_.question, listed(known));
     }
 
     const AnswersRequest& request_;
@@ -175,8 +175,8 @@ class MarkSheet {
         table_ = read_text_table(file_);
         for (const char* name : kColumns)
             if (!table_.column(name))
-                throw EnvironmentError("{}: the column {} is missing; restore it or move the file away", file_.string(),
-                                       name);
+                throw EnvironmentError("{}: the column {} is missing; restore the column, or move the file elsewhere",
+                                       file_.string(), name);
         for (std::size_t i = 0; i < table_.rows.size(); ++i) {
             const auto number = read_number<int>(cell(i, "number"));
             if (!number || *number < 1)
@@ -291,8 +291,8 @@ class AnswersPage {
 
     Message explanation() const {
         return Message(
-            "Submissions have numbers instead of names. Write points and reasons into {}, then copy submission (as "
-            "who), check, points and reason into marks.csv of the results.",
+            "Submissions have numbers instead of names. Enter points and reasons in {}. Then copy submission (as who), "
+            "check, points and reason into marks.csv of the results.",
             marks_.filename().string());
     }
 
@@ -311,13 +311,13 @@ class AnswersPage {
             if (group.differences[i].empty())
                 equal.push_back(number);
             else
-                notes.push_back(message_text(Message("nearly the same: {} ({})", number, group.differences[i])));
+                notes.push_back(message_text(Message("nearly identical: {} ({})", number, group.differences[i])));
         }
-        if (!equal.empty()) notes.insert(notes.begin(), message_text(Message("the same: {}", listed(equal))));
+        if (!equal.empty()) notes.insert(notes.begin(), message_text(Message("identical: {}", listed(equal))));
         return notes;
     }
 
-    Message without_answer() const { return Message("Without an answer: {}.", listed(empty_)); }
+    Message without_answer() const { return Message("No answer from: {}.", listed(empty_)); }
 
     /// As a block of code, so that nothing in it is markup.
     static std::string quoted(const std::string& text) {

@@ -21,12 +21,12 @@ ValueLimits boxed_limits(std::uint64_t bytes) {
 
 Message reason_of_end(const ChildResult& child, const TimeLimits& time) {
     if (child.time_limit() == TimeLimit::kProcessor)
-        return Message("it used more than {} s of processor time", time.seconds(TimeLimit::kProcessor));
-    if (child.timed_out) return Message("it had not ended after {} s", time.seconds(TimeLimit::kClock));
-    if (child.output_exceeded) return Message("it gave out too much");
-    if (child.exit_code > 128) return Message("it crashed (signal {})", child.exit_code - 128);
+        return Message("the run used more than {} s of processor time", time.seconds(TimeLimit::kProcessor));
+    if (child.timed_out) return Message("the run did not finish within {} s", time.seconds(TimeLimit::kClock));
+    if (child.output_exceeded) return Message("the run printed too much output");
+    if (child.exit_code > 128) return Message("the run crashed (signal {})", child.exit_code - 128);
     if (child.exit_code == 0) return {};
-    return Message("it ended with code {}: {}", child.exit_code,
+    return Message("the run ended with code {}: {}", child.exit_code,
                    child.error_output.substr(0, child.error_output.find('\n')));
 }
 

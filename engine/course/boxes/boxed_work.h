@@ -47,7 +47,7 @@ BoxedResult<typename Job::Result> run_boxed(Box& box, const std::filesystem::pat
     try {
         result.output = from_cbor<typename Job::Result>(*child.output, boxed_limits(output_bytes));
     } catch (const ValueError&) {
-        result.reason = Message("its result cannot be read");
+        result.reason = Message("the result of the run cannot be read");
     }
     return result;
 }

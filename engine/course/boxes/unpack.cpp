@@ -30,13 +30,13 @@ constexpr int kDeepestArchive = 20;
 std::optional<Message> objection_to(const fs::path& path) {
     constexpr std::size_t kLongestName = 255;  // of a file system
     const std::string& text = path.native();
-    const Message outside = Message("\"{}\" leads outside of the archive", text);
+    const Message outside = Message("\"{}\" points outside the archive", text);
     const bool on_a_drive = text.size() > 1 && std::isalpha(static_cast<unsigned char>(text[0])) && text[1] == ':';
     if (path.is_absolute() || on_a_drive) return outside;
     int depth = 0;
     for (const fs::path& part : path) {
         if (part == "..") return outside;
-        if (++depth > kDeepestArchive) return Message("\"{}\" lies deeper than {} folders", text, kDeepestArchive);
+        if (++depth > kDeepestArchive) return Message("\"{}\" is nested deeper than {} folders", text, kDeepestArchive);
         if (part.native().size() > kLongestName) return Message("\"{}\" has a name that is too long", text);
         for (const unsigned char c : part.native())
             if (c < 0x20 || c == 0x7F) return Message("\"{}\" has a name with control characters", text);
@@ -79,10 +79,10 @@ class Unpacker {
     }
 
     void take(archive_entry* entry) {
-        if (--files_left_ < 0) throw EnvironmentError("the archive holds too many files, more than {}", most_files_);
+        if (--files_left_ < 0) throw EnvironmentError("the archive contains more than {} files", most_files_);
         const char* const name = archive_entry_pathname(entry);
         if (name == nullptr || *name == '\0')
-            return leave_out(entry, Message("the name of a file in it cannot be read"));
+            return leave_out(entry, Message("the name of a file in the archive cannot be read"));
         std::string text = utf8_of_name(name);
         std::replace(text.begin(), text.end(), '\\', '/');
         const fs::path path(text);
@@ -110,8 +110,7 @@ class Unpacker {
     }
 
     void use(std::uint64_t bytes) {
-        if (bytes > bytes_left_)
-            throw EnvironmentError("the archive is too large once unpacked, more than {} MB", most_bytes_ >> 20);
+        if (bytes > bytes_left_) throw EnvironmentError("the archive exceeds {} MB when unpacked", most_bytes_ >> 20);
         bytes_left_ -= bytes;
     }
 

@@ -16,19 +16,19 @@ constexpr double kMostPoints = 1000;
 constexpr std::array kChangedOptions = {
     OptionEntry{"id", ValueKind::kText, about("name of the check: letters, digits and _")},
     OptionEntry{"points", ValueKind::kNumber, about("points of the check"), {.initial = "1"}},
-    OptionEntry{"about", ValueKind::kText, about("name of the check for students; by default the id")},
-    OptionEntry{"hint", ValueKind::kText, about("text that is shown where points are missing")}};
+    OptionEntry{"about", ValueKind::kText, about("name of the check shown to students. Default: the id")},
+    OptionEntry{"hint", ValueKind::kText, about("text shown when points are missing")}};
 constexpr std::array kOwnOptions = {
-    OptionEntry{"test", ValueKind::kAny, about("function(a, b) that judges the answers")},
-    OptionEntry{"rerun", ValueKind::kText, about("data set or \"seed\" for which the script is run again")},
-    OptionEntry{"document", ValueKind::kFlag, about("the check looks at the report"), {.initial = "false"}},
+    OptionEntry{"test", ValueKind::kAny, about("function(a, b) that checks the answers")},
+    OptionEntry{"rerun", ValueKind::kText, about("data set or \"seed\" for a rerun of the script")},
+    OptionEntry{"document", ValueKind::kFlag, about("whether the check examines the report"), {.initial = "false"}},
     OptionEntry{"mistakes", ValueKind::kAny, about("list of {when = function, say = text}")},
-    OptionEntry{"by_hand", ValueKind::kFlag, about("the instructor gives the points"), {.initial = "false"}},
-    OptionEntry{"rubric", ValueKind::kText, about("text for the instructor who gives the points")}};
+    OptionEntry{"by_hand", ValueKind::kFlag, about("whether the instructor gives the points"), {.initial = "false"}},
+    OptionEntry{"rubric", ValueKind::kText, about("guidance for the instructor who gives the points")}};
 constexpr std::array kRigOptions = {
     OptionEntry{"name", ValueKind::kText, about("name of the data set")},
-    OptionEntry{"record", ValueKind::kAny, about("function that makes a record")},
-    OptionEntry{"truth", ValueKind::kAny, about("function that gives what theory says of a record")}};
+    OptionEntry{"record", ValueKind::kAny, about("function that simulates a data set")},
+    OptionEntry{"truth", ValueKind::kAny, about("function that returns the true values of a data set")}};
 constexpr OptionTable kChange[] = {kChangedOptions};
 constexpr OptionTable kCheck[] = {kChangedOptions, kOwnOptions};
 constexpr OptionTable kRig[] = {kRigOptions};
@@ -61,9 +61,9 @@ int check(Call& call) {
     const Options options(call, 1, kCheck);
     DeclaredCheck check;
     check.id = options.text("id", "");
-    if (!plain_id(check.id)) throw InvalidArgument("a check needs an id of letters, digits and _");
+    if (!plain_id(check.id)) throw InvalidArgument("the id of a check must consist of letters, digits and _");
     for (const DeclaredCheck& other : session.checks)
-        if (other.id == check.id) throw InvalidArgument("there are two checks \"{}\"", check.id);
+        if (other.id == check.id) throw InvalidArgument("the check \"{}\" is declared twice", check.id);
     check.points = points_option(options, check.id, 1);
     check.about = options.text("about", check.id);
     check.hint = options.text("hint", "");
@@ -73,7 +73,7 @@ int check(Call& call) {
     check.rubric = options.text("rubric", "");
     check.visible = session.visible_file;
     if (check.by_hand && (options.has("test") || options.has("rerun") || options.has("mistakes")))
-        throw InvalidArgument("\"{}\" is marked by hand: it has no test, rerun or mistakes", check.id);
+        throw InvalidArgument("\"{}\" is marked by hand and cannot have test, rerun or mistakes", check.id);
     if (!check.by_hand && options.has("rubric"))
         throw InvalidArgument("\"{}\" has a rubric: it needs by_hand = true", check.id);
     const Message owner = Message("the check \"{}\"", check.id);
@@ -91,8 +91,8 @@ std::vector<DeclaredCheck>::iterator declared(CheckSession& session, const std::
     std::vector<std::string> ids;
     for (const DeclaredCheck& check : session.checks) ids.push_back(check.id);
     const auto near = nearest_word(id, ids);
-    if (near) throw InvalidArgument("there is no check \"{}\"; did you mean \"{}\"?", id, *near);
-    throw InvalidArgument("there is no check \"{}\"; there are {}", id, listed(ids));
+    if (near) throw InvalidArgument("unknown check \"{}\"; did you mean \"{}\"?", id, *near);
+    throw InvalidArgument("unknown check \"{}\"; the checks are {}", id, listed(ids));
 }
 
 int change_check(Call& call) {
@@ -118,9 +118,11 @@ int declare_rig(Call& call) {
     CheckSession& session = call.owner<CheckSession>();
     const Options options(call, 1, kRig);
     const std::string name = options.text("name", "");
-    if (!plain_id(name)) throw InvalidArgument("a rig needs a name of letters, digits and _: that of its data set");
-    if (session.rigs.contains(name)) throw InvalidArgument("there are two rigs \"{}\"", name);
-    const Message owner = Message("the rig \"{}\"", name);
+    if (!plain_id(name))
+        throw InvalidArgument(
+            "the name of a simulated plant must consist of letters, digits and _; it is also the name of its data set");
+    if (session.rigs.contains(name)) throw InvalidArgument("the simulated plant \"{}\" is declared twice", name);
+    const Message owner = Message("the simulated plant \"{}\"", name);
     session.rigs[name] = {kept_option(options, "record", LUA_TFUNCTION, owner, Message("a function"), true),
                           kept_option(options, "truth", LUA_TFUNCTION, owner, Message("a function"), false)};
     return 0;
@@ -130,11 +132,11 @@ constexpr const char* kDeclarations = "checks";
 constexpr std::array kDeclarationFunctions = {
     FunctionEntry{"check", kDeclarations, "check{options}", "declares a check", guarded<check>, kCheck},
     FunctionEntry{"change_check", kDeclarations, "change_check{options}",
-                  "gives a check that was declared before other points or words", guarded<change_check>, kChange},
-    FunctionEntry{"drop_check", kDeclarations, "drop_check(id)", "takes a check away that was declared before",
+                  "changes points or words of a check that was declared before", guarded<change_check>, kChange},
+    FunctionEntry{"drop_check", kDeclarations, "drop_check(id)", "removes a check that was declared before",
                   guarded<drop_check>},
     FunctionEntry{"declare_rig", kDeclarations, "declare_rig{options}",
-                  "declares an apparatus for hidden records and reruns", guarded<declare_rig>, kRig},
+                  "declares a simulated plant for hidden data sets and reruns", guarded<declare_rig>, kRig},
 };
 
 }  // namespace

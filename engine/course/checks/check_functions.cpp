@@ -87,19 +87,20 @@ bool on_secret_record(const Call& call) {
 }
 
 constexpr std::array kNearOptions = {
-    OptionEntry{"rel", ValueKind::kNumber, about("largest relative distance of a right answer"), {.initial = "0.05"}},
-    OptionEntry{"abs", ValueKind::kNumber, about("largest distance of a right answer, instead of rel")},
-    OptionEntry{"half", ValueKind::kNumber, about("largest distance that earns half the points")}};
+    OptionEntry{"rel", ValueKind::kNumber, about("largest relative error of a correct answer"), {.initial = "0.05"}},
+    OptionEntry{"abs", ValueKind::kNumber, about("largest absolute error of a correct answer, instead of rel")},
+    OptionEntry{"half", ValueKind::kNumber, about("largest error that earns half the points")}};
 constexpr OptionTable kNear[] = {kNearOptions};
 
 int near(Call& call) {
     call.at_most(3);
     const Options options(call, 3, kNear);
     const bool absolute = options.has("abs");
-    if (absolute && options.has("rel")) throw InvalidArgument("give rel or abs, not both");
+    if (absolute && options.has("rel")) throw InvalidArgument("give either rel or abs, not both");
     const double most = absolute ? options.number("abs", 0) : options.number("rel", 0.05);
     const double half = options.number("half", most);  // this far away earns half the points
-    if (!(most >= 0) || !(half >= most)) throw InvalidArgument("the tolerance must not be negative, nor half below it");
+    if (!(most >= 0) || !(half >= most))
+        throw InvalidArgument("the tolerance must not be negative, and half must not be smaller than the tolerance");
     const Compared compared(call);
     const double apart = compared.distance(absolute);
     const auto measured = [&](double x) {
@@ -107,15 +108,15 @@ int near(Call& call) {
     };
     if (apart <= most) return give_judgement(call, 1, {});
     if (!absolute && compared.comparable() && compared.wanted.isZero(0))
-        throw InvalidArgument("a share of 0 is 0: give how far away an answer may be, {abs = ...}");
+        throw InvalidArgument("a relative tolerance of 0 allows no error: give an absolute tolerance, {abs = ...}");
     if (!std::isfinite(apart))
-        return give_judgement(call, 0, Message("It is not a finite number, or not as many as wanted."));
+        return give_judgement(call, 0, Message("The answer is not a finite number, or has the wrong size."));
     if (on_secret_record(call))
         return give_judgement(call, apart <= half ? 0.5 : 0,
-                              Message("On a record that you have not seen, it is too far away."));
+                              Message("On a data set that you have not seen, the error is too large."));
     return give_judgement(
         call, apart <= half ? 0.5 : 0,
-        Message("It is {} away from what was expected; at most {} was wanted.", measured(apart), measured(most)));
+        Message("The error is {}; the largest allowed error is {}.", measured(apart), measured(most)));
 }
 
 int points_between(Call& call) {
@@ -126,9 +127,9 @@ int points_between(Call& call) {
     if (share == 1) return give_judgement(call, 1, {});
     if (on_secret_record(call))
         return give_judgement(call, share,
-                              Message("On a record that you have not seen, it falls short of full points."));
+                              Message("On a data set that you have not seen, the answer does not earn full points."));
     return give_judgement(call, share,
-                          Message("It comes to {}; full points are from {} on, none at {}.", significant(x, 3),
+                          Message("Score {}; full points from {}, no points at {}.", significant(x, 3),
                                   significant(high, 3), significant(low, 3)));
 }
 
@@ -146,7 +147,7 @@ Verdict verdict_at(const Call& call, int index) {
         case LUA_TNUMBER: {
             const double share = lua_tonumber(L, index);
             if (share < 0 || share > 1)
-                throw InvalidArgument("a test returned {}; a share is from 0 to 1", significant(share, 4));
+                throw InvalidArgument("a test returned {}; expected a share from 0 to 1", significant(share, 4));
             verdict.share = std::isfinite(share) ? share : 0;
             break;
         }
@@ -159,7 +160,7 @@ Verdict verdict_at(const Call& call, int index) {
             break;
         default:
             throw InvalidArgument(
-                "a test must return true, false, a share from 0 to 1 or what near and its like return");
+                "a test must return true, false, a share from 0 to 1, or the result of near or a similar function");
     }
     return verdict;
 }
@@ -192,7 +193,7 @@ int differs(Call& call) {
     call.at_most(2);
     constexpr double kEqualityTolerance = 1e-9;
     if (Compared(call).distance(false) > kEqualityTolerance) return give_judgement(call, 1, {});
-    return give_judgement(call, 0, Message("It is the same on another record: it must be computed from the data."));
+    return give_judgement(call, 0, Message("The answer is the same for another data set: compute it from the data."));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -206,13 +207,13 @@ int has(Call& call, const std::vector<std::string>& names, const Message& otherw
 int has_figure(Call& call) {
     call.at_most(1);
     return has(call, session_of(call).runs.at(kMainRun).figures,
-               Message("There is no figure \"{}\" in the report.", call.text(1, "name")));
+               Message("The report has no figure \"{}\".", call.text(1, "name")));
 }
 
 int has_value(Call& call) {
     call.at_most(1);
     return has(call, session_of(call).runs.at(kMainRun).values,
-               Message("There is no value \"{}\" in the report.", call.text(1, "name")));
+               Message("The report has no value \"{}\".", call.text(1, "name")));
 }
 
 /// no_finding(id, ...): none of these findings of the document, or none at all that breaks a rule.
@@ -232,16 +233,16 @@ int no_finding(Call& call) {
 
 constexpr const char* kArea = "checks";
 constexpr std::array kFunctions = {
-    FunctionEntry{"near", kArea, "near(x, wanted, {rel = | abs =, half =})", "judges a number or vector", guarded<near>,
-                  kNear},
+    FunctionEntry{"near", kArea, "near(x, wanted, {rel = | abs =, half =})", "compares a number or vector",
+                  guarded<near>, kNear},
     FunctionEntry{"points_between", kArea, "points_between(x, low, high)", "a share that grows from low to high",
                   guarded<points_between>},
-    FunctionEntry{"all_of", kArea, "all_of(judgement, ...)", "the least of several judgements", guarded<all_of>},
-    FunctionEntry{"any_of", kArea, "any_of(judgement, ...)", "the best of several judgements", guarded<any_of>},
+    FunctionEntry{"all_of", kArea, "all_of(judgement, ...)", "the smallest of several shares", guarded<all_of>},
+    FunctionEntry{"any_of", kArea, "any_of(judgement, ...)", "the largest of several shares", guarded<any_of>},
     FunctionEntry{"differs", kArea, "differs(x, y)", "whether an answer was computed from the data", guarded<differs>},
     FunctionEntry{"has_figure", kArea, "has_figure(name)", "whether the report has this figure", guarded<has_figure>},
     FunctionEntry{"has_value", kArea, "has_value(name)", "whether the report has this value", guarded<has_value>},
-    FunctionEntry{"no_finding", kArea, "no_finding(id, ...)", "whether the document is free of findings",
+    FunctionEntry{"no_finding", kArea, "no_finding(id, ...)", "whether the document has no findings",
                   guarded<no_finding>},
 };
 
@@ -284,7 +285,7 @@ Message answer_trouble(const std::string& name, const std::string& run,
                        const std::map<std::string, RecordedAnswer>& answers) {
     const auto given = answers.find(name);
     if (run != kMainRun && given != answers.end())
-        return Message("The answer \"{}\" was not handed in as it was asked for.", name);
+        return Message("The answer \"{}\" was submitted in a different form than requested.", name);
     if (given != answers.end()) {
         std::string why = parsed_json(given->second.json).value("why", "");
         if (!why.empty()) why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
@@ -294,8 +295,9 @@ Message answer_trouble(const std::string& name, const std::string& run,
     for (const auto& [other, answer] : answers)
         if (run == kMainRun && answer.kind == kRefusedAnswer) unknown.push_back(other);
     const auto near = nearest_word(name, unknown);
-    if (!near) return Message("The answer \"{}\" was not handed in.", name);
-    return Message("The answer \"{}\" was not handed in; \"{}\" was, which the lesson does not ask for.", name, *near);
+    if (!near) return Message("The answer \"{}\" was not submitted.", name);
+    return Message("The answer \"{}\" was not submitted; \"{}\" was submitted, which the lesson does not ask for.",
+                   name, *near);
 }
 
 /// Reads an answer when it is first asked for; upvalue 3 is the name of the run. One that is not there fails the check,
@@ -310,7 +312,7 @@ int answer_of(Call& call) {
     if (answer == answers.end() || answer->second.kind == kRefusedAnswer) refuse(answer_trouble(name, run, answers));
     const auto& [kind, text] = answer->second;
     if (kind != "data" && kind != "text" && holds_no_numbers(parsed_json(text)))
-        refuse(Message("The answer \"{}\" holds NaN or infinite numbers.", name));
+        refuse(Message("The answer \"{}\" contains NaN or infinite numbers.", name));
     push_answer_value(L, text);
     if (session.change && session.change->first == name) multiply_on_top(L, session.change->second);
     lua_pushvalue(L, 2);
@@ -343,7 +345,7 @@ std::optional<Message> mistake_made(const Call& call, const DeclaredCheck& check
         lua_getfield(L, -1, "say");
         lua_getfield(L, -2, "when");
         if (lua_type(L, -1) != LUA_TFUNCTION || lua_type(L, -2) != LUA_TSTRING)
-            throw InvalidArgument("entry {} of the mistakes must be {when = function, say = text}", i);
+            throw InvalidArgument("entry {} of mistakes must be {when = function, say = text}", i);
         lua_pushvalue(L, answers);
         lua_pushvalue(L, answers + 1);
         // A mistake that cannot be looked for was not made.
@@ -360,11 +362,10 @@ void keep_secret(const CheckSession& session, bool ended, Verdict& verdict) {
     const bool has_number = message_text(verdict.message).find_first_of("0123456789") != std::string::npos;
     if (ended ? !has_number : verdict.message == session.answer_trouble) return;
     if (verdict.for_instructor.empty()) verdict.for_instructor = std::move(verdict.message);
-    verdict.message =
-        ended ? Message("On a record that you have not seen, it falls short of full points.")
-              : Message(
-                    "On a record that you have not seen, the check ended with an error: what it looked at is not of "
-                    "the kind or size that was asked for.");
+    verdict.message = ended ? Message("On a data set that you have not seen, the answer does not earn full points.")
+                            : Message(
+                                  "On a data set that you have not seen, the check ended with an error: the answer has "
+                                  "the wrong type or size.");
 }
 
 int verdict(Call& call) {

@@ -38,21 +38,21 @@ int record(Call& call) {
     call_of_rig(call, session.rigs.at(name).record, whole(2), whole(3));
     const int table = lua_gettop(L);
     if (lua_type(L, table) != LUA_TTABLE)
-        throw InvalidArgument("the record of the rig \"{}\" must be a table of vectors", name);
+        throw InvalidArgument("the data set of the simulated plant \"{}\" must be a table of vectors", name);
     for (lua_pushnil(L); lua_next(L, table) != 0; lua_settop(L, table + 1)) {
         if (lua_type(L, table + 1) != LUA_TSTRING)
-            throw InvalidArgument("the signals of the rig \"{}\" need names", name);
+            throw InvalidArgument("the signals of the simulated plant \"{}\" need names", name);
         const Call values(L);
         const VectorMap signal = values.vector(table + 2, lua_tostring(L, table + 1));
         session.record[lua_tostring(L, table + 1)] = {signal.begin(), signal.end()};
     }
-    if (session.record.empty()) throw InvalidArgument("the record of the rig \"{}\" is empty", name);
+    if (session.record.empty()) throw InvalidArgument("the data set of the simulated plant \"{}\" is empty", name);
     return 0;
 }
 
 /// A test asks for what is secret itself, so that it is known which messages must give nothing away.
 void note_hidden(CheckSession& session) {
-    if (!session.current) throw InvalidArgument("what is secret is asked for inside the test that looks at it");
+    if (!session.current) throw InvalidArgument("secret data must be requested inside the test that uses them");
     session.took_hidden = true;
 }
 
@@ -69,15 +69,15 @@ int hidden(Call& call) {
         return 1;
     }
     throw InvalidArgument(
-        "there is no hidden record \"{}\": name a simulated experiment, a rig that the checks declare, or a file in "
-        "the folder hidden of the checks",
+        "unknown hidden data set \"{}\": name a simulated experiment, a plant that the checks declare, or a file in "
+        "the checks' folder hidden",
         name);
 }
 
 /// The run that a table of answers came from.
 std::string run_of_answers(const Call& call, int index) {
     if (luaL_getmetafield(call.state(), index, kRunOfAnswers) != LUA_TSTRING)
-        throw InvalidArgument("truth takes a hidden record's name, or answers and a data set's name");
+        throw InvalidArgument("truth takes the name of a hidden data set, or answers and the name of a data set");
     const std::string run = lua_tostring(call.state(), -1);
     lua_pop(call.state(), 1);
     return run;
@@ -91,8 +91,7 @@ std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSess
         const std::string name = call.text(1, "name");
         const Specimens& hidden = session.specimens[kHiddenRecords];
         const auto found = hidden.find(name);
-        if (found == hidden.end())
-            throw InvalidArgument("there is no hidden record \"{}\" of which theory says something", name);
+        if (found == hidden.end()) throw InvalidArgument("no hidden data set with true values is named \"{}\"", name);
         return *found;
     }
     call.at_most(2);
@@ -101,7 +100,8 @@ std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSess
     const std::string name = call.given(2) ? call.text(2, "name") : run;
     const auto found = own.find(name);
     if (found != own.end()) return *found;
-    if (!call.given(2)) throw InvalidArgument("name the data set whose truth is wanted: truth(a, \"crane\")");
+    if (!call.given(2))
+        throw InvalidArgument("give the data set for which you need the true values: truth(a, \"crane\")");
     return {name, 0};
 }
 
@@ -111,7 +111,7 @@ int truth(Call& call) {
     CheckSession& session = call.owner<CheckSession>();
     const auto [name, specimen] = specimen_meant(call, session);
     if (const auto own = session.rigs.find(name); own != session.rigs.end()) {
-        if (own->second.truth == 0) throw InvalidArgument("the rig \"{}\" declares no truth", name);
+        if (own->second.truth == 0) throw InvalidArgument("the simulated plant \"{}\" declares no truth", name);
         call_of_rig(call, own->second.truth, specimen, specimen);
         return 1;
     }
@@ -122,9 +122,9 @@ int truth(Call& call) {
 }
 
 constexpr std::array kRecordFunctions = {
-    FunctionEntry{"hidden", "checks", "hidden(name) -> table", "a further record of the rerun's apparatus",
+    FunctionEntry{"hidden", "checks", "hidden(name) -> table", "another data set of the rerun's plant",
                   guarded<hidden>},
-    FunctionEntry{"truth", "checks", "truth(name) | truth(answers, name) -> table", "what theory says of that record",
+    FunctionEntry{"truth", "checks", "truth(name) | truth(answers, name) -> table", "the true values of that data set",
                   guarded<truth>},
 };
 

@@ -50,7 +50,8 @@ std::vector<TriedCheck> verdicts(Runtime& runtime, CheckSession& session, std::o
             one.message = shortened_message(session.verdict->message);
             one.for_instructor = shortened_message(session.verdict->for_instructor);
         } else {
-            one.message = record.error ? shortened_message(with_place(*record.error)) : Message("it gave no verdict");
+            one.message =
+                record.error ? shortened_message(with_place(*record.error)) : Message("the check returned no result");
         }
     }
     return all;
@@ -145,7 +146,7 @@ JudgedSubmission judged_in_a_copy(const ChecksJob& job, const SubmissionToJudge&
     try {
         if (judged.reason.empty()) judged = from_cbor<JudgedSubmission>(copy.output, boxed_limits(kMostVerdicts));
     } catch (const ValueError&) {
-        judged.reason = Message("its result cannot be read");
+        judged.reason = Message("the result of the run cannot be read");
     }
     judged.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return judged;

@@ -38,7 +38,8 @@ class WantedFiles {
         const std::vector<std::string> parts = parts_of(assignment_, wanted_.stage);
         if (!wanted_.part.empty()) {
             if (wanted_.part != kUnreadable && std::ranges::find(parts, wanted_.part) == parts.end())
-                throw InvalidArgument("{} has no {}: its parts are {}", assignment_.name, wanted_.part, listed(parts));
+                throw InvalidArgument("{} has no part {}: its parts are {}", assignment_.name, wanted_.part,
+                                      listed(parts));
             return {one(wanted_.part, withdrawn)};
         }
         std::optional<Found> document = newest(assignment_.is_lab() ? "" : parts.front(), withdrawn);
@@ -68,8 +69,8 @@ class WantedFiles {
     Found one(const std::string& part, bool withdrawn) const {
         if (const auto found = newest(part, withdrawn)) return *found;
         const std::string version = wanted_.number ? fmt::format("{} v{}", part, *wanted_.number) : part;
-        throw withdrawn ? InvalidArgument("there is no withdrawn {} ({}) for {}", what(), version, assignment_.name)
-                        : InvalidArgument("there is no {} ({}) for {}", what(), version, assignment_.name);
+        throw withdrawn ? InvalidArgument("{} ({}) of {} has not been withdrawn", what(), version, assignment_.name)
+                        : InvalidArgument("{} ({}) does not exist for {}", what(), version, assignment_.name);
     }
 
     Database& db_;
@@ -148,7 +149,7 @@ std::vector<std::int64_t> withdraw(Course& course, const Assignment& a, const Ha
                               one.id, std::int64_t{withdrawn}, reason, now);
     }
     course.note(fmt::format("{}: {} ({}) {}; reason: {}", a.name, files.what(), parts,
-                            withdrawn ? "withdrawn" : "stands again", reason),
+                            withdrawn ? "withdrawn" : "is reinstated", reason),
                 now);
     transaction.commit();
     return ids_of(all);
@@ -179,17 +180,18 @@ void hold(Course& course, const Assignment& a, const HandedInWanted& wanted, boo
           Instant now) {
     refuse_without_reason(reason);
     refuse_without_reviews(a);
-    if (wanted.stage == "final") throw InvalidArgument("a final version is sent to nobody: there is nothing to hold");
+    if (wanted.stage == "final")
+        throw InvalidArgument("a final version is not sent to other groups and cannot be withheld");
     Transaction transaction(course.database());
     const WantedFiles files(course, a, wanted);
     if (is_held(course, a, files.group().id, files.pair()) == held)
-        throw held ? InvalidArgument("the {} is held back already", files.what())
-                   : InvalidArgument("the {} is not held back", files.what());
+        throw held ? InvalidArgument("the {} is withheld already", files.what())
+                   : InvalidArgument("the {} is not withheld", files.what());
     course.database().run(
         "INSERT INTO holds (assignment, group_id, pair, held, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)", a.id,
         files.group().id, files.pair(), std::int64_t{held}, reason, now);
     course.note(fmt::format("{}: the {} is {}; reason: {}", a.name, files.what(),
-                            held ? "held back" : "not held back any more", reason),
+                            held ? "held back" : "not withheld anymore", reason),
                 now);
     transaction.commit();
 }

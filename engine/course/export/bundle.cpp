@@ -30,18 +30,17 @@ std::string readme_of(const Lesson& lesson, const BundleOptions& options) {
     const Reader reader{catalog_of(options.language.empty() ? script.header.language : options.language)};
     std::vector<Message> lines = {
         Message::verbatim("# " + script.header.title + "\n"),
-        Message("Install dynlab once: sudo apt install ./dynlab_*.deb, with the package that the course gives you. "
-                "Then, in a terminal beside the folder {}:",
+        Message("Install dynlab once with the package that the course provides: sudo apt install ./dynlab_*.deb. Then "
+                "open a terminal in the folder that contains {}:",
                 lesson.slug),
         Message::verbatim("")};
     for (const char* command : {"run", "check", "report", "pack"})
         lines.push_back(Message::verbatim(fmt::format("    dynlab {} {}", command, lesson.slug)));
     lines.push_back(Message::verbatim(""));
-    lines.push_back(
-        Message("Write your analysis into analysis.lua and your text into report.md; submit the zip that "
-                "dynlab pack makes."));
+    lines.push_back(Message(
+        "Write your analysis in analysis.lua and your text in report.md. Submit the zip file that dynlab pack makes."));
     if (!options.sheet.empty()) lines.push_back(Message("The tasks are in {}.", options.sheet.filename().string()));
-    lines.push_back(Message("dynlab help start is the first page of the manual."));
+    lines.push_back(Message("dynlab help start shows the first page of the manual."));
     std::string text;
     for (const Message& line : lines) text += message_text(line, reader) + "\n";
     return text;

@@ -35,7 +35,7 @@ struct MarkedStudent : Recipient {
 
 std::size_t needed_column(const TextTable& table, const char* name, const fs::path& file) {
     if (const auto column = table.column(name)) return *column;
-    throw EnvironmentError("{} has no column {}; it is not what dynlab grade writes", file.string(), name);
+    throw EnvironmentError("{} has no column {}; expected a gradebook written by dynlab grade", file.string(), name);
 }
 
 /// The participant's number and name in "Anna Müller_900000_assignsubmission_file_".
@@ -64,7 +64,7 @@ fs::path feedback_of(const fs::path& marks, const std::string& submission) {
 std::vector<MarkedStudent> marked_students(const HandBackRequest& request) {
     const fs::path file = request.marks / "gradebook.csv";
     if (!fs::exists(file))
-        throw EnvironmentError("{} holds no gradebook.csv; name the folder that dynlab grade --out wrote",
+        throw EnvironmentError("{} contains no gradebook.csv; give the folder that dynlab grade --out wrote",
                                request.marks.string());
     const TextTable table = read_text_table(file);
     const auto column = [&](const char* name) { return needed_column(table, name, file); };
@@ -186,12 +186,12 @@ class Outbox {
         if (request.worksheet)
             read_sheet();
         else if (const std::int64_t contradicted = settle_numbers(students_); contradicted > 0)
-            result_.notes.push_back(
-                plural(contradicted,
-                       "{} participant number in the roster's column moodle differs from the one in the submission's "
-                       "name, which is used: Moodle numbers participants for each assignment",
-                       "{} participant numbers in the roster's column moodle differ from those in the submissions' "
-                       "names, which are used: Moodle numbers participants for each assignment"));
+            result_.notes.push_back(plural(
+                contradicted,
+                "{} participant number in the roster's column moodle differs from the number in the submission's name. "
+                "dynlab uses the latter, because Moodle numbers participants for each assignment",
+                "{} participant numbers in the roster's column moodle differ from the numbers in the submissions' "
+                "names. dynlab uses the latter, because Moodle numbers participants for each assignment"));
         look_for_news();
     }
 
@@ -201,8 +201,8 @@ class Outbox {
         write("mail.csv", csv_text(mail_));
         const bool marked = std::ranges::any_of(students_, [](const MarkedStudent& one) { return has_marks(one); });
         if (result_.unwritten.size() == 2 && marked)
-            result_.complaints.push_back(
-                Message("no marks could be entered for Moodle or Canvas; mail.csv tells whom the feedback belongs to"));
+            result_.complaints.push_back(Message(
+                "no marks could be entered for Moodle or Canvas; mail.csv lists the recipients of the feedback"));
         return std::move(result_);
     }
 
@@ -228,12 +228,12 @@ class Outbox {
             (moodle ? student.moodle : student.canvas) = person.number;
         }
         if (unknown > 0)
-            result_.notes.push_back(plural(unknown, "{} row of {} fits nobody with a submission and stays as it was",
-                                           "{} rows of {} fit nobody with a submission and stay as they were",
+            result_.notes.push_back(plural(unknown, "{} row of {} matches no submission and was not changed",
+                                           "{} rows of {} match no submission and were not changed",
                                            request_.worksheet->string()));
         for (std::size_t i = 0; i < students_.size(); ++i)
             if (has_marks(students_[i]) && !rows_.contains(i))
-                result_.complaints.push_back(Message("{} has marks, but no row in {}: enter them by hand",
+                result_.complaints.push_back(Message("{} has marks, but no row in {}; enter them by hand",
                                                      students_[i].shown(), request_.worksheet->string()));
     }
 
@@ -271,16 +271,17 @@ class Outbox {
         if (sheet_) {
             write("moodle-grades.csv", filled_sheet());
         } else if (!moodle_table()) {
-            result_.unwritten.push_back(Message(
-                "without moodle-grades.csv and moodle-feedback.zip: of nobody with marks is a number there known, "
-                "neither from the name of a submission nor from the roster's column moodle; give --worksheet FILE"));
+            result_.unwritten.push_back(
+                Message("moodle-grades.csv and moodle-feedback.zip were not written: no student with marks has a "
+                        "Moodle number, neither in the name of a submission nor in the roster's column moodle; give "
+                        "--worksheet FILE"));
             return;
         }
         const fs::path zip = folder_ / "moodle-feedback.zip";
         if (feedback.empty()) {
             fs::remove(zip);
             result_.notes.push_back(
-                Message("without moodle-feedback.zip: all feedback was delivered; --all writes it again"));
+                Message("moodle-feedback.zip was not written: all feedback was delivered; --all writes it again"));
         } else {
             feedback.write(zip);
             result_.files.push_back(zip);
@@ -301,7 +302,7 @@ class Outbox {
         for (const MarkedStudent& student : students_)
             if (student.moodle.empty() && has_marks(student))
                 result_.complaints.push_back(
-                    Message("{} is missing in moodle-grades.csv: the participant's number is not known; give Moodle's "
+                    Message("{} is missing in moodle-grades.csv: the participant's number is unknown; give Moodle's "
                             "grading worksheet with --worksheet",
                             student.shown()));
         return true;
@@ -319,9 +320,9 @@ class Outbox {
             possible = student.possible;
         }
         if (table.rows.empty()) {
-            result_.unwritten.push_back(Message(
-                "without canvas-grades.csv: of nobody with marks is a number there known, neither from the name of "
-                "a submission nor from the roster's column canvas"));
+            result_.unwritten.push_back(
+                Message("canvas-grades.csv was not written: no student with marks has a Canvas number, neither in the "
+                        "name of a submission nor in the roster's column canvas"));
             return;
         }
         table.rows.insert(table.rows.begin(), {"    Points Possible", "", "", "", "", possible});
@@ -371,7 +372,7 @@ HandedBack hand_back(const HandBackRequest& request) {
 std::int64_t record_delivery(const fs::path& marks) {
     const fs::path file = marks / "handed_back/mail.csv", record = marks / "handed_back" / kDelivered;
     if (!fs::exists(file))
-        throw EnvironmentError("{} has not been written yet; run dynlab hand-back without --delivered first",
+        throw EnvironmentError("{} does not exist yet; run dynlab export-grades without --delivered first",
                                file.string());
     Delivered delivered = read_deliveries(record);
     std::int64_t fresh = 0;

@@ -74,7 +74,7 @@ PlatformSheet::PlatformSheet(const std::filesystem::path& file, const std::strin
     std::string text = read_file(file);
     if (text.starts_with("\xEF\xBB\xBF")) mark_ = text.substr(0, 3), text.erase(0, 3);
     if (text.find('\0') != std::string::npos)
-        throw EnvironmentError("{}: this is not UTF-8 text; download it as CSV", file.string());
+        throw EnvironmentError("{}: the file is not UTF-8 text; download it as CSV", file.string());
     if (!is_utf8(text)) text = utf8_of_windows_1252(text);
     split(text);
     if (lines_.empty()) throw EnvironmentError("{}: the file is empty; download it again", file.string());
@@ -157,8 +157,8 @@ void PlatformSheet::recognise_moodle() {
         if (holds_participants(i)) number_ = i;
     if (!number_)
         throw EnvironmentError(
-            "{}: this is neither Moodle's grading worksheet (a column such as \"Identifier\" with \"Participant 12\") "
-            "nor Canvas's gradebook (second column ID); its columns are {}",
+            "{}: expected Moodle's grading worksheet (a column such as \"Identifier\" with \"Participant 12\") or "
+            "Canvas's gradebook (second column ID); the columns are {}",
             file_.string(), listed_columns());
     const auto maximum = [&] {
         const auto named = first_column(names_, [](const std::string& name) { return has_word(name, kMaximumWords); });
@@ -167,14 +167,14 @@ void PlatformSheet::recognise_moodle() {
     grade_ = first_column(names_, [](const std::string& name) { return is_known_header(name, kGradeHeaders); });
     if (!grade_ && maximum && *maximum > 0) grade_ = *maximum - 1;
     if (!grade_ || grade_ == number_)
-        throw EnvironmentError("{}: the column of grades is not recognised; its columns are {}", file_.string(),
+        throw EnvironmentError("{}: the column of grades is not recognized; the columns are {}", file_.string(),
                                listed_columns());
     id_ = called("id"), mail_ = called("email"), name_ = called("name");
     comment_ = first_column(names_, [](const std::string& name) { return has_word(name, kCommentWords); });
     if (!name_ && *number_ + 1 < names_.size() && grade_ != *number_ + 1) name_ = *number_ + 1;
     if (!comment_)
         unrecognised_.push_back(
-            Message("{}: no column of feedback comments is recognised; comments are left out", file_.string()));
+            Message("{}: no column of feedback comments is recognized; comments are left out", file_.string()));
     for (const std::size_t row : all)
         for (const auto column : {grade_, maximum})
             decimal_comma_ = decimal_comma_ || value(row, column).find(',') != std::string::npos;
@@ -196,7 +196,7 @@ void PlatformSheet::recognise_canvas(const std::string& assignment) {
     }
     if (assignment.empty()) fitting = all;
     if (fitting.size() != 1)
-        throw EnvironmentError("{}: --assignment must name the column to fill in; its columns are {}", file_.string(),
+        throw EnvironmentError("{}: --assignment must name the column to fill in; the columns are {}", file_.string(),
                                listed_columns());
     grade_ = fitting.front();
 }

@@ -31,9 +31,9 @@ class Gaps {
         const bool replaced =
             unread != parts.end() && (found == parts.end() || found->second.received_at < unread->second.received_at);
         if (replaced || (found != parts.end() && !found->second.trouble.empty()))
-            missing_.push_back(Message("{}, {}: the file that came cannot be read; submit it again", what, due));
+            missing_.push_back(Message("{}, {}: the submitted file cannot be read; submit it again", what, due));
         else if (found == parts.end() && parts.contains("pack"))
-            missing_.push_back(Message("{}, {}: there is no PDF in the pack that came", what, due));
+            missing_.push_back(Message("{}, {}: the submitted pack contains no PDF", what, due));
         else if (found == parts.end() && is_wanted(stage))
             missing_.push_back(Message("{}, {}", what, due));
     }
@@ -96,12 +96,13 @@ Mail mail_of(const Reminder& reminder, const Student& student, const Assignment&
     const Reader reader{catalog_of(student.language.empty() ? "en" : student.language)};
     const std::string& name = student.name.empty() ? student.id : student.name;
     std::string text = message_text(Message("Hello {},", name), reader) + "\n\n";
-    text += message_text(Message("this is missing of {} for {} ({}):", reminder.group.name, assignment.name, course),
+    text += message_text(Message("the following parts of {} for {} are missing ({}):", reminder.group.name,
+                                 assignment.name, course),
                          reader) +
             "\n\n";
     for (const Message& one : reminder.missing) text += "* " + message_text(one, reader) + "\n";
-    text += "\n" + message_text(Message("Please submit it now, or answer this message."), reader) + "\n";
-    return {message_text(Message("{}, {}: please submit what is missing", course, assignment.name), reader), text};
+    text += "\n" + message_text(Message("Please submit them now, or reply to this message."), reader) + "\n";
+    return {message_text(Message("{}, {}: please submit the missing parts", course, assignment.name), reader), text};
 }
 
 TextTable reminder_mails(Course& course, const Assignment& assignment, const std::vector<Reminder>& reminders) {

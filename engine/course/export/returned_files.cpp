@@ -38,7 +38,7 @@ class Returner {
 
     ReturnOutcome run() {
         if (fs::exists(request_.folder))
-            throw InvalidArgument("{} exists already; name a new folder", request_.folder.string());
+            throw InvalidArgument("{} exists already; give the name of a new folder", request_.folder.string());
         for (const Group& group : groups_of(course_)) collect(group);
         if (outcome_.files.empty()) return std::move(outcome_);
         lay_out();
@@ -141,7 +141,7 @@ class Returner {
             }
         const Message files = plural(count, "{} file", "{} files"),
                       groups = plural(static_cast<std::int64_t>(groups_.size()), "{} group", "{} groups");
-        course_.note(message_text(Message("{}: {} returned to {}", assignment_.name, files, groups)), request_.now);
+        course_.note(message_text(Message("{}: {} delivered to {}", assignment_.name, files, groups)), request_.now);
         transaction.commit();
     }
 

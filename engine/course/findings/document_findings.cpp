@@ -21,23 +21,23 @@ Finding file_finding(const PdfRefusal& refusal) {
     switch (refusal.fault()) {
         case PdfFault::kNotPdf:
             return {"not-pdf", Severity::kRule,   0,
-                    "",        refusal.message(), Message("Hand in the PDF that dynlab report writes.")};
+                    "",        refusal.message(), Message("Submit the PDF that dynlab report writes.")};
         case PdfFault::kEncrypted:
             return {"encrypted", Severity::kRule,   0,
-                    "",          refusal.message(), Message("Save it again without a password.")};
+                    "",          refusal.message(), Message("Save the PDF again without a password.")};
         case PdfFault::kTooLarge:
             return {"too-large",
                     Severity::kRule,
                     0,
                     "",
                     refusal.message(),
-                    Message("Make it smaller: draw figures as lines, not as pictures of the screen.")};
+                    Message("Make the file smaller: draw figures as vector graphics, not as screenshots.")};
         case PdfFault::kNotThere:
         case PdfFault::kDamaged:
             break;
     }
     return {"damaged", Severity::kRule,   0,
-            "",        refusal.message(), Message("Make it again, or copy it again from where it was made.")};
+            "",        refusal.message(), Message("Make the file again, or copy it again from the original.")};
 }
 
 /// Without those that are others in another language, such as slides.fr.md.
@@ -143,7 +143,7 @@ DocumentStandard standard_of(const std::string& name) {
     const fs::path file = is_file ? fs::path(name) : shared_folder() / "report_templates" / (name + ".md");
     const std::vector<std::string> known = installed_templates();
     if (!is_file && std::ranges::find(known, name) == known.end())
-        throw EnvironmentError("there is no template '{}'; the templates are {}", name, listed(known));
+        throw EnvironmentError("unknown template '{}'; the templates are {}", name, listed(known));
     std::vector<std::string> guidance = guidance_of(read_text(file));
     const fs::path french = fs::path(file).replace_extension(".fr.md");
     if (!is_file && fs::is_regular_file(french)) {
@@ -174,15 +174,15 @@ CheckResult check_pdf(const fs::path& file, const CheckOptions& wishes, const Pd
             result.findings.push_back(
                 {"scanned", Severity::kRule, 0, "",
                  Message("The document has no text: its pages are pictures, such as a scan or photographs."),
-                 Message("Hand in the PDF that dynlab report writes, not a scan of its print.")});
+                 Message("Submit the PDF that dynlab report writes, not a scan of a printout.")});
             sort_findings(result.findings);
             return result;
         }
         check_text(layout, text, standard, result);
         if (layout.protected_by_password) {
             result.findings.push_back(
-                {"protected", Severity::kHint, 0, "", Message("A password guards the file against changes."),
-                 Message("Save it again without protection, so that review copies can be made.")});
+                {"protected", Severity::kHint, 0, "", Message("A password protects the file against changes."),
+                 Message("Save the PDF again without protection, so that review copies can be made.")});
         }
     } catch (const PdfRefusal& refusal) {
         if (refusal.fault() == PdfFault::kNotThere) throw;

@@ -113,12 +113,10 @@ FigureFindings figure_findings(const DocumentText& text, Severity not_mentioned)
     FigureFindings result{captions.size(), {}};
     for (const auto& [number, page] : captions) {
         if (mentions.contains(number)) continue;
-        result.findings.push_back(
-            {"figure-not-mentioned", not_mentioned, page, "",
-             Message("Figure {} is never mentioned in the text.", number),
-             Message(
-                 "Name it with report.figure(\"name\", fig, \"caption\") and say in the text what @fig:name shows, or "
-                 "remove it.")});
+        result.findings.push_back({"figure-not-mentioned", not_mentioned, page, "",
+                                   Message("The text does not mention figure {}.", number),
+                                   Message("Name the figure with report.figure(\"name\", fig, \"caption\") and say in "
+                                           "the text what @fig:name shows, or remove the figure.")});
     }
     for (const auto& [number, page] : mentions) {
         if (captions.empty() || captions.contains(number)) continue;

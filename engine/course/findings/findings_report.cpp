@@ -120,7 +120,7 @@ std::string findings_in_words(const CheckResult& result, bool in_colour, const R
     const std::string subject = printable(result.subject);
     if (result.findings.empty())
         return writer.words(Message("{}: {}; {}.", subject,
-                                    writer.styled(kGreen, writer.words(Message("nothing to mend"))), checked)) +
+                                    writer.styled(kGreen, writer.words(Message("nothing to fix"))), checked)) +
                "\n";
     const auto rules = std::count_if(result.findings.begin(), result.findings.end(),
                                      [](const Finding& finding) { return finding.severity == Severity::kRule; });
@@ -129,10 +129,10 @@ std::string findings_in_words(const CheckResult& result, bool in_colour, const R
                                             : Message("{}: {}", writer.styled(kBold, subject), checked)) +
         "\n";
     text += writer.group(result, Counted::kAnswers, kRed, Message("Answers open"));
-    text += writer.group(result, Counted::kRules, kRed, Message("Rules broken"));
+    text += writer.group(result, Counted::kRules, kRed, Message("Rules violated"));
     text += writer.group(result, Counted::kHints, kYellow, Message("Hints"));
     text += writer.group(result, Counted::kChecks, kYellow, Message("Checks of the lesson"));
-    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.words(Message("No rule is broken."))) + "\n";
+    if (rules == 0) text += "\n" + writer.styled(kGreen, writer.words(Message("No rule is violated."))) + "\n";
     return text;
 }
 
@@ -150,7 +150,7 @@ CheckResult findings_from_json(const std::string& json) {
     try {
         return from_json<CheckResult>(json);
     } catch (const ValueError& error) {
-        throw EnvironmentError("these are not findings that dynlab check wrote: {}", message_of(error));
+        throw EnvironmentError("these findings were not written by dynlab check: {}", message_of(error));
     }
 }
 

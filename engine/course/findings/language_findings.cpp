@@ -103,14 +103,13 @@ LanguageFindings language_findings(const DocumentText& text, const std::optional
     const bool is_french = french > english;
     LanguageFindings result{is_french ? "fr" : "en", {}};
     if (declared && *declared != result.language) {
-        result.findings.push_back(
-            {"language-differs", Severity::kHint, 0, "",
-             is_french ? Message("The header says lang: {}, but the text is in French.", *declared)
-                       : Message("The header says lang: {}, but the text is in English.", *declared),
-             Message(
-                 "Write lang: {} in the header of report.md, so that hyphenation and the words for figure and table "
-                 "fit.",
-                 result.language)});
+        result.findings.push_back({"language-differs", Severity::kHint, 0, "",
+                                   is_french
+                                       ? Message("The header says lang: {}, but the text is in French.", *declared)
+                                       : Message("The header says lang: {}, but the text is in English.", *declared),
+                                   Message("Write lang: {} in the header of report.md. Hyphenation and the words for "
+                                           "figure and table depend on it.",
+                                           result.language)});
     }
     const Findings mixed = passages(text, languages, is_french ? Language::kEnglish : Language::kFrench);
     result.findings.insert(result.findings.end(), mixed.begin(), mixed.end());

@@ -46,18 +46,17 @@ Message too_small(double size, bool slides, const std::vector<int>& pages) {
     const Number found = decimals(size, 1);
     const MessageList where = list_of(pages);
     if (pages.size() == 1)
-        return slides ? Message(
-                            "The text is too small to read with ease: {} pt, measured as on a slide 96 mm high; at "
-                            "least {} pt are asked for.",
-                            found, kSmallestText)
-                      : Message("The text is too small to read with ease: {} pt; at least {} pt are asked for.", found,
-                                kSmallestText);
+        return slides
+                   ? Message(
+                         "The text is too small: {} pt, measured on a slide 96 mm high; at least {} pt are required.",
+                         found, kSmallestText)
+                   : Message("The text is too small: {} pt; at least {} pt are required.", found, kSmallestText);
     return slides ? Message(
-                        "The text is too small to read with ease: {} pt, measured as on a slide 96 mm high (pages "
-                        "{}); at least {} pt are asked for.",
+                        "The text is too small: {} pt, measured on a slide 96 mm high (pages {}); at least {} pt are "
+                        "required.",
                         found, where, kSmallestText)
-                  : Message("The text is too small to read with ease: {} pt (pages {}); at least {} pt are asked for.",
-                            found, where, kSmallestText);
+                  : Message("The text is too small: {} pt (pages {}); at least {} pt are required.", found, where,
+                            kSmallestText);
 }
 
 void check_size(const DocumentText& text, int pages, Findings& findings) {
@@ -71,7 +70,7 @@ void check_size(const DocumentText& text, int pages, Findings& findings) {
     }
     if (small.empty()) return;
     findings.push_back({"text-small", Severity::kRule, small.front(), "", too_small(smallest, text.is_slides(), small),
-                        Message("Set the text in 11 pt, as the template does, and shorten it instead.")});
+                        Message("Set the text in 11 pt, as in the template, and shorten it instead.")});
 }
 
 struct Strays {
@@ -103,19 +102,18 @@ void check_margins(const DocumentText& text, const PdfLayout& layout, Findings& 
         } else if (unmatched_names.at_sides > 0) {
             overflows.push_back(
                 {"text-overflow", Severity::kHint, page, "",
-                 Message("A line runs into the margin: \"{}\".", printable(unmatched_names.first->text(), 60)),
-                 Message("Break the formula, the table or the long word in it.")});
+                 Message("A line extends into the margin: \"{}\".", printable(unmatched_names.first->text(), 60)),
+                 Message("Break the formula, the table or the long word.")});
         }
     }
     if (!narrow.empty()) {
-        findings.push_back(
-            {"margins", Severity::kRule, narrow.front(), "",
-             narrow.size() > 1 ? Message("The margins are too narrow (pages {}): text stands nearer than 15 mm to the "
-                                         "sides or 12 mm to the top or bottom.",
-                                         list_of(narrow))
-                               : Message("The margins are too narrow: text stands nearer than 15 mm to the sides or 12 "
-                                         "mm to the top or bottom."),
-             Message("Use the template's margins of 25 mm and shorten the text instead.")});
+        findings.push_back({"margins", Severity::kRule, narrow.front(), "",
+                            narrow.size() > 1 ? Message("The margins are too narrow (pages {}): the text is closer "
+                                                        "than 15 mm to the sides or 12 mm to the top or bottom.",
+                                                        list_of(narrow))
+                                              : Message("The margins are too narrow: the text is closer than 15 mm to "
+                                                        "the sides or 12 mm to the top or bottom."),
+                            Message("Use the template's margins of 25 mm and shorten the text instead.")});
     }
     findings.insert(findings.end(), overflows.begin(), overflows.end());
 }
@@ -129,8 +127,8 @@ void check_edges(const PdfLayout& layout, Findings& findings) {
         if (cut == page.words.end()) continue;
         findings.push_back(
             {"text-cut-off", Severity::kRule, static_cast<int>(i) + 1, "",
-             Message("Text runs over the edge of the page and is cut off near \"{}\".", printable(cut->text, 40)),
-             Message("Break or shorten what is too long there.")});
+             Message("Text extends beyond the edge of the page and is cut off near \"{}\".", printable(cut->text, 40)),
+             Message("Break or shorten the long part.")});
     }
 }
 

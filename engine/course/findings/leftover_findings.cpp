@@ -33,11 +33,11 @@ const std::vector<Sign>& signs() {
         {"(figure:", "slot-unfilled",
          [](Line line) { return Message("A slot for a figure was not filled: \"{}\".", line); }, fill},
         {"{#fig:", "slot-unfilled",
-         [](Line line) { return Message("A figure's label is left in the text: \"{}\".", line); }, fill},
+         [](Line line) { return Message("The label of a figure is left in the text: \"{}\".", line); }, fill},
         {"{#tbl:", "slot-unfilled",
-         [](Line line) { return Message("A table's label is left in the text: \"{}\".", line); }, fill},
+         [](Line line) { return Message("The label of a table is left in the text: \"{}\".", line); }, fill},
         {"{#eq:", "slot-unfilled",
-         [](Line line) { return Message("An equation's label is left in the text: \"{}\".", line); }, fill},
+         [](Line line) { return Message("The label of an equation is left in the text: \"{}\".", line); }, fill},
         {"@fig:", "slot-unfilled",
          [](Line line) { return Message("A reference to a figure was not resolved: \"{}\".", line); }, fill},
         {"@tbl:", "slot-unfilled",
@@ -45,14 +45,14 @@ const std::vector<Sign>& signs() {
         {"@eq:", "slot-unfilled",
          [](Line line) { return Message("A reference to an equation was not resolved: \"{}\".", line); }, fill},
         {"<!--", "guidance-left", [](Line line) { return Message("A comment is left in the text: \"{}\".", line); },
-         Message("Close it with --> or take it out.")},
+         Message("Close the comment with --> or remove it.")},
         {"??", "reference-unresolved", [](Line line) { return Message("A reference was not resolved: \"{}\".", line); },
-         Message("Give the label that it names, or correct it.")},
+         Message("Define the label, or correct the reference.")},
         {"____", "placeholder-left", [](Line line) { return Message("A blank was not filled in: \"{}\".", line); },
          Message("Fill it in.")},
         {"lorem ipsum", "placeholder-left",
-         [](Line line) { return Message("Filling text was left in: \"{}\".", line); },
-         Message("Replace it by your own text.")},
+         [](Line line) { return Message("Placeholder text is left in the document: \"{}\".", line); },
+         Message("Replace it with your own text.")},
     };
     return all;
 }
@@ -81,8 +81,8 @@ void check_line(const TextLine& line, Findings& findings) {
     const auto found = std::find_if(line.words.begin(), line.words.end(), is_placeholder);
     if (found == line.words.end()) return;
     findings.push_back(leftover("placeholder-left", line.page,
-                                Message("A note to yourself was left in: \"{}\".", printable(text, 60)),
-                                Message("Do what it says, then take it out.")));
+                                Message("A note to yourself is left in the text: \"{}\".", printable(text, 60)),
+                                Message("Do what the note says, then remove it.")));
 }
 
 std::string spaced(const std::vector<std::string>& words) {
@@ -106,10 +106,9 @@ void check_guidance(const DocumentText& text, const std::vector<std::string>& gu
         if (found == all.end()) continue;
         int page = 1;
         for (const auto& [start, number] : page_starts) page = start <= found - all.begin() + 1 ? number : page;
-        findings.push_back(
-            leftover("guidance-left", page,
-                     Message("Guidance of the template is left in the text: \"{}\".", printable(sentence, 60)),
-                     Message("Take it out; between <!-- and --> it is never printed.")));
+        findings.push_back(leftover("guidance-left", page,
+                                    Message("Template guidance is left in the text: \"{}\".", printable(sentence, 60)),
+                                    Message("Remove the guidance. Text between <!-- and --> is never printed.")));
     }
 }
 

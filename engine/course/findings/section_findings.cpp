@@ -103,9 +103,9 @@ Findings too_few_pages(const DocumentText& text, int pages, const DocumentRules&
     const Number filled = decimals(filled_pages(text, pages), 1);
     return {{"pages-few", Severity::kHint, pages, "",
              *rules.least_pages == 1
-                 ? Message("The text fills {} pages; at least {} page is asked for.", filled, 1)
-                 : Message("The text fills {} pages; at least {} pages are asked for.", filled, *rules.least_pages),
-             Message("Give reasons, places in the report, and for each weakness a way to mend it.")}};
+                 ? Message("The text fills {} pages; at least {} page is required.", filled, 1)
+                 : Message("The text fills {} pages; at least {} pages are required.", filled, *rules.least_pages),
+             Message("Give reasons, locations in the report, and for each weakness a way to fix it.")}};
 }
 
 Message pages_of_paper(int count) {
@@ -134,22 +134,22 @@ Findings section_findings(const DocumentText& text, const DocumentRules& rules, 
         if (!found) {
             if (section.optional) continue;
             findings.push_back({"section-missing", Severity::kRule, 0, "",
-                                Message("The section \"{}\" is missing: no heading has these words.", title),
-                                Message("Add a heading with these words and your text below it.")});
+                                Message("The section \"{}\" is missing: no heading has this text.", title),
+                                Message("Add this heading and write your text below it.")});
             continue;
         }
         const Heading& heading = text.headings[*found];
         const std::string shown = printable(heading.text, 60);
         const std::size_t words = words_below(text, *found);
         if (words < kEmptySectionWords) {
-            findings.push_back({"section-empty", Severity::kRule, heading.page, "",
-                                Message("The section \"{}\" is empty.", shown),
-                                section.optional ? Message("Write it, or take its heading out: it is optional.")
-                                                 : Message("Write what you did and found there.")});
+            findings.push_back(
+                {"section-empty", Severity::kRule, heading.page, "", Message("The section \"{}\" is empty.", shown),
+                 section.optional ? Message("Write the section, or remove its heading: the section is optional.")
+                                  : Message("Write what you did and found.")});
         } else if (words < (text.is_slides() ? kShortSlideWords : kShortSectionWords)) {
             findings.push_back({"section-short", Severity::kHint, heading.page, "",
-                                Message("The section \"{}\" has {} words only.", shown, words),
-                                Message("Say what was done, why, and what came out.")});
+                                Message("The section \"{}\" has only {} words.", shown, words),
+                                Message("Say what you did, why, and what the result was.")});
         }
     }
     return findings;
@@ -167,8 +167,8 @@ Findings page_findings(const DocumentText& text, int pages, const DocumentRules&
     return {{"pages", Severity::kRule, most + 1, "",
              too_many(text.is_slides() ? slides : pages_of_paper, pages, allowed, in_appendix),
              in_appendix > 0 && appendix == 0
-                 ? Message("Shorten the text; a part beyond the limit must stand below a heading \"Appendix\".")
-                 : Message("Shorten the text, or drop figures that show nothing of their own.")}};
+                 ? Message("Shorten the text, or move parts beyond the limit below a heading \"Appendix\".")
+                 : Message("Shorten the text, or remove figures that add no information.")}};
 }
 
 }  // namespace dynlab::inline course

@@ -50,8 +50,8 @@ std::vector<std::pair<std::string, CheckedSubmission>> mutants_of(const CheckedS
                 if (answer.kind == "truth" && factor < 0) continue;
                 CheckedSubmission mutant = solution;
                 mutant.change = AnswerChange{name, factor};
-                const char* const words = answer.kind == "truth" ? "turned round"
-                                          : factor < 0           ? "of the other sign"
+                const char* const words = answer.kind == "truth" ? "inverted"
+                                          : factor < 0           ? "with the opposite sign"
                                                                  : "1.5 times as large";
                 mutants.emplace_back(fmt::format("{} {}", name, words), std::move(mutant));
             }
@@ -149,7 +149,7 @@ CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
     trial.checks = rules.checks();
     const std::string solution = read_text(setup.lesson.script());
     std::vector<std::pair<std::string, std::string>> sources = {
-        {"worked solution", solution}, {"starter", without_solutions(solution, setup.lesson.script())}};
+        {"reference solution", solution}, {"starter", without_solutions(solution, setup.lesson.script())}};
     std::vector<fs::path> files;
     for (const char* beginning : {"wrong_", "right_"})
         for (const fs::path& file : scripts_in(setup.lesson.folder, beginning)) files.push_back(file);
@@ -197,12 +197,12 @@ CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
 std::string trial_in_words(const CheckTrial& trial) {
     std::string text = lines_of_script(trial.solution);
     for (const TriedScript& script : trial.scripts) text += lines_of_script(script);
-    text += fmt::format("\n{} changes of one answer of the worked solution:\n", trial.mutants.size());
+    text += fmt::format("\n{} changes of one answer of the reference solution:\n", trial.mutants.size());
     for (const TriedScript& mutant : trial.mutants) {
         std::string failed;
         for (const TriedCheck& one : mutant.checks)
             if (!full(one)) failed += " " + one.check.id;
-        text += fmt::format("    {:<44}{}\n", mutant.name, failed.empty() ? " unnoticed by all checks" : failed);
+        text += fmt::format("    {:<44}{}\n", mutant.name, failed.empty() ? " detected by no check" : failed);
     }
     std::string remarks;
     const auto slowest = std::max_element(trial.solution.checks.begin(), trial.solution.checks.end(),
@@ -214,11 +214,11 @@ std::string trial_in_words(const CheckTrial& trial) {
         if (check.by_hand)
             remarks += fmt::format("{}: marked by hand\n", check.id);
         else if (!trial.solution_passes(k))
-            remarks += fmt::format("{}: the worked solution fails it, so that nobody is graded by it\n", check.id);
+            remarks += fmt::format("{}: the reference solution fails it, so it is not used for grading\n", check.id);
         else if (!trial.fails_sometimes(k))
-            remarks += fmt::format("{}: nothing that was tried fails it\n", check.id);
+            remarks += fmt::format("{}: no script fails it\n", check.id);
     }
-    return text + (remarks.empty() ? "\nEvery check is passed by the worked solution and failed by something.\n"
+    return text + (remarks.empty() ? "\nThe reference solution passes every check, and some script fails each check.\n"
                                    : "\n" + remarks);
 }
 

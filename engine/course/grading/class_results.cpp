@@ -113,10 +113,10 @@ std::vector<Message> several_of_one(const ClassResults& results) {
         }
         const std::string counting_name = shown_name(counts->item->submission);
         sentences.push_back(results.work->newest_counts
-                                ? Message("{} has several submissions, of which the newest one counts, \"{}\": {}",
-                                          owner, counting_name, listed(names))
-                                : Message("{} has several submissions, of which the better one counts, \"{}\": {}",
-                                          owner, counting_name, listed(names)));
+                                ? Message("{} has several submissions; the newest one counts, \"{}\": {}", owner,
+                                          counting_name, listed(names))
+                                : Message("{} has several submissions; the better one counts, \"{}\": {}", owner,
+                                          counting_name, listed(names)));
     }
     return sentences;
 }
@@ -212,7 +212,7 @@ std::string mistakes_of(const std::vector<CheckStatistics>& checks) {
             if (count > 1)
                 list +=
                     fmt::format("- {}: {} ({} times)\n", escaped_markdown(check.about), escaped_markdown(said), count);
-    return list.empty() ? "None that was made twice.\n" : list;
+    return list.empty() ? "No identical submissions.\n" : list;
 }
 
 std::string attention_of(const ClassResults& results, const Attention& found) {
@@ -282,7 +282,7 @@ Attention what_needs_attention(const ClassResults& results) {
     for (const Entry& entry : results.entries) {
         const std::string name = shown_name(entry.item->submission);
         if (results.work->roster && !entry.item->unmatched.empty()) {
-            add(Message("\"{}\" belongs to nobody in the roster: {}; write it into a list for --owners", name,
+            add(Message("\"{}\" matches no student in the roster: {}; add it to the CSV file for --owners", name,
                         entry.item->unmatched));
             ++attention.unowned;
         }
@@ -296,19 +296,20 @@ Attention what_needs_attention(const ClassResults& results) {
                 by_hand.push_back(fmt::format("\"{}\"", name));
             else if (!whole(grade) && some_whole)
                 add(Message("\"{}\" is not graded completely", name));
-            if (grade.trouble.empty() && grade.silent) add(Message("\"{}\" ran to its end but gave no answer", name));
+            if (grade.trouble.empty() && grade.silent)
+                add(Message("\"{}\" ran to completion but gave no answer", name));
             if (!grade.trouble.empty())
-                add(grade.began ? Message("the script of \"{}\" did not run to its end: {}", name, grade.trouble)
-                                : Message("the script of \"{}\" could not be begun: {}", name, grade.trouble));
+                add(grade.began ? Message("the script of \"{}\" stopped: {}", name, grade.trouble)
+                                : Message("the script of \"{}\" could not be started: {}", name, grade.trouble));
             if (!grade.remark.empty()) add(Message("\"{}\": {}", name, grade.remark));
             if (grade.penalty > 0)
-                add(Message("\"{}\" was late, which costs {} points: {}", name, points_text(grade.penalty),
+                add(Message("\"{}\" was late and loses {} points: {}", name, points_text(grade.penalty),
                             grade.lateness));
         }
         if (entry.item->version == 0) continue;
         by_content[entry.item->content].push_back(&entry);
     }
-    if (!by_hand.empty()) add(Message("marks by hand are missing in marks.csv: {}", listed(by_hand, Join::kAnd)));
+    if (!by_hand.empty()) add(Message("manual marks are missing in marks.csv: {}", listed(by_hand, Join::kAnd)));
     for (const auto& [content, entries] : by_content) {
         const auto of_others = [&](const Entry* entry) {
             return entry->item->students != entries.front()->item->students;
@@ -316,7 +317,7 @@ Attention what_needs_attention(const ClassResults& results) {
         if (!results.work->roster || std::ranges::none_of(entries, of_others)) continue;
         std::vector<std::string> names;
         for (const Entry* entry : entries) names.push_back(fmt::format("\"{}\"", shown_name(entry->item->submission)));
-        add(Message("{} are the same, byte for byte", listed(names, Join::kAnd)));
+        add(Message("{} are identical byte for byte", listed(names, Join::kAnd)));
     }
     for (Message& sentence : several_of_one(results)) add(std::move(sentence));
     for (const Message& sentence : results.work->attention) add(sentence);

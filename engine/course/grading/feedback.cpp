@@ -45,30 +45,32 @@ class FeedbackText {
             text +=
                 " " + words(Message("Marked as a whole by your instructor: {}", escaped(words(grade_.whole_reason))));
         if (grade_.penalty > 0)
-            text += " " + words(Message("It was late, which costs {} points: {}.", points_number(grade_.penalty),
-                                        grade_.lateness));
+            text += " " + words(Message("Your submission was late and loses {} points: {}.",
+                                        points_number(grade_.penalty), grade_.lateness));
         const std::string other = escape_(grade_.counts_instead);
         if (!other.empty())
             text +=
-                "\n\n" + words(grade_.newest_counts ? Message("**This hand-in does not count.** Of several from you "
-                                                              "the newest one counts: {}.",
-                                                              other)
-                                                    : Message("**This hand-in does not count.** Of several from you "
-                                                              "the better one counts: {}.",
-                                                              other));
+                "\n\n" +
+                words(
+                    grade_.newest_counts
+                        ? Message("**This submission does not count.** Of your submissions, the newest one counts: {}.",
+                                  other)
+                        : Message("**This submission does not count.** Of your submissions, the better one counts: {}.",
+                                  other));
         return text;
     }
 
     std::string trouble() const {
         if (grade_.trouble.empty())
-            return words(grade_.silent ? Message("Your script ran to its end but gave no answer.")
-                                       : Message("Your script ran to its end."));
+            return words(grade_.silent ? Message("Your script ran to completion but gave no answer.")
+                                       : Message("Your script ran to completion."));
         const std::string why = shown_trouble();
         if (grade_.unreadable && grade_.whole())
-            return words(Message("**Your work could not be read by the program and was marked by hand:** {}", why));
+            return words(
+                Message("**The program could not read your work, so your instructor marked it by hand:** {}", why));
         return words(grade_.unreadable ? Message("**Your work could not be read, so it has no marks yet:** {}", why)
-                     : grade_.began    ? Message("**Your script did not run to its end:** {}", why)
-                                       : Message("**Your script could not be begun:** {}", why));
+                     : grade_.began    ? Message("**Your script stopped with an error:** {}", why)
+                                       : Message("**Your script could not be started:** {}", why));
     }
 
     std::string checks() const {
@@ -78,9 +80,9 @@ class FeedbackText {
     }
 
     std::string closing() const {
-        return words(Message(
-            "Points are given by programs that hold your answers against your data and against records that nobody has "
-            "seen. If you think that one of them is wrong, tell your instructor which, and why."));
+        return words(
+            Message("Programs give the points. They compare your answers with your data and with data sets that you "
+                    "have not seen. If you think that a check is wrong, tell your instructor which one and why."));
     }
 
   private:

@@ -41,41 +41,41 @@ Message sentence_about(const UnplacedEntries& entries) {
     const MessageList names = entries.quoted_names();
     switch (entries.kind) {
         case UnplacedEntries::Kind::kTable:
-            return one ? Message("In {} the table {} is reported, but has no place in the text.", kOwnScript, names)
-                       : Message("In {} the tables {} are reported, but have no place in the text.", kOwnScript, names);
+            return one ? Message("In {} the table {} is passed to the report but never shown.", kOwnScript, names)
+                       : Message("In {} the tables {} are passed to the report but never shown.", kOwnScript, names);
         case UnplacedEntries::Kind::kText:
-            return one ? Message("In {} the text {} is reported, but has no place in the text.", kOwnScript, names)
-                       : Message("In {} the texts {} are reported, but have no place in the text.", kOwnScript, names);
+            return one ? Message("In {} the text {} is passed to the report but never shown.", kOwnScript, names)
+                       : Message("In {} the texts {} are passed to the report but never shown.", kOwnScript, names);
         case UnplacedEntries::Kind::kValue:
-            return one ? Message("In {} the value {} is reported, but has no place in the text.", kOwnScript, names)
-                       : Message("In {} the values {} are reported, but have no place in the text.", kOwnScript, names);
+            return one ? Message("In {} the value {} is passed to the report but never shown.", kOwnScript, names)
+                       : Message("In {} the values {} are passed to the report but never shown.", kOwnScript, names);
         case UnplacedEntries::Kind::kFigure:
             break;
     }
-    return one ? Message("In {} the figure {} is reported, but has no place in the text.", kOwnScript, names)
-               : Message("In {} the figures {} are reported, but have no place in the text.", kOwnScript, names);
+    return one ? Message("In {} the figure {} is passed to the report but never shown.", kOwnScript, names)
+               : Message("In {} the figures {} are passed to the report but never shown.", kOwnScript, names);
 }
 
 Message sentence_about_missing(const ExpectedAnswer& answer) {
     const std::string &name = answer.name, &kind = answer.kind;
-    if (kind == "number") return Message("The answer \"{}\" (number) is not given.", name);
-    if (kind == "text") return Message("The answer \"{}\" (text) is not given.", name);
-    if (kind == "truth") return Message("The answer \"{}\" (truth) is not given.", name);
-    if (kind == "vector") return Message("The answer \"{}\" (vector) is not given.", name);
-    if (kind == "matrix") return Message("The answer \"{}\" (matrix) is not given.", name);
-    if (kind == "data") return Message("The answer \"{}\" (data) is not given.", name);
-    if (kind == "model") return Message("The answer \"{}\" (model) is not given.", name);
-    if (kind == "response") return Message("The answer \"{}\" (response) is not given.", name);
-    return Message("The answer \"{}\" (table) is not given.", name);
+    if (kind == "number") return Message("The answer \"{}\" (number) is missing.", name);
+    if (kind == "text") return Message("The answer \"{}\" (text) is missing.", name);
+    if (kind == "truth") return Message("The answer \"{}\" (truth) is missing.", name);
+    if (kind == "vector") return Message("The answer \"{}\" (vector) is missing.", name);
+    if (kind == "matrix") return Message("The answer \"{}\" (matrix) is missing.", name);
+    if (kind == "data") return Message("The answer \"{}\" (data) is missing.", name);
+    if (kind == "model") return Message("The answer \"{}\" (model) is missing.", name);
+    if (kind == "response") return Message("The answer \"{}\" (response) is missing.", name);
+    return Message("The answer \"{}\" (table) is missing.", name);
 }
 
 Message remedy_for(const UnplacedEntries& entries) {
     const std::string& name = entries.names.front();
     if (entries.kind == UnplacedEntries::Kind::kTable)
-        return Message("Write ::: {.table name={}} above and ::: below its caption there.", name);
+        return Message("Write ::: {.table name={}} above its caption and ::: below its caption.", name);
     if (entries.kind == UnplacedEntries::Kind::kText)
-        return Message("Write ::: {.text name={}} and ::: below there.", name);
-    return Message("Write {} there.", entries.slot());
+        return Message("Write ::: {.text name={}} and, on a later line, :::.", name);
+    return Message("Write {} in the text.", entries.slot());
 }
 
 /// One folder's check: a clean copy, what runs in it, and what is found.
@@ -136,8 +136,8 @@ class FolderCheck {
             if (fs::is_regular_file(fs::symlink_status(folder_ / needed))) continue;
             if (needed == kOwnScript && fs::is_regular_file(fs::symlink_status(folder_ / kOwnNotebook))) continue;
             add("analysis-missing", Severity::kRule, needed, Message("The folder has no file {}.", needed),
-                Message(
-                    "Hand in the whole folder that dynlab new made, with analysis.lua and report.md directly in it."));
+                Message("Submit the complete folder that dynlab new made, with analysis.lua and report.md at its top "
+                        "level."));
         }
         return result_.findings.empty();
     }
@@ -146,14 +146,14 @@ class FolderCheck {
         const FolderCopy outcome = copy_folder(folder_, copy(), limits_.folder_bytes, limits_.files);
         for (const std::string& name : outcome.left_out) {
             add("link-left-out", Severity::kHint, name,
-                Message("This is a link or not a regular file; it is not handed in."),
-                Message("Put the file itself there."));
+                Message("This is a link or not a regular file; it is not submitted."),
+                Message("Put the file itself in its place."));
         }
         if (!outcome.too_large) return scripts_made();
         add("folder-too-large", Severity::kRule, "",
-            Message("The folder is too large: at most {} files and {} MB are looked at.", limits_.files,
+            Message("The folder is too large: dynlab examines at most {} files and {} MB.", limits_.files,
                     limits_.folder_bytes >> 20),
-            Message("Take out what the report does not need."));
+            Message("Remove files that the report does not need."));
         return false;
     }
 
@@ -163,7 +163,8 @@ class FolderCheck {
             of_notebook_ = !take_notebooks(copy()).empty();
             return true;
         } catch (const SubmissionError& error) {
-            add("analysis-fails", Severity::kRule, kOwnNotebook, error.message(), Message("Save it again in Jupyter."));
+            add("analysis-fails", Severity::kRule, kOwnNotebook, error.message(),
+                Message("Save the notebook again in Jupyter."));
             return false;
         }
     }
@@ -192,9 +193,9 @@ class FolderCheck {
 
     void add_failure(const Message& message) {
         add("analysis-fails", Severity::kRule, "",
-            Message("From a clean copy of the folder no report comes out: {}", message),
-            Message("Mend it and try \"dynlab report FOLDER\"; every file the analysis reads must lie in the folder or "
-                    "in data."));
+            Message("The report cannot be built from a clean copy of the folder: {}", message),
+            Message("Fix the error and run \"dynlab report FOLDER\". Every file that the analysis reads must be in the "
+                    "folder or in data."));
     }
 
     /// The script stopped.
@@ -202,9 +203,9 @@ class FolderCheck {
         if (!is_refusal_outside(error.message)) return add_failure(with_place(error));
         const int line = error.line_in(kOwnScript);
         add("file-outside", Severity::kRule, line > 0 ? fmt::format("{}:{}", kOwnScript, line) : "",
-            Message("The analysis reads a file that is not handed in, and stops there: {}.",
+            Message("The analysis stops because it reads a file that is not submitted: {}.",
                     line > 0 ? error.message : with_place(error)),
-            Message("Copy the file into the folder and load it by its name there."));
+            Message("Copy the file into the folder and load it by its name."));
     }
 
     bool makes_report() {
@@ -257,11 +258,11 @@ class FolderCheck {
             const std::string& one = code.empty() ? words : code;
             const bool both = !code.empty() && !words.empty();
             add("answer-open", Severity::kRule, fmt::format("analysis.lua:{}", line),
-                asked.empty() ? Message("The line \"{}\" is still there.", one)
-                : both
-                    ? Message("Question {} is open: the lines \"{}\" and \"{}\" are still there.", asked, code, words)
-                    : Message("Question {} is open: the line \"{}\" is still there.", asked, one),
-                Message("Write your own there and take the line out."));
+                asked.empty() ? Message("The line \"{}\" is still in the text.", one)
+                : both ? Message("Question {} is open: the lines \"{}\" and \"{}\" are still in the text.", asked, code,
+                                 words)
+                       : Message("Question {} is open: the line \"{}\" is still in the text.", asked, one),
+                Message("Replace it with your own answer."));
         }
     }
 
@@ -279,8 +280,8 @@ class FolderCheck {
             RE2::GlobalReplace(&line, kNotProse, " ");
             if (std::string product; RE2::PartialMatch(line, kStars, &product))
                 add("stars-lost", Severity::kHint, fmt::format("{}:{}", file, line_number),
-                    Message("\"{}\" is printed without its stars: Markdown takes them for italics.", product),
-                    Message("Write a product as a formula, $2 \\cdot 3$, or each star as \\*."));
+                    Message("\"{}\" is printed without its asterisks: Markdown reads them as italics.", product),
+                    Message("Write a product as a formula, $2 \\cdot 3$, or each asterisk as \\*."));
             ++line_number;
         }
     }
@@ -290,8 +291,8 @@ class FolderCheck {
         for (const Cell& cell : script.cells) {
             if (cell.repeats.empty()) continue;
             add("cell-copied", Severity::kHint, fmt::format("analysis.lua:{}", cell.first_line),
-                Message("Another cell has the id \"{}\" already.", cell.repeats),
-                Message("Take the copy out, or give it an id of its own."));
+                Message("Another cell already has the id \"{}\".", cell.repeats),
+                Message("Remove the copy, or give it a different id."));
         }
     }
 
@@ -300,7 +301,7 @@ class FolderCheck {
         for (const ExpectedAnswer& answer : script.header.answers) {
             if (run.answers.contains(answer.name)) continue;
             add("answer-missing", Severity::kRule, "analysis.lua", sentence_about_missing(answer),
-                Message("Give it: answer(\"{}\", ...).", answer.name));
+                Message("Submit it: answer(\"{}\", ...).", answer.name));
         }
     }
 
@@ -378,8 +379,8 @@ class FolderCheck {
         for (const Student& member : members) names.add(member, true);
         if (members.empty() && fs::exists(copy() / "group.toml"))
             add("members-missing", Severity::kHint, "group.toml",
-                Message("No members stand there, so your names were not looked for in the report."),
-                Message("Write them in: members = [\"Ada Lovelace\", \"Rudolf Kalman\"]."));
+                Message("No members are listed, so the report was not searched for your names."),
+                Message("Add them: members = [\"Ada Lovelace\", \"Rudolf Kalman\"]."));
         wishes.names = std::make_shared<const IdentityMatcher>(std::move(names));
     }
 
@@ -406,8 +407,8 @@ class FolderCheck {
     }
 
     static Message make_again(const std::string& name) {
-        if (name == "report.pdf") return Message("Make it again: dynlab report FOLDER");
-        return Message("Make it again: dynlab report FOLDER -o FOLDER/{}", name);
+        if (name == "report.pdf") return Message("Make the PDF again: dynlab report FOLDER");
+        return Message("Make the PDF again: dynlab report FOLDER -o FOLDER/{}", name);
     }
 
     void compare_with(const fs::path& handed_in) {
@@ -420,11 +421,11 @@ class FolderCheck {
         const bool outdated =
             written < fs::last_write_time(copy() / kOwnScript) || written < fs::last_write_time(copy() / "report.md");
         if (outdated) {
-            add("pdf-outdated", Severity::kHint, name,
-                Message("The PDF is older than the analysis or the text it was made from."), make_again(name));
-        } else {
-            add("pdf-differs", Severity::kHint, name, Message("The PDF is not what the folder gives now."),
+            add("pdf-outdated", Severity::kHint, name, Message("The PDF is older than the analysis or the text."),
                 make_again(name));
+        } else {
+            add("pdf-differs", Severity::kHint, name,
+                Message("The PDF differs from the PDF that the folder produces now."), make_again(name));
         }
     }
 

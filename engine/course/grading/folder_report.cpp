@@ -81,11 +81,11 @@ FolderReport make_folder_report(const fs::path& folder, const fs::path& out, con
     if (made.timed_out)
         none.failure = Message("{}.", reason_of_end(made, time));
     else if (made.output_exceeded)
-        none.failure = Message("it prints more than 16 MB.");
+        none.failure = Message("the script prints more than 16 MB.");
     else if (made.exit_code == 128 + SIGXFSZ)
-        none.failure = Message("it writes a file of more than {} MB.", kLargestMade >> 20);
+        none.failure = Message("the script writes a file of more than {} MB.", kLargestMade >> 20);
     else if (made.error_output.empty())
-        none.failure = Message("it ends with code {} and without a message.", made.exit_code);
+        none.failure = Message("the script ends with code {} and without a message.", made.exit_code);
     else
         none.failure = said;
     return none;

@@ -46,7 +46,7 @@ auto read_results(const std::string& text, const Read& read) {
     } catch (const json::exception&) {
     } catch (const ValueError&) {
     }
-    throw EnvironmentError("this is not a result that dynlab grade wrote");
+    throw EnvironmentError("this result was not written by dynlab grade");
 }
 
 }  // namespace
@@ -84,8 +84,7 @@ std::string to_results_json(const Grade& grade, const Grade& marked) {
     MessageList output{{}, Join::kLines};
     if (!grade.trouble.empty()) output.items.push_back(grade.trouble);
     if (costs)
-        output.items.push_back(
-            Message("Late, which costs {} points: {}.", decimals(marked.penalty, 2), grade.lateness));
+        output.items.push_back(Message("Late, minus {} points: {}.", decimals(marked.penalty, 2), grade.lateness));
     if (marked.whole_mark) output.items.push_back(Message("Marked as a whole: {}", marked.whole_reason));
     json j = {{"output", message_text(Message("{}", output))},
               {"stdout_visibility", "hidden"},

@@ -174,7 +174,8 @@ class ClassGrader {
             if (!grade) continue;
             if (grade->fingerprint != pipeline_.key_of(item))
                 outcome_.complaints.push_back(
-                    Message("the marks of \"{}\" are from before it, the checks or the program changed; grade it, too",
+                    Message("the marks of \"{}\" are from before the submission, the checks or the program changed; "
+                            "include it in --only",
                             item.submission.name));
             keep(i, pipeline_.finish(item, *std::move(grade), false));
         }
@@ -226,8 +227,7 @@ const GradingSetup& isolated(const GradingSetup& setup) {
 FileLock lock_results(const fs::path& out) {
     fs::create_directories(out);
     FileLock lock(out / ".lock");
-    if (!lock.held())
-        throw EnvironmentError("another dynlab grade is at work in {}; wait until it is done", out.string());
+    if (!lock.held()) throw EnvironmentError("another dynlab grade is running in {}; wait until it ends", out.string());
     return lock;
 }
 

@@ -36,7 +36,7 @@ GradingPipeline::Run GradingPipeline::run(const WorkItem& item) const {
         CheckedSubmission work = rules_.work_in(staged.folder, item.seed, log, staged.of_notebook);
         return KeptRuns{key, std::move(work), staged.remark, staged.language};
     });
-    return {std::move(runs), log.empty() ? "the runs are those of before\n" : log};
+    return {std::move(runs), log.empty() ? "the earlier runs were used\n" : log};
 }
 
 std::vector<Grade> GradingPipeline::check(std::vector<ToCheck> submissions) const {

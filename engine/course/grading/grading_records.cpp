@@ -79,7 +79,8 @@ void GradingRules::make_records_of_declared_rigs() {
             specimens_[run][rig] = specimen;
         }
     const BoxedResult<CheckResults> made = listed(wanted);
-    if (!made.output) throw EnvironmentError("the rigs that the checks declare cannot be run: {}", made.reason);
+    if (!made.output)
+        throw EnvironmentError("the simulated plants that the checks declare cannot be run: {}", made.reason);
     if (made.output->error) throw EnvironmentError(*made.output->error);
     for (std::size_t k = 0; k < files.size(); ++k) {
         VariableTable variables;

@@ -64,8 +64,8 @@ std::string hash_of_parts(const std::vector<std::string>& parts) {
     std::vector<std::string> names;
     for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
     throw EnvironmentError(
-        "the check \"{}\" wants a rerun on \"{}\", but records are made of {}, by rigs that the checks declare, or "
-        "taken from rerun/NAME.csv in the folder of the checks; the seed is changed with \"seed\"",
+        "the check \"{}\" requests a rerun on \"{}\". Use {}, a plant that the checks declare, or rerun/NAME.csv in "
+        "the folder of the checks; \"seed\" changes the seed",
         check, rerun, listed(names));
 }
 
@@ -90,11 +90,11 @@ void GradingRules::read_checks() {
     if (setup_.more_checks) {
         std::vector<fs::path> more;
         if (!fs::is_directory(*setup_.more_checks))
-            throw EnvironmentError("there is no folder '{}'", setup_.more_checks->string());
+            throw EnvironmentError("folder not found: '{}'", setup_.more_checks->string());
         for (const auto& entry : fs::directory_iterator(*setup_.more_checks))
             if (entry.path().extension() == ".lua") more.push_back(entry.path());
         if (more.empty())
-            throw EnvironmentError("the folder '{}' holds no checks: there is no file *.lua in it",
+            throw EnvironmentError("the folder '{}' contains no checks: it has no file *.lua",
                                    setup_.more_checks->string());
         std::ranges::sort(more);
         for (const fs::path& file : more) files_.push_back({file.filename().string(), read_text(file), false});
@@ -110,8 +110,8 @@ void GradingRules::read_checks() {
         document_ = document_ || check.document;
         if (check.document && !fs::exists(setup_.lesson.report("en")))
             throw EnvironmentError(
-                "the check \"{}\" looks at the document, but lesson {} ends with none: document = true is for lessons "
-                "with a report.en.md beside lesson.lua",
+                "the check \"{}\" examines the document, but lesson {} has none: document = true is for lessons with "
+                "report.en.md in their folder",
                 check.id, setup_.lesson.slug);
         if (rerun.empty()) continue;
         const bool declared = std::ranges::find(declared_rigs_, rerun) != declared_rigs_.end();
@@ -150,11 +150,11 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
             "when less is running, or with fewer --jobs",
             limits.seconds(TimeLimit::kProcessor), limits.seconds(TimeLimit::kClock));
     GradedRun run = result.output.value_or(GradedRun());
-    if (!result.output) run.error = Message("The script was ended: {}.", result.reason);
+    if (!result.output) run.error = Message("The script was stopped: {}.", result.reason);
     const auto solution = solution_seconds_.find(name);
     log += fmt::format(
-        "run {}: {:.3f} s of processor time{}, {:.3f} s by the clock in its box\n{}", name, run.seconds,
-        solution == solution_seconds_.end() ? "" : fmt::format(" (the worked solution: {:.3f} s)", solution->second),
+        "run {}: {:.3f} s of processor time{}, {:.3f} s elapsed time in its sandbox\n{}", name, run.seconds,
+        solution == solution_seconds_.end() ? "" : fmt::format(" (reference solution: {:.3f} s)", solution->second),
         result.seconds, run.error ? "  " + message_text(shortened_trouble(*run.error)) + "\n" : "");
     return run;
 }
@@ -241,10 +241,10 @@ std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<Check
     std::vector<Work> works;
     for (const CheckedSubmission& submission : submissions) works.push_back({"", submission, {}, ""});
     auto result = checked(works, kSingleTime);
-    if (!result.output) throw EnvironmentError("the checks come to no end: {}", result.reason);
+    if (!result.output) throw EnvironmentError("the checks do not terminate: {}", result.reason);
     std::vector<std::vector<TriedCheck>> all;
     for (JudgedSubmission& judged : result.output->judged) {
-        if (!judged.reason.empty()) throw EnvironmentError("the checks come to no end: {}", judged.reason);
+        if (!judged.reason.empty()) throw EnvironmentError("the checks do not terminate: {}", judged.reason);
         all.push_back(std::move(judged.checks));
     }
     return all;
@@ -252,7 +252,7 @@ std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<Check
 
 /// Each check in a box of its own; only those stay without a verdict that come to no end there.
 std::vector<GradingRules::Tried> GradingRules::verdicts_one_by_one(const Work& work) const {
-    const Message unreadable_result = Message("its result cannot be read");
+    const Message unreadable_result = Message("the result of the run cannot be read");
     std::vector<Tried> all;
     for (std::size_t k = 0; k < checks_.size(); ++k) {
         const auto alone = checked({work}, kSingleTime / static_cast<int>(checks_.size()), k);

@@ -43,8 +43,8 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
     const TemporaryFolder copy;
     const FolderCopy copied = copy_folder(folder, copy.path(), kMostPackedBytes, kMostFiles);
     if (copied.too_large)
-        throw EnvironmentError("{} is too large: at most {} files and {} MB are handed in", folder.string(), kMostFiles,
-                               kMostPackedBytes >> 20);
+        throw EnvironmentError("{} is too large: a submission has at most {} files and {} MB", folder.string(),
+                               kMostFiles, kMostPackedBytes >> 20);
     take_notebooks(copy.path());
     std::map<std::string, std::string> contents = contents_of(copy.path());
     std::erase_if(contents, [](const auto& entry) {

@@ -28,11 +28,11 @@ Message reason_of(const LatePolicy& policy, std::int64_t received) {
     const Message duration = duration_message(received - policy.deadline);
     if (policy.most_percent < 100)
         return Message(
-            "received {}, {} after the deadline of {}; {} % of the points are taken off for each day or part of a day, "
-            "at most {} %",
+            "received {}, {} after the deadline of {}; the penalty is {} % of the points for each day or part of a "
+            "day, at most {} %",
             came, duration, due, significant(policy.percent_per_day, 4), significant(policy.most_percent, 4));
     return Message(
-        "received {}, {} after the deadline of {}; {} % of the points are taken off for each day or part of a day",
+        "received {}, {} after the deadline of {}; the penalty is {} % of the points for each day or part of a day",
         came, duration, due, significant(policy.percent_per_day, 4));
 }
 
@@ -71,7 +71,7 @@ void conclude_lateness(ClassWork& work) {
         if (lateness.waiting_percent == 0) continue;
         ++work.unconfirmed;
         work.attention.push_back(
-            Message("\"{}\" came {} after its deadline, and a penalty of {} % is not applied yet: accept it with "
+            Message("\"{}\" arrived {} after its deadline, and a penalty of {} % is not applied yet; apply it with "
                     "--accept-late, or correct the time of receipt",
                     item->submission.name, duration_message(lateness.late), significant(lateness.waiting_percent, 4)));
     }

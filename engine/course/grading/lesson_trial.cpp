@@ -85,8 +85,9 @@ void look_at_solutions(const Lesson& lesson, Faults& faults) {
         const PercentScript script = read_percent_script(lesson.script());
         const std::string starter = without_solutions(script.source, lesson.script(), script.header.language);
         if (starter == script.source)
-            faults.add(lesson.script(), 0,
-                       Message("nothing stands between BEGIN SOLUTION and END SOLUTION: students get it all"));
+            faults.add(
+                lesson.script(), 0,
+                Message("BEGIN SOLUTION and END SOLUTION enclose no line, so that students get the complete script"));
         if (script.header.title.empty()) faults.add(lesson.script(), 0, Message("the header has no title"));
         if (script.header.lesson != lesson.slug)
             faults.add(lesson.script(), 0,
@@ -131,25 +132,26 @@ void look_at_starter(const Lesson& lesson, const TriedScript& starter, Faults& f
 /// Of wrong_*.lua and right_*.lua, which has nothing to expect.
 void look_at_attempt(const fs::path& file, const TriedScript& tried, Faults& faults) {
     const std::vector<Intended> intended = intended_failures(file);
-    if (!tried.trouble.empty()) faults.add(file, line_of_trouble(tried), Message("it stops: {}", tried.trouble));
+    if (!tried.trouble.empty()) faults.add(file, line_of_trouble(tried), Message("the run stops: {}", tried.trouble));
     if (intended.empty() && tried.name.starts_with("wrong_"))
-        faults.add(file, 0, Message("no line \"-- expects: CHECK: words\" says which check it fails"));
+        faults.add(file, 0, Message("no line \"-- expects: CHECK: words\" names the check that the script fails"));
     for (const Intended& one : intended) {
         const auto check = std::find_if(tried.checks.begin(), tried.checks.end(),
                                         [&](const TriedCheck& candidate) { return candidate.check.id == one.check; });
         if (check == tried.checks.end())
-            faults.add(file, one.line, Message("there is no check \"{}\"", one.check));
+            faults.add(file, one.line, Message("unknown check \"{}\"", one.check));
         else if (is_full(*check))
-            faults.add(file, one.line, Message("it passes the check \"{}\", which it is to fail", one.check));
+            faults.add(file, one.line, Message("the script passes the check \"{}\", which it must fail", one.check));
         else if (message_text(check->message).find(one.words) == std::string::npos)
             faults.add(file, one.line,
-                       Message("the check \"{}\" says \"{}\", without \"{}\"", one.check, check->message, one.words));
+                       Message("the check \"{}\" gives the message \"{}\", which does not contain \"{}\"", one.check,
+                               check->message, one.words));
     }
     for (const TriedCheck& one : tried.checks) {
         const bool meant = std::any_of(intended.begin(), intended.end(),
                                        [&](const Intended& line) { return line.check == one.check.id; });
         if (!meant && !is_full(one))
-            faults.add(file, 0, Message("it fails the check \"{}\": {}", one.check.id, one.message));
+            faults.add(file, 0, Message("the script fails the check \"{}\": {}", one.check.id, one.message));
     }
 }
 
@@ -169,7 +171,7 @@ void look_at_pdf(const fs::path& pdf, const fs::path& source, const DocumentStan
     for (const PdfPage& page : read_pdf_layout(pdf).pages)
         for (const PdfWord& word : page.words)
             if (word.text.find("SOLUTION") != std::string::npos)
-                return faults.add(source, 0, Message("a mark of a solution is printed in its report"));
+                return faults.add(source, 0, Message("the report shows a BEGIN SOLUTION or END SOLUTION marker"));
 }
 
 void look_at_report(const Lesson& lesson, const std::string& language, const std::string& own, const fs::path& folder,
@@ -199,7 +201,7 @@ void look_at_copy(const Lesson& lesson, const std::string& language, const fs::p
         for (const char* kind : {"values", "answers"})
             if (record.contains(kind) && !record.at(kind).empty())
                 faults.add(lesson.script(), 0,
-                           Message("the student's copy ({}) gives {} of the solution: {}", language, kind,
+                           Message("the student's copy ({}) contains {} of the solution: {}", language, kind,
                                    record.at(kind).begin().key()));
     });
 }
@@ -209,7 +211,7 @@ void look_at_translated_checks(const Lesson& lesson, const std::string& language
     if (!fs::exists(checks)) return;
     if (!fs::exists(words)) {
         if (fs::exists(lesson.tasks(language)))
-            faults.add(words, 0, Message("it is missing: checks and hints are in English in the feedback"));
+            faults.add(words, 0, Message("the file is missing: the feedback gives checks and hints in English"));
         return;
     }
     faults.attempt(words, [&] {
@@ -232,15 +234,16 @@ void look_at_tasks(const Lesson& lesson, const std::string& language, Faults& fa
     faults.attempt(tasks, [&] {
         const bool fits = lesson_script(lesson, language).header.language == language;
         if (const std::string said = read_percent_script(tasks).header.language; said != language)
-            faults.add(tasks, 0,
-                       Message("the header says \"language: {}\", but the file's name says {}: dynlab sheet --lang {} "
-                               "refuses it",
-                               said, language, language));
+            faults.add(
+                tasks, 0,
+                Message("the header has \"language: {}\", but the file name has {}: dynlab sheet --lang {} refuses it",
+                        said, language, language));
         else if (!fits)
-            faults.add(lesson.script(), 0,
-                       Message("the header has no line \"language: en\", so that dynlab sheet --lang {} refuses the "
-                               "translated tasks",
-                               language));
+            faults.add(
+                lesson.script(), 0,
+                Message(
+                    "the header has no line \"language: en\", so dynlab sheet --lang {} refuses the translated tasks",
+                    language));
     });
 }
 
@@ -268,7 +271,7 @@ LessonFaults faults_of_texts(const Lesson& lesson) {
                 if (file != lesson.script() || found.kind != "header") faults.add(file, found.line, found.message);
         });
     }
-    if (!fs::exists(lesson.folder / "checks.lua")) faults.add("checks.lua", 0, Message("there are no checks"));
+    if (!fs::exists(lesson.folder / "checks.lua")) faults.add("checks.lua", 0, Message("the lesson has no checks"));
     for (const char* language : kLanguages) {
         if (fs::exists(lesson.hints(language)))
             faults.attempt(lesson.hints(language), [&] { read_hints(lesson.hints(language)); });
@@ -284,11 +287,11 @@ LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial) {
     Faults faults(lesson);
     if (!trial.solution.trouble.empty())
         faults.add(lesson.script(), line_of_trouble(trial.solution),
-                   Message("the worked solution stops: {}", trial.solution.trouble));
+                   Message("the reference solution stops: {}", trial.solution.trouble));
     for (const TriedCheck& one : trial.solution.checks)
         if (!is_full(one))
             faults.add(lesson.script(), 0,
-                       Message("the worked solution does not pass the check \"{}\": {}", one.check.id,
+                       Message("the reference solution does not pass the check \"{}\": {}", one.check.id,
                                one.for_instructor.empty() ? one.message : one.for_instructor));
     bool wrong = false;
     for (const TriedScript& script : trial.scripts) {
@@ -298,7 +301,7 @@ LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial) {
         else
             look_at_starter(lesson, script, faults);
     }
-    if (!wrong) faults.add("checks.lua", 0, Message("no wrong_*.lua shows what the checks are to catch"));
+    if (!wrong) faults.add("checks.lua", 0, Message("no wrong_*.lua shows a mistake that the checks must detect"));
     return faults.found();
 }
 
@@ -307,11 +310,11 @@ LessonFaults giveaways_of(const CheckTrial& trial) {
     for (const TriedScript& script : trial.typed)
         for (const TriedCheck& one : script.checks)
             if (one.check.visible && !one.check.by_hand && one.share.value_or(0) == 1)
-                found.push_back({"checks.lua", 0,
-                                 Message("students read this file, and the check \"{}\" is passed by typing in {}: "
-                                         "compute what is expected from the data, or move the check into the folder of "
-                                         "your own checks (--checks)",
-                                         one.check.id, script.name)});
+                found.push_back(
+                    {"checks.lua", 0,
+                     Message("students read this file, and can pass the check \"{}\" by entering {}: compute the "
+                             "expected value from the data, or move the check into the folder for --checks",
+                             one.check.id, script.name)});
     return found;
 }
 

@@ -46,7 +46,7 @@ class MarkedItems {
     Found find(const std::string& who) const {
         Found found;
         if (who.empty()) {
-            found.trouble = Message("the row has points and names nobody; fill in the column who");
+            found.trouble = Message("the row has points but no name; fill in the column who");
             return found;
         }
         const auto take = [&](const auto& fits) {
@@ -67,14 +67,12 @@ class MarkedItems {
         for (const WorkItem* item : found.items) owners.insert(owner_of(*item));
         if (owners.size() > 1 || owner.doubtful) {
             const std::vector<std::string> names(owners.begin(), owners.end());
-            found.trouble = owner.doubtful ? Message("\"{}\" could mean several: {}", who, owner.trouble)
-                                           : Message("\"{}\" could mean several: {}", who, base::listed(names));
+            found.trouble = owner.doubtful ? Message("\"{}\" is ambiguous: {}", who, owner.trouble)
+                                           : Message("\"{}\" is ambiguous: {}", who, base::listed(names));
             found.items.clear();
         } else if (found.items.empty()) {
-            found.trouble =
-                owner.anybody()
-                    ? Message("\"{}\" has submitted nothing", who)
-                    : Message("there is no submission \"{}\", nor one of a group or student of that name", who);
+            found.trouble = owner.anybody() ? Message("\"{}\" has submitted nothing", who)
+                                            : Message("no submission, group or student is named \"{}\"", who);
         }
         return found;
     }
@@ -105,7 +103,7 @@ void MarksFile::read() {
     const auto who = first_column(table_, {"who", "submission", "group", "id", "student", "name"}),
                check = table_.column("check"), points = table_.column("points");
     if (!who || !check || !points)
-        throw EnvironmentError("{}: the columns who, check and points are needed; there are {}", file_.string(),
+        throw EnvironmentError("{}: the columns who, check and points are required; the columns are {}", file_.string(),
                                listed(table_.names));
     if (!first_column(table_, {"reason", "comment"})) {
         table_.names.emplace_back("reason");
@@ -135,8 +133,8 @@ void MarksFile::take_in(const fs::path& former) {
     const auto who = first_column(table, {"submission", "who"}), check = table.column("check"),
                points = table.column("points"), reason = first_column(table, {"reason", "comment"});
     if (!who || !check || !points)
-        throw EnvironmentError("{}: the columns submission, check and points are needed; there are {}", former.string(),
-                               listed(table.names));
+        throw EnvironmentError("{}: the columns submission, check and points are required; the columns are {}",
+                               former.string(), listed(table.names));
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& cells = table.rows[i];
         if (cells[*points].empty()) continue;
@@ -214,10 +212,11 @@ ManualMarks::ManualMarks(const fs::path& results, const ClassWork& work, const s
         if (found.items.empty())
             complain(found.trouble);
         else if (check == most.end())
-            complain(Message("there is no check \"{}\" (for \"{}\"); * is the whole submission", row.check, row.who));
+            complain(Message("unknown check \"{}\" (for \"{}\"); * means the complete submission", row.check, row.who));
         else if (*row.points > check->second && !above_maximum)
-            complain(Message("\"{}\" gets {} points for the check \"{}\", which has {}; correct it, or give --force",
-                             row.who, points_text(*row.points), row.check, points_text(check->second)));
+            complain(
+                Message("\"{}\" gets {} points for the check \"{}\", which has {}; correct the points, or give --force",
+                        row.who, points_text(*row.points), row.check, points_text(check->second)));
         else
             for (const WorkItem* item : found.items)
                 marks_[{item->submission.name, row.check}] = {*row.points, row.reason};

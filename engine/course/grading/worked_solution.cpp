@@ -24,15 +24,15 @@ Message complaint_about(const CheckDescription& check, const std::map<std::strin
         const Message trouble = shortened_trouble(*run->second.error);
         if (name == kMainRun)
             return Message(
-                "the worked solution does not pass the check \"{}\", which is left ungraded: its run stopped: "
-                "{}; {}",
+                "the reference solution does not pass the check \"{}\", which is left ungraded: its run stopped: {}; "
+                "{}",
                 check.id, trouble, said);
         return Message(
-            "the worked solution does not pass the check \"{}\", which is left ungraded: its run on {} "
-            "stopped: {}; {}",
+            "the reference solution does not pass the check \"{}\", which is left ungraded: its run on {} stopped: {}; "
+            "{}",
             check.id, name, trouble, said);
     }
-    return Message("the worked solution does not pass the check \"{}\", which is left ungraded: {}", check.id, said);
+    return Message("the reference solution does not pass the check \"{}\", which is left ungraded: {}", check.id, said);
 }
 
 /// Whether nothing stood in the way that may be gone another time, such as a busy machine.
@@ -62,13 +62,14 @@ std::vector<Message> GradingRules::try_solution(const fs::path& memory, bool ane
     const std::map<std::string, GradedRun> runs = kept->work.runs;
     const Grade solution = judged({{"solution", std::move(kept->work), {}, log}}).front();
     if (!solution.trouble.empty())
-        complaints.push_back(Message("the worked solution did not run to its end: {}", solution.trouble));
+        complaints.push_back(Message("the reference solution stopped: {}", solution.trouble));
     for (std::size_t k = 0; k < solution.checks.size(); ++k) {
         const CheckGrade& check = solution.checks[k];
         if (check.by_hand || (check.graded && check.earned == check.points)) continue;
         broken_.insert(check.id);
         const Message& told = check.for_instructor.empty() ? check.message : check.for_instructor;
-        complaints.push_back(complaint_about(checks_.at(k), runs, told.empty() ? Message("it returned false") : told));
+        complaints.push_back(
+            complaint_about(checks_.at(k), runs, told.empty() ? Message("the check returned false") : told));
     }
     return complaints;
 }
@@ -79,9 +80,8 @@ std::optional<Message> GradingRules::note_on_time() const {
     for (const auto& [name, seconds] : solution_seconds_) longest = std::max(longest, seconds);
     if (longest <= kMuchOfTheTime * most) return {};
     return Message(
-        "a run of the worked solution uses {} s of processor time, and submissions may use {} s ({} times as much); "
-        "give "
-        "more with --timeout, or students with slower scripts lose marks",
+        "a run of the reference solution uses {} s of processor time, and submissions may use {} s ({} times as much). "
+        "Increase --timeout, or students with slower scripts lose marks",
         decimals(longest, 1), significant(most, 6), decimals(most / longest, 1));
 }
 

@@ -78,7 +78,8 @@ Instant time_in(const std::string& text) {
     auto read = plain_clock_reading(utc ? text.substr(0, text.size() - 1) : text, utc);
     if (!read) read = clock_reading(text, {"%A, %d %B %Y, %I:%M %p", "%d %B %Y, %I:%M %p", "%A, %d %B %Y, %H:%M"});
     if (!read) read = plain_clock_reading(in_figures(text));
-    if (!read) throw InvalidArgument("the time must be one such as \"2026-03-01 18:00\", but \"{}\" was given", text);
+    if (!read)
+        throw InvalidArgument("the time must have a form such as \"2026-03-01 18:00\", but \"{}\" was given", text);
     if (!read->exists) throw InvalidArgument("the time \"{}\" does not exist in the course's time zone", text);
     return read->instant;
 }
@@ -98,8 +99,8 @@ ArrivalTimes::ArrivalTimes(const std::filesystem::path& csv) {
         if (is_time_of_submission(table.names[i])) when = i;
     if (whose.empty() || !when)
         throw EnvironmentError(
-            "{}: wanted are a column identifier, id, group, name or mail, and one \"last modified (submission)\", time "
-            "or received; there are {}",
+            "{}: required are a column identifier, id, group, name or mail, and one \"last modified (submission)\", "
+            "time or received; the columns are {}",
             csv.string(), listed(table.names));
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const std::string& text = table.rows[r][*when];
@@ -138,10 +139,10 @@ Message doubt_about_zone(std::vector<std::int64_t> late, std::size_t files) {
     const char* const set = std::getenv("TZ");
     const Message half = duration_message(late[late.size() / 2]);
     if (set == nullptr)
-        return Message("{} of {} files are late, half of them by {} or less: is the time zone of this machine right?",
+        return Message("{} of {} files are late, half of them by {} or less: check the time zone of this machine",
                        late.size(), files, half);
-    return Message("{} of {} files are late, half of them by {} or less: is the time zone {} right?", late.size(),
-                   files, half, set);
+    return Message("{} of {} files are late, half of them by {} or less: check the time zone {}", late.size(), files,
+                   half, set);
 }
 
 }  // namespace dynlab::inline course

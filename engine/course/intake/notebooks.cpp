@@ -27,8 +27,7 @@ bool notebook_holds(const fs::path& notebook, const fs::path& script, const std:
     if (of_notebook > of_script + kStepOfTimes) return true;
     if (of_script > of_notebook + kStepOfTimes) return false;
     throw SubmissionError(
-        "There are an analysis.lua and an analysis.ipynb that say different things, and which is newer cannot be told: "
-        "hand in one.");
+        "analysis.lua and analysis.ipynb differ, and it is unknown which one is newer: submit only one of them.");
 }
 
 }  // namespace
@@ -46,13 +45,13 @@ std::string script_of_handed_in(const fs::path& notebook) {
         },
         limits);
     if (read.time_limit() == TimeLimit::kProcessor)
-        throw SubmissionError("The notebook {} cannot be read: reading it used more than {} s of processor time.", name,
+        throw SubmissionError("The notebook {} cannot be read: reading used more than {} s of processor time.", name,
                               limits.time.seconds(TimeLimit::kProcessor));
     if (read.timed_out)
-        throw SubmissionError("The notebook {} cannot be read: reading it had not ended after {} s.", name,
+        throw SubmissionError("The notebook {} cannot be read: reading did not finish within {} s.", name,
                               limits.time.seconds(TimeLimit::kClock));
     if (read.exit_code != 0 || read.output.empty())
-        throw SubmissionError("The notebook {} cannot be read: reading it crashed (code {}).", name, read.exit_code);
+        throw SubmissionError("The notebook {} cannot be read: reading crashed (code {}).", name, read.exit_code);
     if (read.output.front() == '+') return read.output.substr(1);
     std::string what = read.output.substr(1);
     if (const std::string path = notebook.string() + ": "; what.starts_with(path)) what = what.substr(path.size());

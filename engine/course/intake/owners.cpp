@@ -177,8 +177,9 @@ void Owners::read_list(const std::filesystem::path& file) {
     const TextTable table = read_text_table(file);
     const auto submission = table.column("submission"), group = table.column("group"), id = table.column("id");
     if (!submission || (!group && !id))
-        throw EnvironmentError("{}: the columns submission and group, or submission and id, are needed; there are {}",
-                               file.string(), base::listed(table.names));
+        throw EnvironmentError(
+            "{}: the columns submission and group, or submission and id, are required; the columns are {}",
+            file.string(), base::listed(table.names));
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];
         const auto fail = [&](const Message& what) {
@@ -189,8 +190,8 @@ void Owners::read_list(const std::filesystem::path& file) {
         for (std::size_t k = 0; k < students_.size() && !owner; ++k)
             if (!named_id.empty() && students_[k].id == named_id) owner = owner_of_[k];
         if (!owner)
-            fail(named_id.empty() ? Message("there is no group \"{}\"", named_group)
-                                  : Message("there is no student with the id \"{}\"", named_id));
+            fail(named_id.empty() ? Message("unknown group \"{}\"", named_group)
+                                  : Message("no student has the id \"{}\"", named_id));
         const std::string key = archive_stem(composed(row[*submission])).value_or(composed(row[*submission]));
         if (!list_.emplace(key, *owner).second) fail(Message("\"{}\" has an owner already", key));
     }
@@ -275,13 +276,13 @@ std::vector<std::size_t> Owners::whole(const std::string& name, std::vector<std:
 Owners::Found Owners::found(const std::vector<std::size_t>& owners, bool by_beginning) const {
     Found result;
     if (owners.empty()) {
-        result.trouble = Message("it fits no group and no student");
+        result.trouble = Message("it matches no group and no student");
         return result;
     }
     if (owners.size() > 1) {
         std::vector<std::string> names;
         for (const std::size_t owner : owners) names.push_back(owners_[owner].name);
-        result.trouble = Message("it fits several: {}", base::listed(names));
+        result.trouble = Message("it matches several: {}", base::listed(names));
         result.doubtful = true;
         return result;
     }
@@ -370,7 +371,7 @@ Owners::Found Owners::as_written(const Submission& submission) const {
         if (!both.empty()) return found(both);
         Found contradiction;
         contradiction.doubtful = true;
-        contradiction.trouble = Message("its number {} is that of {}, its name fits {}", submission.lms_id,
+        contradiction.trouble = Message("its number {} belongs to {}, but its name matches {}", submission.lms_id,
                                         owners_[numbered.front()].name, owners_[owners.front()].name);
         return contradiction;
     }

@@ -88,7 +88,7 @@ void make_utf8(const fs::path& script) {
     try {
         write_file_atomically(script, decoded_text(script, bytes, notes));
     } catch (const EnvironmentError&) {
-        throw SubmissionError("Its analysis.lua is no text: save it in UTF-8 and hand it in again.");
+        throw SubmissionError("Its analysis.lua is not a text: save it in UTF-8 and submit it again.");
     }
     fs::last_write_time(script, written);
 }
@@ -115,7 +115,7 @@ void refuse_other_content(const fs::path& script) {
     in.read(start.data(), static_cast<std::streamsize>(kStart));
     start.resize(static_cast<std::size_t>(in.gcount()));
     if (start.starts_with("%PDF-"))
-        throw SubmissionError("Its analysis.lua is a PDF under another name: submit the script.");
+        throw SubmissionError("Its analysis.lua is a PDF with another file extension: submit the script.");
     if (start.find('\0') != std::string::npos)
         throw SubmissionError("Its analysis.lua is not a text: submit the script, saved in UTF-8.");
 }
@@ -127,7 +127,7 @@ MessageList listed_places(const std::vector<FoundScript>& found) {
 }
 
 [[noreturn]] void refuse_size(const SubmissionLimits& limits) {
-    throw SubmissionError("It is too large: at most {} files and {} MB are looked at.", limits.files,
+    throw SubmissionError("The submission is too large: dynlab examines at most {} files and {} MB.", limits.files,
                           limits.bytes >> 20);
 }
 
@@ -160,10 +160,10 @@ class Stager {
         const std::optional<FoundScript> newest = newest_of(found);
         if (!newest)
             throw SubmissionError(
-                "There are several folders with an analysis.lua, and which is the newest cannot be told: {}. Hand in "
-                "one.",
+                "Several folders contain an analysis.lua, and it is unknown which one is the newest: {}. Submit one of "
+                "them.",
                 listed_places(found));
-        return staged(*newest, Message("of {}, \"{}\" was taken as the newest", listed_places(found), newest->shown));
+        return staged(*newest, Message("of {}, \"{}\" was used as the newest", listed_places(found), newest->shown));
     }
 
   private:
@@ -185,7 +185,7 @@ class Stager {
         for (const auto& [folder, files] : meant) {
             if (files.size() > 1) continue;
             const std::string name = script_name_meant_by(files.front().filename().string());
-            renamed_ = Message("\"{}\" was taken as {}", shown_place(files.front(), root_), name);
+            renamed_ = Message("\"{}\" was used as {}", shown_place(files.front(), root_), name);
             fs::rename(files.front(), folder / name);
         }
         if (!renamed_.empty()) take_notebooks_in(root_);
@@ -252,18 +252,20 @@ class Stager {
         std::sort(others.begin(), others.end());
         if (near.empty() && others.empty())
             return left_out_.empty()
-                       ? Message("It is empty: there is no analysis.lua in it.")
-                       : with_rest(Message("Nothing in it can be read, so that there is no analysis.lua in it."));
+                       ? Message("The submission is empty: it contains no analysis.lua.")
+                       : with_rest(Message("No file of the submission can be read, and analysis.lua is missing."));
         if (!near.empty())
-            return with_rest(Message("There is no analysis.lua in it, but {}: hand it in under the name {}.",
-                                     listed(shortened_list(near)), notebook ? "analysis.ipynb" : "analysis.lua"));
+            return with_rest(
+                Message("The submission contains no analysis.lua, but {}: submit this file under the name {}.",
+                        listed(shortened_list(near)), notebook ? "analysis.ipynb" : "analysis.lua"));
         if (const std::string kind = closed_kind(others); !kind.empty())
             return with_rest(
-                Message("There is no analysis.lua in it, only {} ({} archives cannot be opened here; zip and "
-                        "tar can); hand in the folder that dynlab new made.",
+                Message("The submission contains no analysis.lua, only {} ({} archives cannot be opened; zip and tar "
+                        "can); submit the folder that dynlab new made.",
                         listed(shortened_list(others)), kind));
-        return with_rest(Message("There is no analysis.lua in it, only {}; hand in the folder that dynlab new made.",
-                                 listed(shortened_list(others))));
+        return with_rest(
+            Message("The submission contains no analysis.lua, only {}; submit the folder that dynlab new made.",
+                    listed(shortened_list(others))));
     }
 
     /// And what was not unpacked or copied, and why: the script may be among it.

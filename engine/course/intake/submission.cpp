@@ -147,7 +147,7 @@ class SubmissionReader {
         std::error_code ignored;
         if (!results_.empty() && fs::equivalent(entry, results_, ignored)) return;
         if (holds_results(entry)) {
-            left_out_.push_back(Message("\"{}\" holds the results of dynlab grade", name));
+            left_out_.push_back(Message("\"{}\" contains the results of dynlab grade", name));
             return;
         }
         Submission submission{name, entry};
@@ -237,7 +237,7 @@ std::optional<std::string> read_lms_name(Submission& submission) {
 
 std::vector<Submission> submissions_in(const fs::path& folder, std::vector<Message>& left_out,
                                        const fs::path& results) {
-    if (!fs::is_directory(folder)) throw EnvironmentError("there is no folder '{}'", folder.string());
+    if (!fs::is_directory(folder)) throw EnvironmentError("folder not found: '{}'", folder.string());
     const std::vector<fs::path> entries = entries_of(folder);
     const bool wrapped = entries.size() == 1 && is_folder(entries.front()) && !is_named_by_platform(entries.front());
     if (wrapped && is_export(entries.front())) return submissions_in(entries.front(), left_out, results);
@@ -245,7 +245,7 @@ std::vector<Submission> submissions_in(const fs::path& folder, std::vector<Messa
     for (const fs::path& entry : entries) reader.take(entry);
     std::vector<Submission> all = reader.all();
     if (all.empty())
-        throw EnvironmentError("'{}' holds no submissions: folders or archives (.zip, .tar.gz)", folder.string());
+        throw EnvironmentError("'{}' contains no submissions: folders or archives (.zip, .tar.gz)", folder.string());
     return all;
 }
 

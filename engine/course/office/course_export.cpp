@@ -151,7 +151,7 @@ std::string column_list(const StoredRow& row) {
     std::string list;
     for (const auto& [name, cell] : row) {
         const bool plain = std::ranges::all_of(name, [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); });
-        if (!plain || name.empty()) throw ValueError("there is no column \"{}\"", printable(name));
+        if (!plain || name.empty()) throw ValueError("the column \"{}\" is missing", printable(name));
         list += (list.empty() ? "" : ", ") + name;
     }
     return list;
@@ -192,11 +192,10 @@ void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::s
         Transaction transaction(db);
         for (const auto& [table, rows] : all.tables) {
             if (!db.query("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?", table).next())
-                throw EnvironmentError("there is no table \"{}\"", printable(table));
+                throw EnvironmentError("the table \"{}\" does not exist", printable(table));
             for (const StoredRow& row : rows) insert_row(db, table, row);
         }
-        if (db.query("PRAGMA foreign_key_check").next())
-            throw EnvironmentError("a row refers to one that is not there");
+        if (db.query("PRAGMA foreign_key_check").next()) throw EnvironmentError("a row refers to a missing row");
         transaction.commit();
     }
     Course course(folder);
@@ -270,7 +269,7 @@ std::string marks_csv(Course& course, const Assignment& a, Instant now) {
             if (const auto own = of_reviewers.find(id); own != of_reviewers.end()) remarks.push_back(own->second);
             if (a.is_report() && mark->scored == 0 && versions[id]["first"].contains(part))
                 remarks.emplace_back("no scored review");
-            if (a.is_report() && mark->scored == 1 && a.reviews > 1) remarks.emplace_back("rests on one review");
+            if (a.is_report() && mark->scored == 1 && a.reviews > 1) remarks.emplace_back("is based on one review");
             for (const Message& cost : mark->costs) remarks.push_back(message_text(cost));
             const StudentMark* const own = mark->own_points_of(s.id);
             for (const std::string& criterion : own ? own->zeros : mark->zeros)
@@ -313,22 +312,23 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
             handed_in.push_back(from / "files" / hash.substr(0, 2) / hash);
         }
     } catch (const ValueError& error) {
-        throw EnvironmentError("{}: this is not an export of dynlab course ({})", file.string(), message_of(error));
+        throw EnvironmentError("{}: the folder is not an export of dynlab course ({})", file.string(),
+                               message_of(error));
     }
     for (const char* needed : {"name", "zone"})
         if (!settings.contains(needed)) throw EnvironmentError("{}: the course's {} is missing", file.string(), needed);
     for (const fs::path& kept : handed_in)
         if (!fs::exists(kept))
             throw EnvironmentError(
-                "{} is not the folder of the exported course: the submitted file {} is not in it. Name that folder "
-                "with --from. Nothing was made",
+                "{} is not the folder of the exported course: it lacks the submitted file {}. Give that folder with "
+                "--from. Nothing was created",
                 from.string(), kept.filename().string());
     make_whole_folder(folder, [&](const fs::path& growing) {
         fs::permissions(growing, fs::perms::owner_all);
         try {
             fill_imported(growing, from, settings, handed_in, all);
         } catch (const EnvironmentError& error) {
-            throw EnvironmentError("{}: {}; nothing was made", file.string(), message_of(error));
+            throw EnvironmentError("{}: {}; nothing was created", file.string(), message_of(error));
         }
     });
 }

@@ -73,7 +73,7 @@ void take_back_lost_rows(Course& course, const Assignment& assignment, const Cou
         if (!mark.student.empty() || written.contains({marked, mark.item}) || before.of(marked, mark.item) == nullptr ||
             work.names_of(mark.group, mark.version).empty())
             continue;
-        give_mark(course, assignment, {mark.group, "", mark.item, {}, "its row was taken out", mark.version},
+        give_mark(course, assignment, {mark.group, "", mark.item, {}, "its row was removed", mark.version},
                   CourseClock::now());
     }
 }
@@ -127,7 +127,7 @@ fs::path results_folder(const Course& course, const Assignment& assignment) {
 
 std::string secret_in(const std::string& file) {
     std::string secret = read_file(file);
-    if (secret.empty()) throw EnvironmentError("{} is empty: hidden records drawn from it would be no secret", file);
+    if (secret.empty()) throw EnvironmentError("{} is empty: hidden data sets drawn from it would not be secret", file);
     return secret;
 }
 

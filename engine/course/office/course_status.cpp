@@ -38,7 +38,7 @@ std::string cell_of(const HandedInParts& parts, const std::string& main) {
     if (!h.trouble.empty())
         cell += " " + h.trouble;
     else if (h.rules_broken > 0)
-        cell += ", " + message_text(plural(h.rules_broken, "{} rule broken", "{} rules broken"));
+        cell += ", " + message_text(plural(h.rules_broken, "{} rule violated", "{} rules violated"));
     return cell;
 }
 
@@ -93,7 +93,7 @@ class Status {
     std::string not_taken() const {
         std::string text;
         for (const FileNotTaken& file : files_not_taken(course_, assignment_))
-            text += message_text(Message("Not taken: {}, {}: {}", file.name, course_.clock().show(file.received_at),
+            text += message_text(Message("Not accepted: {}, {}: {}", file.name, course_.clock().show(file.received_at),
                                          file.reason)) +
                     "\n";
         return text;
@@ -215,7 +215,7 @@ class Status {
         const auto found = first.find(main_);
         const auto only_pack = [&](const HandedInParts& parts, const char* of) {
             if (parts.contains("pack") && !parts.contains(main_))
-                things.push_back(fmt::format("no PDF in the pack{}: ask for one", of));
+                things.push_back(fmt::format("the pack contains no PDF{}: ask for this file", of));
         };
         const auto unread = [&](const HandedInParts& parts, const char* what) {
             const auto there = parts.find(kUnreadable), readable = parts.find(main_);
@@ -252,7 +252,7 @@ class Status {
                        kindred_.contains(std::pair(std::min(p.reviewer, p.author), std::max(p.reviewer, p.author)));
             }))
             things.push_back("reviews a report of a present or former member: review assign");
-        if (is_held(course_, assignment_, id, {})) things.push_back("its report is held back");
+        if (is_held(course_, assignment_, id, {})) things.push_back("its report is withheld");
         if (any_pair([id](const ReviewPair& p) { return p.author == id && p.newer_report; }) &&
             !is_held(course_, assignment_, id, {}))
             things.push_back("a newer version than was sent: review send");
@@ -261,27 +261,29 @@ class Status {
             }))
             things.push_back("a newer review than was released: review release");
         if (any_pair([&](const ReviewPair& p) { return p.reviewer == id && is_held(course_, assignment_, id, p.id); }))
-            things.push_back("a review by it is held back");
+            things.push_back("a review by it is withheld");
         if (any_pair([](const ReviewPair& p) { return p.sent; }) &&
             any_pair([id](const ReviewPair& p) { return p.author == id && !p.sent && !p.written; }) &&
             !is_held(course_, assignment_, id, {}))
-            things.push_back("its copy was not sent: review send tells why");
+            things.push_back("its copy was not sent: see review send");
         if (any_pair([](const ReviewPair& p) { return p.released; }) && any_pair([&](const ReviewPair& p) {
                 return p.reviewer == id && p.written && !p.released && !is_held(course_, assignment_, id, p.id);
             }))
-            things.push_back("a review by it was not released: review release tells why");
-        if (!pairs_.empty() && !in_allocation(group.id)) things.push_back("came after the allocation: review assign");
+            things.push_back("a review by it was not released: see review release");
+        if (!pairs_.empty() && !in_allocation(group.id))
+            things.push_back("arrived after the allocation: review assign");
         int open = 0;
         for (const ReviewPair& pair : pairs_) {
             if (pair.reviewer != group.id || pair.ended || pair.written) continue;
             if (pair.only_pack)
-                things.push_back(
-                    fmt::format("no PDF in the pack with its review of {}: ask for one", pair.report_pseudonym()));
+                things.push_back(fmt::format("the pack contains no PDF with its review of {}: ask for this file",
+                                             pair.report_pseudonym()));
             else
                 ++open;
         }
         if (open > 0 && due_over("review"))
-            things.push_back(message_text(plural(open, "remind of {} review", "remind of {} reviews")));
+            things.push_back(
+                message_text(plural(open, "send a reminder about {} review", "send a reminder about {} reviews")));
         only_pack(last, " of the final version");
         if (last.empty() && due_over("final")) things.push_back("ask for the final version");
         return join(things);
@@ -292,15 +294,15 @@ class Status {
     }
 
     std::string sums() const {
-        MessageList counts{{plural(groups_, "{} group: {} handed in", "{} groups: {} handed in", present_)}};
+        MessageList counts{{plural(groups_, "{} group: {} submitted", "{} groups: {} submitted", present_)}};
         if (late_ > 0) counts.items.push_back(Message("{} late", late_));
         if (unreadable_ > 0) counts.items.push_back(Message("{} unreadable", unreadable_));
         if (missing_ > 0) counts.items.push_back(Message("{} missing", missing_));
-        const Message sums =
-            assignment_.is_report() && !pairs_.empty()
-                ? Message("{}; {}; {}.", counts, plural(open_reviews_, "{} review to come", "{} reviews to come"),
-                          plural(finals_, "{} final version", "{} final versions"))
-                : Message("{}.", counts);
+        const Message sums = assignment_.is_report() && !pairs_.empty()
+                                 ? Message("{}; {}; {}.", counts,
+                                           plural(open_reviews_, "{} review outstanding", "{} reviews outstanding"),
+                                           plural(finals_, "{} final version", "{} final versions"))
+                                 : Message("{}.", counts);
         return message_text(sums) + "\n";
     }
 

@@ -58,7 +58,7 @@ CourseWork::CourseWork(Course& course, const Assignment& assignment, const Recei
         if (version != versions.end()) {
             date(item, version->second, assignment);
         } else if (item.version != 0) {
-            work_.notes.push_back(Message("\"{}\" is withdrawn, and left out", item.submission.name));
+            work_.notes.push_back(Message("\"{}\" is withdrawn and left out", item.submission.name));
             continue;
         }
         item.addressee = item.submission.person;
@@ -99,7 +99,7 @@ void CourseWork::add(Course& course, const Stored& version, const Assignment& as
     const std::vector<std::string> members = members_at(course, group.id, item.received);
     for (std::size_t place = 0; place < work_.students.size(); ++place)
         if (std::ranges::find(members, work_.students[place].id) != members.end()) item.students.push_back(place);
-    if (item.students.empty()) item.unmatched = Message("the group {} had no members then", group.name);
+    if (item.students.empty()) item.unmatched = Message("the group {} had no members at that time", group.name);
     const bool alone = item.students.size() == 1 && work_.students[item.students.front()].id == group.name;
     if (!alone) item.group = group.name;
     address(item);
@@ -133,8 +133,7 @@ void CourseWork::choose(Course& course, const std::vector<std::string>& names) {
             if (!found) take([id = group_named(course, name).id](const WorkItem& item) { return item.group_id == id; });
         } catch (const InvalidArgument&) {  // the error below says so
         }
-        if (!found)
-            throw EnvironmentError("there is no submission \"{}\", nor one of a group or student of that name", name);
+        if (!found) throw EnvironmentError("no submission, group or student is named \"{}\"", name);
     }
     for (std::size_t i = 0; i < wanted.size(); ++i)
         if (wanted[i]) work_.chosen.push_back(i);

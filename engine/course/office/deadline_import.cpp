@@ -19,8 +19,8 @@ class DeadlineTable {
   public:
     explicit DeadlineTable(const fs::path& file) : file_(file), table_(read_text_table(file)) {
         if (!table_.column("submission") || !table_.column("deadline"))
-            throw EnvironmentError("{}: the columns submission and deadline are needed; there are {}", file.string(),
-                                   listed(table_.names));
+            throw EnvironmentError("{}: the columns submission and deadline are required; the columns are {}",
+                                   file.string(), listed(table_.names));
     }
 
     std::size_t rows() const { return table_.rows.size(); }
@@ -40,7 +40,7 @@ class DeadlineTable {
         if (text.empty()) return {};
         const std::optional<ClockReading> value = plain_clock_reading(text);
         if (!value) fail(row, column, Message("a time such as 2026-03-01 18:00"));
-        if (!value->exists) fail(row, column, Message("a time that there is"));
+        if (!value->exists) fail(row, column, Message("an existing time"));
         return value->instant;
     }
     std::optional<std::int64_t> duration(std::size_t row, const char* column) const {
@@ -72,7 +72,8 @@ class RowsOfGroups {
     void add(std::int64_t group, const DeadlineRow& row) {
         if (row.grace != assignment_.grace || row.percent_per_day != assignment_.costs.late_day ||
             row.most_percent != assignment_.costs.late_most)
-            throw InvalidArgument("a course has one grace and one penalty for all; use extra, or another deadline");
+            throw InvalidArgument(
+                "a course has one grace and one penalty for all students; use extra, or another deadline");
         const auto [known, fresh] = rows_.try_emplace(group, row);
         if (!fresh && known->second.deadline < row.deadline) known->second = row;
     }

@@ -101,11 +101,12 @@ void refuse_differences(const GradingInputs& then, const GradingInputs& now, con
     const MessageList all{std::move(clauses)};
     if (request.grading.only.empty())
         throw EnvironmentError(
-            "the marks in {} were made with other inputs: {}. Leave them out to go on with those, or give --again to "
-            "grade all with these, or another --out",
+            "the marks in {} were made with other inputs: {}. Omit these inputs to continue with the earlier ones, or "
+            "give --again to grade all submissions with the new ones, or give another --out",
             request.out.string(), all);
     throw EnvironmentError(
-        "the marks in {} were made with other inputs: {}. Leave them out to go on with those, or give another --out",
+        "the marks in {} were made with other inputs: {}. Omit these inputs to continue with the earlier ones, or give "
+        "another --out",
         request.out.string(), all);
 }
 
@@ -124,12 +125,12 @@ Assignment wanted_assignment(Course& course, const FolderRequest& request) {
     if (!request.lesson.empty()) {
         const Lesson lesson = find_lesson(request.lesson);
         if (!a.lesson.empty() && a.name != lesson.slug)
-            throw EnvironmentError("{} holds the results of lesson {}; name another folder with --out",
+            throw EnvironmentError("{} contains the results of lesson {}; give another folder with --out",
                                    request.out.string(), a.name);
         a.name = lesson.slug, a.lesson = lasting_name(lesson);
     }
     if (a.lesson.empty())
-        throw EnvironmentError("{} has no results yet: name the lesson with --lesson NN", request.out.string());
+        throw EnvironmentError("{} has no results yet: give the lesson with --lesson NN", request.out.string());
     const auto path = [](const std::string& given, std::string& kept) {
         if (given == kNoFile) kept.clear();
         if (!given.empty() && given != kNoFile) kept = fs::absolute(given).lexically_normal().string();
@@ -148,7 +149,7 @@ bool is_graded_folder(const fs::path& out) {
 
 FolderGrading::FolderGrading(FolderRequest request) : request_(std::move(request)) {
     if (request_.again && !request_.grading.only.empty())
-        throw EnvironmentError("--again grades all of the class again; leave --only out");
+        throw EnvironmentError("--again grades the complete class again; omit --only");
     fs::create_directories(request_.out);
     if (!request_.part) lock_ = lock_results(request_.out);  // each result is written by one part, and whole
     with_course(request_, [this](Course& course) { prepare(course); });
@@ -183,7 +184,7 @@ void FolderGrading::prepare(Course& course) {
     tried_.emplace(options_);  // what is wrong with the checks is said first
     if (!request_.again) refuse_differences(then, now, request_);
     if (!request_.roster.empty() && import_roster(course, request_.roster, true).converted)
-        complaints_.push_back(Message("{} is not UTF-8; it was read as Latin-1 (Windows-1252)", request_.roster));
+        complaints_.push_back(Message("{} is not UTF-8; dynlab read it as Latin-1 (Windows-1252)", request_.roster));
     set_assignment(course, assignment_, assignments_of(course).empty() ? "" : "dynlab grade");
     assignment_ = assignment_named(course, assignment_.name);
     if (!request_.owners.empty()) set_owners(course, assignment_, request_.owners);

@@ -35,14 +35,14 @@ OpenedPack made_document(const std::vector<fs::path>& files, const std::string& 
     for (const fs::path& file : files)
         if (file.filename() == "analysis.lua") scripts.push_back(file);
     scripts = highest(scripts);
-    if (scripts.size() != 1) return {{}, Message("no PDF in the pack")};
+    if (scripts.size() != 1) return {{}, Message("the pack contains no PDF")};
     fs::create_directories(to);
     const Message reason = make_version_in_box(scripts.front().parent_path(), to, true, level, program);
     const fs::path pdf = to / "report.pdf";
     if (!reason.empty() || fs::symlink_status(pdf).type() != fs::file_type::regular)
         return {{},
-                reason.empty() ? Message("no PDF in the pack, and none can be made of it")
-                               : Message("no PDF in the pack, and none can be made of it ({})", reason)};
+                reason.empty() ? Message("the pack contains no PDF, and none can be made from it")
+                               : Message("the pack contains no PDF, and none can be made from it ({})", reason)};
     return {PackedDocument{pdf, part + ".pdf", true}, {}};
 }
 
@@ -99,7 +99,7 @@ OpenedPack open_pack(const fs::path& pack, const std::string& part, const fs::pa
     if (pdfs.empty()) return made_document(files, part, to / "made", level, program);
     const std::vector<fs::path> meant = named.empty() ? pdfs : highest(named);
     if (meant.size() != 1)
-        return {{}, Message("{} PDFs in the pack, of which none alone is {}.pdf", meant.size(), part)};
+        return {{}, Message("the pack contains {} PDFs, and not exactly one is named {}.pdf", meant.size(), part)};
     return {PackedDocument{meant.front(), meant.front().lexically_relative(unpacked).generic_string()}, {}};
 }
 

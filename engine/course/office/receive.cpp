@@ -64,7 +64,7 @@ class HandInReceiver {
           incoming_(way()) {
         due_for(course, outcome_.assignment, 0, request.stage);  // a talk has no reviews
         if (request.of.size() > 1 && request.of.size() != request.files.size())
-            throw InvalidArgument("{} and {} times --of: say --of once for each file, in their order",
+            throw InvalidArgument("{} and {} values of --of: give --of once for each file, in the same order",
                                   plural(request.files.size(), "{} file", "{} files"), request.of.size());
         if (!request.from.empty()) from_ = group_named(course, request.from);
         if (request.stage != "final") pairs_ = review_pairs(course, outcome_.assignment);
@@ -159,15 +159,14 @@ class HandInReceiver {
         const bool over = a.review_due && candidate.at > *a.review_due + a.grace;
         if (!released && !(sent && over)) return;
         if (has_any(candidate, candidate.part, sha256_of_file(candidate.file->file))) return;
-        throw released
-            ? EnvironmentError(
-                  "the reviews of {} are released: did you mean dynlab course submit --stage final? --first takes it "
-                  "as a first version all the same",
-                  candidate.group.name)
-            : EnvironmentError(
-                  "the reviews of {} are due: did you mean dynlab course submit --stage final? --first takes it as a "
-                  "first version all the same",
-                  candidate.group.name);
+        throw released ? EnvironmentError(
+                             "the reviews of {} are released: did you mean dynlab course submit --stage final? --first "
+                             "submits a first version anyway",
+                             candidate.group.name)
+                       : EnvironmentError(
+                             "the reviews of {} are due: did you mean dynlab course submit --stage final? --first "
+                             "submits a first version anyway",
+                             candidate.group.name);
     }
 
     /// For what a candidate is; of two only one can hold.
@@ -192,7 +191,7 @@ class HandInReceiver {
             else if (!c.silent && ((c.unreadable && readable.contains(slot_of(c, c.part))) ||
                                    (c.part == kUnreadable &&
                                     (anything.contains(slot_of(c, "")) || folders.contains(c.file->folder)))))
-                make_trace(c, kBeside, Message("It came beside the file that counts."));
+                make_trace(c, kBeside, Message("It arrived with the file that counts."));
     }
 
     /// Of several files of a group for the same thing nobody can say which holds: they are kept as unreadable, unless
@@ -215,7 +214,7 @@ class HandInReceiver {
         for (Candidate& c : candidates_) {
             if (c.hash.empty() || contents[slot_of(c, c.part)].size() == 1) continue;
             outcome_.refused.push_back(
-                Message("{}: {} gave several files that could be the {}; receive the one that holds alone",
+                Message("{}: {} submitted several files that could be the {}; submit the correct one alone",
                         c.file->source, c.group.name, c.part));
             make_trace(c, "several", Message("It is one of several files that could be the {}.", c.part));
             c.silent = false;

@@ -66,7 +66,7 @@ class ClassReceiver {
         find_owners();
         side_by_side(files_.size(), [this](std::size_t i) { pack(i); });
         store();
-        for (const Message& clause : left_out_) received_.complaints.push_back(Message("{}; it is left out", clause));
+        for (const Message& clause : left_out_) received_.complaints.push_back(Message("{}; it was left out", clause));
         return std::move(received_);
     }
 
@@ -94,7 +94,7 @@ class ClassReceiver {
             all.push_back(one.submission);
         }
         for (const std::string& name : owners.unmatched_names(all))
-            received_.complaints.push_back(Message("the owner of \"{}\": there is no such submission", name));
+            received_.complaints.push_back(Message("the owner of \"{}\": no submission has this name", name));
     }
 
     /// What goes wrong with one submission stops no other.
@@ -112,7 +112,7 @@ class ClassReceiver {
                 file.path = packed_.path() / fmt::format("{}.zip", i);
                 zip_submission(one.submission, file.path, limits);
             }
-            if (fs::file_size(file.path) > limits.bytes) throw SubmissionError("It is too large.");
+            if (fs::file_size(file.path) > limits.bytes) throw SubmissionError("The file is too large.");
             file.bytes = static_cast<std::int64_t>(fs::file_size(file.path));
             one.content = sha256_of_file(file.path);
         } catch (const std::exception& error) {
@@ -154,7 +154,7 @@ class ClassReceiver {
         for (const std::size_t i : fresh) add(received_.items[i], files_[i]);
         for (const std::size_t i : corrected)
             record_arrival(course_, assignment_, received_.items[i].version, files_[i].at,
-                           "by the platform's table of times", now_);
+                           "according to the platform's table of times", now_);
         for (const std::size_t i : moved) take_from_others(received_.items[i]);
         for (std::size_t i = 0; i < files_.size(); ++i)
             if (!files_[i].trouble.empty())
@@ -282,8 +282,7 @@ std::vector<Student> lone_students_of(Course& course) {
 
 void set_owners(Course& course, const Assignment& assignment, const fs::path& list) {
     const std::vector<Student> students = lone_students_of(course);
-    if (students.empty())
-        throw EnvironmentError("--owners says who of a roster submitted what; give --roster CSV, too");
+    if (students.empty()) throw EnvironmentError("--owners needs a roster; give --roster CSV");
     Owners(students).read_list(list);
     const std::string hash = course.keep(read_file(list));
     course.settle({hash});

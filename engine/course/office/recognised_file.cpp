@@ -63,16 +63,16 @@ void explain_unreadable(const IncomingFile& file, const Assignment& assignment, 
     if (bytes.empty()) {
         found.trouble = "empty", found.reason = Message("The file is empty.");
     } else if (bytes.starts_with("PK\x05\x06")) {
-        found.trouble = "empty", found.reason = Message("The zip is empty: there is no file in it.");
+        found.trouble = "empty", found.reason = Message("The zip file is empty.");
     } else if (const std::string kind = closed_archive(bytes); !kind.empty()) {
         found.trouble = "closed-archive";
-        found.reason = Message("It is a {} archive, which cannot be opened here; zip and tar can.", kind);
+        found.reason = Message("The file is a {} archive, which cannot be opened; zip and tar can.", kind);
     } else {
         found.trouble = "other-kind";
-        found.reason = assignment.is_lab() ? Message("It is neither a script (.lua) nor a pack (.zip, .tar.gz).")
+        found.reason = assignment.is_lab() ? Message("The file is neither a script (.lua) nor a pack (.zip, .tar.gz).")
                        : assignment.is_report()
-                           ? Message("It is neither a PDF nor a pack (.zip, .tar.gz).")
-                           : Message("It is not a PDF, no script (.lua) and no pack (.zip, .tar.gz).");
+                           ? Message("The file is neither a PDF nor a pack (.zip, .tar.gz).")
+                           : Message("The file is neither a PDF, a script (.lua) nor a pack (.zip, .tar.gz).");
     }
 }
 

@@ -78,16 +78,15 @@ class Allocator {
     void refuse_impossible() const {
         const int others = static_cast<int>(order_.size()) - 1;
         if (problem_.fixed.empty() && problem_.loose.empty() && problem_.reviews > others)
-            throw order_.size() == 1 ? InvalidArgument(
-                                           "each group should write {} reviews, but there is only {} with a report, so "
-                                           "{} to review: wait for "
-                                           "more first versions, or give an assignment with fewer --reviews",
-                                           problem_.reviews, order_.size(), std::max(0, others))
-                                     : InvalidArgument(
-                                           "each group should write {} reviews, but there are only {} with a report, "
-                                           "so {} to review: wait for "
-                                           "more first versions, or give an assignment with fewer --reviews",
-                                           problem_.reviews, order_.size(), std::max(0, others));
+            throw order_.size() == 1
+                ? InvalidArgument(
+                      "each group should write {} reviews, but only {} has a report, so {} can be reviewed: wait for "
+                      "more first versions, or change the assignment to fewer --reviews",
+                      problem_.reviews, order_.size(), std::max(0, others))
+                : InvalidArgument(
+                      "each group should write {} reviews, but only {} have a report, so {} can be reviewed: wait for "
+                      "more first versions, or change the assignment to fewer --reviews",
+                      problem_.reviews, order_.size(), std::max(0, others));
     }
 
     void start_with_circle() {
@@ -255,7 +254,7 @@ class Allocator {
     void explain(Allocation& allocation) const {
         const auto say = [&](const Message& sentence) { allocation.remarks.push_back(sentence); };
         if (wanted_ < problem_.reviews)
-            say(Message("Only {} groups are left, so that each can write at most {} of the {} reviews wanted.",
+            say(Message("Only {} groups remain, so each can write at most {} of the {} requested reviews.",
                         order_.size(), wanted_, problem_.reviews));
         int few_written = 0, few_got = 0, more = 0;
         for (const int i : order_) {
@@ -265,16 +264,16 @@ class Allocator {
         }
         if (few_written + few_got > 0)
             say(
-                Message("{} groups write and {} reports get fewer than {} reviews: common members and reviews that are "
-                        "written or sent leave no other way.",
+                Message("{} groups write and {} reports get fewer than {} reviews: common members and existing reviews "
+                        "allow no other allocation.",
                         few_written, few_got, wanted_));
         if (more > 0)
-            say(Message("{} groups write or get one review more than {}: what was written or sent stays.", more,
-                        wanted_));
+            say(Message("{} groups write or get one review more than {}: existing reviews and sent copies are kept.",
+                        more, wanted_));
         if (allocation.swapped > 0)
             say(plural(allocation.swapped,
-                       "{} couple of groups review each other; no exchange of two reviews avoids that.",
-                       "{} couples of groups review each other; no exchange of two reviews avoids that."));
+                       "{} pair of groups review each other; no exchange of two reviews avoids this.",
+                       "{} pairs of groups review each other; no exchange of two reviews avoids this."));
     }
 
     const AllocationProblem& problem_;

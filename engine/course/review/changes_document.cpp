@@ -104,14 +104,14 @@ RunRecord record_of(const GroupChanges& g, const Course& course, const Assignmen
                                   file.late > 0 ? "late " + duration_text(file.late) : "in time"});
     std::string summary;
     const auto say = [&](const Message& sentence) { summary += escaped(message_text(sentence)) + "\n\n"; };
-    if (g.first.empty()) say(Message("There is no first version to compare with."));
-    if (g.same_files) say(Message("The final version is the first one, byte for byte."));
+    if (g.first.empty()) say(Message("No first version exists for comparison."));
+    if (g.same_files) say(Message("The final version is identical to the first version, byte for byte."));
     if (g.text)
         say(Message("{} of the words changed: {} deleted, {} inserted; pages: {}.", percent(*g.text), g.text->deleted,
                     g.text->inserted, pages(g)));
     if (!g.compared.empty()) say(g.compared);
     for (const Message& problem : g.problems) say(problem);
-    std::string values = "Values can be compared where both versions have a pack with an analysis that runs.\n";
+    std::string values = "Values can be compared if both versions have a pack with an analysis that runs.\n";
     if (g.values) {
         values = fmt::format("{} of {} values, answers and table cells of the analysis changed.\n\n",
                              g.values->changed.size(), g.values->compared);
@@ -137,10 +137,10 @@ RunRecord record_of(const GroupChanges& g, const Course& course, const Assignmen
 
 Message attention(const GroupChanges& g) {
     if (g.final.empty()) return g.dropped_out ? Message("dropped out") : Message("no final version");
-    if (g.first.empty()) return Message("no first version to compare with");
-    if (g.same_files) return Message("the final version is the first one, byte for byte");
+    if (g.first.empty()) return Message("no first version for comparison");
+    if (g.same_files) return Message("the final version is identical to the first version, byte for byte");
     if (!g.text) return g.problems.empty() ? Message("cannot be compared") : g.problems.back();
-    if (g.text->share() == 0) return Message("no change in the text");
+    if (g.text->share() == 0) return Message("the text is unchanged");
     return g.problems.empty() ? Message() : g.problems.front();
 }
 

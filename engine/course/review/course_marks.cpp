@@ -43,8 +43,8 @@ class CostTaker {
                                     ? Message("a first version late by {}", duration_message(found->second.late))
                                     : Message("a final version late by {}", duration_message(found->second.late));
             if (waits_for_confirmation(a_.costs, found->second.late, found->second.confirmed))
-                mark.costs.push_back(
-                    Message("{} for {} wait until you confirm the time of receipt", significant(percent, 6), why));
+                mark.costs.push_back(Message("{} for {} are not applied until you confirm the time of receipt",
+                                             significant(percent, 6), why));
             else
                 take(mark, mark.work, percent, why);
         }

@@ -55,10 +55,10 @@ class ReviewAssigner {
                               problem_.active[static_cast<std::size_t>(edge.second)];
             known_[edge] = pair;
             if (pair.written && refused_.contains(edge))
-                outcome_.remarks.push_back(Message(
-                    "{} has reviewed {}, but they share a member now or did, or are kept apart: withdraw the review if "
-                    "it must not count.",
-                    pair.reviewer_name, pair.author_name));
+                outcome_.remarks.push_back(
+                    Message("{} has reviewed {}, but the groups share or shared a member, or are kept apart; withdraw "
+                            "the review if it must not count.",
+                            pair.reviewer_name, pair.author_name));
             if (!pair.written && refused_.contains(edge)) continue;
             (pair.written || (pair.sent && both) ? problem_.fixed : problem_.loose).push_back(edge);
         }
@@ -82,8 +82,9 @@ class ReviewAssigner {
                 const std::string &reviewer = groups_[static_cast<std::size_t>(edge.first)].name,
                                   &author = groups_[static_cast<std::size_t>(edge.second)].name;
                 outcome_.remarks.push_back(
-                    both ? Message("{} was to review {}, but they share a member, or are kept apart.", reviewer, author)
-                         : Message("{} was to review {}, but one of them has handed in nothing.", reviewer, author));
+                    both ? Message("{} should review {}, but the groups share a member, or are kept apart.", reviewer,
+                                   author)
+                         : Message("{} should review {}, but one of them has submitted nothing.", reviewer, author));
                 continue;
             }
             std::erase(problem_.loose, edge);
@@ -122,7 +123,7 @@ class ReviewAssigner {
             const std::string reason = gone(edge.first)          ? "the reviewer dropped out"
                                        : gone(edge.second)       ? "the author dropped out"
                                        : refused_.contains(edge) ? "they share a member, or are kept apart"
-                                                                 : "handed on to another group";
+                                                                 : "reassigned to another group";
             db_.run("UPDATE pairs SET ended_at = ?, ended_reason = ? WHERE id = ?", now_, reason, pair.id);
             ++outcome_.ended;
         }
@@ -138,7 +139,7 @@ class ReviewAssigner {
             db_.run("INSERT INTO pairs (allocation, assignment, reviewer, author) VALUES (?, ?, ?, ?)", id,
                     assignment_.id, groups_[static_cast<std::size_t>(reviewer)].id,
                     groups_[static_cast<std::size_t>(author)].id);
-        course_.note(fmt::format("{}: reviews allotted, {} new, {} taken back", assignment_.name, outcome_.fresh,
+        course_.note(fmt::format("{}: reviews allocated, {} new, {} withdrawn", assignment_.name, outcome_.fresh,
                                  outcome_.ended),
                      now_);
     }
@@ -179,7 +180,7 @@ void wish_pair(Course& course, const Assignment& assignment, const std::string& 
     if (wish == "set")
         for (const auto& [a, b] : kindred_groups(course))
             if ((a == reads.id && b == writes.id) || (a == writes.id && b == reads.id))
-                throw InvalidArgument("{} and {} share a member, or did", reads.name, writes.name);
+                throw InvalidArgument("{} and {} share or shared a member", reads.name, writes.name);
     if (wish == "set" && !newest_file(course, assignment, writes.id, "first", "report"))
         throw InvalidArgument("{} has submitted no report for {}: there is nothing to review", writes.name,
                               assignment.name);
@@ -202,7 +203,7 @@ void wish_pair(Course& course, const Assignment& assignment, const std::string& 
 AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early) {
     refuse_without_reviews(assignment);
     if (!early && now <= assignment.first_due + assignment.grace)
-        throw InvalidArgument("the first versions of {} may still come until {}; wait, or say --early", assignment.name,
+        throw InvalidArgument("groups can submit first versions of {} until {}; wait, or give --early", assignment.name,
                               course.clock().show(assignment.first_due + assignment.grace));
     Transaction transaction(course.database());
     AssignOutcome outcome = ReviewAssigner(course, assignment, now).run();

@@ -82,8 +82,9 @@ class CopySender {
                                       to_reviewers() ? pair.author : pair.reviewer)
                                .next();
         if (named || sha256_of(copy) != hash)
-            throw EnvironmentError("the copy for {} is not as it was made; nothing more was sent: dynlab course verify",
-                                   file.string());
+            throw EnvironmentError(
+                "the copy for {} was altered after dynlab made it; nothing more was sent: run dynlab course verify",
+                file.string());
         kept_[file] = pair.id;
         fs::create_directories(file.parent_path());
         if (!fs::exists(file) || read_file(file) != copy) course_.write({{file, copy}});
@@ -171,10 +172,10 @@ class CopySender {
         }
         if (!copy.hints.empty() && doubted_.insert(version->id).second)
             outcome_.hints.push_back(
-                Message("{} of {} was sent, but look at it: {}", document, author, sentences(copy.hints)));
+                Message("{} of {} was sent; inspect it: {}", document, author, sentences(copy.hints)));
         if (!copy.hits.empty() && doubted_.insert(version->id).second)
             outcome_.hints.push_back(
-                Message("{} of {} was sent with names in it: {}", document, author, sentences(copy.hits)));
+                Message("{} of {} was sent, although it contains names: {}", document, author, sentences(copy.hits)));
         record(pair, *version, read_file(request.copy), copy.hits.empty() ? "" : author);
     }
 
@@ -199,8 +200,8 @@ class CopySender {
         course_.database().run("INSERT INTO sendings (pair, way, version, hash, made_at) VALUES (?, ?, ?, ?, ?)",
                                pair.id, way_name(), version.id, hash, now_);
         if (!accepted.empty() && noted_.insert(version.id).second)
-            course_.note(fmt::format("{}: the {} of {} was sent with names in it; reason: {}", assignment_.name,
-                                     to_reviewers() ? "report" : "review", accepted, reason_),
+            course_.note(fmt::format("{}: the {} of {} was sent, although it contains names; reason: {}",
+                                     assignment_.name, to_reviewers() ? "report" : "review", accepted, reason_),
                          now_);
         transaction.commit();
         outcome_.again += to_reviewers() ? pair.sent : pair.released;
@@ -228,7 +229,7 @@ SendOutcome send_copies(Course& course, const Assignment& assignment, Way way, I
                         const AnonymousCopier& copier, bool early, const AcceptedHits& accepted) {
     refuse_without_reviews(assignment);
     if (way == Way::kToAuthors && !early && now <= assignment.review_due.value_or(0) + assignment.grace)
-        throw InvalidArgument("the reviews of {} may still come until {}; wait, or say --early", assignment.name,
+        throw InvalidArgument("groups can submit reviews of {} until {}; wait, or give --early", assignment.name,
                               course.clock().show(assignment.review_due.value_or(0) + assignment.grace));
     return CopySender(course, assignment, way, now, copier, accepted).run();
 }

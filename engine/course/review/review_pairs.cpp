@@ -85,7 +85,7 @@ ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& revi
         (pair.ended ? taken_back : given).push_back(&pair);
     }
     if (given.empty() && taken_back.empty())
-        throw EnvironmentError("{} was given no report to review; see dynlab course review assign", reviewer.name);
+        throw EnvironmentError("{} received no report to review; see dynlab course review assign", reviewer.name);
     const std::vector<std::int64_t> named = report_numbers(name);
     for (const auto* list : {&given, &taken_back})
         for (const ReviewPair* pair : *list)
@@ -95,10 +95,10 @@ ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& revi
     std::vector<std::string> reports;
     for (const ReviewPair* pair : open) reports.push_back(pair->report_pseudonym());
     if (!named.empty())
-        throw EnvironmentError("it is of {}, which {} was not given; it was given {}",
+        throw EnvironmentError("it is a review of {}, which {} did not receive; the reports to review are {}",
                                fmt::format("report-{:02}", named.front()), reviewer.name, listed(reports, Join::kAnd));
     throw EnvironmentError(
-        "it does not tell which report it reviews; {} was given {}: name the file review-{}.pdf or say --of {}",
+        "it does not name the report that it reviews; {} received {}: name the file review-{}.pdf or give --of {}",
         reviewer.name, listed(reports, Join::kAnd), reports.front(), reports.front());
 }
 

@@ -22,7 +22,7 @@ namespace {
 constexpr char kInstructor[] = "instructor", kComment[] = "comment";
 
 void refuse_other_than_talk(const Assignment& a) {
-    if (a.is_report()) throw InvalidArgument("{} is a report: its marks come from reviews, not from an oral", a.name);
+    if (a.is_report()) throw InvalidArgument("{} is a report: its marks come from reviews, not from a talk", a.name);
     if (a.is_lab())
         throw InvalidArgument("{} is a lab: its checks give the points; dynlab course mark changes them", a.name);
 }
@@ -31,8 +31,8 @@ void refuse_other_than_talk(const Assignment& a) {
 void refuse_without_report(Course& course, const Assignment& a, const Group& group, const std::string& stage) {
     if (newest_file(course, a, group.id, stage, "report") || newest_file(course, a, group.id, stage, "pack")) return;
     throw stage == "first"
-        ? InvalidArgument("{} has submitted no first version of {}: there is nothing to score", group.name, a.name)
-        : InvalidArgument("{} has submitted no final version of {}: there is nothing to score", group.name, a.name);
+        ? InvalidArgument("{} has submitted no first version of {}: no scores are needed", group.name, a.name)
+        : InvalidArgument("{} has submitted no final version of {}: no scores are needed", group.name, a.name);
 }
 
 /// A table of scores on its way into the store.
@@ -84,7 +84,7 @@ class ScoreReader {
             if (!others.contains(name)) unknown.push_back(name);
         const Message known = Message("the criteria of {} are {}", a_.name, listed(criteria));
         if (!unknown.empty()) fail(1, Message("unknown columns: {}; {}", listed(unknown), known));
-        if (!any) fail(1, Message("there is no column of a criterion; {}", known));
+        if (!any) fail(1, Message("no column is named like a criterion; {}", known));
     }
 
     [[noreturn]] void fail(int line, const Message& what) const {
@@ -153,7 +153,7 @@ class ScoreReader {
         const ReviewPair pair = reviewed_pair(pairs_, group_named(course_, cell("reviewer")), report);
         if (has_points() && pair.withdrawn)
             throw InvalidArgument(
-                "the review of {} by {} is withdrawn: its scores do not count; dynlab course restore takes that back",
+                "the review of {} by {} is withdrawn: its scores do not count; dynlab course restore reinstates it",
                 pair.report_pseudonym(), pair.reviewer_name);
         GivenMark owner;
         owner.group = pair.author, owner.pair = pair.id, owner.version = newest_review(course_, pair.id);
@@ -164,7 +164,7 @@ class ScoreReader {
         const std::string name = cell("student"), group = cell("group");
         if (name.empty()) return of_group(group_named(course_, group));
         const Student student = student_named(course_, name);
-        if (student.group.empty()) throw InvalidArgument("{} is in no group", student.id);
+        if (student.group.empty()) throw InvalidArgument("{} is not in a group", student.id);
         const Group own = group_named(course_, student.group);
         if (!group.empty() && group_named(course_, group).id != own.id)
             throw InvalidArgument("{} is in {}, not in {}", student.id, own.name, group);

@@ -65,9 +65,9 @@ std::optional<Task> task_of(Course& course, const Assignment& assignment, const 
 void read_review(const fs::path& file, ReleasedReview& review) {
     try {
         review.blocks = blocks_of_review(text_of_layout(read_pdf_layout(file)));
-        if (review.blocks.empty()) review.problem = Message("It holds no text that can be read.");
+        if (review.blocks.empty()) review.problem = Message("The file contains no readable text.");
     } catch (const PdfRefusal& refusal) {
-        review.problem = Message("It cannot be read: {}", refusal.message());
+        review.problem = Message("The file cannot be read: {}", refusal.message());
     }
 }
 

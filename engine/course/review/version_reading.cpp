@@ -58,7 +58,7 @@ void read_pdf(const fs::path& pdf, ReadVersion& version) {
         const PdfLayout layout = read_pdf_layout(pdf);
         version.pages = static_cast<int>(layout.pages.size());
         version.printed = words_of_pdf(text_of_layout(layout));
-        if (version.printed->empty()) version.problems.push_back(Message("The PDF holds no text that can be read."));
+        if (version.printed->empty()) version.problems.push_back(Message("The PDF contains no readable text."));
     } catch (const PdfRefusal& refusal) {
         version.problems.push_back(Message("The PDF cannot be read: {}", refusal.message()));
     }

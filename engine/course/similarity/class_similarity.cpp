@@ -34,7 +34,7 @@ void add_scripts(const fs::path& from, const std::string& prefix, bool of_class,
                  std::vector<ComparedScript>& scripts, std::vector<Message>& complaints) {
     const auto add = [&](const std::string& name, const fs::path& file) {
         if (fs::file_size(file) > kMostComparedBytes)
-            complaints.push_back(Message("\"{}\" is too large to be compared", name));
+            complaints.push_back(Message("\"{}\" is too large for the comparison", name));
         else
             scripts.push_back({prefix + name, read_file(file), of_class});
     };
@@ -52,7 +52,7 @@ void add_scripts(const fs::path& from, const std::string& prefix, bool of_class,
             complaints.push_back(Message("\"{}\": {}", prefix + submission.name, error.message()));
         }
     }
-    for (const Message& clause : submissions.left_out()) complaints.push_back(Message("{}; it is left out", clause));
+    for (const Message& clause : submissions.left_out()) complaints.push_back(Message("{}; it was left out", clause));
 }
 
 /// All pairs, those within a group of copies with its number.
@@ -79,7 +79,7 @@ SimilarityOutcome compare_class(const SimilarityRequest& request) {
     std::vector<ComparedScript> scripts;
     add_scripts(request.submissions, "", true, request, scripts, outcome.complaints);
     outcome.scripts = scripts.size();
-    scripts.push_back({"the worked solution", solution, false});
+    scripts.push_back({"the reference solution", solution, false});
     for (const fs::path& folder : request.others)
         add_scripts(folder, folder.filename().string() + "/", false, request, scripts, outcome.complaints);
     const auto pairs = similar_pairs(scripts, without_solutions(solution, request.lesson.script()), request.line);

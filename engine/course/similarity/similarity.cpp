@@ -288,10 +288,10 @@ std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, c
                                    double line) {
     constexpr std::size_t most = kMostShownGroups;
     std::string text = fmt::format(
-        "# Scripts that look alike\n\n{} scripts were compared without comments, layout and the names that their "
-        "authors chose; code of the starter does not count. Listed are copies, and pairs with {} or more of the "
-        "shorter script's own code in common. This does not tell who wrote the code, nor whether sharing it was "
-        "allowed: inspect both sides.\n\n",
+        "# Similar scripts\n\n{} scripts were compared without comments, layout and chosen names; code of the starter "
+        "does not count. The list contains copies, and pairs with {} or more of the shorter script's own code in "
+        "common. Similarity does not show who wrote the code, or whether sharing it was allowed: inspect both "
+        "sides.\n\n",
         scripts.size(), whole_percent(line));
     if (groups.empty()) return text + "There are none.\n";
     text += "| scripts | code in common | identical lines |\n|---|---|---|\n";

@@ -16,15 +16,15 @@ void refuse_odd_name(const std::string& what, const std::string& name) {
                      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.") !=
                          std::string::npos;
     if (odd)
-        throw InvalidArgument("{} \"{}\" must be a short word of letters, digits, - _ and . such as crane-report", what,
-                              name);
+        throw InvalidArgument("{} \"{}\" must be a short word of letters, digits, - _ and ., such as crane-report",
+                              what, name);
 }
 
 void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
     if (!a.is_report()) {
         if (a.review_due || a.final_due)
-            throw a.is_talk() ? InvalidArgument("a talk has one deadline: leave --review and --final out")
-                              : InvalidArgument("a lab has one deadline: leave --review and --final out");
+            throw a.is_talk() ? InvalidArgument("a talk has one deadline: omit --review and --final")
+                              : InvalidArgument("a lab has one deadline: omit --review and --final");
         if (a.is_talk() && a.first_due == kNoDeadline) throw InvalidArgument("a talk needs a deadline: --first");
         return;
     }
@@ -32,7 +32,7 @@ void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
         throw InvalidArgument("a report needs three deadlines: --first, --review and --final");
     const auto in_order = [&](Instant before, Instant after, const char* first, const char* second) {
         if (before < after) return;
-        throw InvalidArgument("the deadline of the {} ({}) must come after that of the {} ({})", second,
+        throw InvalidArgument("the deadline of the {} ({}) must be after the deadline of the {} ({})", second,
                               clock.show(after), first, clock.show(before));
     };
     in_order(a.first_due, *a.review_due, "first version", "reviews");
@@ -104,14 +104,14 @@ bool only_later(Assignment a, const Assignment& b, const CourseClock& clock) {
 /// What submissions and scores depend on does not change after them.
 void refuse_change_of_form(Course& course, const Assignment& known, const Assignment& wanted, bool has_work) {
     if (has_work && wanted.kind != known.kind)
-        throw InvalidArgument("work was submitted for {} already: its kind stays {}", known.name, known.kind);
+        throw InvalidArgument("files were submitted for {} already: its kind stays {}", known.name, known.kind);
     if (criteria_text(wanted.criteria) == criteria_text(known.criteria)) return;
     Rows scored = course.database().query(
         "SELECT 1 FROM marks m JOIN criteria c ON c.assignment = m.assignment AND c.name = m.item WHERE c.assignment = "
         "?",
         known.id);
     if (scored.next())
-        throw InvalidArgument("scores were given for {} already: its criteria stay {}", known.name,
+        throw InvalidArgument("scores were entered for {} already: its criteria stay {}", known.name,
                               criteria_text(known.criteria));
 }
 
@@ -153,7 +153,7 @@ bool set_assignment(Course& course, Assignment wanted, const std::string& reason
         refuse_change_of_form(course, known, wanted, has_work);
         if (has_work && reason.empty() && !only_later(known, wanted, course.clock()))
             throw InvalidArgument(
-                "work was submitted for {} already: only deadlines may move, to later ones, and the grace grow; give "
+                "files were submitted for {} already: you can only postpone deadlines and increase the grace; give "
                 "--reason to change more",
                 known.name);
         wanted.name = known.name;
@@ -182,13 +182,12 @@ void remove_assignment(Course& course, const Assignment& assignment, const std::
     Transaction transaction(db);
     for (const char* table : {"versions", "pairs", "extensions", "marks"})
         if (db.query(fmt::format("SELECT 1 FROM {} WHERE assignment = ?", table), assignment.id).next())
-            throw InvalidArgument("{} cannot be removed: something hangs on it (its {}); nothing was changed",
+            throw InvalidArgument("{} cannot be removed, because other data depend on it (its {}); nothing was changed",
                                   assignment.name, table);
     for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations"})
         db.run(fmt::format("DELETE FROM {} WHERE assignment = ?", table), assignment.id);
     db.run("DELETE FROM assignments WHERE id = ?", assignment.id);
-    course.note(
-        fmt::format("assignment {} removed, before anything was handed in; reason: {}", assignment.name, reason));
+    course.note(fmt::format("assignment {} removed, before any submission; reason: {}", assignment.name, reason));
     transaction.commit();
 }
 
@@ -223,14 +222,16 @@ Assignment assignment_named(Course& course, const std::string& name) {
         if (::strcasecmp(assignment.name.c_str(), name.c_str()) == 0) return assignment;
         names.push_back(assignment.name);
     }
-    if (name.empty()) throw InvalidArgument("say which assignment: {}", listed(names));
+    if (name.empty()) throw InvalidArgument("give an assignment: {}", listed(names));
     const auto near = nearest_word(name, names);
     const MessageList known = listed(names);
     if (names.size() == 1)
-        throw near ? InvalidArgument("there is no assignment \"{}\"; there is {}; did you mean {}?", name, known, *near)
-                   : InvalidArgument("there is no assignment \"{}\"; there is {}", name, known);
-    throw near ? InvalidArgument("there is no assignment \"{}\"; there are {}; did you mean {}?", name, known, *near)
-               : InvalidArgument("there is no assignment \"{}\"; there are {}", name, known);
+        throw near
+            ? InvalidArgument("unknown assignment \"{}\"; the only one is {}; did you mean {}?", name, known, *near)
+            : InvalidArgument("unknown assignment \"{}\"; the only one is {}", name, known);
+    throw near
+        ? InvalidArgument("unknown assignment \"{}\"; the assignments are {}; did you mean {}?", name, known, *near)
+        : InvalidArgument("unknown assignment \"{}\"; the assignments are {}", name, known);
 }
 
 std::vector<std::string> parts_of(const Assignment& assignment, const std::string& stage) {
@@ -275,9 +276,8 @@ Costs costs_of(const std::string& text) {
         const auto value = read_number<double>(points);
         if (known == std::end(kCosts) || !value || !(*value >= 0 && *value <= 100))
             throw InvalidArgument(
-                "costs are late-day, late-most, missing-final, late-review and missing-review with percent points from "
-                "0 to 100, "
-                "such as late-day:10,missing-review:25, but \"{}:{}\" was given",
+                "penalties are late-day, late-most, missing-final, late-review and missing-review with percent points "
+                "from 0 to 100, such as late-day:10,missing-review:25, but \"{}:{}\" was given",
                 name, points);
         costs.*(known->second) = *value;
     }
@@ -294,7 +294,7 @@ bool waits_for_confirmation(const Costs& costs, std::int64_t late, bool confirme
 }
 
 void refuse_without_reason(const std::string& reason) {
-    if (reason.empty()) throw InvalidArgument("say why: --reason \"...\"; it stands in the history");
+    if (reason.empty()) throw InvalidArgument("give the reason for the history: --reason \"...\"");
 }
 
 Instant due_for(Course& course, const Assignment& a, std::int64_t group, const std::string& stage) {

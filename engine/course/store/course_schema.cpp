@@ -286,11 +286,11 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
         const std::int64_t version = pragma(database, "user_version"), id = pragma(database, "application_id");
         const bool fresh = opening == Database::Opening::kNew && version == 0;
         if (!fresh && id != kApplicationId)
-            throw EnvironmentError("{}: this is not a course; make one with dynlab course init", file);
+            throw EnvironmentError("{}: the folder is not a course; make a course with dynlab course init", file);
         if (version > newest)
             throw EnvironmentError(
-                "{}: this course was made by a newer dynlab (its tables have version {}, this program knows {}); use "
-                "that program",
+                "{}: a newer dynlab made this course (its tables have version {}, this program knows {}); use the "
+                "newer dynlab",
                 file, version, newest);
         return version;
     };
@@ -305,7 +305,7 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
         database.execute(steps[static_cast<std::size_t>(version)]);
     database.execute(kViews);
     if (database.query("PRAGMA foreign_key_check").next())
-        throw EnvironmentError("{}: a row refers to one that is not there; nothing was changed, take a backup", file);
+        throw EnvironmentError("{}: a row refers to a missing row; nothing was changed; restore a backup", file);
     database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplicationId, newest));
     transaction.commit();
     database.execute("PRAGMA foreign_keys = ON");

@@ -49,7 +49,7 @@ void make_folder(const fs::path& folder) {
     std::error_code error;
     const bool made = fs::create_directories(folder, error);
     if (made && !error) fs::permissions(folder, fs::perms::owner_all, error);
-    if (error) throw EnvironmentError("cannot make the folder {}: {}", folder.string(), system_reason(error.value()));
+    if (error) throw EnvironmentError("cannot create the folder {}: {}", folder.string(), system_reason(error.value()));
 }
 
 /// The folder itself or the nearest above it that holds a course.
@@ -61,19 +61,18 @@ fs::path course_folder(const fs::path& start) {
         if (folder == folder.root_path()) break;
     }
     throw EnvironmentError(
-        "there is no course in {} or above it; go into its folder, name it with --course DIR, or make one with dynlab "
-        "course init DIR",
+        "no course in {} or above; change to its folder, name it with --course DIR, or make one with dynlab course "
+        "init DIR",
         from.string());
 }
 
 std::string read_key(const fs::path& file) {
     if (!fs::exists(file))
         throw EnvironmentError(
-            "{} is missing; without it receipts can neither be signed nor verified; put it back from a backup",
-            file.string());
+            "{} is missing, so receipts can neither be signed nor verified; restore it from a backup", file.string());
     std::string key = read_file(file);
     while (!key.empty() && (key.back() == '\n' || key.back() == ' ')) key.pop_back();
-    if (key.size() < 32) throw EnvironmentError("{} is damaged; put it back from a backup", file.string());
+    if (key.size() < 32) throw EnvironmentError("{} is damaged; restore it from a backup", file.string());
     return key;
 }
 
@@ -119,7 +118,7 @@ void Course::create(const fs::path& folder, const std::string& name, const std::
     migrate_course(database, Database::Opening::kNew, (folder / kDatabase).string());
     Transaction transaction(database);
     if (database.query("SELECT 1 FROM course").next())
-        throw EnvironmentError("there is a course in {} already; nothing was changed", fs::absolute(folder).string());
+        throw EnvironmentError("{} contains a course already; nothing was changed", fs::absolute(folder).string());
     make_key(folder / kKey);
     const SigningKey signing_key = signing_key_of(read_key(folder / kKey));
     write_public_key(folder, name, signing_key);
@@ -154,7 +153,7 @@ fs::path Course::publish_key() const {
 std::string Course::setting(const char* key) {
     Rows rows = database_.query("SELECT value FROM course WHERE key = ?", key);
     if (!rows.next())
-        throw EnvironmentError("{}: the course was not finished; repeat dynlab course init",
+        throw EnvironmentError("{}: the course is incomplete; repeat dynlab course init",
                                (folder_ / kDatabase).string());
     return rows.text(0);
 }

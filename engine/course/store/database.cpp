@@ -19,20 +19,20 @@ std::string reason_of(int code, const char* words) {
     switch (code & 0xFF) {
         case SQLITE_BUSY:
         case SQLITE_LOCKED:
-            return "another dynlab is writing to this course; nothing was changed, try again when it is done";
+            return "another dynlab is writing to this course; nothing was changed; try again later";
         case SQLITE_FULL:
-            return "no space left on the disk; nothing was changed, make room and repeat";
+            return "no space left on the disk; nothing was changed; free some space and repeat";
         case SQLITE_READONLY:
         case SQLITE_PERM:
-            return "it may not be written to; nothing was changed, see to the rights of the file and its folder";
+            return "no write permission; nothing was changed; check the permissions of the file and its folder";
         case SQLITE_CANTOPEN:
-            return "it cannot be opened; see whether file and folder are there and may be written to";
+            return "it cannot be opened; check that file and folder exist and are writable";
         case SQLITE_NOTADB:
             return "this is not a course: the file is not a database";
         case SQLITE_CORRUPT:
-            return "the file is damaged; take a backup, or a JSON export with dynlab course import";
+            return "the file is damaged; restore a backup, or import a JSON export with dynlab course import";
         case SQLITE_IOERR:
-            return "the disk refused to read or write; nothing was changed, see to it and repeat";
+            return "the disk failed to read or write; nothing was changed; check the disk and repeat";
         default:
             return words;
     }

@@ -53,15 +53,15 @@ void refuse_odd_group(const std::string& name) {
                                terminal_text(name.substr(0, 40)), kMaxNameBytes, name.size());
     if (is_reserved(name))
         throw EnvironmentError(
-            "a group cannot be called \"{}\": a device or a list has this name. Correct the roster; nothing was "
+            "a group cannot have the name \"{}\": a device or a list has it. Correct the roster; nothing was "
             "changed",
             name);
     const bool plain = name.find_first_of("/\\:*?\"<>|\n\r\t") == name.npos && terminal_text(name) == name;
     if (plain && !name.starts_with('.') && !name.ends_with('.')) return;
     throw EnvironmentError(
-        "the group's name \"{}\" cannot name a folder: it must not begin or end with a full stop, and must not contain "
-        "/ \\ : * ? \" < > | or characters that cannot be seen. Correct the roster, where the id names the group of a "
-        "student without one; nothing was changed",
+        "the group's name \"{}\" cannot be the name of a folder: it must not start or end with a period, and must not "
+        "contain / \\ : * ? \" < > | or invisible characters. Correct the roster, where the id is the group name of a "
+        "student without a group; nothing was changed",
         terminal_text(name));
 }
 
@@ -205,11 +205,10 @@ Group group_named(Course& course, const std::string& name) {
     const Owners owners(students, names);
     const Owners::Found found = owners.called(name);
     if (const auto group = std::ranges::find(groups, found.group, &Group::name); group != groups.end()) return *group;
-    if (found.doubtful) throw InvalidArgument("\"{}\" could mean several groups: {}", name, found.trouble);
+    if (found.doubtful) throw InvalidArgument("\"{}\" matches several groups: {}", name, found.trouble);
     const auto near = nearest_word(name, owners.names());
-    throw near ? InvalidArgument("there is no group \"{}\" in this course; did you mean {}?", name, *near)
-               : InvalidArgument(
-                     "there is no group \"{}\" in this course; see dynlab course status for those there are", name);
+    throw near ? InvalidArgument("this course has no group \"{}\"; did you mean {}?", name, *near)
+               : InvalidArgument("this course has no group \"{}\"; dynlab course status lists the groups", name);
 }
 
 Student student_named(Course& course, const std::string& name) {
@@ -221,10 +220,10 @@ Student student_named(Course& course, const std::string& name) {
     const Owners owners(alone);
     const Owners::Found found = owners.called(name);
     if (found.anybody()) return students[found.students.front()];
-    if (found.doubtful) throw InvalidArgument("several students are called \"{}\": give the id", name);
+    if (found.doubtful) throw InvalidArgument("several students are named \"{}\": give the id", name);
     const auto near = nearest_word(name, owners.names());
-    throw near ? InvalidArgument("there is no student \"{}\"; did you mean {}?", name, *near)
-               : InvalidArgument("there is no student \"{}\"", name);
+    throw near ? InvalidArgument("unknown student \"{}\"; did you mean {}?", name, *near)
+               : InvalidArgument("unknown student \"{}\"", name);
 }
 
 std::vector<std::string> members_at(Course& course, std::int64_t group, Instant at) {
@@ -268,11 +267,12 @@ std::vector<Student> students_of(Course& course) {
 
 RosterChange import_roster(Course& course, const std::filesystem::path& file, bool no_groups) {
     const Roster roster(file);
-    if (roster.students().empty()) throw EnvironmentError("{}: there are no students below the header", file.string());
+    if (roster.students().empty())
+        throw EnvironmentError("{}: the file has no students below the header", file.string());
     if (!roster.has("group") && !no_groups)
         throw EnvironmentError(
-            "{}: the column group is missing; there are {}, and known are id, name, group, email (or mail), moodle, "
-            "canvas. Say --no-groups where each student works alone",
+            "{}: the column group is missing; the columns are {}. Known columns are id, name, group, email (or mail), "
+            "moodle, canvas. Give --no-groups if each student works alone",
             file.string(), listed(roster.columns()));
     RosterChange change = Import(course, roster).run();
     change.unknown_columns = roster.unknown_columns();

@@ -44,12 +44,12 @@ Submission sender_of(const std::string& name) {
 
 void IncomingFiles::add(const fs::path& given) {
     const std::string source = given.string();
-    if (!fs::exists(given)) throw EnvironmentError("there is no file or folder '{}'", source);
+    if (!fs::exists(given)) throw EnvironmentError("file or folder not found: '{}'", source);
     if (!files_.empty()) batch_ = true;
     ++given_;
     if (fs::is_directory(given)) {
         if (way_.one_sender)
-            throw EnvironmentError("{} is a folder; with --from give the files themselves, or a pack", source);
+            throw EnvironmentError("{} is a folder; with --from, give the files themselves or a pack", source);
         batch_ = true;
         if (way_.knows(sender_of(given.filename())))
             add_own_folder(given, source);
@@ -101,8 +101,7 @@ void IncomingFiles::add_found(const fs::path& file, const std::string& source) {
         add_file(file, source);
     else
         leave_out(file.filename(), source, sender_of(file.filename()),
-                  type == fs::file_type::symlink ? Message("a link; it was left out")
-                                                 : Message("not a regular file; it was left out"));
+                  type == fs::file_type::symlink ? Message("link; left out") : Message("not a regular file; left out"));
 }
 
 void IncomingFiles::add_batch(const fs::path& folder, const std::string& source) {

@@ -53,7 +53,7 @@ Inspection Inspector::inspect(const std::filesystem::path& pdf, const std::strin
 Inspection unreadable_inspection(const std::string& trouble, const Message& reason) {
     CheckResult result;
     result.subject = kUnreadable;
-    result.findings.push_back({trouble, Severity::kRule, 0, "", reason, Message("Submit a file that can be read.")});
+    result.findings.push_back({trouble, Severity::kRule, 0, "", reason, Message("Submit a readable file.")});
     return inspection_from(findings_as_json(result));
 }
 

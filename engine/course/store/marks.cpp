@@ -140,7 +140,7 @@ bool give_mark(Course& course, const Assignment& assignment, const GivenMark& ma
     const char* const unit = assignment.is_lab() ? "points" : "percent";
     course.note(mark.points
                     ? fmt::format("{}: {} has {} {} for {}{}", assignment.name, who, *mark.points, unit, what, why)
-                    : fmt::format("{}: the {} of {} for {} are taken back{}", assignment.name, unit, who, what, why),
+                    : fmt::format("{}: the {} of {} for {} are withdrawn{}", assignment.name, unit, who, what, why),
                 now);
     return true;
 }
@@ -155,7 +155,7 @@ void take_back_mark(Course& course, const Assignment& assignment, const std::str
         if (mark.pair == 0 && mark.stage == "first" && mark.student == student && mark.item == item &&
             (alone || mark.group == group.id))
             any = give_mark(course, assignment, {mark.group, student, item, {}, reason, mark.version}, now) || any;
-    if (!any) throw InvalidArgument("{} has no mark of yours for {}", alone ? student : group.name, item);
+    if (!any) throw InvalidArgument("{} has no manual mark for {}", alone ? student : group.name, item);
 }
 
 std::optional<double> most_points(Course& course, const Assignment& assignment, const std::string& item) {
@@ -172,7 +172,7 @@ std::optional<double> most_points(Course& course, const Assignment& assignment, 
     if (item == kWholeItem) return rows.number(1);
     for (const CheckPoints& check : checks_in(rows.text(0)))
         if (check.id == item) return check.points;
-    throw InvalidArgument("{} has no check \"{}\"; * is the whole submission", assignment.name, item);
+    throw InvalidArgument("{} has no check \"{}\"; * means the complete submission", assignment.name, item);
 }
 
 bool record_result(Course& course, const VersionResult& result, Instant now) {

@@ -50,10 +50,9 @@ std::optional<ReceiptFile> read_receipt(std::string_view text) {
 const ReceiptVerdict kGenuine{true, "genuine"};
 const ReceiptVerdict kNoReceipt{false, "NOT genuine: this is not a receipt"};
 const ReceiptVerdict kNotGenuine{false, "NOT genuine: altered, or signed by another course"};
-const ReceiptVerdict kNeedsCourse{
-    false,
-    "cannot be decided: it has a code instead of a signature, as earlier courses gave; only the "
-    "course can verify it (dynlab course verify)"};
+const ReceiptVerdict kNeedsCourse{false,
+                                  "cannot be decided: the receipt has a code instead of a signature, from an early "
+                                  "version of dynlab; only the course can verify it (dynlab course verify)"};
 
 ReceiptVerdict verify_signature(const ReceiptFile& file, std::string_view public_key) {
     const bool other_key = !file.public_key.empty() && file.public_key != public_key;
@@ -143,7 +142,7 @@ Receipt receipt_of(Course& course, std::int64_t version, std::optional<std::int6
         "FROM versions v JOIN assignments a ON a.id = v.assignment LEFT JOIN groups g ON g.id = v.group_id "
         "JOIN files f ON f.hash = v.hash WHERE v.id = ?",
         version);
-    if (!rows.next()) throw EnvironmentError("there is no version {} in this course", version);
+    if (!rows.next()) throw EnvironmentError("this course has no version {}", version);
     Receipt receipt{course.name(),   rows.text(0),    rows.text(1),    rows.text(2),
                     rows.text(3),    rows.text(4),    rows.text(5),    rows.integer(6),
                     rows.integer(7), rows.integer(8), rows.integer(9), rows.integer(10)};

@@ -66,14 +66,14 @@ std::optional<Group> Senders::find(const Submission& submission) const {
 Message Senders::complaint(const Submission& submission) const {
     const std::string& own = submission.person.empty() ? submission.name : submission.person;
     const Owners::Found found = owner_of(submission);
-    if (found.doubtful) return Message("whose \"{}\" is cannot be told: {}; say it: --from GROUP", own, found.trouble);
+    if (found.doubtful)
+        return Message("the owner of \"{}\" is unknown: {}; give it with --from GROUP", own, found.trouble);
     const auto near = nearest_word(own, owners_.names());
     if (!near)
-        return Message("no group and no student of the course is called \"{}\"; say whose it is: --from GROUP", own);
+        return Message("no group or student of the course is named \"{}\"; give the owner with --from GROUP", own);
     return Message(
-        "no group and no student of the course is called \"{}\" (the nearest is {}); say whose it is: --from "
-        "GROUP",
-        own, *near);
+        "no group or student of the course is named \"{}\" (the closest is {}); give the owner with --from GROUP", own,
+        *near);
 }
 
 void keep_participant(Course& course, std::int64_t assignment, const Submission& sender, const Group& group) {

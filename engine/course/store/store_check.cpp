@@ -41,9 +41,8 @@ void check_receipts(Course& course, StoreCheck& check) {
         if (!verify_receipt(text, course).genuine)
             check.troubles.push_back(Message("{} is not a genuine receipt", entry.path().string()));
         else if (!given.contains(signed_part(text)))
-            check.troubles.push_back(
-                Message("{} is genuine, but what it speaks of is not in the store any more; take a backup",
-                        entry.path().string()));
+            check.troubles.push_back(Message("{} is genuine, but its file is no longer in the store; restore a backup",
+                                             entry.path().string()));
     }
 }
 
@@ -51,20 +50,20 @@ void check_signatures(Course& course, StoreCheck& check) {
     Database& db = course.database();
     for (Rows rows = db.query("SELECT id, signature FROM versions ORDER BY id"); rows.next(); ++check.versions)
         if (!is_version_signature(course, receipt_of(course, rows.integer(0), 0), rows.text(1)))
-            check.troubles.push_back(Message("version {}: its facts are not those that were signed", rows.integer(0)));
+            check.troubles.push_back(Message("version {}: its data differ from the signed data", rows.integer(0)));
     std::map<std::int64_t, std::int64_t> number;
     for (Rows rows = db.query("SELECT version, signature FROM arrivals ORDER BY id"); rows.next();) {
         const std::int64_t version = rows.integer(0), correction = ++number[version];
         if (!is_version_signature(course, receipt_of(course, version, correction), rows.text(1)))
             check.troubles.push_back(
-                Message("version {}: its correction {} is not as it was signed", version, correction));
+                Message("version {}: its correction {} differs from the signed one", version, correction));
     }
 }
 
 /// Those that were removed when the course was opened, and those of earlier versions: ".HASH.PID-N" beside the files.
 void check_leftovers(const Course& course, StoreCheck& check) {
     for (const fs::path& file : course.removed_leftovers())
-        check.leftovers.push_back(Message("removed {}, which a run that was killed had left", file.string()));
+        check.leftovers.push_back(Message("removed {}, left by an interrupted run", file.string()));
     static const RE2 earlier(R"(\..+\.[0-9]+-[0-9]+)", RE2::Latin1);
     for (const char* own : {"files", "receipts"}) {
         const fs::path folder = course.folder() / own;
@@ -72,8 +71,8 @@ void check_leftovers(const Course& course, StoreCheck& check) {
         for (const auto& entry : fs::recursive_directory_iterator(folder)) {
             const std::string name = entry.path().filename().string();
             if (RE2::FullMatch(name, earlier) && name.find(".dynlab-") == std::string::npos)
-                check.leftovers.push_back(Message(
-                    "{} is a temporary file of an earlier dynlab that was killed; remove it", entry.path().string()));
+                check.leftovers.push_back(Message("{} is a temporary file of an earlier, interrupted dynlab; remove it",
+                                                  entry.path().string()));
         }
     }
 }
@@ -87,13 +86,13 @@ StoreCheck check_store(Course& course) {
     for (Rows rows = db.query("PRAGMA integrity_check"); rows.next();)
         if (rows.text(0) != "ok") check.troubles.push_back(Message("the database: {}", rows.text(0)));
     for (Rows rows = db.query("PRAGMA foreign_key_check"); rows.next();)
-        check.troubles.push_back(Message("the database: a row of {} refers to nothing", rows.text(0)));
+        check.troubles.push_back(Message("the database: a row of {} refers to a missing row", rows.text(0)));
     for (Rows rows = db.query("SELECT hash FROM files ORDER BY hash"); rows.next(); ++check.files) {
         const auto file = course.file(rows.text(0));
         if (!std::filesystem::exists(file))
-            check.troubles.push_back(Message("{} is missing; put it back from a backup", file.string()));
+            check.troubles.push_back(Message("{} is missing; restore it from a backup", file.string()));
         else if (sha256_of_file(file) != rows.text(0))
-            check.troubles.push_back(Message("{} was altered; put it back from a backup", file.string()));
+            check.troubles.push_back(Message("{} was altered; restore it from a backup", file.string()));
     }
     check_signatures(course, check);
     check_receipts(course, check);

@@ -101,7 +101,7 @@ void seal_store(Database& database, const SigningKey& key, Instant at) {
 
 std::vector<std::string> seal_troubles(Database& database, std::string_view public_key) {
     const std::vector<Seal> seals = seals_of(database);
-    if (seals.empty()) return {"the store has no seals: they were taken away"};
+    if (seals.empty()) return {"the store has no seals: they were removed"};
     std::vector<std::string> troubles;
     std::string before;
     std::int64_t expected = 1;
@@ -116,8 +116,8 @@ std::vector<std::string> seal_troubles(Database& database, std::string_view publ
         const auto known = sealed.find(table);
         if (known != sealed.end() && known->second == state) continue;
         troubles.push_back(fmt::format(
-            "the table {} was changed by something else than dynlab: it has {} rows, and had {} when it was last "
-            "sealed ({}); take a backup",
+            "the table {} was changed by another program: it has {} rows, but had {} when it was last sealed ({}); "
+            "restore a backup",
             table, rows_of(state), known == sealed.end() ? "none" : rows_of(known->second), utc_text(seals.back().at)));
     }
     return troubles;

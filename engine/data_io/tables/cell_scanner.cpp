@@ -55,8 +55,7 @@ std::string_view CellScanner::next_quoted_cell() {
     unquoted_.clear();
     for (++at_;; ++at_) {
         if (at_end())
-            throw EnvironmentError("{}, line {}: a quotation mark is opened and never closed", file_.string(),
-                                   record_line_);
+            throw EnvironmentError("{}, line {}: a quotation mark is not closed", file_.string(), record_line_);
         if (text_[at_] == '"') {
             if (at_ + 1 >= text_.size() || text_[at_ + 1] != '"') break;
             ++at_;

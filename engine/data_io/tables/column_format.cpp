@@ -203,33 +203,34 @@ void refuse_cell(const CellPlace& place, std::string_view cell, const ColumnForm
     double number = 0;
     const NumberStatus status = parse_number(cell, number);
     if (format.kind == Kind::kSwitch)
-        throw EnvironmentError("{}, line {}, column {}: wanted {} or {} as in the other rows, given {}", file,
+        throw EnvironmentError("{}, line {}, column {}: expected {} or {} as in the other rows, got {}", file,
                                place.line, place.column, format.on, format.off, given);
     if (format.kind == Kind::kClock)
-        throw EnvironmentError("{}, line {}, column {}: wanted a time as in the other rows, such as {}, given {}", file,
+        throw EnvironmentError("{}, line {}, column {}: expected a time as in the other rows, such as {}, got {}", file,
                                place.line, place.column, format.example, given);
     if (format.kind == Kind::kMeasure)
         throw EnvironmentError(
-            "{}, line {}, column {}: wanted a number with the unit {} as in the other rows, given {}", file, place.line,
+            "{}, line {}, column {}: expected a number with the unit {} as in the other rows, got {}", file, place.line,
             place.column, format.unit, given);
     if (status == NumberStatus::kNotFinite)
         throw EnvironmentError(
-            "{}, line {}, column {}: wanted a finite number, given {}; where a sample is missing, write nothing or NaN",
+            "{}, line {}, column {}: expected a finite number, got {}; leave the cell of a missing sample empty, or "
+            "write NaN",
             file, place.line, place.column, given);
     if (status == NumberStatus::kOutOfRange)
-        throw EnvironmentError("{}, line {}, column {}: wanted a number that fits double precision, given {}", file,
+        throw EnvironmentError("{}, line {}, column {}: expected a number within double precision, got {}", file,
                                place.line, place.column, given);
     if (grouped_number(cell))
         throw EnvironmentError(
-            "{}, line {}, column {}: wanted a number, given {}; write it without a sign between the thousands", file,
+            "{}, line {}, column {}: expected a number, got {}; write it without thousands separators", file,
             place.line, place.column, given);
     if (is_unit(number_and_rest(cell).rest))
         throw EnvironmentError(
-            "{}, line {}, column {}: wanted a number, given {}; write the unit in the header, not in the cell", file,
+            "{}, line {}, column {}: expected a number, got {}; write the unit in the header, not in the cell", file,
             place.line, place.column, given);
     throw EnvironmentError(
-        "{}, line {}, column {}: wanted a number, given {}; where a sample is missing, write nothing or NaN", file,
-        place.line, place.column, given);
+        "{}, line {}, column {}: expected a number, got {}; leave the cell of a missing sample empty, or write NaN",
+        file, place.line, place.column, given);
 }
 
 }  // namespace dynlab::inline data_io

@@ -87,7 +87,7 @@ void take_labview(const std::filesystem::path& file, std::string& text, Instrume
     if (again == std::string::npos) return;
     const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(again), '\n') + 1;
     throw EnvironmentError(
-        "{}, line {}: another record begins here, with a header of its own; make a file of each record", file.string(),
+        "{}, line {}: another recording starts here, with its own header; make a file of each recording", file.string(),
         line);
 }
 

@@ -51,8 +51,7 @@ CellKind kind_of(std::string_view cell) {
 }
 
 [[noreturn]] void fail_wide(const std::filesystem::path& file, const CellScanner& scanner) {
-    throw EnvironmentError("{}, line {}: there are more than {} cells in one row", file.string(), scanner.line(),
-                           kMostColumns);
+    throw EnvironmentError("{}, line {}: the row has more than {} cells", file.string(), scanner.line(), kMostColumns);
 }
 
 /// Nothing when quotation marks, or rows of no sensible length, show that the separator is another.
@@ -117,7 +116,7 @@ class LayoutFinder {
         }
         const std::size_t rows = header_ ? (units_ ? *units_ : *header_) + 1 : first_row_;
         if (rows >= records_.size())
-            throw EnvironmentError("{}: there are no rows below the header line", file_.string());
+            throw EnvironmentError("{}: the table has no rows below the header line", file_.string());
         layout.rows_at = records_[rows].at, layout.rows_line = records_[rows].line;
         layout.table_line = records_[first].line, layout.passed_over = first;
         if (!header_ && first_row_ == 0) take_names_of_comment();
@@ -242,8 +241,8 @@ class LayoutFinder {
     [[noreturn]] void fail_mismatch() const {
         const TableRecord& above = records_[first_row_ - 1];
         throw EnvironmentError(
-            "{}, line {}: {}, but the rows below have {}; where that line does not belong to the table, write "
-            "load(file, {skip = {}})",
+            "{}, line {}: {}, but the rows below have {}; if that line is not part of the table, use load(file, {skip "
+            "= {}})",
             file_.string(), above.line, plural(std::ssize(above.cells), "{} name", "{} names"),
             plural(static_cast<std::int64_t>(columns_), "{} cell", "{} cells"), above.line);
     }
@@ -286,7 +285,7 @@ double score_of(const std::filesystem::path& file, const TableSample& sample) {
             scanner.next_cell();
         } while (!scanner.record_ended());
     }
-    throw EnvironmentError("{}: there is no header line with the names of the columns", file.string());
+    throw EnvironmentError("{}: the table has no header line with the names of the columns", file.string());
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ class RowReader {
             return true;
         }
         if (cells == 1 && ends_before(scanner)) return false;
-        throw EnvironmentError("{}, line {}: wanted {} as in the header line, given {}", file_.string(), scanner.line(),
+        throw EnvironmentError("{}, line {}: expected {} as in the header line, got {}", file_.string(), scanner.line(),
                                plural(std::ssize(columns_), "{} cell", "{} cells"), cells);
     }
 
@@ -137,8 +137,8 @@ class RowReader {
         constexpr std::size_t kShown = 30;
         if (first.size() > kShown) first = first.substr(0, kShown) + "...";
         if (rows_.count == 0) return false;
-        rows_.notes.push_back(
-            Message("line {} and what follows it are below the table and are left out: \"{}\"", at.line(), first));
+        rows_.notes.push_back(Message(
+            "dynlab ignores line {} and the lines after it, which are below the table: \"{}\"", at.line(), first));
         return true;
     }
 
@@ -146,22 +146,22 @@ class RowReader {
         for (std::size_t j = 0; j < columns_.size(); ++j) {
             const ColumnFormat& format = layout_.formats[j];
             if (format.kind == ColumnFormat::Kind::kSwitch)
-                rows_.notes.push_back(
-                    Message("column {} holds the words {} and {}, read as 1 and 0", names_[j], format.on, format.off));
+                rows_.notes.push_back(Message("column {} contains the words {} and {}, read as 1 and 0", names_[j],
+                                              format.on, format.off));
             else if (format.kind == ColumnFormat::Kind::kMeasure)
-                rows_.notes.push_back(Message("column {} holds numbers with their unit, such as {}: the unit is {}",
+                rows_.notes.push_back(Message("column {} contains numbers with their unit, such as {}; its unit is {}",
                                               names_[j], format.example, format.unit));
             else if (format.kind == ColumnFormat::Kind::kNumber && !format.example.empty())
-                rows_.notes.push_back(Message("column {} holds numbers with signs between the thousands, such as {}",
-                                              names_[j], format.example));
+                rows_.notes.push_back(
+                    Message("column {} contains thousands separators, as in {}", names_[j], format.example));
             else if (is_text(j) && !columns_[j].texts.empty() && begins_with_digit(columns_[j].texts.front()))
                 rows_.notes.push_back(
-                    Message("column {} holds texts, not numbers, such as \"{}\"; write numbers only, with a decimal "
-                            "point, to use it as a signal",
+                    Message("column {} contains text, not numbers, such as \"{}\"; to use it as a signal, write only "
+                            "numbers with a decimal point",
                             names_[j], columns_[j].texts.front()));
         }
         if (!first_comma_.empty())
-            rows_.notes.push_back(Message("numbers are written with a decimal comma, such as {}", first_comma_));
+            rows_.notes.push_back(Message("the numbers have a decimal comma, as in {}", first_comma_));
     }
     static bool begins_with_digit(const std::string& text) { return text.find_first_of("0123456789") == 0; }
 

@@ -70,11 +70,12 @@ std::string decoded_text(const std::filesystem::path& file, std::string bytes, s
     if (begin == "\xFF\xFE" || begin == "\xFE\xFF") bytes = from_utf16(bytes, begin == "\xFE\xFF");
     bytes.erase(0, bytes.size() - without_byte_order_mark(bytes).size());
     if (bytes.find('\0') != std::string::npos)
-        throw EnvironmentError("{}: it holds bytes that are no text; export the table as CSV in UTF-8", file.string());
+        throw EnvironmentError("{}: the file contains bytes that are not text; export the table as CSV in UTF-8",
+                               file.string());
     if (const std::size_t place = end_of_utf8(bytes); place != std::string::npos) {
         const std::string word = from_windows(word_around(bytes, place));
         bytes = from_windows(bytes);
-        notes.push_back(Message("the text is not UTF-8 and is read as Windows-1252, for example \"{}\"", word));
+        notes.push_back(Message("the text is not UTF-8 and was read as Windows-1252, for example \"{}\"", word));
     }
     if (bytes.find('\n') == std::string::npos) std::replace(bytes.begin(), bytes.end(), '\r', '\n');
     return bytes;

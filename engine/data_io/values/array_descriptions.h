@@ -38,7 +38,7 @@ template <std::same_as<Complex> T>
 void read_whole_value(ValueReader& reader, T& value) {
     ComplexVector one;
     read_whole_value(reader, one);
-    if (one.size() != 1) reader.refuse(Message("one complex number was wanted"));
+    if (one.size() != 1) reader.refuse(Message("expected one complex number"));
     value = one[0];
 }
 

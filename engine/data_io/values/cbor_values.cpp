@@ -145,11 +145,11 @@ void CborWriter::end_object() {
 }
 
 CborReader::CborReader(std::string_view bytes, const ValueLimits& limits) : ValueReader(limits), rest_(bytes) {
-    if (bytes.size() > limits.bytes) refuse(Message("it has more than the {} bytes that are read", limits.bytes));
+    if (bytes.size() > limits.bytes) refuse(Message("the value exceeds the limit of {} bytes", limits.bytes));
 }
 
 void CborReader::expect_end() const {
-    if (!at_end()) refuse(Message("bytes are left behind its end"));
+    if (!at_end()) refuse(Message("extra bytes follow the value"));
 }
 
 const CborReader::Token& CborReader::peek() {
@@ -159,7 +159,7 @@ const CborReader::Token& CborReader::peek() {
     const cbor_decoder_result result =
         cbor_stream_decode(reinterpret_cast<cbor_data>(rest_.data()), rest_.size(), &kCallbacks, &token_);
     if (result.status != CBOR_DECODER_FINISHED)
-        refuse(result.status == CBOR_DECODER_ERROR ? Message("these bytes are no CBOR")
+        refuse(result.status == CBOR_DECODER_ERROR ? Message("the bytes are not CBOR")
                                                    : Message("the bytes end too early"));
     rest_.remove_prefix(result.read);
     has_token_ = true;
@@ -213,7 +213,7 @@ std::int64_t CborReader::whole(std::int64_t low, std::int64_t high) {
     const auto size = static_cast<std::int64_t>(fits ? token.value : 0);
     const std::int64_t value = negative ? -1 - size : size;
     if (!fits || value < low || value > high)
-        refuse(Message("a whole number from {} to {} was wanted, {} was given", low, high,
+        refuse(Message("expected a whole number from {} to {}, got {}", low, high,
                        (negative ? "-" : "") + std::to_string(token.value)));
     return value;
 }
@@ -237,7 +237,7 @@ NumberArray CborReader::take_array(std::optional<ArrayForm> wanted) {
     std::uint64_t tag = take_tag();
     NumberArray array{ArrayForm::kVector, 0, 1, nullptr};
     if (tag == kColumnsTag || tag == kRowsTag) {
-        if (open_list() != 2) refuse(Message("an array has its dimensions and its numbers"));
+        if (open_list() != 2) refuse(Message("an array consists of its dimensions and its numbers"));
         const std::size_t dimensions = open_list();
         const bool complex = tag == kRowsTag || dimensions == 3;
         if (dimensions != (tag == kColumnsTag && complex ? 3 : 2)) refuse(Message("an array has two dimensions"));
@@ -256,7 +256,7 @@ NumberArray CborReader::take_array(std::optional<ArrayForm> wanted) {
     if (array.form == ArrayForm::kVector) array.rows = count;
     const bool fits = array.columns == 0 ? count == 0 : array.rows <= count / array.columns;
     if (!fits || array.bytes() != numbers.size())
-        refuse(Message("{} x {} numbers do not stand in {} bytes", array.rows, array.columns, numbers.size()));
+        refuse(Message("{} x {} numbers do not fit {} bytes", array.rows, array.columns, numbers.size()));
     if (wanted && *wanted != array.form) refuse_kind(array_name(wanted), array_name(array.form));
     array.numbers = numbers.data();
     return array;
@@ -264,13 +264,13 @@ NumberArray CborReader::take_array(std::optional<ArrayForm> wanted) {
 
 std::size_t CborReader::open_list() {
     const std::uint64_t count = take(Type::kList).value;
-    if (count > rest_.size()) refuse(Message("it claims more elements than there are bytes"));
+    if (count > rest_.size()) refuse(Message("the value claims more elements than the data have bytes"));
     return count;
 }
 
 std::size_t CborReader::open_map() {
     const std::uint64_t count = take(Type::kMap).value;
-    if (count > rest_.size()) refuse(Message("it claims more entries than there are bytes"));
+    if (count > rest_.size()) refuse(Message("the value claims more entries than the data have bytes"));
     return count;
 }
 
@@ -285,7 +285,7 @@ bool CborReader::to_member(const char* name) {
 }
 
 void CborReader::close_object() {
-    if (peek().type == Type::kText) refuse(Message("it has a member that is not known, or not in its place"));
+    if (peek().type == Type::kText) refuse(Message("the value has an unknown or misplaced member"));
     take(Type::kBreak);
 }
 

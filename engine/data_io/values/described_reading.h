@@ -99,7 +99,7 @@ void read_map(ValueReader& reader, T& value) {
 
 template <class T>
 void read_pair(ValueReader& reader, T& value) {
-    if (reader.begin_list(0) != 2) reader.refuse(Message("two things were wanted"));
+    if (reader.begin_list(0) != 2) reader.refuse(Message("expected two values"));
     reader.element();
     read_value(reader, value.first);
     reader.element();

@@ -64,9 +64,9 @@ class LimitCheck final : public nlohmann::json_sax<json> {
 
   private:
     bool count() {
-        if (depth_ > limits_.depth) throw ValueError("the JSON text is nested too deep");
+        if (depth_ > limits_.depth) throw ValueError("the JSON text is nested too deeply");
         constexpr std::size_t kNodeBytes = 64;  // of one value, with its place in a list or map
-        if (memory_left_ < kNodeBytes) throw ValueError("the JSON text holds too many values");
+        if (memory_left_ < kNodeBytes) throw ValueError("the JSON text contains too many values");
         memory_left_ -= kNodeBytes;
         return true;
     }
@@ -150,9 +150,9 @@ std::string in_utf8(std::string_view text) {
 }
 
 json parsed_json(std::string_view text, const ValueLimits& limits) {
-    if (text.size() > limits.bytes) throw ValueError("the JSON text is longer than is read");
+    if (text.size() > limits.bytes) throw ValueError("the JSON text exceeds the length limit");
     LimitCheck check(limits);
-    if (!json::sax_parse(text, &check)) throw ValueError("the text is no JSON");
+    if (!json::sax_parse(text, &check)) throw ValueError("the text is not JSON");
     return json::parse(text);
 }
 
@@ -219,7 +219,7 @@ void JsonReader::read_numbers(const json& list, bool complex) {
     const auto add = [this](const json& value) {
         const auto number = number_in(value);
         if (!number)
-            refuse_kind(Message("a list of numbers"), Message("one with JSON of the type {}", value.type_name()));
+            refuse_kind(Message("a list of numbers"), Message("a list with JSON of the type {}", value.type_name()));
         numbers_.push_back(*number);
     };
     if (!list.is_array()) refuse_json(Message("a list of numbers"));
@@ -229,7 +229,8 @@ void JsonReader::read_numbers(const json& list, bool complex) {
             add(value);
             continue;
         }
-        if (!value.is_array() || value.size() != 2) refuse(Message("a complex number is a real and an imaginary part"));
+        if (!value.is_array() || value.size() != 2)
+            refuse(Message("a complex number consists of a real and an imaginary part"));
         add(value[0]), add(value[1]);
     }
 }
@@ -246,7 +247,7 @@ NumberArray JsonReader::take_array(std::optional<ArrayForm> wanted) {
             if (!at_->is_object() || !at_->contains(name) || !at_->at(name).is_number_integer())
                 refuse_json(Message("a matrix with rows, columns and values"));
             const auto value = at_->at(name).get<std::int64_t>();
-            if (value < 0 || value > kMost) refuse(Message("there is no such number of {}", name));
+            if (value < 0 || value > kMost) refuse(Message("the number of {} is out of range", name));
             return static_cast<Index>(value);
         };
         array.rows = size("rows"), array.columns = size("columns");
@@ -255,7 +256,7 @@ NumberArray JsonReader::take_array(std::optional<ArrayForm> wanted) {
         const auto count = static_cast<Index>(numbers_.size()) / (array.is_complex() ? 2 : 1);
         const bool fits = array.columns == 0 ? count == 0 : array.rows <= count / array.columns;
         if (!fits || array.rows * array.columns != count)
-            refuse_kind(Message("{} x {} numbers", array.rows, array.columns), Message("another number of them"));
+            refuse_kind(Message("{} x {} numbers", array.rows, array.columns), Message("a different number of values"));
     }
     array.numbers = numbers_.data();
     return array;

@@ -4,7 +4,7 @@ namespace dynlab::inline data_io {
 namespace {
 
 void check_coefficients(const Vector& polynomial, const ValueLimits& limits) {
-    if (polynomial.size() > limits.coefficients) throw InvalidArgument("a polynomial is of an absurdly high order");
+    if (polynomial.size() > limits.coefficients) throw InvalidArgument("the order of a polynomial is too high");
 }
 
 void check_polynomials(const std::vector<Vector>& polynomials, const ValueLimits& limits) {
@@ -17,7 +17,7 @@ void check_polynomials(const std::vector<Vector>& polynomials, const ValueLimits
 }  // namespace
 
 void check_value(const IdData& data, const ValueLimits&) {
-    if (data.experiments.empty()) throw InvalidArgument("data have at least one experiment");
+    if (data.experiments.empty()) throw InvalidArgument("data need at least one experiment");
     for (const Experiment& experiment : data.experiments) {
         const IdData part = data.Ts > 0 ? IdData(experiment.y, experiment.u, data.Ts)
                                         : IdData(experiment.y, experiment.u, experiment.t);
@@ -26,14 +26,15 @@ void check_value(const IdData& data, const ValueLimits&) {
         if (experiment.r.size() > 0) part.with_reference(experiment.r);
         if (!same_channels || experiment.r.cols() != data.reference_count())
             throw InvalidArgument("its experiments have different channels");
-        if (data.Ts > 0 && experiment.t.size() > 0) throw InvalidArgument("regular data have no instants of their own");
+        if (data.Ts > 0 && experiment.t.size() > 0)
+            throw InvalidArgument("regularly sampled data must not have sampling instants");
     }
     const auto fit = [](const std::vector<std::string>& names, Index wanted) {
         return static_cast<Index>(names.size()) == wanted;
     };
     if (!fit(data.input_names, data.input_count()) || !fit(data.input_units, data.input_count()) ||
         !fit(data.output_names, data.output_count()) || !fit(data.output_units, data.output_count()))
-        throw InvalidArgument("its channels and their names and units differ in number");
+        throw InvalidArgument("the numbers of channels, names and units differ");
 }
 
 void check_value(const FrequencyData& data, const ValueLimits&) {
@@ -42,9 +43,10 @@ void check_value(const FrequencyData& data, const ValueLimits&) {
                          fits(data.distortion.size()) && fits(data.coherence.size()) &&
                          fits(data.noise_spectrum.size());
     if (data.response.size() != data.w.size() || !all_fit)
-        throw InvalidArgument("a response and its frequencies differ in number");
+        throw InvalidArgument("the numbers of response values and frequencies differ");
     for (const OutputLevels* levels : {&data.excited, &data.odd, &data.even})
-        if (levels->power.size() != levels->w.size()) throw InvalidArgument("levels and frequencies differ in number");
+        if (levels->power.size() != levels->w.size())
+            throw InvalidArgument("the numbers of levels and frequencies differ");
 }
 
 void check_value(const TransferFunctionMembers& members, const ValueLimits& limits) {
@@ -61,7 +63,7 @@ void check_value(const PolynomialModel& model, const ValueLimits& limits) {
     check_polynomials(model.B, limits);
     check_polynomials(model.F, limits);
     if (model.B.empty() || model.B.size() != model.F.size() || !(model.Ts > 0))
-        throw InvalidArgument("its polynomials and its sampling time do not fit together");
+        throw InvalidArgument("its polynomials and its sampling time are inconsistent");
 }
 
 void check_value(const StateSpace& system, const ValueLimits&) {

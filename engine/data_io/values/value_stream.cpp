@@ -35,7 +35,7 @@ void ValueReader::refuse(const Message& sentence) const {
 }
 
 void ValueReader::refuse_kind(const Message& wanted, const Message& given) const {
-    refuse(Message("{} was wanted, {} was given", wanted, given));
+    refuse(Message("expected {}, got {}", wanted, given));
 }
 
 void ValueReader::lacks(const char* member) const {
@@ -43,12 +43,12 @@ void ValueReader::lacks(const char* member) const {
 }
 
 void ValueReader::charge(std::size_t bytes) {
-    if (bytes > memory_left_) refuse(Message("it takes more than the {} bytes that are allowed", limits_.memory));
+    if (bytes > memory_left_) refuse(Message("the value exceeds the allowed {} bytes", limits_.memory));
     memory_left_ -= bytes;
 }
 
 void ValueReader::enter(Step step) {
-    if (steps_.size() >= limits_.depth) refuse(Message("it is nested deeper than {}", limits_.depth));
+    if (steps_.size() >= limits_.depth) refuse(Message("the value is nested deeper than {}", limits_.depth));
     charge(sizeof(Step));
     steps_.push_back(std::move(step));
 }
@@ -69,7 +69,7 @@ std::size_t ValueReader::one_of(std::span<const char* const> names) {
     const std::string_view name = take_text();
     for (std::size_t i = 0; i < names.size(); ++i)
         if (name == names[i]) return i;
-    refuse(Message("one of {} was wanted, another text was given", listed({names.begin(), names.end()})));
+    refuse(Message("expected one of {}, got another text", listed({names.begin(), names.end()})));
 }
 
 NumberArray ValueReader::array(std::optional<ArrayForm> wanted) {
@@ -80,7 +80,7 @@ NumberArray ValueReader::array(std::optional<ArrayForm> wanted) {
 
 std::size_t ValueReader::begin_list(std::size_t element_bytes) {
     const std::size_t count = open_list();
-    if (count > limits_.memory) refuse(Message("it has too many elements"));
+    if (count > limits_.memory) refuse(Message("the value has too many elements"));
     enter({Step::In::kList});
     charge(count * element_bytes);
     return count;
@@ -98,7 +98,7 @@ void ValueReader::end_list() {
 std::size_t ValueReader::begin_map(std::size_t entry_bytes) {
     constexpr std::size_t kNodeBytes = 64;  // of a std::map, with its key
     const std::size_t count = open_map();
-    if (count > limits_.memory) refuse(Message("it has too many entries"));
+    if (count > limits_.memory) refuse(Message("the value has too many entries"));
     enter({Step::In::kMap});
     charge(count * (entry_bytes + kNodeBytes));
     return count;

@@ -41,7 +41,7 @@ std::pair<std::string, std::size_t> rewritten(const fs::path& file, const PdfObj
 }
 
 Message reason_of(const ChildResult& child, const DistillSetup& setup) {
-    if (child.timed_out) return Message("it takes longer than {} s", setup.time.seconds(child.time_limit()));
+    if (child.timed_out) return Message("printing takes longer than {} s", setup.time.seconds(child.time_limit()));
     if (child.exit_code == 128 + SIGXFSZ) return Message("the result has more than {} MB", kMaxFile >> 20);
     const std::string& said = child.output.empty() ? child.error_output : child.output;
     return Message::verbatim(terminal_text(said.substr(0, said.find('\n'))));
@@ -202,7 +202,7 @@ class Pruning {
 void refuse_full_disk(const fs::path& folder, std::uintmax_t bytes) {
     std::error_code unknown;
     if (const fs::space_info disk = fs::space(folder, unknown); !unknown && disk.available < bytes)
-        throw EnvironmentError("there is no space left in {}: make room, or name another folder in TMPDIR",
+        throw EnvironmentError("no space is left in {}: free some space, or name another folder in TMPDIR",
                                folder.string());
 }
 

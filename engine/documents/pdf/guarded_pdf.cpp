@@ -12,7 +12,7 @@ namespace {
 constexpr char kDone = '0', kFirstFault = '1';
 
 PdfRefusal crash() {
-    return {PdfFault::kDamaged, Message("The file is damaged: reading it ends in a crash.")};
+    return {PdfFault::kDamaged, Message("The file is damaged: the reader crashed.")};
 }
 
 /// What the copy says may come from the file.
@@ -41,9 +41,9 @@ std::string run_guarded_on_pdf(const std::function<std::string()>& work, const G
     if (result.timed_out) {
         throw PdfRefusal(PdfFault::kTooLarge,
                          result.time_limit() == TimeLimit::kProcessor
-                             ? Message("The file is not read: reading it used more than {} s of processor time.",
+                             ? Message("The file was not read: reading used more than {} s of processor time.",
                                        limits.time.seconds(TimeLimit::kProcessor))
-                             : Message("The file is not read: reading it had not ended after {} s.",
+                             : Message("The file was not read: reading did not finish within {} s.",
                                        limits.time.seconds(TimeLimit::kClock)));
     }
     if (result.output_exceeded || (result.exit_code == 0 && result.output.empty())) {

@@ -47,17 +47,17 @@ std::string bytes_at(const fs::path& file, std::uint64_t from, std::size_t count
 /// What can be said without reading the file as a PDF.
 void check_outside(const fs::path& file, const PdfLimits& limits) {
     std::error_code error;
-    if (!fs::is_regular_file(file, error)) throw PdfRefusal(PdfFault::kNotThere, Message("There is no such file."));
+    if (!fs::is_regular_file(file, error)) throw PdfRefusal(PdfFault::kNotThere, Message("The file does not exist."));
     const std::uint64_t size = fs::file_size(file);
     if (size == 0) throw PdfRefusal(PdfFault::kNotPdf, Message("The file is empty."));
     if (size > limits.file_bytes) {
-        throw PdfRefusal(PdfFault::kTooLarge, Message("The file has {} MB; at most {} MB are looked at.", size >> 20,
-                                                      limits.file_bytes >> 20));
+        throw PdfRefusal(PdfFault::kTooLarge,
+                         Message("The file has {} MB; the limit is {} MB.", size >> 20, limits.file_bytes >> 20));
     }
     const std::string start = bytes_at(file, 0, 1024);
     if (start.empty()) throw PdfRefusal(PdfFault::kNotThere, Message("The file cannot be read: permission is denied."));
     if (start.find("%PDF-") == std::string::npos)
-        throw PdfRefusal(PdfFault::kNotPdf, Message("The file is not a PDF, whatever its name says."));
+        throw PdfRefusal(PdfFault::kNotPdf, Message("The file is not a PDF, despite its name."));
     if (bytes_at(file, size > kEnd ? size - kEnd : 0, kEnd).find("%%EOF") == std::string::npos)
         throw PdfRefusal(PdfFault::kDamaged, Message("The file is damaged: its end is missing."));
 }
@@ -97,13 +97,12 @@ Document document_of(const std::string& pdf) {
 }
 
 PdfLayout layout_of(poppler::document* document, const PdfLimits& limits) {
-    if (!document) refuse(PdfFault::kDamaged, Message("The file is damaged: no page can be found in it."));
-    if (document->is_locked())
-        refuse(PdfFault::kEncrypted, Message("The file is encrypted: it opens only with a password."));
+    if (!document) refuse(PdfFault::kDamaged, Message("The file is damaged: it contains no page."));
+    if (document->is_locked()) refuse(PdfFault::kEncrypted, Message("The file is encrypted: it needs a password."));
     const int count = document->pages();
-    if (count < 1) refuse(PdfFault::kDamaged, Message("The file is damaged: no page can be found in it."));
+    if (count < 1) refuse(PdfFault::kDamaged, Message("The file is damaged: it contains no page."));
     if (count > limits.pages) {
-        refuse(PdfFault::kTooLarge, Message("The file has {} pages; at most {} are looked at.", count, limits.pages));
+        refuse(PdfFault::kTooLarge, Message("The file has {} pages; the limit is {}.", count, limits.pages));
     }
     PdfLayout layout{document->is_encrypted(), {}};
     int words = 0;
@@ -115,7 +114,7 @@ PdfLayout layout_of(poppler::document* document, const PdfLimits& limits) {
         for (const poppler::text_box& box : page->text_list(poppler::page::text_list_include_font)) {
             if (++words > limits.words) {
                 refuse(PdfFault::kTooLarge,
-                       Message("The file has more than {} words, more than a report can have.", limits.words));
+                       Message("The file has more than {} words, the limit for a report.", limits.words));
             }
             added.words.push_back(word_of(box));
         }
@@ -172,7 +171,7 @@ PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
         for (PdfPage& page : layout.pages) std::erase_if(page.words, [](const PdfWord& w) { return !is_placed(w); });
         return layout;
     } catch (const ValueError&) {
-        refuse(PdfFault::kDamaged, Message("The file is damaged: what is read in it makes no pages."));
+        refuse(PdfFault::kDamaged, Message("The file is damaged: its contents form no pages."));
     }
 }
 
@@ -183,7 +182,7 @@ std::vector<std::string> text_in_content_order(const fs::path& file, const PdfLi
     try {
         return from_cbor<std::vector<std::string>>(answer);
     } catch (const ValueError&) {
-        refuse(PdfFault::kDamaged, Message("The file is damaged: what is read in it makes no pages."));
+        refuse(PdfFault::kDamaged, Message("The file is damaged: its contents form no pages."));
     }
 }
 

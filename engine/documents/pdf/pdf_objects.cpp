@@ -30,7 +30,7 @@ class Collector : public Pipeline {
     void expect_whole_file() { bytes_.reserve(std::min<std::uint64_t>(most_, 1u << 20)); }
 
     std::string take() {
-        if (full_) throw PdfRefusal(PdfFault::kTooLarge, Message("The file has more than {} MB inside.", most_ >> 20));
+        if (full_) throw PdfRefusal(PdfFault::kTooLarge, Message("The file exceeds {} MB when unpacked.", most_ >> 20));
         return std::move(bytes_);
     }
 
@@ -65,12 +65,11 @@ std::string work_on_pdf_objects(const std::filesystem::path& file, const PdfObje
             throw;
         } catch (const QPDFExc& error) {
             if (error.getErrorCode() == qpdf_e_password)
-                throw PdfRefusal(PdfFault::kEncrypted,
-                                 Message("The file is encrypted: it opens only with a password."));
+                throw PdfRefusal(PdfFault::kEncrypted, Message("The file is encrypted: it needs a password."));
         } catch (const std::exception&) {
             // What libqpdf says of objects that are not of the kind they should be.
         }
-        throw PdfRefusal(PdfFault::kDamaged, Message("The file is damaged: what is inside it cannot be read."));
+        throw PdfRefusal(PdfFault::kDamaged, Message("The file is damaged: its contents cannot be read."));
     };
     return run_guarded_on_pdf(guarded, {{limits.time}, limits.memory_bytes, limits.bytes_inside});
 }

@@ -115,8 +115,8 @@ int blocks_opened(std::string_view line) {
 
 Message CostlyText::complaint() {
     return Message(
-        "Pandoc would take minutes for this paragraph: too much in it opens and is never closed ([, ](, :::, <, &, "
-        "\", ' or `); close it, or put a backslash before a sign that stands for itself");
+        "Pandoc would need minutes for this paragraph, because too many brackets or quotation marks are opened but not "
+        "closed ([, ](, :::, <, &, \", ' or `). Close them, or put a backslash before a literal character");
 }
 
 std::optional<int> CostlyText::line_of(std::string_view markdown) {

@@ -33,8 +33,9 @@ Vector shown_phase(const NamedModel& model, const Vector& w) {
 
 Message shown_name(const NamedModel& model) {
     if (!is_held(model) || model.name.empty()) return model.name;
-    return model.beside.inter_sample == InterSample::kZoh ? Message("{}, input held", model.name)
-                                                          : Message("{}, input on lines", model.name);
+    return model.beside.inter_sample == InterSample::kZoh
+               ? Message("{}, input held (zoh)", model.name)
+               : Message("{}, input linearly interpolated (foh)", model.name);
 }
 
 /// As the measurements say that the models are drawn beside, if they all say the same.
@@ -54,8 +55,9 @@ Vector below_nyquist(const NamedModel& model, const Vector& w) {
     std::vector<double> kept;
     std::copy_if(w.begin(), w.end(), std::back_inserter(kept), [end](double value) { return value <= end; });
     if (kept.empty())
-        throw InvalidArgument("all frequencies lie above pi/Ts = {} rad/s, where a discrete model and samples end",
-                              significant(end, 4));
+        throw InvalidArgument(
+            "all frequencies are above pi/Ts = {} rad/s, the limit of a discrete-time model or sampled data",
+            significant(end, 4));
     return Eigen::Map<const Vector>(kept.data(), static_cast<Index>(kept.size()));
 }
 
@@ -80,7 +82,7 @@ Vector chosen_frequencies(const std::vector<NamedModel>& models, const std::vect
     for (const NamedResponse& response : responses)
         for (const double w : response.data.w)
             if (w > 0) low = std::min(low, w), high = std::max(high, w);
-    if (!(high > 0)) throw InvalidArgument("there is no frequency above zero to draw");
+    if (!(high > 0)) throw InvalidArgument("no frequency above zero to draw");
     return Vector::LinSpaced(kBodePoints, std::log(low), std::log(high)).array().exp().max(low).min(high);
 }
 
@@ -140,7 +142,7 @@ FrequencyPanels frequency_panels() {
 
 Figure bode_plot(const std::vector<NamedModel>& given, const Vector& w, const std::vector<NamedResponse>& responses) {
     const std::vector<NamedModel> models = beside(given, responses);
-    if (models.empty() && responses.empty()) throw InvalidArgument("there are no models to plot");
+    if (models.empty() && responses.empty()) throw InvalidArgument("no models to plot");
     if (w.size() > 0 && !(w.minCoeff() > 0))
         throw InvalidArgument("frequencies must be positive, but the smallest is {}", w.minCoeff());
     const Vector grid = w.size() > 0 ? w : chosen_frequencies(models, responses);

@@ -15,7 +15,7 @@ void check_model_output(const ModelOutput& model, const Matrix& measured) {
         model.fit_percent.size() == measured.cols())
         return;
     throw InvalidArgument(
-        "the output of model \"{}\" must be {} x {} with {} fits, as the data, but it is {} x {} with {}", model.name,
+        "the output of model \"{}\" must be {} x {} with {} fits, like the data, but it is {} x {} with {}", model.name,
         measured.rows(), measured.cols(), measured.cols(), model.y.rows(), model.y.cols(), model.fit_percent.size());
 }
 
@@ -35,7 +35,7 @@ Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int i
     Curve curve;
     curve.x = t;
     curve.y = model.y.col(output);
-    curve.label = curve.y.allFinite() ? model_label(model, output, unit) : Message("{}: lost", model.name);
+    curve.label = curve.y.allFinite() ? model_label(model, output, unit) : Message("{}: unstable", model.name);
     curve.colour = kColours[index % 7];
     curve.dash = index % 8;
     return curve;
@@ -58,7 +58,7 @@ void keep_to_the_others(Panel& panel) {
 
 Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, std::size_t experiment) {
     if (experiment >= data.experiments.size())
-        throw InvalidArgument("there is no experiment {}; the data hold {}", experiment + 1, data.experiments.size());
+        throw InvalidArgument("unknown experiment {}; the data have {}", experiment + 1, data.experiments.size());
     const Matrix& measured = data.experiments[experiment].y;
     for (const ModelOutput& model : models) check_model_output(model, measured);
     const Vector t = data.time(experiment);

@@ -8,14 +8,14 @@ namespace dynlab::inline figures {
 
 Figure cross_validation_plot(const CrossValidation& result, const std::vector<std::string>& output_names) {
     const Index folds = result.fit_percent.rows(), outputs = result.fit_percent.cols();
-    if (folds == 0) throw InvalidArgument("there is nothing to draw: no part was validated");
+    if (folds == 0) throw InvalidArgument("nothing to draw: no part was validated");
     Panel panel;
-    panel.x_label = Message("part left out");
+    panel.x_label = Message("omitted part");
     panel.y_label = axis_label(Message("fit of the simulation"), "%");
     const auto end = static_cast<double>(folds);
     panel.x_range = {0.5, end + 0.5};
     if (!result.fit_percent.array().isFinite().any())
-        throw InvalidArgument("there is nothing to draw: the models are unstable on every part");
+        throw InvalidArgument("nothing to draw: the models are unstable on every part");
     for (Index i = 0; i < outputs; ++i) {
         if (!result.fit_percent.col(i).array().isFinite().any()) continue;
         Curve points;

@@ -51,7 +51,7 @@ Message delay_text(const DelaySearch& search) {
 }  // namespace
 
 Figure delay_plot(const DelaySearch& search) {
-    if (search.cancelled) throw InvalidArgument("there is nothing to draw: the search was stopped before its end");
+    if (search.cancelled) throw InvalidArgument("nothing to draw: the search was interrupted");
     Panel panel;
     panel.curves.push_back(loss_curve(search));
     Extent x_extent(false), y_extent(false);

@@ -64,10 +64,10 @@ Panel panel_of(const ParameterHistory& history, Index parameter, const std::stri
 
 Figure history_plot(const ParameterHistory& history, const std::vector<std::string>& names,
                     const std::map<std::string, Vector>& truth, double level) {
-    if (history.t.size() == 0) throw InvalidArgument("there is no history to draw");
+    if (history.t.size() == 0) throw InvalidArgument("no history to draw");
     for (const auto& [name, values] : truth)
         if (std::find(names.begin(), names.end(), name) == names.end())
-            throw InvalidArgument("the truth of '{}' was given, but the parameters are {}", name, listed(names));
+            throw InvalidArgument("the true value of '{}' was given, but the parameters are {}", name, listed(names));
     Figure figure;
     for (Index i = 0; i < history.theta.cols(); ++i) {
         const std::string& name = names[static_cast<std::size_t>(i)];

@@ -30,7 +30,7 @@ Curve band_of(const ImpulseEstimate& estimate, double Ts, double level) {
     band.y = -band.y_upper;
     band.style = CurveStyle::kBand;
     band.colour = style::kGreyColour;
-    band.label = Message("{} % of chance", significant(100 * level, 4));
+    band.label = Message("{} % chance bounds", significant(100 * level, 4));
     return band;
 }
 
@@ -54,7 +54,7 @@ Curve curve_of(const NamedModel& model, double end, int colour) {
 
 Figure impulse_estimate_plot(const ImpulseEstimate& estimate, double Ts, const std::vector<NamedModel>& models,
                              double level) {
-    if (estimate.t.size() == 0) throw InvalidArgument("there is no impulse response to draw");
+    if (estimate.t.size() == 0) throw InvalidArgument("no impulse response to draw");
     Panel panel;
     panel.x_label = axis_label(Message("time"), "s");
     panel.y_label = Message("impulse response (per s)");

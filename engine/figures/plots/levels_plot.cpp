@@ -21,7 +21,7 @@ void add_levels(Panel& panel, const Message& label, const Vector& w, const Vecto
 }  // namespace
 
 Figure levels_plot(const FrequencyData& data) {
-    if (data.excited.w.size() == 0) throw InvalidArgument("there are no levels of an output to draw");
+    if (data.excited.w.size() == 0) throw InvalidArgument("no output levels to draw");
     Panel panel;
     panel.log_x = true;
     panel.x_label = axis_label(Message("frequency"), "rad/s");
@@ -31,7 +31,7 @@ Figure levels_plot(const FrequencyData& data) {
     add_levels(panel, Message("distortion"), data.excited.w, data.excited.distortion, CurveStyle::kPoints, 2);
     add_levels(panel, Message("odd lines without input"), data.odd.w, data.odd.power, CurveStyle::kPoints, 3);
     add_levels(panel, Message("even lines without input"), data.even.w, data.even.power, CurveStyle::kPoints, 4);
-    if (panel.curves.empty()) throw InvalidArgument("the output is zero at all lines: there is nothing to draw");
+    if (panel.curves.empty()) throw InvalidArgument("the output is zero at all lines: nothing to draw");
     return Figure(std::move(panel));
 }
 

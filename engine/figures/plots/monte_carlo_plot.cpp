@@ -48,8 +48,7 @@ std::string symbol_of(const std::string& name) {
 void check_study(const MonteCarlo& study) {
     if (study.results.empty()) throw InvalidArgument("the study has no results to draw");
     for (const MonteCarloResult& result : study.results) {
-        if (result.estimated == 0)
-            throw InvalidArgument("there is nothing to draw: {} gave no estimates", result.label);
+        if (result.estimated == 0) throw InvalidArgument("nothing to draw: {} gave no estimates", result.label);
         if (result.names != study.results.front().names)
             throw InvalidArgument("{} and {} have different parameters ({} and {}): draw them in separate studies",
                                   study.results.front().label, result.label, listed(study.results.front().names),
@@ -223,7 +222,7 @@ Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, c
         ys.push_back(panel.curves.back().y);
         if (reference == nullptr && result.truth.size() > 0) reference = &result;
     }
-    if (panel.curves.empty()) throw InvalidArgument("there is nothing to draw: no method gave estimates");
+    if (panel.curves.empty()) throw InvalidArgument("nothing to draw: no method gave estimates");
     std::optional<double> true_x, true_y;
     if (reference != nullptr) {
         const Index x = index_of_parameter(*reference, x_name), y = index_of_parameter(*reference, y_name);

@@ -19,17 +19,17 @@ constexpr int kSimulatedColour = 0, kFixedColour = 2;
 
 void check_motion_record(const RigDrawing& rig, const MotionRecord& record) {
     const Index parts = static_cast<Index>(rig.parts.size()), count = record.t.size();
-    if (count < 2) throw InvalidArgument("a motion needs two instants at least, not {}", count);
+    if (count < 2) throw InvalidArgument("an animation needs at least two instants, not {}", count);
     for (Index i = 1; i < count; ++i)
         if (!(record.t[i] > record.t[i - 1]))
-            throw InvalidArgument("the instants must rise, but number {} is {} s and number {} is {} s", i,
+            throw InvalidArgument("the instants must increase, but number {} is {} s and number {} is {} s", i,
                                   significant(record.t[i - 1], kInstantDigits), i + 1,
                                   significant(record.t[i], kInstantDigits));
     if (record.measured.size() == 0 && record.simulated.size() == 0)
-        throw InvalidArgument("a motion needs signals that were measured or simulated");
+        throw InvalidArgument("an animation needs measured or simulated signals");
     for (const Matrix* signals : {&record.measured, &record.simulated})
         if (signals->size() > 0 && (signals->rows() != count || signals->cols() != parts))
-            throw InvalidArgument("the signals of a motion must be {} x {}, but they are {} x {}", count, parts,
+            throw InvalidArgument("the signals of an animation must be {} x {}, but they are {} x {}", count, parts,
                                   signals->rows(), signals->cols());
 }
 
@@ -149,11 +149,11 @@ Figure motion_plot(const RigDrawing& rig, const MotionRecord& whole, const Motio
     const double first = record.t[0], last = record.t[record.t.size() - 1];
     for (const double instant : instants)
         if (!(instant >= first && instant <= last))
-            throw InvalidArgument("the instant {} s lies outside the record, which goes from {} s to {} s",
+            throw InvalidArgument("the instant {} s is outside the data, which range from {} s to {} s",
                                   significant(instant, kInstantDigits), significant(first, kInstantDigits),
                                   significant(last, kInstantDigits));
     if (const auto twice = std::adjacent_find(instants.begin(), instants.end()); twice != instants.end())
-        throw InvalidArgument("the instant {} s stands in the list twice", significant(*twice, kInstantDigits));
+        throw InvalidArgument("the instant {} s occurs twice in the list", significant(*twice, kInstantDigits));
     Figure figure;
     figure.title = look.title, figure.width_cm = look.width_cm, figure.height_cm = look.height_cm;
     figure.rows = static_cast<int>(rig.parts.size()) + 1;

@@ -46,7 +46,7 @@ void add_direction(Panel& panel, const ComplexVector& response) {
 }  // namespace
 
 Figure nyquist_plot(const std::vector<NamedModel>& models, const Vector& w) {
-    if (models.empty()) throw InvalidArgument("there are no models to plot");
+    if (models.empty()) throw InvalidArgument("no models to plot");
     const Vector grid = w.size() > 0 ? w : joint_frequency_grid(models, kNyquistPoints);
     Panel panel;
     panel.x_label = Message("real part");

@@ -12,7 +12,7 @@ namespace {
 
 const OrderMeasure& drawn_measure(OrderCriterion criterion, bool validated) {
     if (criterion == OrderCriterion::kValidationFit && !validated)
-        throw InvalidArgument("there is no validation fit to draw: no second record was given");
+        throw InvalidArgument("no validation fit to draw: no validation data were given");
     if (criterion != OrderCriterion::kRecommended) return order_measure(criterion);
     return order_measure(validated ? OrderCriterion::kValidationFit : OrderCriterion::kBic);
 }
@@ -83,7 +83,7 @@ Figure order_plot(const OrderSelection& selection, OrderCriterion criterion, con
         x_extent.include(panel.curves.back().x);
         y_extent.include(panel.curves.back().y);
     }
-    if (panel.curves.empty()) throw InvalidArgument("there is nothing to draw: no structure could be estimated");
+    if (panel.curves.empty()) throw InvalidArgument("nothing to draw: no structure could be estimated");
     const OrderCandidate& chosen = selection.candidates.at(choice.place);
     if (const double value = measure.value(chosen); std::isfinite(value))
         panel.curves.push_back(mark_of_choice(over_delay ? chosen.delay : chosen.poles, value));

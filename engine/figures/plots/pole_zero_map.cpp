@@ -86,7 +86,7 @@ void add_regions(Panel& panel, const ModelConfidence& confidence, int colour, co
 }  // namespace
 
 Figure pole_zero_map(const std::vector<NamedModel>& models) {
-    if (models.empty()) throw InvalidArgument("there are no models to plot");
+    if (models.empty()) throw InvalidArgument("no models to plot");
     const bool continuous = models.front().G.continuous();
     Extent real(false), imaginary(false);
     real.include(0), imaginary.include(0);
@@ -114,7 +114,7 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
         }
         ++colour;
     }
-    if (panel.curves.empty()) throw InvalidArgument("there is neither a pole nor a zero to draw");
+    if (panel.curves.empty()) throw InvalidArgument("neither a pole nor a zero to draw");
     panel.equal_axes = true;
     panel.x_range = real.padded(0.12);
     panel.y_range = imaginary.padded(0.12);

@@ -24,7 +24,7 @@ Curve rise_curve(const Profile& profile, double top) {
     curve.style = CurveStyle::kLinePoints;
     curve.line_width = 0.7;
     curve.colour = 0;
-    curve.label = Message("others fitted anew");
+    curve.label = Message("other parameters refitted");
     return curve;
 }
 
@@ -35,7 +35,7 @@ Curve parabola(const Profile& profile, double low, double high) {
     curve.y = ((curve.x.array() - profile.estimate) / profile.std).square();
     curve.colour = style::kGreyColour;
     curve.dash = 1;
-    curve.label = Message("by the standard error");
+    curve.label = Message("from the standard error");
     return curve;
 }
 
@@ -53,7 +53,7 @@ Figure profile_plot(const Profile& profile, const std::string& unit) {
         if (end) panel.references.push_back({false, *end, {}, 2});
     panel.y_range = {-0.02 * top, top};
     panel.x_label = axis_label(Message::verbatim(profile.name), unit);
-    panel.y_label = Message("rise of the loss, N ln(S/S_{min})");
+    panel.y_label = Message("increase of the loss, N ln(S/S_{min})");
     return Figure(std::move(panel));
 }
 

@@ -46,7 +46,7 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
     }
     if (!lags[0].empty()) panel.curves.push_back(stems(lags[0], values[0], kInsideColour, kInsideMarker, {}));
     if (!lags[1].empty())
-        panel.curves.push_back(stems(lags[1], values[1], kOutsideColour, kOutsideMarker, Message("beyond the bound")));
+        panel.curves.push_back(stems(lags[1], values[1], kOutsideColour, kOutsideMarker, Message("outside the bound")));
     panel.references = {{true, 0, {}, 0}};
     return panel;
 }
@@ -55,7 +55,7 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
 
 Figure residual_plot(const ResidualTests& tests, const IdData& data, double confidence) {
     if (static_cast<Index>(tests.outputs.size()) != data.output_count())
-        throw InvalidArgument("the tests are of {}, but the data have {}",
+        throw InvalidArgument("the tests have {}, but the data have {}",
                               plural(std::ssize(tests.outputs), "{} output", "{} outputs"), data.output_count());
     std::vector<std::vector<Panel>> columns;
     for (std::size_t i = 0; i < tests.outputs.size(); ++i) {
@@ -75,8 +75,7 @@ Figure residual_plot(const ResidualTests& tests, const IdData& data, double conf
         }
         column.back().x_label = Message("lag (samples)");
     }
-    if (columns.empty())
-        throw InvalidArgument("there is nothing to draw: the model reproduces every output to rounding");
+    if (columns.empty()) throw InvalidArgument("nothing to draw: the model reproduces every output to rounding error");
     Figure figure;
     figure.columns = static_cast<int>(columns.size());
     figure.rows = static_cast<int>(columns.front().size());

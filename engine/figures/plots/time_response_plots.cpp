@@ -34,7 +34,7 @@ Vector instants(const TransferFunction& G, const Vector& wanted, double end) {
 /// discrete models.
 Figure time_response_figure(const std::vector<NamedModel>& models, const Vector& t, CurveStyle discrete_style,
                             const std::function<TimeResponse(const TransferFunction&, const VectorView&)>& response) {
-    if (models.empty()) throw InvalidArgument("there are no models to plot");
+    if (models.empty()) throw InvalidArgument("no models to plot");
     const double end = t.size() > 0 ? 0 : longest_window(models);
     Panel panel;
     panel.x_label = axis_label(Message("time"), "s");
@@ -57,8 +57,8 @@ Index samples_within(double end, double Ts) {
     constexpr double kMost = 1e7;
     const double count = std::floor(end / Ts + 1e-9) + 1;
     if (!(count <= kMost))
-        throw InvalidArgument("a window of {} s holds too many samples of a model with Ts = {} s for one figure: {}",
-                              end, Ts, significant(count, 3));
+        throw InvalidArgument("a window of {} s has too many samples for one figure of a model with Ts = {} s: {}", end,
+                              Ts, significant(count, 3));
     return static_cast<Index>(count);
 }
 

@@ -71,9 +71,9 @@ StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& 
     require_symmetric("Q", Q);
     require_symmetric("R", R);
     const auto cheapest = solve_by_cholesky(R, B.transpose());  // R^-1 B'
-    if (!cheapest) throw InvalidArgument("R must be positive: every input must cost something");
+    if (!cheapest) throw InvalidArgument("R must be positive definite: every input needs a cost");
     if (symmetric_eigenvalues(Q).minCoeff() < -1e-10 * Q.norm())
-        throw InvalidArgument("Q must not be negative: no state may be rewarded for being large");
+        throw InvalidArgument("Q must be positive semidefinite");
 
     Matrix hamiltonian(2 * n, 2 * n);
     hamiltonian << A, -B * cheapest->x, -Q, -A.transpose();
@@ -87,8 +87,8 @@ StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& 
     const auto inverse = count < n ? std::nullopt : inverse_of_regular(stable.topRows(n));
     if (!inverse)
         throw InvalidArgument(
-            "no feedback makes the criterion finite: the input does not reach an unstable mode, or Q does not see a "
-            "mode that does not die away by itself");
+            "no feedback makes the criterion finite: an unstable mode is not stabilizable, or Q does not detect a mode "
+            "that does not decay");
     const Matrix P = scale.tail(n).asDiagonal() * (stable.bottomRows(n) * *inverse).real() *
                      scale.head(n).cwiseInverse().asDiagonal();
     return closed(A, B, cheapest->x * (P + P.transpose()) / 2);
@@ -98,9 +98,9 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     require_system(A, B);
     const Index n = A.rows();
     if (B.cols() != 1)
-        throw InvalidArgument("pole placement needs a system with one input, B has {} columns", B.cols());
+        throw InvalidArgument("pole placement needs a system with one input, but B has {} columns", B.cols());
     if (poles.size() != n || !poles.allFinite())
-        throw InvalidArgument("the system has {}, so as many finite poles are needed, not {}",
+        throw InvalidArgument("the system has {}, so it needs the same number of finite poles, not {}",
                               plural(n, "{} state", "{} states"), poles.size());
     const Vector c = monic_coefficients(poles);
 
@@ -112,7 +112,8 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     for (Index k = 1; k < n; ++k) reach.col(k) = A * reach.col(k - 1) / scale;
     const auto [last_row, reciprocal_condition] = solve_by_lu(reach.transpose(), Vector::Unit(n, n - 1));
     if (!(reciprocal_condition > kSingular))
-        throw InvalidArgument("the input does not reach every state, so not every pole can move");
+        throw InvalidArgument(
+            "the system is not controllable: the input does not affect every state, so not every pole can be placed");
     Eigen::RowVectorXd row = last_row.transpose() / std::pow(scale, n - 1);
     Eigen::RowVectorXd K = Eigen::RowVectorXd::Zero(n);
     for (Index k = 0; k < n; ++k, row = row * A) K += c[k] * row;
@@ -121,8 +122,8 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     StateFeedback result = closed(A, B, K);
     if (misplacement(poles, result.poles) > 1e-4)
         throw InvalidArgument(
-            "rounding errors keep the poles from their places; the states are measured in units that are too "
-            "different, or the input hardly reaches one of them");
+            "rounding errors prevent the pole placement: the scales of the states differ too much, or the input has "
+            "almost no effect on one of the states");
     return result;
 }
 

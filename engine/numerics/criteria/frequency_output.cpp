@@ -49,7 +49,7 @@ FrequencyOutput::FrequencyOutput(const FrequencyData& data, const TransferStruct
     : data_(data), free_delay_(structure.free_delays) {
     check_frequency_data("frequency response", data);
     if (!structure.single_channel())
-        throw InvalidArgument("a frequency response has one input and one output, and the model has {} and {}",
+        throw InvalidArgument("a frequency response has one input and one output, but the model has {} and {}",
                               structure.inputs, structure.outputs);
     poles_ = structure.poles.front(), zeros_ = structure.channels.front().zeros;
     unit_ = frequency_time_unit(data);

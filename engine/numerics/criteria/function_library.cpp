@@ -23,7 +23,7 @@ FunctionLibrary polynomial_library(const std::vector<std::string>& states, const
 Matrix library_values(const FunctionLibrary& library, const Matrix& X, const Matrix& U) {
     Matrix values = library.values(X, U);
     if (values.rows() != X.rows() || values.cols() != library.count())
-        throw InvalidArgument("sindy: the library must give {} of {} each, and gave {} of {}",
+        throw InvalidArgument("sindy: the library must return {} of {} each, but returned {} of {}",
                               plural(library.count(), "{} function", "{} functions"),
                               plural(X.rows(), "{} value", "{} values"), values.cols(), values.rows());
     if (values.allFinite()) return values;
@@ -32,7 +32,7 @@ Matrix library_values(const FunctionLibrary& library, const Matrix& X, const Mat
             if (std::isfinite(values(k, j))) continue;
             MessageList at;
             for (Index i = 0; i < X.cols(); ++i) at.items.push_back(Message("{}", X(k, i)));
-            throw InvalidArgument("sindy: the function {} of the library is {} at sample {}, where the states are {}",
+            throw InvalidArgument("sindy: the library function {} is {} at sample {}, where the states are {}",
                                   library.names[static_cast<std::size_t>(j)], values(k, j), k + 1, at);
         }
     return values;

@@ -16,9 +16,9 @@ std::vector<Index> places_of(const std::vector<bool>& marked) {
 
 const IdData& checked(const IdData& data, const GreyModel& model) {
     if (data.experiments.empty() || data.output_count() < 1)
-        throw InvalidArgument("A grey-box model is fitted to a record with at least one output");
+        throw InvalidArgument("A grey-box model needs data with at least one output");
     if (data.input_count() < model.inputs)
-        throw InvalidArgument("The model has {}, and the record has {}", plural(model.inputs, "{} input", "{} inputs"),
+        throw InvalidArgument("The model has {}, but the data have {}", plural(model.inputs, "{} input", "{} inputs"),
                               data.input_count());
     return data;
 }

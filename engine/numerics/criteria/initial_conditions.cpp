@@ -45,12 +45,12 @@ JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView&
 std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset) {
     const bool flat = constant(u), zero_first = u.row(0).isZero(0);
     if (flat && state == InitialState::kSteady)
-        throw InvalidArgument("{} \"steady\" needs an input that changes, and this one is constant: use \"zero\"",
+        throw InvalidArgument("{} \"steady\" needs an input that changes, but this input is constant: use \"zero\"",
                               OptionName{"initial_state"});
     if (flat && state == InitialState::kEstimate && offset == Offset::kEstimate)
         throw InvalidArgument(
-            "With a constant input, {} \"estimate\" and {} \"estimate\" together leave the gain unknown: estimate one "
-            "of them",
+            "With a constant input, {} \"estimate\" and {} \"estimate\" together leave the gain undetermined: estimate "
+            "only one of them",
             OptionName{"initial_state"}, OptionName{"offset"});
     std::vector<StartCondition> conditions;
     const auto add = [&](InitialState candidate, bool with_offset) {
@@ -101,8 +101,8 @@ void require_transient(const std::string& caller, const StepFit& fit) {
     const double constant = bic_of_loss(fit.spread, fit.output_power, fit.samples, fit.experiments);
     if (bic_of_loss(fit.loss, fit.output_power, fit.samples, fit.parameters) < constant) return;
     throw InvalidArgument(
-        "{}: the input never changes and the output shows no transient, so there is no excitation: let the input vary, "
-        "for instance as a prbs",
+        "{}: the input never changes and the output shows no transient, so the data contain no excitation: vary the "
+        "input, for instance with prbs",
         caller);
 }
 

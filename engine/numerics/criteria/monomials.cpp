@@ -15,7 +15,7 @@ constexpr std::size_t kMostMonomials = 2000;
 
 Monomials::Monomials(const std::string& caller, Index variables, int degree) : factors_{{}}, rest_{0} {
     if (degree < 0 || degree > kHighestDegree)
-        throw InvalidArgument("{}: {} must lie between 0 and {}, and is {}", caller, OptionName{"degree"},
+        throw InvalidArgument("{}: {} must be between 0 and {}, but is {}", caller, OptionName{"degree"},
                               kHighestDegree, degree);
     std::size_t lower = 0;  // where those of the degree before begin
     for (int d = 1; d <= degree; ++d) {
@@ -29,7 +29,7 @@ Monomials::Monomials(const std::string& caller, Index variables, int degree) : f
                 rest_.push_back(static_cast<Index>(i));
                 if (factors_.size() > kMostMonomials)
                     throw InvalidArgument(
-                        "{}: {} variables have more than {} monomials up to degree {}; take fewer lags or a lower "
+                        "{}: {} variables have more than {} monomials up to degree {}; use fewer lags or a lower "
                         "degree",
                         caller, variables, kMostMonomials, degree);
             }

@@ -48,7 +48,8 @@ RateEquations derivative_equations(const IdData& data, std::size_t experiment, c
     const Experiment& record = data.experiments[experiment];
     const Index N = record.y.rows();
     if (N < window)
-        throw InvalidArgument("sindy: derivatives over {} samples need as many, and a record holds {}", window, N);
+        throw InvalidArgument("sindy: derivatives over {} samples need at least as many samples, but a data set has {}",
+                              window, N);
     const Vector t = data.time(experiment);
     Matrix X(N, record.y.cols()), rates(N, record.y.cols()), U(N, record.u.cols()), weights;
     Index rows = 0, weights_at = -1;
@@ -98,7 +99,7 @@ RateEquations weak_equations(const IdData& data, std::size_t experiment, const F
         }
         if (inside < 3)
             throw InvalidArgument(
-                "sindy: test functions of the half-length {} {} hold fewer than 3 samples: give a larger {}",
+                "sindy: test functions with half-length {} {} cover fewer than 3 samples: increase {}",
                 significant(width, 4), data.time_unit, OptionName{"width"});
     }
     return equations;

@@ -50,7 +50,7 @@ TransferOutput::TransferOutput(const TransferStructure& structure, const StartCo
       time_unit_(data.mean_step()) {
     if (data.output_count() != structure.outputs || data.input_count() != structure.inputs)
         throw InvalidArgument(
-            "The model has {} and {}, and the data have {} and {}", plural(structure.inputs, "{} input", "{} inputs"),
+            "The model has {} and {}, but the data have {} and {}", plural(structure.inputs, "{} input", "{} inputs"),
             plural(structure.outputs, "{} output", "{} outputs"), data.input_count(), data.output_count());
     for (Index output = 0; output < structure.outputs; ++output)
         denominators_.push_back(denominators_of(structure, output));
@@ -205,7 +205,7 @@ void TransferOutput::fix(const std::map<std::string, double>& values) {
     for (const auto& [name, value] : values) {
         const auto known = std::ranges::find(names, name);
         if (known == names.end())
-            throw InvalidArgument("{}: the model has no parameter {}; it has {}", OptionName{"fixed"}, name,
+            throw InvalidArgument("{}: the model has no parameter {}; its parameters are {}", OptionName{"fixed"}, name,
                                   listed(names));
         const Index place = known - names.begin();
         lower_[place] = upper_[place] = value / seconds_[place];

@@ -85,7 +85,7 @@ Fit armax(const IdData& data, const PolynomialOrders& orders, const FitOptions& 
     orders.validate();
     options.validate();
     if (orders.nd > 0 || std::any_of(orders.nf.begin(), orders.nf.end(), [](int nf) { return nf > 0; }))
-        throw InvalidArgument("armax has the orders na, nb, nc and nk only: nd and nf must be zero");
+        throw InvalidArgument("armax has only the orders na, nb, nc and nk: nd and nf must be zero");
     return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
         check_equation_error("armax", seen, without_noise(orders));
         const StartCondition nothing_assumed{InitialState::kEstimate, false};

@@ -114,7 +114,7 @@ Fit bj_fit(const IdData& data, const PolynomialOrders& orders, const FitOptions&
 
 Fit bj(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
     orders.validate();
-    if (orders.na > 0) throw InvalidArgument("bj has the orders nb, nc, nd, nf and nk only: na must be zero");
+    if (orders.na > 0) throw InvalidArgument("bj has only the orders nb, nc, nd, nf and nk: na must be zero");
     return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
         const auto fit_with = [&](const FitOptions& how) { return bj_fit(seen, orders, how); };
         return best_predicting_start(fit_with(wanted), wanted, fit_with);

@@ -46,7 +46,7 @@ void whiten(IdData& data, const Autoregression& filter) {
 
 void CraOptions::validate() const {
     if (whitening < 0 || whitening > 100)
-        throw InvalidArgument("cra: the order of the whitening filter must lie between 0 and 100, but it is {}",
+        throw InvalidArgument("cra: the order of the whitening filter must be between 0 and 100, but it is {}",
                               whitening);
     normal_half_width(confidence);
 }
@@ -77,8 +77,8 @@ CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
     const double worst = input.tail(lags).cwiseAbs().maxCoeff() / input[0];
     if (worst > std::max(2 * limit, 0.2))
         impulse.warnings.push_back(
-            Message("The whitened input still has a correlation of up to {} over the lags, which blurs the response: "
-                    "the input is too regular for this method; impulseest does not need a white input.",
+            Message("The whitened input still has a correlation of up to {} over the lags, which blurs the response. "
+                    "The input is too regular for this method; impulseest does not need a white input.",
                     significant(worst, 2)));
     return result;
 }

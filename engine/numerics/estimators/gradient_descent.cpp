@@ -16,13 +16,13 @@ constexpr double kRunaway = 1e12;  // times the first loss
 void check(const MatrixView& Phi, const VectorView& y, const GradientDescentOptions& options) {
     options.validate();
     if (Phi.rows() != y.size() || Phi.cols() == 0 || Phi.rows() == 0)
-        throw InvalidArgument("Phi must have one row per value of y and at least one column, and is {} x {} for {}",
+        throw InvalidArgument("Phi must have one row per value of y and at least one column, but is {} x {} for {}",
                               Phi.rows(), Phi.cols(), plural(y.size(), "{} value", "{} values"));
-    if (!Phi.allFinite() || !y.allFinite()) throw InvalidArgument("Phi and y must hold finite numbers only");
-    if (Phi.isZero(0)) throw InvalidArgument("All regressors are zero, so there is no slope to descend");
+    if (!Phi.allFinite() || !y.allFinite()) throw InvalidArgument("Phi and y must contain only finite numbers");
+    if (Phi.isZero(0)) throw InvalidArgument("All regressors are zero, so gradient descent has no slope");
     if (options.start.size() != 0 && options.start.size() != Phi.cols())
-        throw InvalidArgument("The start must hold {}, and holds {}", plural(Phi.cols(), "{} value", "{} values"),
-                              options.start.size());
+        throw InvalidArgument("The starting point must have {}, but has {}",
+                              plural(Phi.cols(), "{} value", "{} values"), options.start.size());
 }
 
 Message ending_of(const GradientDescentResult& result) {
@@ -31,14 +31,14 @@ Message ending_of(const GradientDescentResult& result) {
         case Termination::kConverged:
             return Message("Gradient descent converged after {}.", count);
         case Termination::kDiverged:
-            return Message("Gradient descent diverged: the step size {} is too large, it must stay below {}.",
+            return Message("Gradient descent diverged: the step size {} is too large; it must be below {}.",
                            result.step_size, result.largest_step);
         case Termination::kCancelled:
-            return Message("Gradient descent was stopped after {}; the best point so far is given.", count);
+            return Message("Gradient descent was stopped after {}; the result is the best point so far.", count);
         default:
             return Message(
-                "Gradient descent had not converged after {}: with a condition number of {} it needs many; centre and "
-                "scale the regressors.",
+                "Gradient descent did not converge after {}: with a condition number of {} it needs many iterations; "
+                "center and scale the regressors.",
                 count, significant(result.condition_number, 3));
     }
 }
@@ -47,11 +47,11 @@ Message ending_of(const GradientDescentResult& result) {
 
 void GradientDescentOptions::validate() const {
     if (step_size && (!(*step_size > 0) || !std::isfinite(*step_size)))
-        throw InvalidArgument("The step size must be positive, and is {}", *step_size);
+        throw InvalidArgument("The step size must be positive, but is {}", *step_size);
     if (max_iterations < 0)
-        throw InvalidArgument("The number of iterations must not be negative, and is {}", max_iterations);
-    if (!(tolerance >= 0)) throw InvalidArgument("The tolerance must not be negative, and is {}", tolerance);
-    if (!start.allFinite()) throw InvalidArgument("The start must hold finite numbers only");
+        throw InvalidArgument("The number of iterations must not be negative, but is {}", max_iterations);
+    if (!(tolerance >= 0)) throw InvalidArgument("The tolerance must not be negative, but is {}", tolerance);
+    if (!start.allFinite()) throw InvalidArgument("The starting point must contain only finite numbers");
 }
 
 GradientDescentResult gradient_descent(const MatrixView& Phi, const VectorView& y,

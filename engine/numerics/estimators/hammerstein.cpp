@@ -47,8 +47,8 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
     if (values && (values->size() != edges.size() || *values != edges)) {
         edges = *values;
         warnings.push_back(
-            Message("The input takes only {} values, so these are the edges of the bins: between them the "
-                    "characteristic is not known, and runs on straight lines.",
+            Message("The input takes only {} values, which are the edges of the bins. Between them the characteristic "
+                    "is unknown and linearly interpolated.",
                     edges.size()));
     }
     Vector visits = Vector::Zero(edges.size());
@@ -59,13 +59,13 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
         if (visits[i] >= kLeastVisits) kept.push_back(edges[i]);
     if (kept.size() < 2)
         throw InvalidArgument(
-            "hammerstein: the input visits only {} of the edges of the bins, and two are wanted: excite the system "
-            "with more levels, or give {} where the input is",
+            "hammerstein: the input visits only {} of the edges of the bins, but two are required: excite the system "
+            "with more levels, or give {} near the input's values",
             kept.size(), OptionName{"breakpoints"});
     if (static_cast<Index>(kept.size()) < edges.size())
         warnings.push_back(plural(edges.size() - static_cast<Index>(kept.size()),
-                                  "Left out: {} edge of bins that the input is hardly ever near.",
-                                  "Left out: {} edges of bins that the input is hardly ever near."));
+                                  "Left out: {} edge of bins with too few input values nearby.",
+                                  "Left out: {} edges of bins with too few input values nearby."));
     return Vector::Map(kept.data(), static_cast<Index>(kept.size()));
 }
 
@@ -197,20 +197,22 @@ void add_warnings(Fit& fit, const HammersteinOptions& options) {
     if (!fit.models.front().stable()) fit.warnings.push_back(Message("The linear part is unstable."));
     if (fit.condition_number > kAmbiguousCondition) warn_of_doubtful_parameters(fit, SimplerModel::kFewerBins);
     if (fit.fit_percent[0] < linear + 1)
-        fit.warnings.push_back(Message("A linear model fits as well ({} %): the static characteristic is hardly bent.",
-                                       significant(linear, 4)));
+        fit.warnings.push_back(
+            Message("A linear model fits equally well ({} %): the static characteristic is almost linear.",
+                    significant(linear, 4)));
 }
 
 void check(const IdData& data, const TransferStructure& structure, const HammersteinOptions& options) {
     options.validate();
     if (structure.channels.size() != 1 || data.input_count() > 1 || data.output_count() > 1)
         throw InvalidArgument(
-            "hammerstein needs one input and one output, and the data hold {} and {}: select one of each",
+            "hammerstein needs one input and one output, but the data have {} and {}: select one of each",
             data.input_count(), data.output_count());
     check_transfer_data("hammerstein", data, structure);
     if (data.hold != Hold::kZoh)
         throw InvalidArgument(
-            "hammerstein needs a held input (zoh): the characteristic bends the straight lines of any other");
+            "hammerstein needs a held input (zoh): the characteristic would distort the linear interpolation of any "
+            "other input");
     for (const Experiment& experiment : data.experiments)
         if ((experiment.u.array() != experiment.u(0, 0)).any()) return;
     throw InvalidArgument("hammerstein: the input never changes, so it does not excite the system");
@@ -221,18 +223,18 @@ void check(const IdData& data, const TransferStructure& structure, const Hammers
 void HammersteinOptions::validate() const {
     FitOptions::validate();
     if (breakpoints.size() == 0 && (bins < 1 || bins > 1000))
-        throw InvalidArgument("{} must lie between 1 and 1000, and is {}", OptionName{"bins"}, bins);
+        throw InvalidArgument("{} must be between 1 and 1000, but is {}", OptionName{"bins"}, bins);
     if (breakpoints.size() == 1)
-        throw InvalidArgument("{} must hold two values at least, and holds one", OptionName{"breakpoints"});
+        throw InvalidArgument("{} must have at least two values, but has one", OptionName{"breakpoints"});
     for (Index i = 1; i < breakpoints.size(); ++i)
         if (!(breakpoints[i] > breakpoints[i - 1]))
-            throw InvalidArgument("{} must increase, and value {} is {} after {}", OptionName{"breakpoints"}, i + 1,
+            throw InvalidArgument("{} must increase, but value {} is {} after {}", OptionName{"breakpoints"}, i + 1,
                                   breakpoints[i], breakpoints[i - 1]);
     if (initial_state == InitialState::kEstimate)
         throw InvalidArgument("{} must be \"zero\", \"steady\" or \"auto\" for hammerstein",
                               OptionName{"initial_state"});
     if (offset != Offset::kNone)
-        throw InvalidArgument("{} must be \"none\" for hammerstein: a constant is part of its characteristic",
+        throw InvalidArgument("{} must be \"none\" for hammerstein: its characteristic includes a constant",
                               OptionName{"offset"});
 }
 
@@ -305,7 +307,8 @@ Fit hammerstein(const IdData& data, const TransferStructure& structure, const Ha
     fit.start = {options.initial_state, false};
     add_warnings(fit, options);
     fit.message = Message(
-        "Hammerstein model with {} values of the characteristic, after {}: {}, against {} % of the best linear model.",
+        "Hammerstein model with {} values of the characteristic, after {}: {}, compared with {} % for the best linear "
+        "model.",
         at.K, iteration_count(fit), simulation_text(fit), significant(fit.characteristic->linear_fit_percent, 4));
     return fit;
 }

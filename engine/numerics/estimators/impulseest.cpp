@@ -84,7 +84,7 @@ void fit_plainly(const IdData& data, Index n, double count, RegressedResponse& e
     if (fit.rank < regression.Phi.cols() || fit.condition_number > 1e8)
         throw InvalidArgument(
             "impulseest: the input is not persistently exciting enough to determine the {} samples of the impulse "
-            "response; use the smooth estimate, fewer lags, or resample the data to a lower rate first",
+            "response. Use the smooth estimate, use fewer lags, or resample the data to a lower rate first",
             regression.Phi.cols());
     estimate.response = fit.solution;
     estimate.noise_variance = fit.residuals.squaredNorm() / std::max(count - static_cast<double>(n + 1), 1.0);
@@ -110,8 +110,8 @@ void fit_smoothly(const ResponseSums& sums, ResponseKernel kernel, RegressedResp
 void ImpulseestOptions::validate() const {
     if (lags < 0 || lags > kMostLags)
         throw InvalidArgument(
-            "impulseest: the number of lags must lie between 1 and {}, but it is {}; resample the data to a lower rate "
-            "when the response lasts longer",
+            "impulseest: the number of lags must be between 1 and {}, but is {}; resample the data to a lower rate if "
+            "the response lasts longer",
             kMostLags, lags);
     normal_half_width(confidence);
 }
@@ -124,19 +124,19 @@ RegressedResponse impulseest(const IdData& data, const ImpulseestOptions& option
     const Index n = lags_or_default("impulseest", options.lags, shortest);
     const ResponseSums sums = sums_of(record, n);
     if (!(sums.gram.diagonal().maxCoeff() > 0) || !(sums.energy > 0))
-        throw InvalidArgument("impulseest: after {} nothing changes any more; use fewer lags",
+        throw InvalidArgument("impulseest: the input is constant after {}; use fewer lags",
                               plural(n, "{} sample", "{} samples"));
     RegressedResponse estimate;
     estimate.t = Vector::LinSpaced(n + 1, 0, static_cast<double>(n)) * data.Ts;
     options.smooth ? fit_smoothly(sums, options.kernel, estimate) : fit_plainly(record, n, sums.count, estimate);
     const Message lags = plural(n, "{} lag", "{} lags");
-    estimate.message = options.smooth ? Message("Impulse response over {} by regularised least squares.", lags)
-                                      : Message("Impulse response over {} by plain least squares.", lags);
+    estimate.message = options.smooth ? Message("Impulse response over {} by regularized least squares.", lags)
+                                      : Message("Impulse response over {} by ordinary least squares.", lags);
     read_dead_time(estimate, data.Ts, data.hold, normal_half_width(options.confidence));
     const Index tail = std::max<Index>(n / 10, 1);
     if (estimate.response.tail(tail).cwiseAbs().maxCoeff() > 0.1 * estimate.response.cwiseAbs().maxCoeff())
         estimate.warnings.push_back(Message(
-            "The response has not died out at the last lag: take more lags, or resample the data to a lower rate."));
+            "The response has not decayed at the last lag: use more lags, or resample the data to a lower rate."));
     return estimate;
 }
 

@@ -97,7 +97,7 @@ Fit iv4(const IdData& data, const PolynomialOrders& orders) {
     const IdData whitened_data = filtered(data, L), instruments = filtered(simulated(data, second), L);
     const ArxEquations last(whitened_data, orders);
     if (last.count() <= last.parameters())
-        throw InvalidArgument("iv4: the record of {} samples is too short for the noise filter of order {}",
+        throw InvalidArgument("iv4: the {} samples of the data are too few for the noise filter of order {}",
                               data.sample_count(), L.size() - 1);
     const InstrumentEstimate solution = solve_instruments(last, ArxEquations(instruments, orders));
 
@@ -108,8 +108,8 @@ Fit iv4(const IdData& data, const PolynomialOrders& orders) {
     describe_equation_error(estimate);
     warn_of_operating_point(estimate, data);
     estimate.message = Message(
-        "Instrumental variables over {} equations: fit {} % predicting one step, {} % simulating from the recorded "
-        "past.",
+        "Instrumental variables over {} equations: fit {} % for one-step prediction, {} % for simulation from the "
+        "recorded past.",
         last.count(), significant(estimate.prediction_fit_percent, 4), significant(estimate.fit_percent[0], 4));
     return estimate;
 }

@@ -26,8 +26,8 @@ Solution solve_normal_equations(const MatrixView& Phi, const VectorView& y) {
     const auto solution = solve_by_cholesky(gram, Phi.transpose() * y);
     if (!inverse || inverse->reciprocal_condition < std::numeric_limits<double>::epsilon())
         throw InvalidArgument(
-            "The normal equations have no unique solution to working accuracy: columns of Phi depend on each other, "
-            "or are scaled too differently; use method \"qr\", or centre and scale the regressors");
+            "The normal equations have no unique solution to working accuracy: columns of Phi are linearly dependent "
+            "or have too different scales; use the method \"qr\", or center and scale the regressors");
     return {solution->x, inverse->x};
 }
 
@@ -87,20 +87,19 @@ LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMetho
             ? Message("Least squares with {} and {}: RMSE {}.", plural(Phi.rows(), "{} equation", "{} equations"),
                       plural(Phi.cols(), "{} parameter", "{} parameters"), fit.rmse)
             : Message(
-                  "The columns of Phi depend on each other (rank {} of {}), so this is only the smallest of many "
-                  "solutions.",
+                  "The columns of Phi are linearly dependent (rank {} of {}); this is the solution of minimum norm.",
                   fit.rank, Phi.cols());
     return fit;
 }
 
 PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degree, const PolyfitOptions& options) {
-    if (degree < 0) throw InvalidArgument("The degree must not be negative, and is {}", degree);
+    if (degree < 0) throw InvalidArgument("The degree must not be negative, but is {}", degree);
     if (x.size() != y.size())
-        throw InvalidArgument("x and y must be equally long, and hold {} and {} values", x.size(), y.size());
-    if (!x.allFinite()) throw InvalidArgument("x holds a value that is not finite");
+        throw InvalidArgument("x and y must have the same length, but have {} and {} values", x.size(), y.size());
+    if (!x.allFinite()) throw InvalidArgument("x contains a value that is not finite");
     const Index distinct = distinct_values(x);
     if (distinct <= degree)
-        throw InvalidArgument("A polynomial of degree {} needs at least {} different x, and {} were given", degree,
+        throw InvalidArgument("A polynomial of degree {} needs at least {} different x, but {} were given", degree,
                               degree + 1, distinct);
     PolynomialFit fit;
     fit.degree = degree;
@@ -112,15 +111,15 @@ PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degre
 
 Forecast forecast(const LinearRegression& regression, const VectorView& phi, double level) {
     if (phi.size() != regression.theta.size())
-        throw InvalidArgument("The forecast needs {}, and {} were given",
+        throw InvalidArgument("The forecast needs {}, but {} were given",
                               plural(regression.theta.size(), "{} regressor", "{} regressors"), phi.size());
     if (!(level > 0 && level < 1))
-        throw InvalidArgument("The level of an interval lies between 0 and 1, and {} was given; 0.95 means 95 %",
-                              level);
+        throw InvalidArgument("The confidence level must be between 0 and 1, but {} was given; 0.95 means 95 %", level);
     const Index degrees = regression.residuals.size() - regression.rank;
     if (degrees < 1)
         throw InvalidArgument(
-            "There are as many parameters as measurements, so nothing tells how far a forecast may err");
+            "The number of parameters equals the number of measurements, so the error of a forecast cannot be "
+            "estimated");
     Forecast result;
     result.value = phi.dot(regression.theta);
     const double variance = phi.dot(regression.covariance * phi);

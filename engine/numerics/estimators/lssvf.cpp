@@ -13,20 +13,22 @@ namespace dynlab::inline numerics {
 void SvfOptions::validate() const {
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, a bit above the "
-            "bandwidth of the system, and is {}",
+            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, slightly above the "
+            "bandwidth of the system, but is {}",
             lambda);
     if (beta && (!(*beta > 0) || !std::isfinite(*beta)))
-        throw InvalidArgument("beta must be positive, and is {}", *beta);
+        throw InvalidArgument("beta must be positive, but is {}", *beta);
 }
 
 void check_carx(const char* method, const TransferStructure& structure) {
-    if (structure.free_delays) throw InvalidArgument("{}: delays are fixed here; srivc and coe estimate them", method);
+    if (structure.free_delays)
+        throw InvalidArgument("{}: delays are fixed in this method; srivc and coe estimate them", method);
     for (Index output = 0; output < structure.outputs; ++output)
         for (Index input = 1; input < structure.inputs; ++input)
             if (structure.channel(output, input).denominator != structure.channel(output, 0).denominator)
                 throw InvalidArgument(
-                    "{}: the inputs of an output share their denominator here; srivc and coe give each its own",
+                    "{}: the inputs of an output share their denominator in this method; srivc and coe give each input "
+                    "its own denominator",
                     method);
 }
 
@@ -36,15 +38,15 @@ void warn_of_cutoff(Fit& estimate, double lambda) {
     for (const TransferFunction& G : estimate.models) fastest = std::max(fastest, G.poles().cwiseAbs().maxCoeff());
     if (lambda > kFar * fastest || lambda < fastest / kFar)
         estimate.warnings.push_back(
-            Message("The cut-off frequency lambda = {} rad/s lies far from the poles found (fastest {} rad/s): the "
-                    "usual choice is a bit above the bandwidth.",
+            Message("The cut-off frequency lambda = {} rad/s is far from the estimated poles (fastest {} rad/s): "
+                    "choose lambda slightly above the bandwidth.",
                     lambda, significant(fastest, 3)));
 }
 
 void colour_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments) {
     if (data.sample_count() > kMostColoured) {
         fit.warnings.push_back(Message(
-            "Standard errors of more than {} samples take the equation error as white, though the filters colour it.",
+            "Standard errors for more than {} samples assume a white equation error, although the filters color it.",
             kMostColoured));
         return;
     }

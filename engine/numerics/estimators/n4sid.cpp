@@ -40,12 +40,12 @@ Index chosen_block_rows(const IdData& data, int order, int wanted) {
     const Index least = order + 1;
     Index s = wanted > 0 ? wanted : std::max(kUsualBlockRows, 2 * least - 2);
     if (wanted > 0 && wanted < least)
-        throw InvalidArgument("n4sid: {} must be greater than the order, {}, and is {}", OptionName{"block_rows"},
+        throw InvalidArgument("n4sid: {} must be greater than the order, {}, but is {}", OptionName{"block_rows"},
                               order, wanted);
     while (wanted == 0 && s > least && !fits(data, s)) --s;
     if (fits(data, s)) return s;
     throw InvalidArgument(
-        "n4sid: the record of {} samples is too short for order {} and {} block rows: it gives {} equations for {} "
+        "n4sid: the {} samples of the data are too few for order {} and {} block rows: they give {} equations for {} "
         "values",
         data.sample_count(), order, s, places(data, s), 2 * s * (data.input_count() + data.output_count()));
 }
@@ -90,7 +90,7 @@ void require_rich_inputs(const Matrix& R, const Sizes& sizes) {
     if (solve_least_squares(inputs, Vector::Zero(f)).condition_number < kAmbiguousCondition) return;
     throw InvalidArgument(
         "n4sid: the input is not persistently exciting enough to determine {} samples of its effect (a constant or a "
-        "few sines are not): excite the system with an input that changes more, or lower {}",
+        "few sines are not enough): excite the system with an input that changes more, or decrease {}",
         sizes.s, OptionName{"block_rows"});
 }
 
@@ -229,27 +229,28 @@ void describe(SubspaceFit& found, bool reflected) {
     const auto seen = (found.singular_values.array() > kNoSignal * found.singular_values[0]).count();
     if (seen < found.system.order())
         fit.warnings.push_back(
-            plural(seen, "The data show {} state only: the others are rounding, so a lower order suffices.",
-                   "The data show {} states only: the others are rounding, so a lower order suffices."));
+            plural(seen, "The data show only {} state; the others are rounding errors, so a lower order is sufficient.",
+                   "The data show only {} states; the others are rounding errors, so a lower order is sufficient."));
     if (reflected) fit.warnings.push_back(Message("Eigenvalues outside the unit circle were mirrored into it."));
     if (fit.condition_number > kAmbiguousCondition)
         fit.warnings.push_back(Message("The data do not determine all entries of B separately (condition number {}).",
                                        significant(fit.condition_number, 2)));
-    fit.message = Message("Subspace with {} block rows, order {}: fit {} %, simulating from estimated initial states.",
-                          found.block_rows, found.system.order(), fits_text(fit));
+    fit.message =
+        Message("Subspace method with {} block rows, order {}: fit {} % for simulation from estimated initial states.",
+                found.block_rows, found.system.order(), fits_text(fit));
 }
 
 }  // namespace
 
 void SubspaceOptions::validate() const {
     if (block_rows < 0)
-        throw InvalidArgument("{} must not be negative, and is {}", OptionName{"block_rows"}, block_rows);
+        throw InvalidArgument("{} must not be negative, but is {}", OptionName{"block_rows"}, block_rows);
 }
 
 SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options) {
     options.validate();
     if (order < 1 || order > kMostStates)
-        throw InvalidArgument("n4sid: the order, a number of states, must lie between 1 and {}, and is {}", kMostStates,
+        throw InvalidArgument("n4sid: the order, a number of states, must be between 1 and {}, but is {}", kMostStates,
                               order);
     check_sampled_data("n4sid", data);
     const Sizes sizes{order, data.input_count(), data.output_count(),
@@ -268,7 +269,7 @@ SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options)
 
     const InputEquations equations(scaled, sizes, A, C, options.feedthrough);
     if (data.sample_count() * sizes.ny <= equations.unknowns())
-        throw InvalidArgument("n4sid needs more samples than the {} it estimates, and the record holds {}",
+        throw InvalidArgument("n4sid needs more samples than the {} values it estimates, but the data have {}",
                               plural(equations.unknowns(), "{} value", "{} values"), data.sample_count());
     const LeastSquares solution = equations.solve();
     SubspaceFit found;

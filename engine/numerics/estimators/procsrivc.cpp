@@ -59,7 +59,7 @@ struct ProcessProblem {
 void check_process_data(const IdData& data) {
     if (data.experiments.empty() || data.input_count() != 1 || data.output_count() != 1)
         throw InvalidArgument(
-            "procsrivc: the data must have one input and one output, and have {} and {}: select one of each",
+            "procsrivc: the data must have one input and one output, but have {} and {}: select one of each",
             plural(data.input_count(), "{} input", "{} inputs"),
             plural(data.output_count(), "{} output", "{} outputs"));
     check_signals("procsrivc", data);
@@ -78,13 +78,13 @@ std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStru
         std::ranges::all_of(data.experiments, [](const Experiment& experiment) { return experiment.u(0, 0) == 0; });
     if (options.initial_state == InitialState::kSteady && !rests)
         throw InvalidArgument(
-            "A process with an integrator rests at zero input only, so {} \"steady\" does not suit: use \"zero\", "
-            "\"estimate\" or \"auto\"",
+            "A process with an integrator is at rest only for zero input, so {} \"steady\" is unsuitable: use "
+            "\"zero\", \"estimate\" or \"auto\"",
             OptionName{"initial_state"});
     if (options.initial_state == InitialState::kEstimate && options.offset == Offset::kEstimate)
         throw InvalidArgument(
-            "The initial state of a process with an integrator holds its level already: with {} \"estimate\", let {} "
-            "be \"none\", \"remove\" or \"auto\"",
+            "The initial state of a process with an integrator already includes its level: with {} \"estimate\", set "
+            "{} to \"none\", \"remove\" or \"auto\"",
             OptionName{"initial_state"}, OptionName{"offset"});
     std::erase_if(conditions, [&](const StartCondition& condition) {
         return (condition.state == InitialState::kEstimate && condition.offset) ||
@@ -236,22 +236,23 @@ void warn_of_times(Fit& result, double Ts, double longest) {
         if (name.front() != 'T' || name == "Td" || name == "Tz") continue;
         if (value < 0.1 * Ts)
             result.warnings.push_back(
-                Message("{} is far below the sampling time: a structure with fewer poles is enough.", name));
+                Message("{} is far below the sampling time: a structure with fewer poles is sufficient.", name));
         if (value > longest)
-            result.warnings.push_back(
-                Message("{} is longer than the record, which cannot tell it from the gain: record longer.", name));
+            result.warnings.push_back(Message(
+                "{} is longer than the data, which cannot distinguish it from the gain: record a longer experiment.",
+                name));
     }
     const Index lags = real_lag_count(structure);
     for (Index i = 1; i < lags; ++i)
         if (result.theta[i] < 1.05 * result.theta[i + 1]) {
             result.warnings.push_back(
-                Message("Two time constants are nearly equal, so their standard errors mean little: a structure with U "
-                        "may suit better."));
+                Message("Two time constants are nearly equal, so their standard errors are unreliable: a structure "
+                        "with U may be better."));
             break;
         }
     if (structure.underdamped && result.theta[lags + 2] >= 1)
         result.warnings.push_back(
-            Message("Zeta is at least 1, so the system does not swing: P{} without U suits it.", structure.poles));
+            Message("Zeta is at least 1, so the system does not oscillate: use P{} without U.", structure.poles));
 }
 
 void warn_of_zero(Fit& result) {
@@ -260,7 +261,7 @@ void warn_of_zero(Fit& result) {
         const double value = result.theta[static_cast<Index>(i)];
         if (result.names[i].starts_with("Tp") && std::abs(Tz - value) < 0.02 * value)
             result.warnings.push_back(
-                Message("The zero nearly cancels {}: a structure with one pole less and without Z is enough.",
+                Message("The zero nearly cancels {}: a structure with one pole less and without Z is sufficient.",
                         result.names[i]));
     }
 }
@@ -286,9 +287,9 @@ void set_process(Fit& fit, const ProcessStructure& structure) {
 void warn_of_undetermined(Fit& fit, const IdData& data, const FitOptions& options) {
     if (fit.process->structure.delay && has_ambiguous_delay(fit.models.front(), data)) {
         withdraw_errors(fit, {"Tz", "Td"});
-        fit.warnings.push_back(
-            Message("Tz and Td cannot be told apart within one sampling time, whatever the input, and have no standard "
-                    "errors: it is held, and the model has as many zeros as poles. Take a type without D or Z."));
+        fit.warnings.push_back(Message(
+            "Tz and Td cannot be distinguished within one sampling time, whatever the input. They have no standard "
+            "errors, because the input is held and the model has as many zeros as poles. Use a type without D or Z."));
     } else if (!withdraw_errors_of_gain(fit, data))
         warn_of_doubtful_parameters(fit);
     withdraw_errors_at_bounds(fit, options);
@@ -314,7 +315,7 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     const auto conditions = conditions_for(record.data, structure, options);
     const Index values = problem.value_count(data, conditions[0]), fewest = kSamplesPerProcessParameter * values;
     if (data.sample_count() < fewest)
-        throw InvalidArgument("procsrivc: at least {} samples are needed for {} values, and the data hold {}", fewest,
+        throw InvalidArgument("procsrivc: at least {} samples are needed for {} values, but the data have {}", fewest,
                               values, data.sample_count());
     Fit fit = best_fit_to_long(problem, record.data, conditions);
     fit = without_unheard_inputs(problem, record.data, std::move(fit));

@@ -25,17 +25,16 @@ void check(const IdData& data, const NoiseOrders& orders, const TransferStructur
     orders.validate();
     if (!data.regular())
         throw InvalidArgument(
-            "rivc: the noise model counts in samples, so the data must be sampled regularly: interpolate them "
-            "(interp1), or use "
-            "srivc, which takes any sampling");
+            "rivc: the noise model is discrete-time, so the data must be sampled regularly: interpolate them "
+            "(interp1), or use srivc, which accepts any sampling");
     if (structure.outputs != 1 || data.output_count() != 1)
         throw InvalidArgument(
-            "rivc: one output is wanted, because each has a noise model of its own, and the data have {}: select them "
-            "one by one",
+            "rivc: exactly one output is required, because each output has its own noise model, but the data have {}: "
+            "select one output at a time",
             data.output_count());
     const Index wanted = 3 * (structure.parameter_count() + orders.nc + orders.nd);
     if (data.sample_count() < wanted)
-        throw InvalidArgument("rivc: at least {} samples are needed for the model and its noise, and the data hold {}",
+        throw InvalidArgument("rivc: at least {} samples are needed for the model and its noise, but the data have {}",
                               wanted, data.sample_count());
 }
 
@@ -213,7 +212,7 @@ void fill_noise(Fit& result, const Passes& passes, const NoiseOrders& orders, co
     const bool asked = orders.nc + orders.nd > 0;
     if (asked && passes.without_noise_)
         result.warnings.push_back(
-            Message("Nothing but rounding is left of the output, so there is no noise to model."));
+            Message("The residuals contain only rounding errors, so the noise cannot be modeled."));
     for (const char letter : {'C', 'D'})
         if (const auto root = undetermined_root(letter, letter == 'C' ? noise.C : noise.D, data.sample_count())) {
             Vector& errors = letter == 'C' ? noise.C_std : noise.D_std;
@@ -291,7 +290,7 @@ Fit rivc_fit(const IdData& data, const TransferStructure& structure, const Noise
 
 void NoiseOrders::validate() const {
     if (nc < 0 || nd < 0)
-        throw InvalidArgument("nc and nd, the orders of the noise model, must not be negative, and are {} and {}", nc,
+        throw InvalidArgument("nc and nd, the orders of the noise model, must not be negative, but are {} and {}", nc,
                               nd);
 }
 

@@ -74,7 +74,7 @@ ReadingPoint overshoot_point(const StepRecord& record) {
     const double least = std::max(0.01, 2 * record.noise_std / std::abs(record.output_change()));
     if (record.rise(top) - 1 < least || top == N - 1)
         throw InvalidArgument(
-            "The response does not overshoot its final level by more than {} %, so no damping can be read from it: use "
+            "The response does not overshoot its final level by more than {} %, so no damping can be determined: use "
             "step_first_order or step_delayed",
             significant(100 * least, kDigits));
     if (top < record.step_index + 3)
@@ -96,11 +96,12 @@ StepTestResult step_first_order(const IdData& data) {
     result.points = {settling};
     result.model = TransferFunction(Vector::Constant(1, K), Vector{{T, 1.0}});
     const Message reading = Message(
-        "The smoothed response stays within 5 % of its final value from {} s after the step on, three time constants.",
+        "The smoothed response stays within 5 % of its final value from {} s after the step, three time constants.",
         significant(settling_time, kDigits));
-    result.message = highest_rise(record) > 1.05
-                         ? sentences({reading, Message("It overshoots: a second-order model would suit it better.")})
-                         : reading;
+    result.message =
+        highest_rise(record) > 1.05
+            ? sentences({reading, Message("The response overshoots: a second-order model would be better.")})
+            : reading;
     return result;
 }
 
@@ -112,7 +113,7 @@ StepTestResult step_second_order(const IdData& data) {
     const double logarithm = std::log(D1), pi = std::numbers::pi;
     if (D1 >= 1)
         throw InvalidArgument(
-            "The first overshoot is as high as the step itself, as no damped second-order system does");
+            "The first overshoot is as high as the step itself, which no damped second-order system produces");
     const double z = std::sqrt(logarithm * logarithm / (logarithm * logarithm + pi * pi));
     const double w0 = pi / ((peak.time - record.step_time) * std::sqrt(1 - z * z));
     const double K = result.parameters[0];
@@ -140,8 +141,8 @@ StepTestResult step_delayed(const IdData& data) {
         Message("The smoothed response reaches 28.3 % and 63.2 % of its change {} s and {} s after the step.",
                 significant(t1 - record.step_time, kDigits), significant(t2 - record.step_time, kDigits));
     result.message =
-        D == 0 ? sentences({reading, Message("The points leave no room for a delay: step_first_order suits this "
-                                             "response.")})
+        D == 0 ? sentences({reading,
+                            Message("The points leave no time for a delay: use step_first_order for this response.")})
                : reading;
     return result;
 }

@@ -16,7 +16,8 @@ namespace {
 
 void require_proper(const VectorView& num, const VectorView& den) {
     if (num.size() < 1 || den.size() < 2 || num.size() > den.size())
-        throw InvalidArgument("A proper transfer function is needed: no more zeros than poles, at least one pole");
+        throw InvalidArgument(
+            "A proper transfer function is required: at least one pole, and no more zeros than poles");
 }
 
 SingleInputSystem response_system(const VectorView& num, const VectorView& den) {

@@ -139,10 +139,10 @@ Linearised linearise(const AssessedRecord& record, std::span<const ChannelPlaces
 // Why standard errors of the model mean little, however they are worked out; empty where they do not.
 Message worthlessness(const Fit& fit) {
     if (std::any_of(fit.models.begin(), fit.models.end(), has_unstable_pole))
-        return Message("Its standard errors mean little: the model is unstable.");
+        return Message("Its standard errors are unreliable: the model is unstable.");
     for (const double percent : fit.fit_percent)
         if (explains_little(percent))
-            return Message("Its standard errors mean little: the model explains little of the output.");
+            return Message("Its standard errors are unreliable: the model explains little of the output.");
     return Message();
 }
 
@@ -160,10 +160,10 @@ Message verdict_of(const Assessment& assessment, const Fit& fit, const IdData& d
         all.push_back(worthless);
     else if (!assessment.white)
         all.push_back(data.sample_count() < kFewSamples
-                          ? Message("The robust standard errors are the ones to use, as a lower bound: {} samples are "
-                                    "too few to tell how the errors depend on each other.",
+                          ? Message("Use the robust standard errors as a lower bound: {} samples are too few to "
+                                    "determine how the errors depend on each other.",
                                     data.sample_count())
-                          : Message("The robust standard errors are the ones to use."));
+                          : Message("Use the robust standard errors."));
     return sentences(std::move(all));
 }
 
@@ -200,7 +200,7 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
                            const MatrixView& by_parameter, const ResidualOptions& options) {
     const Index ny = data.output_count(), nu = data.input_count(), q = by_parameter.cols();
     if (static_cast<Index>(channels.size()) != ny * nu)
-        throw InvalidArgument("The estimate has {} and the data have {} and {}",
+        throw InvalidArgument("The estimate has {}, but the data have {} and {}",
                               plural(static_cast<std::int64_t>(channels.size()), "{} channel", "{} channels"),
                               plural(ny, "{} output", "{} outputs"), plural(nu, "{} input", "{} inputs"));
     const Index N = data.sample_count();
@@ -237,7 +237,7 @@ IdData counted_data(const IdData& data, const Fit& fit) {
     IdData counted = data;
     if (fit.removed.empty()) return counted;
     if (fit.removed.size() != counted.experiments.size())
-        throw InvalidArgument("The estimate comes from {} and the data hold {}",
+        throw InvalidArgument("The estimate comes from {}, but the data have {}",
                               plural(static_cast<std::int64_t>(fit.removed.size()), "{} experiment", "{} experiments"),
                               counted.experiments.size());
     for (std::size_t e = 0; e < fit.removed.size(); ++e) {
@@ -280,8 +280,7 @@ Assessment assess_prediction(const IdData& data, const Fit& fit, const ResidualO
     Matrix sensitivities;
     model.simulate(theta, output, &sensitivities);
     if (!output.allFinite() || !sensitivities.allFinite())
-        throw InvalidArgument(
-            "The output of the estimate grows beyond all bounds, so that nothing can be said of its errors");
+        throw InvalidArgument("The output of the estimate diverges, so its errors cannot be assessed");
     Matrix Psi = sensitivities.leftCols(d);
     const Matrix linear = sensitivities.rightCols(linear_unknowns);
     for (Index i = 0; i < d && linear_unknowns > 0; ++i) Psi.col(i) = solve_least_squares(linear, Psi.col(i)).residuals;

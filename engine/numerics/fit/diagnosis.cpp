@@ -28,7 +28,7 @@ bool starts_from_rest(const Eigen::Ref<const Vector>& y, bool alone) {
 }
 
 void check_inputs(const std::string& method, const IdData& data) {
-    if (data.input_count() == 0) throw InvalidArgument("{} needs an input, and the data have no input", method);
+    if (data.input_count() == 0) throw InvalidArgument("{} needs an input, but the data have no input", method);
     for (Index input = 0; input < data.input_count(); ++input)
         if (in_all_experiments(data, [&](const Experiment& e) { return e.u.col(input).isZero(0); }))
             throw InvalidArgument(
@@ -58,18 +58,18 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
     structure.validate();
     check_inputs(method, data);
     if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
-        throw InvalidArgument("{}: the model has {} and {}, and the data have {} and {}", method,
+        throw InvalidArgument("{}: the model has {} and {}, but the data have {} and {}", method,
                               plural(structure.inputs, "{} input", "{} inputs"),
                               plural(structure.outputs, "{} output", "{} outputs"), data.input_count(),
                               data.output_count());
     const Index wanted = kSamplesPerParameter * structure.parameter_count();
     if (data.sample_count() < wanted)
-        throw InvalidArgument("{}: at least {} samples are needed for {} parameters, and the data hold {}", method,
+        throw InvalidArgument("{}: at least {} samples are needed for {} parameters, but the data have {}", method,
                               wanted, structure.parameter_count(), data.sample_count());
     for (const TransferChannel& channel : structure.channels)
         for (std::size_t e = 0; e < data.experiments.size(); ++e)
             if (channel.delay >= data.duration(e))
-                throw InvalidArgument("{}: the delay of {} s is not shorter than the record of {} s", method,
+                throw InvalidArgument("{}: the delay of {} s is not shorter than the data of {} s", method,
                                       channel.delay, data.duration(e));
     for (Index input = 0; input < data.input_count(); ++input) {
         const bool alone = data.input_count() == 1;
@@ -78,13 +78,12 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
         });
         if (!rests || (alone && offset != Offset::kNone)) continue;
         throw InvalidArgument(
-            alone
-                ? Message("{}: the input never changes and the output does not start from rest, so there is no "
-                          "excitation: let the input vary, for instance as a prbs",
-                          method)
-                : Message("{}: the input {} never changes and the output does not start from rest, so that its effect "
-                          "cannot be told from an offset: leave it out with data:select, or let it move",
-                          method, data.input_names[static_cast<std::size_t>(input)]));
+            alone ? Message("{}: the input never changes and the output does not start from rest, so the data contain "
+                            "no excitation: vary the input, for instance with prbs",
+                            method)
+                  : Message("{}: the input {} never changes and the output does not start from rest, so its effect "
+                            "cannot be distinguished from an offset: exclude it with data:select, or vary it",
+                            method, data.input_names[static_cast<std::size_t>(input)]));
     }
     check_outputs(method, data);
 }
@@ -92,14 +91,15 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
 void check_sampled_data(const std::string& method, const IdData& data) {
     if (data.input_count() > 0 && !data.regular())
         throw InvalidArgument(
-            "{} needs regularly sampled data, and these are not: interpolate them to even steps first (interp1)",
+            "{} needs regularly sampled data, but these data are irregular: interpolate them to equal steps first "
+            "(interp1)",
             method);
     check_signals(method, data);
 }
 
 void check_sample_count(const std::string& method, Index samples, Index values) {
     if (samples > values) return;
-    throw InvalidArgument("{} needs more samples than the {} it estimates, and the record holds {}", method,
+    throw InvalidArgument("{} needs more samples than the {} values it estimates, but the data have {}", method,
                           plural(values, "{} value", "{} values"), samples);
 }
 
@@ -124,7 +124,7 @@ DelayRange delay_range(const IdData& data, const FitOptions& options) {
     const double shortest = shortest_record(data);
     const double largest = options.largest_delay.value_or(std::max(options.least_delay, shortest / 4));
     if (largest >= shortest)
-        throw InvalidArgument("{} must be shorter than the record of {} s, and is {} s", OptionName{"largest_delay"},
+        throw InvalidArgument("{} must be shorter than the data of {} s, but is {} s", OptionName{"largest_delay"},
                               shortest, largest);
     return {options.least_delay, largest};
 }
@@ -140,7 +140,7 @@ void warn_of_cancellation(Fit& fit) {
             for (const Complex& pole : poles)
                 if (std::abs(zero - pole) < kCancellation * std::abs(pole)) {
                     fit.warnings.push_back(
-                        Message("A pole near {} and a zero nearly cancel: fewer poles and zeros may be enough.",
+                        Message("A pole near {} and a zero nearly cancel: fewer poles and zeros may be sufficient.",
                                 significant(pole.real(), 3)));
                     return;
                 }
@@ -153,16 +153,16 @@ Message instability_of_only_channel(UnstableAdvice advice) {
             return Message("The model is unstable.");
         case UnstableAdvice::kStableOption:
             return Message(
-                "The model is unstable: unless the system is unstable, too, {} = true finds the best stable one.",
+                "The model is unstable. Unless the system is also unstable, {} = true finds the best stable model.",
                 OptionName{"stable"});
         case UnstableAdvice::kStableSrivc:
             return Message(
-                "The model is unstable: unless the system is unstable, too, srivc with {} = true finds the best stable "
-                "one.",
+                "The model is unstable. Unless the system is also unstable, srivc with {} = true finds the best stable "
+                "model.",
                 OptionName{"stable"});
         default:
             return Message(
-                "The model is unstable: unless the system is unstable, too, look at the controller, the orders and the "
+                "The model is unstable. Unless the system is also unstable, check the controller, the orders and the "
                 "cut-off frequency.");
     }
 }
@@ -172,13 +172,13 @@ Message instability_of_channel(const ChannelPlace& channel, UnstableAdvice advic
     const auto& [input, output] = channel;
     if (advice == UnstableAdvice::kStableOption)
         return Message(
-            "The model from input {} to output {} is unstable: unless the system is unstable, too, {} = true finds the "
-            "best stable one.",
+            "The model from input {} to output {} is unstable. Unless the system is also unstable, {} = true finds the "
+            "best stable model.",
             input, output, OptionName{"stable"});
     if (advice == UnstableAdvice::kStableSrivc)
         return Message(
-            "The model from input {} to output {} is unstable: unless the system is unstable, too, srivc with {} = "
-            "true finds the best stable one.",
+            "The model from input {} to output {} is unstable. Unless the system is also unstable, srivc with {} = "
+            "true finds the best stable model.",
             input, output, OptionName{"stable"});
     return Message("The model from input {} to output {} is unstable.", input, output);
 }
@@ -196,23 +196,23 @@ Message ambiguity(SimplerModel simpler, Number condition) {
     switch (simpler) {
         case SimplerModel::kFewerBins:
             return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): fewer bins or a richer "
-                "input is wanted.",
+                "The data do not determine all parameters separately (badly conditioned: {}): use fewer bins or a "
+                "richer input.",
                 condition);
         case SimplerModel::kFewerTerms:
             return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): fewer terms or a richer "
-                "input is wanted.",
+                "The data do not determine all parameters separately (badly conditioned: {}): use fewer terms or a "
+                "richer input.",
                 condition);
         case SimplerModel::kFewerFreeParameters:
             return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): fewer free parameters or "
-                "a richer input is wanted.",
+                "The data do not determine all parameters separately (badly conditioned: {}): use fewer free "
+                "parameters or a richer input.",
                 condition);
         default:
             return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): a simpler structure or a "
-                "richer input is wanted.",
+                "The data do not determine all parameters separately (badly conditioned: {}): use a simpler structure "
+                "or a richer input.",
                 condition);
     }
 }
@@ -238,14 +238,14 @@ void warn_of_ambiguous_delays(Fit& fit, const IdData& data) {
         std::erase(fit.warnings, ambiguity(SimplerModel::kStructure, significant(fit.condition_number, 2)));
         fit.warnings.push_back(
             channel
-                ? Message("The delay from input {} to output {} is only known to within one sampling time, so that {} "
-                          "have no standard errors: the input is held and the model has as many zeros as poles. "
-                          "Fix the delay with {}, or take one zero fewer.",
+                ? Message("The delay from input {} to output {} is only known to within one sampling time, so {} have "
+                          "no standard errors: the input is held and the model has as many zeros as poles. Fix the "
+                          "delay with {}, or use one zero fewer.",
                           channel->input, channel->output, listed(names), OptionName{"delay"})
-                : Message("The delay is only known to within one sampling time, so that {} have no standard errors: "
-                          "the input is held and the model has as many zeros as poles. Fix the delay with {}, or take "
-                          "one zero fewer.",
-                          listed(names), OptionName{"delay"}));
+                : Message(
+                      "The delay is only known to within one sampling time, so {} have no standard errors: the input "
+                      "is held and the model has as many zeros as poles. Fix the delay with {}, or use one zero fewer.",
+                      listed(names), OptionName{"delay"}));
     }
 }
 
@@ -270,10 +270,10 @@ bool withdraw_errors_of_gain(Fit& fit, const IdData& data) {
     for (const std::string& name : fit.names)
         if (name == "Kp" || name.front() == 'b' || name.starts_with("Td")) names.push_back(name);
     withdraw_errors(fit, names);
-    fit.warnings.push_back(Message(
-        "The input never changes: the gain and the delay rest on the assumption that it was zero until the first "
-        "sample, and have no standard errors. If it came from another value, count {} from there.",
-        listed(data.input_names)));
+    fit.warnings.push_back(
+        Message("The input never changes. The gain and the delay assume that it was zero until the first sample; they "
+                "have no standard errors. If the input started from another value, subtract that value from {}.",
+                listed(data.input_names)));
     return true;
 }
 
@@ -284,19 +284,19 @@ void withdraw_errors_at_bounds(Fit& fit, const FitOptions& options) {
             held.push_back(fit.names[i]);
     if (held.empty()) return;
     withdraw_errors(fit, held);
-    fit.warnings.push_back(Message(
-        "The search ended at a bound of {}, which the data do not determine: a drift, an offset, or a structure "
-        "that does not suit may be the cause.",
-        listed(held)));
+    fit.warnings.push_back(
+        Message("The search ended at a bound of {}, which the data do not determine. Possible causes are a drift, an "
+                "offset, or an unsuitable structure.",
+                listed(held)));
 }
 
 void warn_of_search(Fit& fit, const FitOptions& options) {
     if (fit.termination == Termination::kIterationLimit)
         fit.warnings.push_back(
-            Message("The search had not settled after {} = {} iterations; the best point so far is given.",
+            Message("The search did not converge within {} = {} iterations; the result is the best point so far.",
                     OptionName{"max_iterations"}, options.max_iterations));
     if (fit.termination == Termination::kCancelled)
-        fit.warnings.push_back(Message("The search was stopped before its end; the best point so far is given."));
+        fit.warnings.push_back(Message("The search was interrupted; the result is the best point so far."));
 }
 
 std::vector<std::string> undetermined_parameters(const std::vector<std::string>& names, const VectorView& theta,
@@ -314,16 +314,13 @@ namespace {
 /// At an edge of the range.
 Message delay_at(const OptionName& edge, double value, bool largest, const std::optional<ChannelPlace>& channel) {
     if (channel && largest)
-        return Message(
-            "The delay from input {} to output {} lies at {} = {} s, the edge of what was searched: raise {}.",
-            channel->input, channel->output, edge, value, edge);
+        return Message("The delay from input {} to output {} is {} = {} s, at the limit of the search: increase {}.",
+                       channel->input, channel->output, edge, value, edge);
     if (channel)
-        return Message(
-            "The delay from input {} to output {} lies at {} = {} s, the edge of what was searched: lower {}.",
-            channel->input, channel->output, edge, value, edge);
-    return largest
-               ? Message("The delay lies at {} = {} s, the edge of what was searched: raise {}.", edge, value, edge)
-               : Message("The delay lies at {} = {} s, the edge of what was searched: lower {}.", edge, value, edge);
+        return Message("The delay from input {} to output {} is {} = {} s, at the limit of the search: decrease {}.",
+                       channel->input, channel->output, edge, value, edge);
+    return largest ? Message("The delay is {} = {} s, at the limit of the search: increase {}.", edge, value, edge)
+                   : Message("The delay is {} = {} s, at the limit of the search: decrease {}.", edge, value, edge);
 }
 
 }  // namespace
@@ -339,8 +336,8 @@ void warn_of_doubtful_parameters(Fit& fit, SimplerModel simpler) {
                !fit.covariance.hasNaN() && fit.covariance.allFinite();
     });
     if (!names.empty())
-        fit.warnings.push_back(
-            Message("The data hardly determine {}: the standard error is larger than the value.", listed(names)));
+        fit.warnings.push_back(Message(
+            "The data do not reliably determine {}: the standard error is larger than the value.", listed(names)));
 }
 
 void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::optional<ChannelPlace>& channel) {
@@ -351,9 +348,9 @@ void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::o
         fit.warnings.push_back(delay_at(OptionName{"least_delay"}, range.least, false, channel));
     else if (delay <= edge && range.largest > 0 && std::ranges::none_of(fit.fit_percent, explains_little))
         fit.warnings.push_back(
-            channel ? Message("No delay from input {} to output {} is visible: a model without one suits.",
+            channel ? Message("No delay from input {} to output {} is visible: use a model without delay.",
                               channel->input, channel->output)
-                    : Message("No delay is visible: a model without one suits."));
+                    : Message("No delay is visible: use a model without delay."));
 }
 
 bool explains_little(double fit_percent) {

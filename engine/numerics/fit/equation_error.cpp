@@ -24,7 +24,7 @@ void require_rich_inputs(const std::string& method, const MatrixView& R, const P
         if (solve_least_squares(columns, Vector::Zero(R.rows())).condition_number < kAmbiguousCondition) continue;
         throw InvalidArgument(
             "{}: the input {} is not persistently exciting enough to determine nb = {} (a constant or a single sine is "
-            "not): excite the system with an input that changes more, or lower nb",
+            "not enough): excite the system with an input that changes more, or decrease nb",
             method, data.input_names[input], plural(orders.nb[input], "{} coefficient", "{} coefficients"));
     }
 }
@@ -83,12 +83,12 @@ std::optional<Fit> better_with_offset(const IdData& data, const Fit& estimate) {
 void check_equation_error(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
     orders.validate();
     if (orders.nc + orders.nd > 0 || std::any_of(orders.nf.begin(), orders.nf.end(), [](int nf) { return nf > 0; }))
-        throw InvalidArgument("{} has the orders na, nb and nk only: nc, nd and nf must be zero", method);
+        throw InvalidArgument("{} has only the orders na, nb and nk: nc, nd and nf must be zero", method);
     check_polynomial_data(method, data, orders);
     const Index d = orders.parameter_count(), equations = ArxEquations(data, orders).count();
     if (equations > d) return;
     throw InvalidArgument(
-        "{} needs more equations than its {}, and the record gives {}: it has {}, and the past takes the first {} of "
+        "{} needs more equations than its {}, but the data give {}: they have {}, and the past uses the first {} of "
         "each experiment",
         method, plural(d, "{} parameter", "{} parameters"), equations,
         plural(data.sample_count(), "{} sample", "{} samples"), orders.past());
@@ -121,15 +121,15 @@ void warn_of_operating_point(Fit& estimate, const IdData& data) {
         return;
     if (const std::optional<Fit> other = better_with_offset(data, estimate))
         estimate.warnings.push_back(
-            Message("With an offset of {} in {} a simulation by sriv or oe fits {} % instead of {} %: a difference "
-                    "equation goes through the origin, and noise biases it. Take the offset off and prefer them.",
+            Message("With an offset of {} in {}, a simulation by sriv or oe fits {} % instead of {} %. A difference "
+                    "equation goes through the origin, and noise biases it. Remove the offset and use sriv or oe.",
                     significant(other->offsets(0, 0), 3), data.output_names.front(),
                     significant(other->fit_percent[0], 4), significant(estimate.fit_percent[0], 4)));
     else if (const std::optional<double> better = better_without_means(data, estimate))
-        estimate.warnings.push_back(Message(
-            "Without the means the simulation fits {} % instead of {} %: a difference equation goes through the "
-            "origin, and these data do not. Take the means off (data:remove_mean()).",
-            significant(*better, 4), significant(estimate.fit_percent[0], 4)));
+        estimate.warnings.push_back(
+            Message("Without the means the simulation fits {} % instead of {} %. A difference equation goes through "
+                    "the origin, but these data do not. Remove the means (data:remove_mean()).",
+                    significant(*better, 4), significant(estimate.fit_percent[0], 4)));
 }
 
 void describe_equation_error(Fit& estimate) {

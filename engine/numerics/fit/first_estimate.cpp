@@ -157,7 +157,7 @@ Vector best_cutoff_start(const IdData& data, const TransferStructure& structure,
     }
     if (!best.allFinite())
         throw InvalidArgument(
-            "no first estimate could be found: the input does not excite the system enough for {} parameters",
+            "no initial estimate could be found: the input does not excite the system enough for {} parameters",
             structure.parameter_count());
     return best;
 }

@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 
 IdData integrated_inputs(const IdData& data) {
     if (data.hold != Hold::kZoh)
-        throw InvalidArgument("{} needs a held input (zoh), whose integral runs on straight lines",
+        throw InvalidArgument("{} needs a held input (zoh), because it integrates the input exactly",
                               OptionName{"integration"});
     IdData integrated = data;
     integrated.hold = Hold::kFoh;
@@ -33,8 +33,8 @@ IdData summed_inputs(const IdData& data) {
 FitOptions options_with_integrator(FitOptions options) {
     if (options.offset == Offset::kRemove)
         throw InvalidArgument(
-            "{} \"remove\" does not go with {}, because an integrator rests at no operating point: \"estimate\" adds a "
-            "constant to its output",
+            "{} \"remove\" cannot be combined with {}, because an integrator has no operating point: \"estimate\" adds "
+            "a constant to its output",
             OptionName{"offset"}, OptionName{"integration"});
     if (options.initial_state == InitialState::kEstimate) options.offset = Offset::kEstimate;
     if (options.initial_state == InitialState::kAuto && options.offset == Offset::kNone) options.offset = Offset::kAuto;

@@ -351,11 +351,11 @@ Message option_text(const MissedStructure& missed) {
         case MissedCode::kPole:
             return Message("one more pole");
         case MissedCode::kLine:
-            return Message("the straight lines taken off (data:detrend(\"linear\"))");
+            return Message("linear trends removed (data:detrend(\"linear\"))");
         case MissedCode::kLate:
             return Message("the input one sample earlier (data:shift(-1))");
         case MissedCode::kHold:
-            return Message("straight lines between the samples of the input ({} = \"foh\")", OptionName{"hold"});
+            return Message("linear interpolation of the input ({} = \"foh\")", OptionName{"hold"});
         default:
             return Message("as many zeros as poles");
     }
@@ -364,17 +364,17 @@ Message option_text(const MissedStructure& missed) {
 Message reason_text(const MissedStructure& missed) {
     switch (missed.code) {
         case MissedCode::kDelay:
-            return Message("the output follows the input later than the model does");
+            return Message("the model responds earlier than the output");
         case MissedCode::kPole:
-            return Message("the errors still follow the input");
+            return Message("the errors are still correlated with the input");
         case MissedCode::kLine:
             return Message("the output drifts, or a constant load acts on an integrator");
         case MissedCode::kLate:
-            return Message("the output answers before the input changes: the input was logged late");
+            return Message("the output responds before the input changes: the input was logged late");
         case MissedCode::kHold:
-            return Message("the input moves between its samples");
+            return Message("the input changes between its samples");
         default:
-            return Message("the output follows the input at once (a direct feedthrough)");
+            return Message("the output responds to the input immediately (a direct feedthrough)");
     }
 }
 

@@ -202,11 +202,11 @@ Matrix covariance_of_unequal_rows(const Matrix& covariance, double variance, con
 void check_output_weights(const Vector& weights, Index outputs) {
     if (weights.size() == 0) return;
     if (weights.size() != outputs)
-        throw InvalidArgument("{} holds a positive number for each of the {}, but has {}", OptionName{"output_weights"},
-                              plural(outputs, "{} output", "{} outputs"), weights.size());
+        throw InvalidArgument("{} needs one positive number for each of the {}, but has {}",
+                              OptionName{"output_weights"}, plural(outputs, "{} output", "{} outputs"), weights.size());
     for (const double weight : weights)
         if (!(weight > 0) || !std::isfinite(weight))
-            throw InvalidArgument("{} must be positive, and one of them is {}", OptionName{"output_weights"}, weight);
+            throw InvalidArgument("{} must be positive, but one value is {}", OptionName{"output_weights"}, weight);
 }
 
 namespace {
@@ -215,10 +215,10 @@ Search search_for(const OutputErrorModel& model, const VectorView& y, const Vect
     options.validate();
     const Index count = model.parameter_count();
     if (start.size() != count)
-        throw InvalidArgument("The search needs {} start values, and {} were given", count, start.size());
+        throw InvalidArgument("The search needs {} start values, but {} were given", count, start.size());
     if (y.size() <= count)
-        throw InvalidArgument("The record holds {} samples, and more than {} are needed for as many parameters",
-                              y.size(), count);
+        throw InvalidArgument("The data have {} samples, but more than {} are needed for as many parameters", y.size(),
+                              count);
     return Search(model, y, options);
 }
 

@@ -97,8 +97,7 @@ void measure_simulation(Fit& fit, const IdData& data) {
         fit.loss += squares / N / outputs;
     }
     if (std::isfinite(fit.loss)) return;
-    fit.warnings.push_back(
-        Message("The simulation of the model grows beyond all bounds over the record: it has no fit."));
+    fit.warnings.push_back(Message("The simulation of the model diverges on these data: no fit can be computed."));
 }
 
 bool errors_follow_input(const IdData& data, const Fit& fit) {

@@ -13,10 +13,10 @@ namespace {
 
 void check_channels(const std::string& caller, const IdData& data) {
     if (data.input_count() == 0)
-        throw InvalidArgument("{}: the data have no input, so there is no response to estimate", caller);
+        throw InvalidArgument("{}: the data have no input, so no response can be estimated", caller);
     if (data.input_count() != 1 || data.output_count() != 1)
         throw InvalidArgument(
-            "{}: the data must have one input and one output, but they have {} and {}; take a pair with "
+            "{}: the data must have one input and one output, but they have {} and {}; select a pair with "
             "data:select(output, input)",
             caller, data.input_count(), data.output_count());
     if (!data.regular())

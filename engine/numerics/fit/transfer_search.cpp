@@ -168,8 +168,8 @@ Vector start_at_delays(const IdData& data, const TransferStructure& structure, c
 void check_search(const TransferStructure& structure, const FitOptions& options) {
     for (const auto& [name, value] : options.fixed)
         if (name.starts_with("Td"))
-            throw InvalidArgument("{}: a delay is fixed with {}, and not as {}", OptionName{"fixed"},
-                                  OptionName{"delay"}, name);
+            throw InvalidArgument("{}: fix a delay with {}, not with {}", OptionName{"fixed"}, OptionName{"delay"},
+                                  name);
     check_output_weights(options.output_weights, structure.outputs);
 }
 
@@ -227,8 +227,8 @@ void withdraw_errors_of_rivals(Fit& fit, const IdData& record, const DelayScan& 
                 names.push_back(fit.names[static_cast<std::size_t>(p)]);
         withdraw_errors(fit, names);
         fit.warnings.push_back(Message(
-            "A delay of {} s explains the data nearly as well, so that {} have no standard errors: decide by what "
-            "you know of the plant, and narrow the range of delays ({}, {}).",
+            "A delay of {} s explains the data nearly as well, so {} have no standard errors. Use your knowledge of "
+            "the plant, and narrow the range of delays ({}, {}).",
             significant(scan.delays[i], 3), listed(names), OptionName{"least_delay"}, OptionName{"largest_delay"}));
         return;
     }
@@ -326,9 +326,10 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         starts.insert(starts.end(), {first_end, best.theta});
         if (Fit other = further(stable, search(stable, {})); other.loss <= kClearly * best.loss) {
             if (best.loss < other.loss)
-                other.warnings.push_back(Message(
-                    "An unstable model has a loss {} % smaller, which is no evidence for it: {} = false gives it.",
-                    significant(100 * (1 - best.loss / other.loss), 2), OptionName{"stable"}));
+                other.warnings.push_back(
+                    Message("An unstable model has a loss {} % smaller, which is not enough evidence for it: {} = "
+                            "false returns that model.",
+                            significant(100 * (1 - best.loss / other.loss), 2), OptionName{"stable"}));
             best = std::move(other);
         }
     }

@@ -18,8 +18,8 @@ void check_sizes(const MatrixView& A, const VectorView& b) {
         throw InvalidArgument("least squares: {} cannot determine {}; more data are needed",
                               plural(A.rows(), "{} equation", "{} equations"),
                               plural(A.cols(), "{} parameter", "{} parameters"));
-    if (!A.allFinite()) throw InvalidArgument("least squares: the matrix holds a value that is not finite");
-    if (!b.allFinite()) throw InvalidArgument("least squares: the right-hand side holds a value that is not finite");
+    if (!A.allFinite()) throw InvalidArgument("least squares: the matrix contains a value that is not finite");
+    if (!b.allFinite()) throw InvalidArgument("least squares: the right-hand side contains a value that is not finite");
 }
 
 Vector column_scale(const MatrixView& A) {

@@ -14,7 +14,7 @@ Matrix matrix_exponential(const MatrixView& A) {
     if (A.rows() != A.cols())
         throw InvalidArgument("matrix exponential: the matrix must be square, but it has {} and {}",
                               plural(A.rows(), "{} row", "{} rows"), plural(A.cols(), "{} column", "{} columns"));
-    if (!A.allFinite()) throw InvalidArgument("matrix exponential: the matrix holds a value that is not finite");
+    if (!A.allFinite()) throw InvalidArgument("matrix exponential: the matrix contains a value that is not finite");
     if (A.size() == 0) return A;
     Matrix balanced = A;
     const Vector scale = balance(balanced);

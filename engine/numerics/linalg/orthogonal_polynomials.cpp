@@ -7,7 +7,7 @@ namespace dynlab::inline numerics {
 OrthogonalPolynomials orthogonal_polynomials(const ComplexVector& s, const VectorView& weights, Index degree) {
     constexpr double kDependent = 1e-12;  // of what is left of s p_j
     if (weights.size() != s.size())
-        throw InvalidArgument("orthogonal polynomials need one weight for each of the {} points, and {} were given",
+        throw InvalidArgument("orthogonal polynomials need one weight for each of the {} points, but {} were given",
                               s.size(), weights.size());
     OrthogonalPolynomials basis{Eigen::MatrixXcd(s.size(), degree + 1), Matrix::Zero(degree + 1, degree + 1)};
     const Vector squares = weights.cwiseAbs2();
@@ -31,11 +31,10 @@ OrthogonalPolynomials orthogonal_polynomials(const ComplexVector& s, const Vecto
         }
         const double length = std::sqrt(product(next, next));
         if (!(length > kDependent * size)) {
-            if (j == 0)
-                throw InvalidArgument("the response is zero at all frequencies, so that no model follows from it");
+            if (j == 0) throw InvalidArgument("the response is zero at all frequencies, so it determines no model");
             throw InvalidArgument(
-                "{} frequencies do not tell a polynomial of degree {} from those of lower degrees: take fewer poles "
-                "and zeros, or a wider band",
+                "{} frequencies cannot distinguish a polynomial of degree {} from lower degrees: use fewer poles and "
+                "zeros, or a wider band",
                 s.size(), j);
         }
         basis.values.col(j) = next / length;

@@ -59,7 +59,7 @@ Eigen::Vector2cd quadratic_roots(double p, double q) {
 
 ComplexVector roots(const VectorView& p) {
     const Vector stripped = strip_leading_zeros(p);
-    if (!stripped.allFinite()) throw InvalidArgument("roots: the polynomial holds a coefficient that is not finite");
+    if (!stripped.allFinite()) throw InvalidArgument("roots: the polynomial contains a coefficient that is not finite");
     if (stripped(0) == 0) throw InvalidArgument("roots: every number is a root of the zero polynomial");
     const Index zero_roots = trailing_zeros(stripped);
     const Index others = stripped.size() - 1 - zero_roots;

@@ -76,7 +76,7 @@ bool has_root(const Vector& p, double x) {
 TransferFunction tustin_c2d(const TransferFunction& G, double Ts) {
     if (split_delay(G.delay(), Ts).rest > 0)
         throw InvalidArgument(
-            "c2d: the tustin method needs a delay that is a multiple of Ts = {} s, but it is {} s; zoh and foh take "
+            "c2d: the tustin method needs a delay that is a multiple of Ts = {} s, but it is {} s; zoh and foh support "
             "any delay",
             Ts, G.delay());
     const Vector top = 2 / Ts * Eigen::Vector2d(1, -1), bottom = Eigen::Vector2d(1, 1);
@@ -110,8 +110,8 @@ TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
     for (const Complex& pole : discrete_poles)
         if (pole.imag() == 0 && pole.real() <= 0)
             throw InvalidArgument(
-                "d2c: the pole z = {} is not the sample of a continuous-time pole of this order; with zoh and foh no "
-                "pole may lie on the negative real axis or at zero; noise, or a pole too many, puts it there",
+                "d2c: the pole z = {} does not correspond to a continuous-time pole of this order. With zoh and foh, "
+                "no pole may be on the negative real axis or at zero; noise, or too many poles, can cause this",
                 pole.real());
     // The discrete numerator is linear in the continuous one: solve for its coefficients, with time in samples.
     const Vector den = polynomial_from_roots(discrete_poles.array().log().matrix());
@@ -169,15 +169,15 @@ TransferFunction with_rational_delay(const std::string& caller, const TransferFu
     if (G.delay() == 0) return G;
     if (G.continuous())
         throw InvalidArgument(
-            "{}: with the delay of {} s this is not a rational transfer function: give pade(G, n), which approximates "
-            "it, or c2d(G, Ts), which is exact at the samples",
+            "{}: with the delay of {} s this is not a rational transfer function: use pade(G, n), an approximation, or "
+            "c2d(G, Ts), which is exact at the samples",
             caller, G.delay());
     const auto samples = static_cast<Index>(std::lround(G.delay() / G.Ts()));
     return TransferFunction(G.num(), multiply(G.den(), Vector::Unit(samples + 1, 0)), G.Ts());
 }
 
 TransferFunction pade(const TransferFunction& G, int order) {
-    if (order < 1 || order > 10) throw InvalidArgument("pade: the order must lie between 1 and 10, and is {}", order);
+    if (order < 1 || order > 10) throw InvalidArgument("pade: the order must be between 1 and 10, but is {}", order);
     if (G.delay() == 0 || !G.continuous()) return with_rational_delay("pade", G);
     // P(s) = sum_k c_k (delay s)^k with c_0 = 1, c_k/c_(k-1) = (order - k + 1)/((2 order - k + 1) k), highest power
     // first

@@ -7,14 +7,14 @@ namespace dynlab::inline numerics {
 void check_channels(const std::string& model, const FreeRunModel& wanted, const IdData& data) {
     const bool outputs_fit = data.output_count() == 0 || data.output_count() == wanted.output_count();
     if (data.input_count() == wanted.input_count() && outputs_fit) return;
-    throw InvalidArgument("{}: the model has {} and {}, and the data hold {} and {}: select the channels it describes",
+    throw InvalidArgument("{}: the model has {} and {}, but the data have {} and {}: select the channels of the model",
                           model, plural(wanted.input_count(), "{} input", "{} inputs"),
                           plural(wanted.output_count(), "{} output", "{} outputs"), data.input_count(),
                           data.output_count());
 }
 
 Message divergence_text(const IdData& data, std::size_t experiment, Index sample) {
-    return Message("The free run leaves all bounds at t = {} {}.", data.time(experiment)[sample], data.time_unit);
+    return Message("The simulation diverges at t = {} {}.", data.time(experiment)[sample], data.time_unit);
 }
 
 IdData inputs_alone(const MatrixView& u, double Ts, Hold hold) {

@@ -14,12 +14,12 @@ namespace {
 constexpr double kNyquistRounding = 1e-9;  // of frequencies that were computed to lie at pi/Ts
 
 void check_sizes(const std::string& caller, const FrequencyData& data) {
-    if (data.w.size() == 0) throw InvalidArgument("{}: there is no frequency, so no response is known", caller);
+    if (data.w.size() == 0) throw InvalidArgument("{}: the response has no frequencies", caller);
     if (data.response.size() != data.w.size())
-        throw InvalidArgument("{}: the response needs one value for each frequency ({}), and has {}", caller,
+        throw InvalidArgument("{}: the response needs one value for each frequency ({}), but has {}", caller,
                               data.w.size(), data.response.size());
     if (data.variance.size() != 0 && data.variance.size() != data.w.size())
-        throw InvalidArgument("{}: the variance needs one value, or one for each frequency ({}), and has {}", caller,
+        throw InvalidArgument("{}: the variance needs one value, or one for each frequency ({}), but has {}", caller,
                               data.w.size(), data.variance.size());
 }
 
@@ -29,7 +29,7 @@ void check_frequencies(const std::string& caller, const FrequencyData& data) {
         const double w = data.w[k];
         if (!std::isfinite(w)) throw InvalidArgument("{}: frequency {} is not a finite number", caller, k + 1);
         if (!(w > 0))
-            throw InvalidArgument("{}: frequencies must be above zero (rad/s), but frequency {} is {}; leave it out",
+            throw InvalidArgument("{}: frequencies must be above zero (rad/s), but frequency {} is {}; remove it",
                                   caller, k + 1, w);
         if (k > 0 && !(w > data.w[k - 1]))
             throw InvalidArgument("{}: each frequency may occur once, but {} rad/s occurs more often", caller, w);
@@ -48,9 +48,9 @@ InterSample inter_sample_of(Hold hold) {
 void check_frequency_data(const std::string& caller, const FrequencyData& data) {
     check_sizes(caller, data);
     if (!(data.Ts >= 0) || !std::isfinite(data.Ts))
-        throw InvalidArgument("{}: the sampling time must not be negative, and is {}", caller, data.Ts);
+        throw InvalidArgument("{}: the sampling time must not be negative, but is {}", caller, data.Ts);
     if (data.Ts == 0 && data.inter_sample != InterSample::kBandLimited)
-        throw InvalidArgument("{}: an input that is held between samples needs their sampling time Ts", caller);
+        throw InvalidArgument("{}: a held input (zoh) needs the sampling time Ts", caller);
     check_frequencies(caller, data);
     for (Index k = 0; k < data.w.size(); ++k)
         if (!std::isfinite(data.response[k].real()) || !std::isfinite(data.response[k].imag()))
@@ -58,8 +58,8 @@ void check_frequency_data(const std::string& caller, const FrequencyData& data) 
                                   data.w[k]);
     for (Index k = 0; k < data.variance.size(); ++k)
         if (!(data.variance[k] > 0) || !std::isfinite(data.variance[k]))
-            throw InvalidArgument("{}: variances must be positive, but that at frequency {}, {} rad/s, is {}", caller,
-                                  k + 1, data.w[k], data.variance[k]);
+            throw InvalidArgument("{}: variances must be positive, but the variance at frequency {}, {} rad/s, is {}",
+                                  caller, k + 1, data.w[k], data.variance[k]);
 }
 
 FrequencyData frequency_data(const ComplexVector& response, const VectorView& w, const VectorView& variance, double Ts,

@@ -23,9 +23,8 @@ void GreyModel::validate() const {
     for (const GreyParameter& p : parameters) {
         if (!std::isfinite(p.start)) throw InvalidArgument("The parameter {} starts from {}", p.name, p.start);
         if (std::isnan(p.lower) || std::isnan(p.upper) || p.lower > p.upper)
-            throw InvalidArgument(
-                "The parameter {} has the bounds {} and {}, and the first must not be above the second", p.name,
-                p.lower, p.upper);
+            throw InvalidArgument("The parameter {} has the bounds {} and {}, but the first must not exceed the second",
+                                  p.name, p.lower, p.upper);
         if (p.start < p.lower || p.start > p.upper)
             throw InvalidArgument("The parameter {} starts from {}, outside its bounds {} and {}", p.name, p.start,
                                   p.lower, p.upper);

@@ -20,18 +20,18 @@ void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half
     for (Index i = 0; i + 1 < g.size() && !estimate.first; ++i)
         if (beyond(i) && beyond(i + 1) && g[i] * g[i + 1] > 0) estimate.first = i;
     if (!estimate.first) {
-        estimate.message =
-            sentences({estimate.message,
-                       Message("No part of it stands out of the noise: the input does not visibly move the output.")});
+        estimate.message = sentences(
+            {estimate.message,
+             Message("The response never exceeds the noise: the input has no visible effect on the output.")});
         return;
     }
     const Index first = *estimate.first, dead = std::max<Index>(first - (hold == Hold::kZoh ? 1 : 0), 0);
     const double first_time = static_cast<double>(first) * Ts, dead_time = static_cast<double>(dead) * Ts;
     const Message found =
-        dead == 0
-            ? Message("It first stands out of the noise at lag {} ({} s); no dead time is visible.", first, first_time)
-            : Message("It first stands out of the noise at lag {} ({} s); the dead time is about {} s ({}).", first,
-                      first_time, dead_time, plural(dead, "{} sample", "{} samples"));
+        dead == 0 ? Message("The response first exceeds the noise at lag {} ({} s); no dead time is visible.", first,
+                            first_time)
+                  : Message("The response first exceeds the noise at lag {} ({} s); the dead time is about {} s ({}).",
+                            first, first_time, dead_time, plural(dead, "{} sample", "{} samples"));
     estimate.message = sentences({estimate.message, found});
 }
 
@@ -39,7 +39,7 @@ Index lags_or_default(const std::string& caller, Index lags, Index shortest) {
     if (lags < 0) throw InvalidArgument("{}: the number of lags must be positive, but it is {}", caller, lags);
     if (lags == 0) lags = std::max<Index>(1, std::min(kDefaultLags, shortest / 5));
     if (kSamplesPerLag * lags > shortest)
-        throw InvalidArgument("{}: over {} at least {} samples are needed, but the shortest experiment has {}", caller,
+        throw InvalidArgument("{}: {} need at least {} samples, but the shortest experiment has {}", caller,
                               plural(lags, "{} lag", "{} lags"), kSamplesPerLag * lags, shortest);
     return lags;
 }

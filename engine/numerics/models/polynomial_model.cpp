@@ -19,30 +19,30 @@ bool between(int value, int least, int most) {
 
 void check_orders(const PolynomialOrders& orders) {
     if (!between(orders.na, 0, kHighestOrder))
-        throw InvalidArgument("na, the number of poles, must lie between {} and {}, and is {}", 0, kHighestOrder,
+        throw InvalidArgument("na, the number of poles, must be between {} and {}, but is {}", 0, kHighestOrder,
                               orders.na);
     if (!between(orders.nc, 0, kHighestOrder))
-        throw InvalidArgument("nc, the number of coefficients of C after its 1, must lie between {} and {}, and is {}",
+        throw InvalidArgument("nc, the number of coefficients of C after its 1, must be between {} and {}, but is {}",
                               0, kHighestOrder, orders.nc);
     if (!between(orders.nd, 0, kHighestOrder))
-        throw InvalidArgument("nd, the number of coefficients of D after its 1, must lie between {} and {}, and is {}",
+        throw InvalidArgument("nd, the number of coefficients of D after its 1, must be between {} and {}, but is {}",
                               0, kHighestOrder, orders.nd);
     for (std::size_t i = 0; i < orders.inputs(); ++i) {
         if (!between(orders.nb[i], 1, kHighestOrder))
-            throw InvalidArgument("nb, the number of coefficients of B, must lie between {} and {}, and is {}", 1,
+            throw InvalidArgument("nb, the number of coefficients of B, must be between {} and {}, but is {}", 1,
                                   kHighestOrder, orders.nb[i]);
         if (!between(orders.nf[i], 0, kHighestOrder))
-            throw InvalidArgument("nf, the number of poles of B/F, must lie between {} and {}, and is {}", 0,
+            throw InvalidArgument("nf, the number of poles of B/F, must be between {} and {}, but is {}", 0,
                                   kHighestOrder, orders.nf[i]);
         if (!between(orders.nk[i], 0, kLongestDelay))
-            throw InvalidArgument("nk, the delay in samples (1: no direct term), must lie between {} and {}, and is {}",
+            throw InvalidArgument("nk, the delay in samples (1: no direct term), must be between {} and {}, but is {}",
                                   0, kLongestDelay, orders.nk[i]);
     }
 }
 
 void check_list(const std::vector<int>& list, std::size_t inputs, const std::string& name) {
     if (list.size() == inputs) return;
-    throw InvalidArgument("{} needs one value for each input: nb has {}, and {} has {}", name, inputs, name,
+    throw InvalidArgument("{} needs one value for each input: nb has {}, but {} has {}", name, inputs, name,
                           list.size());
 }
 
@@ -134,7 +134,7 @@ PolynomialModel::PolynomialModel(const PolynomialOrders& orders, const VectorVie
         throw InvalidArgument("polynomial model: the sampling time must be a positive number of seconds, but it is {}",
                               Ts);
     if (theta.size() != orders.parameter_count())
-        throw InvalidArgument("The polynomial model has {}, and {} were given",
+        throw InvalidArgument("The polynomial model has {}, but {} were given",
                               plural(orders.parameter_count(), "{} parameter", "{} parameters"), theta.size());
     A = monic(theta.head(orders.na));
     C = monic(theta.segment(orders.c_start(), orders.nc));

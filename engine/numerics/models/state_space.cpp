@@ -16,7 +16,7 @@ void check_matrix(const Matrix& matrix, const char* name, Index rows, Index colu
     if (matrix.rows() != rows || matrix.cols() != columns)
         throw InvalidArgument("state space: {} must be {} x {}, but it is {} x {}", name, rows, columns, matrix.rows(),
                               matrix.cols());
-    if (!matrix.allFinite()) throw InvalidArgument("state space: {} holds a value that is not finite", name);
+    if (!matrix.allFinite()) throw InvalidArgument("state space: {} contains a value that is not finite", name);
 }
 
 /// One input, one output, seen through its zeros: c (sI-A)^-1 b + d = gain prod(s - zeros)/det(sI-A).
@@ -84,7 +84,7 @@ StateSpace to_state_space(const TransferFunction& G) {
 
 TransferFunction to_transfer_function(const StateSpace& system, Index output, Index input) {
     if (output < 0 || output >= system.C.rows() || input < 0 || input >= system.B.cols())
-        throw InvalidArgument("state space: there is no output {} from input {}; the system has {} and {}", output + 1,
+        throw InvalidArgument("state space: the system has no output {} from input {}; it has {} and {}", output + 1,
                               input + 1, plural(system.C.rows(), "{} output", "{} outputs"),
                               plural(system.B.cols(), "{} input", "{} inputs"));
     const Vector den = polynomial_from_roots(balanced_eigenvalues(system.A));

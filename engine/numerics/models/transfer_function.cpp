@@ -14,10 +14,10 @@ namespace {
 void check_coefficients(const VectorView& num, const VectorView& den) {
     if (num.size() == 0) throw InvalidArgument("transfer function: the numerator has no coefficients");
     if (!num.allFinite())
-        throw InvalidArgument("transfer function: the numerator holds a coefficient that is not finite");
+        throw InvalidArgument("transfer function: the numerator contains a coefficient that is not finite");
     if (den.size() == 0) throw InvalidArgument("transfer function: the denominator has no coefficients");
     if (!den.allFinite())
-        throw InvalidArgument("transfer function: the denominator holds a coefficient that is not finite");
+        throw InvalidArgument("transfer function: the denominator contains a coefficient that is not finite");
 }
 
 /// A discrete delay as the exact multiple of Ts it stands for.
@@ -124,7 +124,7 @@ TransferFunction operator+(const TransferFunction& a, const TransferFunction& b)
         if (Ts > 0) return with_later_poles(a, Ts, common) + with_later_poles(b, Ts, common);
         throw InvalidArgument(
             "transfer functions with the delays {} s and {} s cannot be added: the sum is not a rational function; "
-            "pade(G, n) approximates one",
+            "pade(G, n) approximates a delay",
             a.delay(), b.delay());
     }
     const Vector num = add(multiply(a.num(), b.den()), multiply(b.num(), a.den()));
@@ -143,8 +143,8 @@ TransferFunction operator*(const TransferFunction& a, const TransferFunction& b)
 TransferFunction operator/(const TransferFunction& a, const TransferFunction& b) {
     if (b.delay() > a.delay())
         throw InvalidArgument(
-            "division of a transfer function with a delay of {} s by one with a delay of {} s: the quotient would have "
-            "to know the future",
+            "division of a transfer function with a delay of {} s by a transfer function with a delay of {} s: the "
+            "quotient would not be causal",
             a.delay(), b.delay());
     if (b.num().isZero(0)) throw InvalidArgument("division by a transfer function that is zero");
     return a.with_delay(a.delay() - b.delay()) * TransferFunction(b.den(), b.num(), b.Ts());
@@ -159,12 +159,13 @@ TransferFunction pow(const TransferFunction& base, int exponent) {
 TransferFunction feedback(const TransferFunction& forward, const TransferFunction& backward, int sign) {
     if (forward.delay() > 0 || backward.delay() > 0)
         throw InvalidArgument(
-            "feedback: a loop with a delay is not a rational transfer function: give pade(G, n) for one with a delay, "
-            "which approximates it, or close the loop of discrete models, c2d(G, Ts)");
+            "feedback: a loop with a delay is not a rational transfer function: replace the delay with pade(G, n), an "
+            "approximation, or close the loop of discrete models, c2d(G, Ts)");
     const double Ts = common_sampling_time(forward, backward);
     const Vector loop = multiply(forward.num(), backward.num());
     const Vector den = add(multiply(forward.den(), backward.den()), sign > 0 ? Vector(-loop) : loop);
-    if (den.isZero(0)) throw InvalidArgument("feedback: the loop has no solution, its gain is one at all frequencies");
+    if (den.isZero(0))
+        throw InvalidArgument("feedback: the loop has no solution, because its gain is one at all frequencies");
     return TransferFunction(multiply(forward.num(), backward.den()), den, Ts);
 }
 

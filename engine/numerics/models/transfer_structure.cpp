@@ -26,14 +26,14 @@ void check_lists(const std::vector<int>& poles, const std::vector<int>& zeros, c
     const Message count = plural(static_cast<Index>(channels), "{} channel", "{} channels");
     if (!of_channels(poles, channels))
         throw InvalidArgument(
-            "The model has {}, so the number of poles needs one value or one for each, and {} were given", count,
+            "The model has {}, so the number of poles needs one value or one for each, but {} were given", count,
             poles.size());
     if (!of_channels(zeros, channels))
         throw InvalidArgument(
-            "The model has {}, so the number of zeros needs one value or one for each, and {} were given", count,
+            "The model has {}, so the number of zeros needs one value or one for each, but {} were given", count,
             zeros.size());
     if (!of_channels(delays, channels))
-        throw InvalidArgument("The model has {}, so the delay needs one value or one for each, and {} were given",
+        throw InvalidArgument("The model has {}, so the delay needs one value or one for each, but {} were given",
                               count, delays.size());
 }
 
@@ -64,7 +64,7 @@ TransferStructure TransferStructure::grid(Index outputs, Index inputs, Denominat
             structure.poles.push_back(n);
         else if (structure.poles[static_cast<std::size_t>(denominator)] != n)
             throw InvalidArgument(
-                "Channels with a common denominator need equal numbers of poles, and {} and {} were given",
+                "Channels with a common denominator need equal numbers of poles, but {} and {} were given",
                 structure.poles[static_cast<std::size_t>(denominator)], n);
         structure.channels.push_back({denominator, entry(zeros, i), entry(delays, i)});
     }
@@ -165,22 +165,23 @@ std::vector<TransferFunction> TransferStructure::models(const VectorView& theta)
 
 void TransferStructure::validate() const {
     if (inputs < 1)
-        throw InvalidArgument("A model leads from inputs to outputs, and the data have no input: give one to iddata");
+        throw InvalidArgument(
+            "A model relates inputs to outputs, but the data have no input: add an input with iddata");
     if (outputs < 1 || channels.size() != static_cast<std::size_t>(outputs * inputs))
         throw InvalidArgument(
-            "A model needs at least one output and one channel for each pair of an input and an output");
+            "A model needs at least one output, and one channel for each pair of an input and an output");
     for (const int n : poles)
         if (n < 1 || n > kMostPoles)
-            throw InvalidArgument("The number of poles must lie between 1 and {}, and is {}", kMostPoles, n);
+            throw InvalidArgument("The number of poles must be between 1 and {}, but is {}", kMostPoles, n);
     for (const TransferChannel& channel : channels) {
         if (channel.denominator < 0 || static_cast<std::size_t>(channel.denominator) >= poles.size())
-            throw InvalidArgument("A channel of the model names a denominator that is not there");
+            throw InvalidArgument("A channel of the model refers to a missing denominator");
         const int n = poles[static_cast<std::size_t>(channel.denominator)];
         if (channel.zeros < 0 || channel.zeros > n)
-            throw InvalidArgument("The number of zeros must lie between 0 and the number of poles, {}, and is {}", n,
+            throw InvalidArgument("The number of zeros must be between 0 and the number of poles, {}, but is {}", n,
                                   channel.zeros);
         if (!(channel.delay >= 0) || !std::isfinite(channel.delay))
-            throw InvalidArgument("A delay must not be negative, and is {} s", channel.delay);
+            throw InvalidArgument("A delay must not be negative, but is {} s", channel.delay);
     }
 }
 
@@ -191,7 +192,7 @@ TransferStructure TransferStructure::of_models(const std::vector<TransferFunctio
     structure.inputs = static_cast<Index>(models.size()) / outputs;
     std::vector<Vector> denominators;
     for (const TransferFunction& G : models) {
-        if (G.Ts() > 0) throw InvalidArgument("a start model must be in continuous time, and this one is discrete");
+        if (G.Ts() > 0) throw InvalidArgument("a start model must be in continuous time, but this model is discrete");
         const Vector den = G.den() / G.den()[0];
         const auto known = std::find(denominators.begin(), denominators.end(), den);
         structure.channels.push_back({known - denominators.begin(), static_cast<int>(G.zero_count()), G.delay()});

@@ -30,7 +30,7 @@ void DriftingProcessParameters::validate() const {
     require_not_negative(rig, "lost gain", lost_gain, "further time", more_time, "noise standard deviation", noise_std,
                          "resolution", resolution);
     require_positive(rig, "clean gain", clean_gain, "clean time constant", clean_time_constant, "growth time",
-                     growth_time, "cleaning time", cleaning_time, "gain that is left", 1 - lost_gain);
+                     growth_time, "cleaning time", cleaning_time, "remaining gain", 1 - lost_gain);
 }
 
 double DriftingProcessParameters::gain(double t) const {

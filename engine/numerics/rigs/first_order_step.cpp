@@ -14,7 +14,7 @@ void FirstOrderStepParameters::validate() const {
     if (!std::isfinite(gain) || !std::isfinite(step_height))
         throw InvalidArgument("The first-order step's gain and step height must be finite numbers");
     if (samples < 2)
-        throw InvalidArgument("The first-order step needs at least 2 samples, and {} were asked for", samples);
+        throw InvalidArgument("The first-order step needs at least 2 samples, but {} were requested", samples);
 }
 
 FirstOrderStepTruth first_order_step_truth(const FirstOrderStepParameters& p) {

@@ -31,7 +31,7 @@ RigRecord record_about(const HeatTransferParameters& p, const HeatTransferExperi
 }  // namespace
 
 void HeatTransferParameters::validate() const {
-    const char* rig = "heat-transfer rig";
+    const char* rig = "heat-transfer plant";
     require_positive(rig, "heater capacity", heater_capacity, "air capacity", air_capacity, "transfer", transfer,
                      "flow", flow, "power", power, "full voltage", full_voltage, "sensor time", sensor_time,
                      "drift period", drift_period);
@@ -40,7 +40,7 @@ void HeatTransferParameters::validate() const {
 }
 
 void HeatTransferExperiments::validate() const {
-    const char* rig = "heat-transfer rig";
+    const char* rig = "heat-transfer plant";
     require_positive(rig, "sampling time", Ts, "amplitude", amplitude);
     require_not_negative(rig, "rest", rest, "lowest voltage", std::min(low, high) - amplitude);
 }
@@ -61,9 +61,9 @@ HeatTransferTruth heat_transfer_truth(const HeatTransferParameters& p, double op
 
 Vector simulate_heat_transfer(const HeatTransferParameters& p, const Vector& u, double Ts, RandomStream& random) {
     p.validate();
-    require_positive("heat-transfer rig", "sampling time", Ts);
+    require_positive("heat-transfer plant", "sampling time", Ts);
     if (u.size() == 0 || !u.allFinite())
-        throw InvalidArgument("The heat-transfer rig's voltages must be at least one finite number");
+        throw InvalidArgument("The voltages of the heat-transfer plant must be at least one finite number");
     const double w = 2 * std::numbers::pi / p.drift_period, phase = 2 * std::numbers::pi * random.uniform();
     // The rig is linear in heating power and inlet temperature, so that both may be delayed in place of the air.
     double power = heating(p, u[0]);

@@ -17,7 +17,8 @@ void SuspensionParameters::validate() const {
     if (!std::isfinite(step_height) || step_height == 0)
         throw InvalidArgument("The suspension's step height must be a number other than zero");
     if (damping * damping >= 4 * stiffness * mass)
-        throw InvalidArgument("The suspension's damping must be below 2 sqrt(stiffness mass), or it does not swing");
+        throw InvalidArgument(
+            "The suspension's damping must be below 2 sqrt(stiffness mass); otherwise it does not oscillate");
 }
 
 SuspensionTruth suspension_truth(const SuspensionParameters& p) {

@@ -84,7 +84,7 @@ void ThrusterParameters::validate() const {
     require_positive(rig, "neutral pulse width", neutral, "supply", supply, "motor constant", motor_constant,
                      "resistance", resistance, "inertia", inertia, "drag torque", drag_torque, "forward thrust",
                      forward_thrust, "reverse thrust", reverse_thrust, "load cell's frequency", cell_frequency,
-                     "wake's correlation time", wake_time, "full width beyond the dead band", full_width - dead_band);
+                     "wake's correlation time", wake_time, "full width outside the dead band", full_width - dead_band);
 }
 
 void ThrusterExperiments::validate() const {

@@ -31,8 +31,8 @@ Analog analog_of(const PassBand& band, double Ts, bool stop) {
     const bool from_zero = band.low == 0, to_end = band.high >= end * (1 - 1e-12);
     if (!(band.low >= 0) || !(band.low < band.high) || band.low >= end || (from_zero && to_end))
         throw InvalidArgument(
-            "the band of the filter must have an edge between 0 and pi/Ts = {} rad per time unit, the lower one first "
-            "({0, w} is a low-pass filter), but it runs from {} to {}",
+            "the band of the filter must have an edge between 0 and pi/Ts = {} rad per time unit, but it is {} to {}. "
+            "Give the lower edge first; {0, w} is a low-pass filter",
             end, band.low, band.high);
     const double infinity = std::numeric_limits<double>::infinity();
     const double low = std::tan(band.low * Ts / 2), high = to_end ? infinity : std::tan(band.high * Ts / 2);
@@ -130,7 +130,7 @@ Index memory_of(const FilterSections& sections) {
 
 void FilterOptions::validate() const {
     if (order < 1 || order > kHighestFilterOrder)
-        throw InvalidArgument("the order of the filter must lie between 1 and {}, but it is {}", kHighestFilterOrder,
+        throw InvalidArgument("the order of the filter must be between 1 and {}, but it is {}", kHighestFilterOrder,
                               order);
 }
 

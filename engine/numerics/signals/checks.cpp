@@ -19,11 +19,11 @@ Message not_a_number(SignalName name, Index sample) {
     return of(
         name,
         {{Message("sample {} of the input is not a number (NaN); fillmissing(u, {method = \"previous\"}) holds the "
-                  "value before",
+                  "previous value",
                   sample),
           Message("sample {} of the output is not a number (NaN); fillmissing(y) interpolates missing samples", sample),
           Message("sample {} of the reference is not a number (NaN); fillmissing(r, {method = \"previous\"}) holds the "
-                  "value before",
+                  "previous value",
                   sample),
           Message("sample {} of the signal is not a number (NaN); fillmissing(x) interpolates missing samples",
                   sample)}});
@@ -31,13 +31,13 @@ Message not_a_number(SignalName name, Index sample) {
 
 Message not_a_number(SignalName name, Index sample, Index channel) {
     return of(name, {{Message("sample {} of channel {} of the input is not a number (NaN); fillmissing(u, {method = "
-                              "\"previous\"}) holds the value before",
+                              "\"previous\"}) holds the previous value",
                               sample, channel),
                       Message("sample {} of channel {} of the output is not a number (NaN); fillmissing(y) "
                               "interpolates missing samples",
                               sample, channel),
                       Message("sample {} of channel {} of the reference is not a number (NaN); fillmissing(r, {method "
-                              "= \"previous\"}) holds the value before",
+                              "= \"previous\"}) holds the previous value",
                               sample, channel),
                       Message("sample {} of channel {} of the signal is not a number (NaN); fillmissing(x) "
                               "interpolates missing samples",
@@ -59,10 +59,10 @@ Message infinite(SignalName name, Index sample, Index channel) {
 }
 
 Message too_large(SignalName name) {
-    return of(name, {{Message("the input holds samples too large to work with"),
-                      Message("the output holds samples too large to work with"),
-                      Message("the reference holds samples too large to work with"),
-                      Message("the signal holds samples too large to work with")}});
+    return of(name, {{Message("the input contains samples that are too large"),
+                      Message("the output contains samples that are too large"),
+                      Message("the reference contains samples that are too large"),
+                      Message("the signal contains samples that are too large")}});
 }
 
 Message no_samples(SignalName name) {
@@ -73,33 +73,27 @@ Message no_samples(SignalName name) {
 Message largest_too_small(SignalName name, double largest) {
     return of(
         name,
-        {{Message("the largest sample of the input is {}, which is too small to compute with squares: use another unit",
+        {{Message("the largest sample of the input is {}, which is too small for sums of squares: use another unit",
                   largest),
-          Message(
-              "the largest sample of the output is {}, which is too small to compute with squares: use another unit",
-              largest),
-          Message(
-              "the largest sample of the reference is {}, which is too small to compute with squares: use another unit",
-              largest),
-          Message(
-              "the largest sample of the signal is {}, which is too small to compute with squares: use another unit",
-              largest)}});
+          Message("the largest sample of the output is {}, which is too small for sums of squares: use another unit",
+                  largest),
+          Message("the largest sample of the reference is {}, which is too small for sums of squares: use another unit",
+                  largest),
+          Message("the largest sample of the signal is {}, which is too small for sums of squares: use another unit",
+                  largest)}});
 }
 
 Message largest_too_large(SignalName name, double largest) {
     return of(
         name,
-        {{Message("the largest sample of the input is {}, which is too large to compute with squares: use another unit",
+        {{Message("the largest sample of the input is {}, which is too large for sums of squares: use another unit",
                   largest),
-          Message(
-              "the largest sample of the output is {}, which is too large to compute with squares: use another unit",
-              largest),
-          Message(
-              "the largest sample of the reference is {}, which is too large to compute with squares: use another unit",
-              largest),
-          Message(
-              "the largest sample of the signal is {}, which is too large to compute with squares: use another unit",
-              largest)}});
+          Message("the largest sample of the output is {}, which is too large for sums of squares: use another unit",
+                  largest),
+          Message("the largest sample of the reference is {}, which is too large for sums of squares: use another unit",
+                  largest),
+          Message("the largest sample of the signal is {}, which is too large for sums of squares: use another unit",
+                  largest)}});
 }
 
 Message error_in_sample(SignalName name, const MatrixView& samples) {

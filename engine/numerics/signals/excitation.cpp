@@ -24,7 +24,7 @@ void check_frequency(const std::string& caller, double frequency, double Ts) {
     const double nyquist = 0.5 / Ts;
     if (!(frequency >= 0) || frequency > nyquist * (1 + kRounding))
         throw InvalidArgument(
-            "{}: frequencies must lie between 0 and half the sampling frequency, {} Hz, but one is {} Hz", caller,
+            "{}: frequencies must be between 0 and half the sampling frequency, {} Hz, but one is {} Hz", caller,
             nyquist, frequency);
 }
 
@@ -47,7 +47,8 @@ void check_distinct(const VectorView& frequencies) {
     std::sort(sorted.begin(), sorted.end());
     const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
     if (repeated != sorted.end())
-        throw InvalidArgument("multisine: each frequency may occur once, but {} Hz occurs more often", *repeated);
+        throw InvalidArgument("multisine: each frequency may occur only once, but {} Hz occurs several times",
+                              *repeated);
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ void check_distinct(const VectorView& frequencies) {
 Vector step_signal(Index count, Index first, double low, double high) {
     check_count("step_signal", count);
     if (first < 1 || first > count + 1)
-        throw InvalidArgument("step_signal: the step must begin at a sample between 1 and {}, but it begins at {}",
+        throw InvalidArgument("step_signal: the step must start at a sample between 1 and {}, but it starts at {}",
                               count + 1, first);
     Vector signal = Vector::Constant(count, high);
     signal.head(first - 1).setConstant(low);

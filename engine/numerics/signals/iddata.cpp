@@ -49,7 +49,7 @@ void check_same_units(const std::vector<std::string>& first, const std::vector<s
 
 const Experiment& only_experiment(const IdData& data, const std::string& caller) {
     if (data.experiments.size() != 1)
-        throw InvalidArgument("{}: the data must hold one experiment, but they hold {}", caller,
+        throw InvalidArgument("{}: the data must have one experiment, but they have {}", caller,
                               data.experiments.size());
     return data.experiments.front();
 }
@@ -86,9 +86,9 @@ void check_selection(const std::vector<Index>& chosen, Index count, Channels kin
     for (const Index channel : chosen) {
         if (channel >= 1 && channel <= count) continue;
         if (kind == Channels::kInputs)
-            throw InvalidArgument("select: there is no input {}; the data have {}", channel,
+            throw InvalidArgument("select: unknown input {}; the data have {}", channel,
                                   plural(count, "{} input", "{} inputs"));
-        throw InvalidArgument("select: there is no output {}; the data have {}", channel,
+        throw InvalidArgument("select: unknown output {}; the data have {}", channel,
                               plural(count, "{} output", "{} outputs"));
     }
 }
@@ -156,7 +156,7 @@ IdData IdData::range(Index first, Index last) const {
     const Experiment& experiment = only_experiment(*this, "range");
     const Index count = experiment.y.rows();
     if (first < 1 || last > count || first > last)
-        throw InvalidArgument("range: samples {} to {} were asked for, but the data have samples 1 to {}", first, last,
+        throw InvalidArgument("range: samples {} to {} were requested, but the data have samples 1 to {}", first, last,
                               count);
     IdData part = *this;
     part.experiments.front() = cut(*this, experiment, first - 1, last - first + 1);
@@ -207,8 +207,7 @@ IdData IdData::shifted(Index samples) const {
     for (Experiment& experiment : result.experiments) {
         const Index lost = std::abs(samples), kept = experiment.y.rows() - lost;
         if (kept < 1)
-            throw InvalidArgument("shift: a shift by {} leaves nothing of {}",
-                                  plural(samples, "{} sample", "{} samples"),
+            throw InvalidArgument("shift: a shift by {} removes all of {}", plural(samples, "{} sample", "{} samples"),
                                   plural(experiment.y.rows(), "{} sample", "{} samples"));
         const Matrix u = experiment.u.middleRows(samples >= 0 ? 0 : lost, kept);
         experiment = cut(*this, experiment, samples >= 0 ? lost : 0, kept);
@@ -237,17 +236,17 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
                 "resample or interp1 first",
                 i + 1, part.Ts, part.time_unit, merged.Ts, merged.time_unit);
         if (part.time_unit != merged.time_unit)
-            throw InvalidArgument("merge: part {} counts time in {} but the first in {}", i + 1, part.time_unit,
+            throw InvalidArgument("merge: part {} has the time unit {}, but the first has {}", i + 1, part.time_unit,
                                   merged.time_unit);
         if (part.hold == Hold::kZoh && merged.hold != Hold::kZoh)
             throw InvalidArgument(
-                "merge: between the samples the input of part {} is held (zoh), but that of the first is a straight "
-                "line (foh)",
+                "merge: the input of part {} is held between the samples (zoh), but the first input is linearly "
+                "interpolated (foh)",
                 i + 1);
         if (part.hold != Hold::kZoh && merged.hold == Hold::kZoh)
             throw InvalidArgument(
-                "merge: between the samples the input of part {} is a straight line (foh), but that of the first is "
-                "held (zoh)",
+                "merge: the input of part {} is linearly interpolated between the samples (foh), but the first input "
+                "is held (zoh)",
                 i + 1);
         check_same_units(merged.input_units, part.input_units, Channels::kInputs, i + 1);
         check_same_units(merged.output_units, part.output_units, Channels::kOutputs, i + 1);

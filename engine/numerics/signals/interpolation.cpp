@@ -12,7 +12,7 @@ void check_points(const VectorView& x, const VectorView& y) {
     if (x.size() < 2) throw InvalidArgument("interpolation needs at least two points, but {} was given", x.size());
     for (Index i = 1; i < x.size(); ++i)
         if (!(x[i] > x[i - 1]))
-            throw InvalidArgument("x must increase, but its element {} is not larger than the one before it", i + 1);
+            throw InvalidArgument("x must increase, but its element {} is not larger than the previous one", i + 1);
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ Vector interpolate_linearly(const VectorView& x, const VectorView& y, const Vect
     return x_new.unaryExpr([&](double place) {
         if (outside == Outside::kHold) place = std::clamp(place, x[0], x[last]);
         if (!(place >= x[0] && place <= x[last]))
-            throw InvalidArgument("there is no value at {}: x goes from {} to {}", significant(place, kDigits),
+            throw InvalidArgument("no value exists at {}: x ranges from {} to {}", significant(place, kDigits),
                                   significant(x[0], kDigits), significant(x[last], kDigits));
         const Index right = std::clamp<Index>(std::upper_bound(x.begin(), x.end(), place) - x.begin(), 1, last);
         const double part = (place - x[right - 1]) / (x[right] - x[right - 1]);

@@ -35,7 +35,7 @@ std::uint32_t parity(std::uint32_t bits) {
 
 Vector prbs(int stages, int hold, double low, double high) {
     if (stages < kFewestStages || stages > kMostStages)
-        throw InvalidArgument("prbs: the number of stages must lie between 3 and 18, but it is {}", stages);
+        throw InvalidArgument("prbs: the number of stages must be between 3 and 18, but it is {}", stages);
     if (hold < 1) throw InvalidArgument("prbs: each bit must be held for at least 1 sample, but hold is {}", hold);
     const std::uint32_t feedback = kFeedback[static_cast<std::size_t>(stages - kFewestStages)];
     const std::uint32_t all = (1u << stages) - 1;

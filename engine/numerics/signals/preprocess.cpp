@@ -33,18 +33,18 @@ Index samples_before_change(const Matrix& u) {
 
 Index initial_stretch(const Experiment& experiment, Index samples) {
     if (samples > experiment.y.rows())
-        throw InvalidArgument("detrend: the level of the first {} samples was asked for, but the experiment has {}",
+        throw InvalidArgument("detrend: the level of the first {} samples was requested, but the experiment has {}",
                               samples, experiment.y.rows());
     if (samples > 0) return samples;
     if (experiment.u.cols() == 0)
         throw InvalidArgument(
-            "detrend: without an input nothing tells where the calm beginning ends; say how many "
-            "samples it has, as in detrend(data, \"start\", {samples = 20})");
+            "detrend: without an input, the end of the initial rest is unknown; give its number of samples, as in "
+            "detrend(data, \"start\", {samples = 20})");
     const Index found = samples_before_change(experiment.u);
     if (found >= kFewestLeft) return found;
     throw InvalidArgument(
-        "detrend: the input changes already at sample {}, so the record shows no level from before; remove the mean "
-        "instead, or say how many samples to take, as in detrend(data, \"start\", {samples = 20})",
+        "detrend: the input changes already at sample {}, so the data show no initial level. Remove the mean instead, "
+        "or give the number of samples to use, as in detrend(data, \"start\", {samples = 20})",
         found + 1);
 }
 
@@ -69,7 +69,7 @@ IdData detrend(IdData data, TrendKind kind) {
     for (std::size_t i = 0; i < data.experiments.size(); ++i) {
         Experiment& experiment = data.experiments[i];
         if (kind == TrendKind::kLinear && experiment.y.rows() < 2)
-            throw InvalidArgument("detrend: a straight line needs at least 2 samples, but the experiment has 1");
+            throw InvalidArgument("detrend: a linear trend needs at least 2 samples, but the experiment has 1");
         const Vector time = data.time(i);
         const Vector since_start = time.array() - time(0);
         for (Matrix* signals : {&experiment.y, &experiment.u, &experiment.r})

@@ -76,30 +76,29 @@ Vector with_low_peaks(Vector u, const Vector& lines) {
 
 void RandomPhaseOptions::validate(Index period) const {
     if (period < kFewestSamples)
-        throw InvalidArgument("multisine: a period needs at least {} samples, and has {}", kFewestSamples, period);
+        throw InvalidArgument("multisine: a period needs at least {} samples, but has {}", kFewestSamples, period);
     const Index last = (period - 1) / 2;
     for (const double line : lines)
         if (line != std::floor(line) || line < 1 || line > static_cast<double>(last))
             throw InvalidArgument(
-                "multisine: lines are whole numbers of turns in the period, here from 1 to {}, but one is {}", last,
-                line);
+                "multisine: lines are whole numbers of cycles per period, from 1 to {}, but one is {}", last, line);
     std::vector<double> sorted(lines.begin(), lines.end());
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end())
-        throw InvalidArgument("multisine: each line may occur once, but {} occurs more often", *twice);
+        throw InvalidArgument("multisine: each line may occur only once, but {} occurs several times", *twice);
     if (detection != 0 && detection < kSmallestGroup)
-        throw InvalidArgument(
-            "multisine: one of a group of lines is left out, so groups hold at least 2 lines, and not {}", detection);
+        throw InvalidArgument("multisine: each group omits one line, so groups need at least 2 lines, not {}",
+                              detection);
     if (!(amplitude > 0) || !std::isfinite(amplitude))
-        throw InvalidArgument("multisine: the amplitude must be positive, and is {}", amplitude);
+        throw InvalidArgument("multisine: the amplitude must be positive, but is {}", amplitude);
 }
 
 RandomPhaseMultisine random_phase_multisine(Index period, const RandomPhaseOptions& options, RandomStream& phases) {
     options.validate(period);
     std::vector<double> lines = chosen_lines(period, options), detection;
     if (options.detection > 0) draw_detection(options.detection, lines, detection);
-    if (lines.empty()) throw InvalidArgument("multisine: no line is left to put a sine at");
+    if (lines.empty()) throw InvalidArgument("multisine: no line remains for a sine");
     RandomPhaseMultisine result;
     result.lines = as_vector(lines), result.detection = as_vector(detection);
     result.u = sum_of_cosines(period, result.lines, 2 * std::numbers::pi * phases.uniform(result.lines.size()));

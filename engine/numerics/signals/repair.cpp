@@ -93,18 +93,17 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optio
     std::vector<bool> good(static_cast<std::size_t>(x.size()));
     for (Index k = 0; k < x.size(); ++k) good[static_cast<std::size_t>(k)] = std::isfinite(x[k]);
     if (std::find(good.begin(), good.end(), true) == good.end())
-        throw InvalidArgument("fillmissing: the signal has no sample that is a number");
+        throw InvalidArgument("fillmissing: all samples of the signal are missing");
     RepairedSignal result = bridged(x, t, good, method);
     constexpr Index kLongestLine = 10;
     const Index most = longest.value_or(method == FillMethod::kLinear ? kLongestLine : x.size());
     for (const auto& [first, last] : result.stretches)
         if (last - first + 1 > most)
             throw InvalidArgument(
-                "fillmissing: samples {} to {} are missing, more than {}. An input that is logged when it changes is "
-                "held: {method = \"previous\"}. For an output, use the parts before and after the gap as two "
-                "experiments, or give iddata the measured samples alone with their times as {}; {longest "
-                "= {}} "
-                "allows a straight line over the gap",
+                "fillmissing: samples {} to {} are missing, more than {}. For an input that is logged when it changes, "
+                "use {method = \"previous\"}. For an output, use the parts before and after the gap as two "
+                "experiments, or give iddata only the measured samples with their times as {}. {longest = {}} allows "
+                "linear interpolation across the gap",
                 first, last, plural(most, "{} sample", "{} samples"), OptionName{"sampling_instants"},
                 last - first + 1);
     return result;
@@ -112,7 +111,7 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optio
 
 void OutlierOptions::validate() const {
     if (window < 3 || window % 2 == 0)
-        throw InvalidArgument("the window must be an odd number of samples from 3 on, but it is {}", window);
+        throw InvalidArgument("the window must be an odd number of samples, at least 3, but it is {}", window);
     if (!(threshold > 0) || !std::isfinite(threshold))
         throw InvalidArgument("the threshold must be a positive number of standard deviations, but it is {}",
                               threshold);

@@ -36,7 +36,7 @@ double windowed_sinc(double t) {
 
 void check_factor(const char* name, Index factor) {
     if (factor < 1 || factor > kLargestFactor)
-        throw InvalidArgument("resample: the factor {} must lie between 1 and {}, but it is {}", name, kLargestFactor,
+        throw InvalidArgument("resample: the factor {} must be between 1 and {}, but it is {}", name, kLargestFactor,
                               factor);
 }
 
@@ -84,7 +84,7 @@ IdData resample(const IdData& data, Index up, Index down) {
     for (Experiment& experiment : result.experiments) {
         const Index count = resampled_count(experiment.y.rows(), up, down);
         if (count < 2)
-            throw InvalidArgument("resample: of {} fewer than 2 would be left",
+            throw InvalidArgument("resample: fewer than 2 of {} would remain",
                                   plural(experiment.y.rows(), "{} sample", "{} samples"));
         for (Matrix* signals : {&experiment.y, &experiment.u, &experiment.r}) {
             Matrix resampled(count, signals->cols());

@@ -11,13 +11,13 @@ namespace {
 void check_segments(const std::string& caller, const IdData& data, const std::vector<Segment>& segments) {
     if (data.experiments.size() != 1)
         throw InvalidArgument(
-            "{}: the data must hold one experiment, but they hold {}; take one with data:experiment(k)", caller,
+            "{}: the data must have one experiment, but they have {}; select one with data:experiment(k)", caller,
             data.experiments.size());
-    if (segments.empty()) throw InvalidArgument("{}: give at least one stretch {first, last}", caller);
+    if (segments.empty()) throw InvalidArgument("{}: give at least one range {first, last}", caller);
     const Index count = data.sample_count();
     for (const Segment& segment : segments)
         if (segment.first < 1 || segment.last > count || segment.first > segment.last)
-            throw InvalidArgument("{}: there are no samples {} to {}; the record has samples 1 to {}", caller,
+            throw InvalidArgument("{}: samples {} to {} do not exist; the data have samples 1 to {}", caller,
                                   segment.first, segment.last, count);
 }
 
@@ -26,9 +26,8 @@ void check_apart(std::vector<Segment> kept) {
     std::sort(kept.begin(), kept.end(), [](const Segment& a, const Segment& b) { return a.first < b.first; });
     for (std::size_t i = 1; i < kept.size(); ++i)
         if (kept[i].first <= kept[i - 1].last)
-            throw InvalidArgument(
-                "keep: the stretches {} to {} and {} to {} overlap, so that samples would count twice",
-                kept[i - 1].first, kept[i - 1].last, kept[i].first, kept[i].last);
+            throw InvalidArgument("keep: the ranges {} to {} and {} to {} overlap, so some samples would count twice",
+                                  kept[i - 1].first, kept[i - 1].last, kept[i].first, kept[i].last);
 }
 
 }  // namespace
@@ -68,7 +67,7 @@ IdData discard_segments(const IdData& data, const std::vector<Segment>& discarde
         next = segment.last + 1;
     }
     keep_until(data.sample_count());
-    if (kept.empty()) throw InvalidArgument("discard: nothing would be left of the record");
+    if (kept.empty()) throw InvalidArgument("discard: no samples would remain");
     return keep_segments(data, kept);
 }
 

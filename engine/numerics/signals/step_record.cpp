@@ -30,7 +30,7 @@ double trimmed_mean(const VectorView& x) {
 void require_one_record(const IdData& data) {
     if (data.experiments.size() == 1 && data.input_count() == 1 && data.output_count() == 1) return;
     throw InvalidArgument(
-        "A step test needs one experiment with one input and one output, and the data hold {}, {} and {}: select one "
+        "A step test needs one experiment with one input and one output, but the data have {}, {} and {}: select one "
         "of each",
         plural(std::ssize(data.experiments), "{} experiment", "{} experiments"),
         plural(data.input_count(), "{} input", "{} inputs"), plural(data.output_count(), "{} output", "{} outputs"));
@@ -41,8 +41,7 @@ void find_step(StepRecord& record) {
     const Vector& u = record.u;
     const double low = u.minCoeff(), high = u.maxCoeff();
     if (high == low) {
-        if (low == 0)
-            throw InvalidArgument("The input is zero throughout, so there is no step to read the response of");
+        if (low == 0) throw InvalidArgument("The input is zero throughout, so the data contain no step");
         record.input_after = low;
         record.step_time = record.t[0];
         return;
@@ -63,18 +62,18 @@ void find_step(StepRecord& record) {
         departure.tail(u.size() - record.step_index).array() -= record.input_change();
         Index worst = 0;
         if (departure.cwiseAbs().maxCoeff(&worst) <= tolerance) return;
-        throw InvalidArgument("The input is not a step: at t = {} it is {}, away from both levels {} and {}",
+        throw InvalidArgument("The input is not a step: at t = {} it is {}, but the two levels are {} and {}",
                               significant(record.t[worst], 6), significant(u[worst], 6),
                               significant(record.input_before, 6), significant(record.input_after, 6));
     }
     if (starts_high)
         throw InvalidArgument(
-            "The input is not a step: it goes {} times between high and low levels, and a step test needs one change: "
-            "cut out one step with range",
+            "The input is not a step: it changes {} times between high and low levels, but a step test needs exactly "
+            "one change: select one step with range",
             changes);
     throw InvalidArgument(
-        "The input is not a step: it goes {} times between low and high levels, and a step test needs one change: cut "
-        "out one step with range",
+        "The input is not a step: it changes {} times between low and high levels, but a step test needs exactly one "
+        "change: select one step with range",
         changes);
 }
 
@@ -85,7 +84,7 @@ Level level_of(const StepRecord& record, Index first, Index count) {
 void read_levels(StepRecord& record) {
     const Index N = record.y.size(), after = N - record.step_index;
     if (after < kSamplesAfterStep)
-        throw InvalidArgument("The record holds {} from the step on, and at least {} are needed to read the response",
+        throw InvalidArgument("The data have {} from the step on, but at least {} are needed to evaluate the response",
                               plural(after, "{} sample", "{} samples"), kSamplesAfterStep);
     // The sample at the step itself still shows the old level: the output of a system with a lag cannot jump.
     record.initial = level_of(record, 0, record.step_index + 1);
@@ -96,7 +95,7 @@ void read_levels(StepRecord& record) {
                                                             1.0 / static_cast<double>(tail));
     if (std::abs(record.output_change()) > 5 * uncertainty && record.output_change() != 0) return;
     throw InvalidArgument(
-        "The output does not answer the step: it goes from {} to {} with noise of standard deviation {}",
+        "The output does not respond to the step: it goes from {} to {} with noise of standard deviation {}",
         significant(record.initial.value, 6), significant(record.final.value, 6), significant(record.noise_std, 6));
 }
 
@@ -164,8 +163,8 @@ void require_settled(const StepRecord& record) {
     const bool swings = swing > 0.1 * change + 3 * record.noise_std;
     if (!drifts && !swings) return;
     throw InvalidArgument(
-        "The response has not settled when the record ends: it still moves by {} % of its change, so the final level "
-        "cannot be read: record longer",
+        "The response has not settled at the end of the data: it still changes by {} % of its total change, so the "
+        "final level is unknown: record a longer experiment",
         significant(100 * (drifts ? drift : swing) / change, 6));
 }
 
@@ -178,7 +177,7 @@ double StepRecord::crossing_time(double part) const {
         const double before = rise(k - 1), after = rise(k);
         return t[k - 1] + (t[k] - t[k - 1]) * (part - before) / (after - before);
     }
-    throw InvalidArgument("The response never reaches the wanted part of its change");
+    throw InvalidArgument("The response never reaches the required part of its change");
 }
 
 StepRecord read_step_record(const IdData& data, double widest_window) {

@@ -16,8 +16,8 @@ namespace {
 constexpr double kSameStep = 1e-9;  // relative difference of two sampling times that mean the same
 [[noreturn]] void report_endless_answers() {
     throw InvalidArgument(
-        "closed loop: plant and controller both have a direct term (as many zeros as poles), so that each answers the "
-        "other at the same instant without end; give the loop a computing delay, or one of the two a further pole");
+        "closed loop: plant and controller both have a direct term (as many zeros as poles), which forms an algebraic "
+        "loop. Add a computing delay, or give one of them another pole");
 }
 
 void check_proper(const TransferFunction& plant, const TransferFunction& controller) {
@@ -40,21 +40,21 @@ void check_loop(const TransferFunction& plant, const LoopController& controller,
     if (!plant.continuous()) throw InvalidArgument("closed loop: the plant must be a model in continuous time");
     check_proper(plant, controller.C);
     if (controller.computing_delay < 0)
-        throw InvalidArgument("closed loop: the computing delay must be a number of samples from 0 on, but it is {}",
+        throw InvalidArgument("closed loop: the computing delay must be a number of samples from 0, but it is {}",
                               controller.computing_delay);
     if (controller.sampled()) {
         if (std::abs(controller.C.Ts() - Ts) <= kSameStep * Ts) return;
         throw InvalidArgument(
-            "closed loop: the controller has the sampling time {} s, but the record {} s; both must be equal",
+            "closed loop: the controller has the sampling time {} s, but the data have {} s; the two must be equal",
             controller.C.Ts(), Ts);
     }
     if (controller.computing_delay > 0)
         throw InvalidArgument(
-            "closed loop: a computing delay belongs to a sampled controller, and this one is in continuous time");
+            "closed loop: a computing delay needs a sampled controller, but this controller is in continuous time");
     if (plant.delay() > 0 || controller.C.delay() > 0)
         throw InvalidArgument(
-            "closed loop: a delay inside a loop with a controller in continuous time has no exact recursion; replace "
-            "it by pade(G, n), or give a sampled controller");
+            "closed loop: a loop with a delay and a continuous-time controller has no exact recursion; replace the "
+            "delay with pade(G, n), or use a sampled controller");
 }
 
 /// The plant; or, as two copies of it, the plant and its derivative by one of its parameters: states [z; dz], inputs
@@ -226,8 +226,8 @@ IdData ClosedLoop::record(const VectorView& r, const VectorView& v) const {
                               plural(r.size(), "{} sample", "{} samples"), v.size());
     if (!stable())
         throw InvalidArgument(
-            "closed loop: the loop is unstable, so that its signals grow without bound; lower the controller's gain, "
-            "or look at margin(C*G)");
+            "closed loop: the loop is unstable, so its signals grow without bound; decrease the controller's gain, or "
+            "check margin(C*G)");
     const Response wanted = to_reference(r), disturbed = to_disturbance(v);
     IdData data(Matrix(wanted.x + disturbed.x + v), Matrix(wanted.u + disturbed.u), Ts_);
     data.hold = hold_of_record_;

@@ -28,7 +28,7 @@ CompanionPair companion_pair(const Matrix& A) {
     pair.twice = are_two(A);
     const Index n = pair.twice ? A.rows() / 2 : A.rows();
     pair.one = A.topLeftCorner(n, n);
-    if (!is_companion(pair.one)) throw InvalidArgument("Irregular sampling wants companion matrices");
+    if (!is_companion(pair.one)) throw InvalidArgument("Irregular sampling needs companion matrices");
     if (!pair.twice) return pair;
     while (pair.driving + 1 < n && A(n, pair.driving) == 0) ++pair.driving;
     pair.drive = A(n, pair.driving);

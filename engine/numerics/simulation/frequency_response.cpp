@@ -42,7 +42,7 @@ double sign_at_zero(const ComplexVector& roots, bool continuous) {
 }  // namespace
 
 ComplexVector frequency_response(const TransferFunction& G, const VectorView& w) {
-    if (!w.allFinite()) throw InvalidArgument("frequency response: the frequencies hold a value that is not finite");
+    if (!w.allFinite()) throw InvalidArgument("frequency response: the frequencies contain a value that is not finite");
     ComplexVector response(w.size());
     for (Index i = 0; i < w.size(); ++i)
         response(i) = G.at(G.continuous() ? Complex(0, w(i)) : std::polar(1.0, w(i) * G.Ts()));
@@ -91,7 +91,7 @@ Vector phase_degrees(const TransferFunction& G, const VectorView& w) {
 }
 
 Vector natural_frequency_grid(const TransferFunction& G, Index count) {
-    if (count < 2) throw InvalidArgument("frequency grid: at least 2 points are needed, but {} were asked for", count);
+    if (count < 2) throw InvalidArgument("frequency grid: at least 2 points are needed, but {} were requested", count);
     constexpr double kDecadesBeyond = 1.5, kDecadesWithoutCorner = 2;
     const Vector corners = corner_frequencies(G);
     const double nyquist = G.continuous() ? 0 : std::numbers::pi / G.Ts();

@@ -56,9 +56,9 @@ GreySimulator::GreySimulator(const GreyModel& model, Index outputs, GreyDirectio
     if (outputs <= own && (outputs == own || model.outputs_are_states)) return;
     const Message given = plural(own, "{} output", "{} outputs");
     if (model.outputs_are_states)
-        throw InvalidArgument("The model gives {}, and the record has {}: {} is wanted", given, outputs,
+        throw InvalidArgument("The model gives {}, but the data have {}: {} is required", given, outputs,
                               OptionName{"outputs"});
-    throw InvalidArgument("The model gives {}, and the record has {}", given, outputs);
+    throw InvalidArgument("The model gives {}, but the data have {}", given, outputs);
 }
 
 Vector GreySimulator::initial_state(const Vector& parameters) {
@@ -118,8 +118,8 @@ void GreySimulator::set_linear_steps(double h) {
     for (Index i = 0; i < n; ++i)
         if (!system.value.A.row(i).allFinite() || !B.row(i).allFinite())
             throw SimulationBreakdown(
-                "With these parameters a coefficient in the derivative of the state {} is no finite number: a division "
-                "by zero, or a root of a negative number?",
+                "With these parameters a coefficient in the derivative of the state {} is not a finite number. Check "
+                "for a division by zero or a root of a negative number.",
                 model_.state_names[static_cast<std::size_t>(i)]);
     const StepMatrices plain = exact_step(system.value.A, B, h);
     own_ = {plain.F, plain.H0, plain.H1};

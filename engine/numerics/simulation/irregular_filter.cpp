@@ -84,7 +84,7 @@ void add_outputs(const Matrix& C, const Matrix& states, Matrix& y) {
 IrregularFilter::IrregularFilter(const Matrix& A, const Vector& B, Matrix C, Vector D, Hold hold, double delay)
     : pair_(companion_pair(A)), C_(std::move(C)), D_(std::move(D)), hold_(hold), delay_(delay) {
     if (B.size() > 0 && (B[0] != 1 || !B.tail(B.size() - 1).isZero(0)))
-        throw InvalidArgument("Irregular sampling wants inputs that drive the first state alone");
+        throw InvalidArgument("Irregular sampling needs inputs that drive only the first state");
 }
 
 Matrix IrregularFilter::run(const VectorView& u, const VectorView& t, const Vector& x) const {

@@ -19,8 +19,8 @@ constexpr double kGridRounding = 1e-9;  // relative difference of two sampling t
 void check_model(const TransferFunction& G) {
     if (G.proper()) return;
     throw InvalidArgument(
-        "lsim: the transfer function has {} but only {}; an improper model cannot be simulated, it needs at least as "
-        "many poles as zeros",
+        "lsim: the transfer function has {} but only {}; an improper model cannot be simulated, because it needs at "
+        "least as many poles as zeros",
         plural(G.zero_count(), "{} zero", "{} zeros"), plural(G.pole_count(), "{} pole", "{} poles"));
 }
 
@@ -29,15 +29,15 @@ Vector initial_state(const VectorView& x0, Index order) {
     if (x0.size() != order)
         throw InvalidArgument("lsim: the initial state x0 must have {}, one for each state, but it has {}",
                               plural(order, "{} value", "{} values"), x0.size());
-    if (!x0.allFinite()) throw InvalidArgument("lsim: the initial state x0 holds a value that is not finite");
+    if (!x0.allFinite()) throw InvalidArgument("lsim: the initial state x0 contains a value that is not finite");
     return x0;
 }
 
 void check_discrete_sampling(double model_Ts, double Ts) {
     if (std::abs(model_Ts - Ts) <= kGridRounding * Ts) return;
     throw InvalidArgument(
-        "lsim: the model is discrete with Ts = {} s but the data are sampled every {} s; both must be equal", model_Ts,
-        Ts);
+        "lsim: the model is discrete with Ts = {} s, but the data have the sampling time {} s; the two must be equal",
+        model_Ts, Ts);
 }
 
 /// The sampling time of equally spaced instants, 0 of others.
@@ -112,7 +112,7 @@ Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold,
 Matrix state_variable_filter(const VectorView& x, int n, double lambda, double Ts, Hold hold) {
     constexpr int kHighestOrder = 50;
     if (n < 1 || n > kHighestOrder)
-        throw InvalidArgument("state-variable filter: the order must lie between 1 and {}, but it is {}", kHighestOrder,
+        throw InvalidArgument("state-variable filter: the order must be between 1 and {}, but it is {}", kHighestOrder,
                               n);
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(

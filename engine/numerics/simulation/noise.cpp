@@ -36,14 +36,14 @@ Vector coloured(const Vector& C, const Vector& D, const Vector& e) {
 double ColouredNoise::gain() const {
     if (D.size() > 1 && roots(D).cwiseAbs().maxCoeff() >= 1)
         throw InvalidArgument(
-            "The noise model has a pole on or outside the unit circle, so that its noise has no standard deviation");
+            "The noise model has a pole on or outside the unit circle, so its noise has no standard deviation");
     const Index length = decay_time(C, D) + 1;
     return coloured(C, D, Vector::Unit(length, 0)).norm();
 }
 
 Vector ColouredNoise::draw(Index count, double sigma, RandomStream& random) const {
     if (!(sigma >= 0) || !std::isfinite(sigma))
-        throw InvalidArgument("The standard deviation of noise must be a number from 0 on, and {} was given", sigma);
+        throw InvalidArgument("The standard deviation of noise must be zero or positive, but {} was given", sigma);
     return coloured(C, D, sigma * random.normal(decay_time(C, D) + count)).tail(count);
 }
 

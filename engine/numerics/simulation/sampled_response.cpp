@@ -32,8 +32,9 @@ ComplexVector response_between_samples(const TransferFunction& G, const VectorVi
     if (inter_sample == InterSample::kBandLimited || !G.continuous() || Ts == 0) return frequency_response(G, w);
     if (!G.proper())
         throw InvalidArgument(
-            "frequency response: a held input has jumps, which a model with more zeros than poles does not answer");
-    if (!w.allFinite()) throw InvalidArgument("frequency response: the frequencies hold a value that is not finite");
+            "frequency response: a held input (zoh) has jumps, to which a model with more zeros than poles has no "
+            "response");
+    if (!w.allFinite()) throw InvalidArgument("frequency response: the frequencies contain a value that is not finite");
     if (G.pole_count() == 0) {
         // a gain: as much of it arrives as the delay lets through
         const TransferFunction first(Vector(G.num()[0] * Vector{{1.0, 1.0}}), Vector{{1.0, 1.0}}, 0, G.delay());

@@ -210,8 +210,8 @@ void SensitivitySolver::tell_undefined_rate(double t, double h) const {
         for (Index j = 0; j < n_; ++j)
             if (std::isnan(stage.k[j]))
                 throw SimulationBreakdown(
-                    "At t = {} the derivative of the state {} is NaN, where {}: a root or a logarithm of a negative "
-                    "number? sqrt(max(x, 0)) has a value everywhere",
+                    "At t = {} the derivative of the state {} is NaN, where {}. Check for a root or a logarithm of a "
+                    "negative number; sqrt(max(x, 0)) has a value everywhere",
                     t + h * kExplicitNodes[i], names_[static_cast<std::size_t>(j)], states_text(stage.x));
         if (!stage.k.allFinite()) return;
     }

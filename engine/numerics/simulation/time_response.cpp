@@ -16,7 +16,7 @@ namespace {
 void check_response_times(const std::string& caller, const VectorView& t) {
     if (t.size() == 0) throw InvalidArgument("{}: the time vector is empty", caller);
     check_instants(caller, t);
-    if (t(0) < 0) throw InvalidArgument("{}: the response begins at time 0, but the first instant is {}", caller, t(0));
+    if (t(0) < 0) throw InvalidArgument("{}: the response starts at time 0, but the first instant is {}", caller, t(0));
 }
 
 /// The instants of a discrete response as numbers of samples.
@@ -101,7 +101,7 @@ TimeResponse impulse_response(const TransferFunction& G, const VectorView& t) {
 }
 
 Vector natural_time_grid(const TransferFunction& G, Index count) {
-    if (count < 2) throw InvalidArgument("time grid: at least 2 instants are needed, but {} were asked for", count);
+    if (count < 2) throw InvalidArgument("time grid: at least 2 instants are needed, but {} were requested", count);
     const double duration = natural_duration(G);
     if (G.continuous()) return Vector::LinSpaced(count, 0, duration);
     constexpr double kMostSamples = 1e4, kFewestSamples = 10;

@@ -13,7 +13,8 @@ namespace {
 
 void check_autoregression(Index count, const std::vector<Index>& lengths) {
     if (std::accumulate(lengths.begin(), lengths.end(), Index{0}) != count)
-        throw InvalidArgument("The lengths of the records of an autoregression must add up to its {} values", count);
+        throw InvalidArgument("The lengths of the experiments of an autoregression must add up to its {} values",
+                              count);
 }
 
 /// Errors of prediction forwards and backwards, which Burg's method makes smaller together, order by order.

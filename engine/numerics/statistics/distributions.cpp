@@ -20,13 +20,13 @@ using ChiSquared = boost::math::chi_squared_distribution<double, Policy>;
 void check_arguments(double x, double degrees) {
     if (!(degrees > 0) || !std::isfinite(degrees) || std::isnan(x))
         throw InvalidArgument(
-            "The chi-squared distribution needs a number and positive degrees of freedom, and got {} and {}", x,
+            "The chi-squared distribution needs a number and positive degrees of freedom, but got {} and {}", x,
             degrees);
 }
 
 void check_probability(double probability) {
     if (!(probability > 0 && probability < 1))
-        throw InvalidArgument("A probability must lie between 0 and 1, but it is {}", probability);
+        throw InvalidArgument("A probability must be between 0 and 1, but it is {}", probability);
 }
 
 constexpr double kNearCentre = 0.1;
@@ -70,7 +70,7 @@ double normal_half_width(double probability) {
 double student_t_quantile(double probability, double degrees) {
     if (!(degrees > 0) || !std::isfinite(degrees))
         throw InvalidArgument(
-            "Student's t needs a positive number of degrees of freedom, and got {}: use more samples than parameters",
+            "Student's t needs a positive number of degrees of freedom, but got {}: use more samples than parameters",
             degrees);
     check_probability(probability);
     try {
@@ -81,7 +81,7 @@ double student_t_quantile(double probability, double degrees) {
         return quantile(StudentT(degrees), probability);
     } catch (const std::exception&) {  // beyond what a number can hold, or the series that Boost has
         throw InvalidArgument(
-            "The quantile of Student's t for the probability {} and {} degrees of freedom cannot be worked out",
+            "The quantile of Student's t for the probability {} and {} degrees of freedom cannot be computed",
             probability, degrees);
     }
 }

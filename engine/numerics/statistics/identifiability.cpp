@@ -45,8 +45,8 @@ Ambiguity find_ambiguity(const MatrixView& J, const std::vector<std::string>& na
     }
     if (!idle.empty())
         found.sentences.push_back(
-            Message("The outputs of this record do not depend on {}: fix what they do not tell, or drive the system so "
-                    "that it shows.",
+            Message("The outputs of these data do not depend on {}: fix these parameters, or excite the system so that "
+                    "they have an effect.",
                     listed(idle)));
     if (active.size() < 2) return found;
     Matrix scaled = J(Eigen::all, active);
@@ -67,8 +67,8 @@ Ambiguity find_ambiguity(const MatrixView& J, const std::vector<std::string>& na
         }
         const auto size = static_cast<Index>(changes.size());
         found.sentences.push_back(Message(
-            "The record does not tell {} apart: the outputs stay as they are when they change together, {}; fix one of "
-            "them.",
+            "The data cannot separate {}: the outputs do not change when these parameters change together, {}; fix one "
+            "of them.",
             listed(involved),
             changes_text(involved, Eigen::Map<Vector>(changes.data(), size), Eigen::Map<Vector>(values.data(), size))));
     }

@@ -16,14 +16,14 @@ void check_sizes(const MatrixView& H, const MatrixView& Z, const VectorView& e, 
                  Index outputs) {
     const Index N = Z.rows(), d = Z.cols();
     if (e.size() != N || H.rows() != d || H.cols() != d)
-        throw InvalidArgument("A robust covariance of {} and {} needs as many residuals, and got {}",
+        throw InvalidArgument("A robust covariance of {} and {} needs as many residuals, but got {}",
                               plural(N, "{} sample", "{} samples"), plural(d, "{} parameter", "{} parameters"),
                               e.size());
     if (N <= d)
-        throw InvalidArgument("A robust covariance needs more samples than parameters, and got {} and {}",
+        throw InvalidArgument("A robust covariance needs more samples than parameters, but got {} and {}",
                               plural(N, "{} sample", "{} samples"), plural(d, "{} parameter", "{} parameters"));
     if (outputs * std::accumulate(lengths.begin(), lengths.end(), Index{0}) != N)
-        throw InvalidArgument("The lengths of the records of {} must add up to the {} samples",
+        throw InvalidArgument("The lengths of the experiments of {} must add up to the {} samples",
                               plural(outputs, "{} output", "{} outputs"), N);
 }
 
@@ -121,7 +121,7 @@ RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, c
     constexpr double kLeast = 0.1;
     constexpr Index kShort = 100;  // samples
     if (Psi.rows() <= Psi.cols())
-        throw InvalidArgument("A robust covariance needs more samples than parameters, and got {} and {}",
+        throw InvalidArgument("A robust covariance needs more samples than parameters, but got {} and {}",
                               plural(Psi.rows(), "{} sample", "{} samples"),
                               plural(Psi.cols(), "{} parameter", "{} parameters"));
     const Matrix H = solve_least_squares(Psi, e).inverse_gram;

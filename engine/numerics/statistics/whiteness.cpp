@@ -21,10 +21,10 @@ Message white_verdict(ModelError kind, const Message& probability, Index lags) {
 Message coloured_verdict(ModelError kind, const Message& probability, Index outside, Index lags, double confidence) {
     const Number percent = significant(100 * confidence, 4);
     if (kind == ModelError::kPrediction)
-        return Message("The prediction error is not white (Ljung-Box {}; {} of {} lags lie beyond the {} % bound).",
+        return Message("The prediction error is not white (Ljung-Box {}; {} of {} lags exceed the {} % bound).",
                        probability, outside, lags, percent);
-    return Message("The output error is not white (Ljung-Box {}; {} of {} lags lie beyond the {} % bound).",
-                   probability, outside, lags, percent);
+    return Message("The output error is not white (Ljung-Box {}; {} of {} lags exceed the {} % bound).", probability,
+                   outside, lags, percent);
 }
 
 // The variance of the lag's sample autocorrelation of a white signal, times N + 2 over N (Ljung and Box 1978).
@@ -65,9 +65,9 @@ WhitenessTest whiteness_of_covariances(const std::vector<Vector>& e, const Vecto
 }
 
 void ResidualOptions::validate() const {
-    if (lags < 1) throw InvalidArgument("lags must be at least 1, and is {}", lags);
+    if (lags < 1) throw InvalidArgument("lags must be at least 1, but is {}", lags);
     if (!(confidence > 0 && confidence < 1))
-        throw InvalidArgument("confidence must lie between 0 and 1, such as 0.99, and is {}", confidence);
+        throw InvalidArgument("confidence must be between 0 and 1, such as 0.99, but is {}", confidence);
 }
 
 WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options) {

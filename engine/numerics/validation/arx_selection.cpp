@@ -21,7 +21,7 @@ std::string range_text(std::pair<int, int> range) {
 
 void check_range(const char* name, std::pair<int, int> range, int least) {
     if (range.first < least || range.second < range.first)
-        throw InvalidArgument("{} must be a number or a range {from, to} from at least {} upwards, but it is {}", name,
+        throw InvalidArgument("{} must be a number or a range {from, to} starting at {} or higher, but it is {}", name,
                               least, range_text(range));
 }
 
@@ -31,7 +31,7 @@ void check_ranges(const ArxRanges& ranges) {
     check_range("nk", ranges.nk, 0);
     const auto length = [](std::pair<int, int> range) { return 1.0 + range.second - range.first; };
     if (length(ranges.na) * length(ranges.nb) * length(ranges.nk) > kMostArxStructures)
-        throw InvalidArgument("there are more than {} structures to try: take smaller ranges", kMostArxStructures);
+        throw InvalidArgument("more than {} structures would be tried: use smaller ranges", kMostArxStructures);
 }
 
 /// The equations of the largest structure of one record: every other one's are columns of them.
@@ -86,8 +86,8 @@ std::optional<Message> simpler_arx(const ArxSelection& selection, std::size_t ch
             one.judged_loss() <= kHardlyLarger * taken->judged_loss())
             simplest = &one;
     if (simplest == taken) return std::nullopt;
-    return plural(simplest->parameters(), "With {} parameter instead of {}, {} comes within 1 % of it.",
-                  "With {} parameters instead of {}, {} comes within 1 % of it.", taken->parameters(),
+    return plural(simplest->parameters(), "With {} parameter instead of {}, {} is within 1 % of it.",
+                  "With {} parameters instead of {}, {} is within 1 % of it.", taken->parameters(),
                   orders_text(*simplest));
 }
 
@@ -100,7 +100,7 @@ Message reason_of(const std::string& orders, ArxCriterion criterion, bool valida
         case ArxCriterion::kLoss:
             break;
     }
-    return validated ? Message("{na, nb, nk} = {} has the smallest loss on the second record.", orders)
+    return validated ? Message("{na, nb, nk} = {} has the smallest loss on the validation data.", orders)
                      : Message("{na, nb, nk} = {} has the smallest loss.", orders);
 }
 
@@ -147,9 +147,8 @@ OrderChoice choose_arx(const ArxSelection& selection, ArxCriterion criterion) {
     std::vector<Message> explanation{reason_of(orders_text(*best), criterion, selection.validated)};
     if (criterion != ArxCriterion::kLoss) return {place, sentences(explanation)};
     if (!selection.validated)
-        explanation.push_back(
-            Message("On the record of the estimation itself the loss falls with every parameter: give a second record, "
-                    "or choose by BIC."));
+        explanation.push_back(Message(
+            "On the estimation data the loss decreases with every parameter: give validation data, or choose by BIC."));
     if (const auto simpler = simpler_arx(selection, place)) explanation.push_back(*simpler);
     return {place, sentences(explanation)};
 }

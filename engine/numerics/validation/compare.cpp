@@ -225,7 +225,7 @@ CompareResult compare_centred(const ComparedRecord& record, Channels channels, c
         return (condition.state == InitialState::kEstimate ? order : 0) + (condition.offset ? 1 : 0);
     };
     if (const Index d = values(conditions.front()); d > 0 && N <= d)
-        throw InvalidArgument("compare needs more samples than the {} it estimates, and the record holds {}",
+        throw InvalidArgument("compare needs more samples than the {} values it estimates, but the data have {}",
                               plural(d, "{} value", "{} values"), N);
     StartSearch search = start_search(record, channels, conditions);
     StartCandidate best = candidate(search, conditions.front());
@@ -274,8 +274,8 @@ Comparison compare_all(const IdData& data, const std::vector<TransferFunction>& 
     const Index ny = data.output_count(), nu = data.input_count();
     if (ny < 1 || nu < 1 || static_cast<Index>(channels.size()) != ny * nu)
         throw InvalidArgument(
-            "The model needs one transfer function from each input to each output of the data ({} and {}), and has {}: "
-            "select the channels it describes",
+            "The model needs one transfer function from each input to each output of the data ({} and {}), but has {}: "
+            "select the channels of the model",
             plural(nu, "{} input", "{} inputs"), plural(ny, "{} output", "{} outputs"), channels.size());
     Comparison all;
     Vector squares = Vector::Zero(ny), variation = Vector::Zero(ny);
@@ -310,7 +310,8 @@ Comparison compare_all(const IdData& data, const FreeRunModel& model) {
             CompareResult& result = row.emplace_back();
             result.output = run.output.col(i);
             result.fit_percent = fit_percent_of_sums(errors, own);
-            result.message = Message("Simulated freely {}: fit {} %.", run.start, significant(result.fit_percent, 4));
+            result.message =
+                Message("Free-run simulation {}: fit {} %.", run.start, significant(result.fit_percent, 4));
             if (run.lost_at) result.message = sentences({result.message, divergence_text(data, k, *run.lost_at)});
         }
     }
@@ -321,8 +322,8 @@ Comparison compare_all(const IdData& data, const FreeRunModel& model) {
 CompareResult compare(const IdData& data, const TransferFunction& G, const CompareOptions& options) {
     if (data.experiments.size() != 1 || data.input_count() != 1 || data.output_count() != 1)
         throw InvalidArgument(
-            "compare needs one experiment with one input and one output, and the data hold {}, {} and "
-            "{}: select one of each",
+            "compare needs one experiment with one input and one output, but the data have {}, {} and {}: select one "
+            "of each",
             plural(static_cast<Index>(data.experiments.size()), "{} experiment", "{} experiments"),
             plural(data.input_count(), "{} input", "{} inputs"),
             plural(data.output_count(), "{} output", "{} outputs"));

@@ -57,19 +57,18 @@ IdData all_but(const IdData& data, const Part& part) {
 void check_parts(const std::vector<Part>& parts) {
     if (parts.size() < 2)
         throw InvalidArgument(
-            "Leaving out one experiment after the other needs at least two, and the data hold one: ask for folds "
-            "instead");
+            "Cross-validation by experiments needs at least two experiments, but the data have one: use folds instead");
     for (const Part& part : parts)
         if (part.last - part.first + 1 < kLeastFold)
-            throw InvalidArgument("Each fold needs at least {} samples, and one has {}: ask for fewer folds",
-                                  kLeastFold, part.last - part.first + 1);
+            throw InvalidArgument("Each fold needs at least {} samples, but one has {}: use fewer folds", kLeastFold,
+                                  part.last - part.first + 1);
 }
 
 /// On the folds of one output, from what the model fits of each in per cent.
 Message summary_of(const Vector& fits) {
     const Message summary =
-        plural(fits.size(), "Simulated on {} part that the model had not seen: fit {} % on average, from {} to {} %.",
-               "Simulated on {} parts that the model had not seen: fit {} % on average, from {} to {} %.",
+        plural(fits.size(), "Simulated on {} part not used for estimation: fit {} % on average, from {} to {} %.",
+               "Simulated on {} parts not used for estimation: fit {} % on average, from {} to {} %.",
                significant(fits.mean(), 4), significant(fits.minCoeff(), 4), significant(fits.maxCoeff(), 4));
     if (fits.allFinite()) return summary;
     return sentences({summary, Message("At least one of the models is unstable.")});
@@ -78,7 +77,7 @@ Message summary_of(const Vector& fits) {
 void summarise(CrossValidation& result, const std::vector<std::string>& names) {
     const Index folds = result.fit_percent.rows();
     if (folds == 0) {
-        result.message = Message("Stopped before the first fold was done.");
+        result.message = Message("Interrupted before the first fold was complete.");
         return;
     }
     const Matrix& fits = result.fit_percent;
@@ -101,7 +100,7 @@ void summarise(CrossValidation& result, const std::vector<std::string>& names) {
 }  // namespace
 
 void CrossValidationOptions::validate() const {
-    if (!by_experiment && folds < 2) throw InvalidArgument("folds must be at least 2, and is {}", folds);
+    if (!by_experiment && folds < 2) throw InvalidArgument("folds must be at least 2, but is {}", folds);
 }
 
 CrossValidation cross_validate(const IdData& data, const ModelFitter& fit, const CrossValidationOptions& options) {

@@ -20,7 +20,7 @@ constexpr Index kProfiledSamples = 50'000;  // of a longer record, its beginning
 void check_options(const DelaySearchOptions& options) {
     const FitOptions& estimation = options.estimation;
     if (estimation.largest_delay && !(*estimation.largest_delay > estimation.least_delay))
-        throw InvalidArgument("{} must be above {} ({} s), but {} was given: there is no delay to look for",
+        throw InvalidArgument("{} must be above {} ({} s), but {} was given: the range contains no delay",
                               OptionName{"largest_delay"}, OptionName{"least_delay"}, estimation.least_delay,
                               *estimation.largest_delay);
 }
@@ -103,15 +103,14 @@ Message result_of(const DelaySearch& search, const IdData& data) {
 
 Message explanation_of(const DelaySearch& search, const IdData& data, bool told) {
     std::vector<Message> all{result_of(search, data)};
-    if (search.delay <= 2 * search.std) all.push_back(Message("It does not differ significantly from no delay."));
+    if (search.delay <= 2 * search.std) all.push_back(Message("The delay does not differ significantly from zero."));
     if (told && search.delay < data.Ts && late_input(data, search.candidate.poles, search.loss()))
         all.push_back(late_input_sentence(data));
     const Vector& errors = search.candidate.estimate.std;
     if (search.rival && !std::isinf(errors[errors.size() - 1]))  // else a warning of the estimate says so
-        all.push_back(
-            Message("A delay of {} s explains them nearly as well: look at the curve, and decide by what you "
-                    "know of the plant.",
-                    *search.rival));
+        all.push_back(Message(
+            "A delay of {} s explains the data nearly as well: look at the curve, and use your knowledge of the plant.",
+            *search.rival));
     for (const Message& warning : search.candidate.estimate.warnings) all.push_back(warning);
     return sentences(std::move(all));
 }
@@ -120,8 +119,7 @@ Message explanation_of(const DelaySearch& search, const IdData& data, bool told)
 
 Message late_input_sentence(const IdData& data) {
     return Message(
-        "{} answers before {} changes, by about one sample: the input was logged late. Shift it with "
-        "data:shift(-1).",
+        "{} responds before {} changes, by about one sample: the input was logged late. Shift it with data:shift(-1).",
         data.output_names.front(), data.input_names.front());
 }
 

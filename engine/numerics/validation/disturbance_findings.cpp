@@ -107,13 +107,14 @@ void find_error_outliers(FittedRecord& fit, const std::function<bool()>& cancel,
     const auto count = static_cast<Index>(repaired->replaced.size());
     const Vector outliers = fit.error - repaired->signal;
     fit.take_off(outliers);
-    RecordFinding finding = about(
-        fit, "outliers", Weight::kWarning,
-        Message("The output {} has {} far out from the neighbours ({}), up to {} from what the input lets expect. Look "
-                "whether they can be true; if not, filloutliers puts straight lines there.",
-                fit.output(), plural(count, "{} sample that stands", "{} samples that stand"),
-                listed_places(repaired->stretches), fit.with_unit(outliers.cwiseAbs().maxCoeff(), 2)),
-        static_cast<double>(count));
+    RecordFinding finding =
+        about(fit, "outliers", Weight::kWarning,
+              Message("The output {} has {} far from the neighboring samples ({}), up to {} from the values that the "
+                      "input explains. Check whether these samples are valid. If not, filloutliers replaces them by "
+                      "linear interpolation.",
+                      fit.output(), plural(count, "{} sample", "{} samples"), listed_places(repaired->stretches),
+                      fit.with_unit(outliers.cwiseAbs().maxCoeff(), 2)),
+              static_cast<double>(count));
     finding.sections = repaired->stretches;
     findings.push_back(std::move(finding));
 }
@@ -132,18 +133,18 @@ void find_disturbance(FittedRecord& fit, RecordFindings& findings) {
     fit.taken_off = slow;
     fit.take_off(slow);
     if (straight)
-        findings.push_back(about(fit, "drift", Weight::kWarning,
-                                 Message("{} drifts by about {} from the beginning to the end, which {} does not "
-                                         "explain. A model would take it for slow dynamics: take the straight line off "
-                                         "with data:detrend(\"linear\").",
-                                         fit.output(), fit.with_unit(line.rise, 2), fit.input()),
-                                 line.rise));
+        findings.push_back(about(
+            fit, "drift", Weight::kWarning,
+            Message("{} drifts by about {} from the start to the end, which {} does not explain. A model would "
+                    "represent the drift as slow dynamics: remove the linear trend with data:detrend(\"linear\").",
+                    fit.output(), fit.with_unit(line.rise, 2), fit.input()),
+            line.rise));
     else
         findings.push_back(about(
             fit, "random_walk", Weight::kWarning,
-            Message("{} wanders without direction (a drift like a random walk, between {} and {} "
-                    "about the response to {}). A straight line does not take that off: filter "
-                    "input and output alike with a high-pass, or estimate a noise model (rivc).",
+            Message("{} drifts irregularly (like a random walk, between {} and {} around the response to {}). A linear "
+                    "trend does not describe this drift: filter input and output with the same high-pass filter, or "
+                    "estimate a noise model (rivc).",
                     fit.output(), fit.with_unit(slow.minCoeff(), 2), fit.with_unit(slow.maxCoeff(), 2), fit.input()),
             size));
 }
@@ -194,13 +195,13 @@ bool find_strange_sections(const FittedRecord& fit, RecordFindings& findings) {
     if (sections.empty()) return false;
     MessageList places;
     for (const auto& [first, last] : sections) places.items.push_back(Message("{} to {}", first, last));
-    RecordFinding finding = about(
-        fit, "nonlinear", Weight::kWarning,
-        Message("A linear model follows {} but not in samples {}, where its error is more than {} times the usual "
-                "one: something else happens there (a limit, friction, a disturbance). Look at it, and leave it "
-                "out with data:discard when it is not what you want to model.",
-                fit.output(), places, kStrange),
-        static_cast<double>(sections.size()));
+    RecordFinding finding =
+        about(fit, "nonlinear", Weight::kWarning,
+              Message("A linear model follows {} except in samples {}, where its error is more than {} times the usual "
+                      "error: another effect acts there (a limit, friction, a disturbance). Inspect these samples, and "
+                      "exclude them with data:discard if they do not belong to the dynamics.",
+                      fit.output(), places, kStrange),
+              static_cast<double>(sections.size()));
     finding.sections = std::move(sections);
     findings.push_back(std::move(finding));
     return true;

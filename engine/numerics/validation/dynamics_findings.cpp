@@ -156,34 +156,34 @@ void find_noise(const FittedRecord& fit, RecordFindings& findings) {
     });
     if (decibels >= kNoisy || explained)
         findings.push_back(about(fit, "noise", Weight::kNote,
-                                 Message("The signal-to-noise ratio of {} is about {} dB (what a model with {} leaves "
-                                         "unexplained has the standard deviation {}).",
+                                 Message("The signal-to-noise ratio of {} is about {} dB (the residual of a model with "
+                                         "{} has the standard deviation {}).",
                                          fit.output(), ratio, order, left),
                                  decibels));
     else
-        findings.push_back(about(
-            fit, "low_snr", Weight::kWarning,
-            Message("The signal-to-noise ratio of {} is only about {} dB (what a model with {} leaves "
-                    "unexplained has the standard deviation {}). If that is noise, record longer or with a larger "
-                    "amplitude, and prefer methods that noise does not bias (tfsrivc rather than lssvf); if not, "
-                    "something else than the input moves the output.",
-                    fit.output(), ratio, order, left),
-            decibels));
+        findings.push_back(
+            about(fit, "low_snr", Weight::kWarning,
+                  Message("The signal-to-noise ratio of {} is only about {} dB (the residual of a model with {} has "
+                          "the standard deviation {}). If the residual is noise, record longer or with a larger "
+                          "amplitude, and use methods that noise does not bias (tfsrivc instead of lssvf). If not, an "
+                          "effect other than the input moves the output.",
+                          fit.output(), ratio, order, left),
+                  decibels));
 }
 
 void find_dead_time(const FittedRecord& fit, RecordFindings& findings) {
     const double delay = fit.search.delay, Ts = fit.data.Ts;
     if (!(delay > Ts) || !(delay > 4 * fit.search.std)) return;
     const Message seen =
-        Message("{} answers about {} ({} samples) after {}.", fit.output(),
+        Message("{} responds about {} ({} samples) after {}.", fit.output(),
                 with_unit(significant(delay, 3), fit.data.time_unit), significant(delay / Ts, 3), fit.input());
     const Message remedy =
         may_be_a_lag(fit)
             ? Message(
-                  "A delay or another pole: compare both (tfsrivc with {} poles and a delay, and with {} poles and "
-                  "{} = 0).",
+                  "The cause is a delay or another pole: compare both (tfsrivc with {} poles and a delay, and with {} "
+                  "poles and {} = 0).",
                   fit.search.candidate.poles, fit.search.candidate.poles + 1, OptionName{"largest_delay"})
-            : Message("Give the model a dead time ({} of tfsrivc, the D of procsrivc).", OptionName{"largest_delay"});
+            : Message("Add a dead time to the model ({} of tfsrivc, the D of procsrivc).", OptionName{"largest_delay"});
     findings.push_back(about(fit, "dead_time", Weight::kNote, sentences({seen, remedy}), delay));
 }
 
@@ -194,8 +194,8 @@ void find_offset(const FittedRecord& fit, RecordFindings& findings) {
         const std::optional<double> level = level_at_rest(fit);
         if (level && std::abs(*level) >= std::max(kOffsetAtRest * deviation, 3 * fit.disturbance))
             findings.push_back(about(fit, "offset", Weight::kNote,
-                                     Message("{} stands at about {} during the first {} samples, while {} is zero: "
-                                             "data:detrend(\"start\") or {} = \"estimate\" takes this offset off.",
+                                     Message("{} rests at about {} during the first {} samples, while {} is zero: "
+                                             "data:detrend(\"start\") or {} = \"estimate\" removes this offset.",
                                              fit.output(), fit.with_unit(*level, 3), samples_at_rest(fit.u()),
                                              fit.input(), OptionName{"offset"}),
                                      *level));
@@ -204,16 +204,16 @@ void find_offset(const FittedRecord& fit, RecordFindings& findings) {
     const bool extrapolated = excludes_zero(fit.u());
     const Message level =
         with_unit(rounded_to(offset, deviation / (extrapolated ? 5 : 50)), fit.data.output_units.front());
-    const Message seen =
-        extrapolated ? Message(
-                           "A straight line through these data would put {} at about {} when {} is zero; that is an "
-                           "extrapolation, for {} stays between {} and {}.",
-                           fit.output(), level, fit.input(), fit.input(), rounded(fit.u().minCoeff(), 3),
-                           rounded(fit.u().maxCoeff(), 3))
-                     : Message("{} stands at about {} when {} is zero.", fit.output(), level, fit.input());
+    const Message seen = extrapolated
+                             ? Message(
+                                   "Linear extrapolation of these data gives {} of about {} when {} is zero; the data "
+                                   "cover only {} from {} to {}.",
+                                   fit.output(), level, fit.input(), fit.input(), rounded(fit.u().minCoeff(), 3),
+                                   rounded(fit.u().maxCoeff(), 3))
+                             : Message("{} rests at about {} when {} is zero.", fit.output(), level, fit.input());
     const Message remedy = Message(
-        "A linear model goes through the origin: take the offset off with data:remove_mean() or "
-        "data:detrend(\"start\"), or use {} = \"estimate\".",
+        "A linear model goes through the origin: remove the offset with data:remove_mean() or data:detrend(\"start\"), "
+        "or use {} = \"estimate\".",
         OptionName{"offset"});
     findings.push_back(about(fit, "offset", Weight::kWarning, sentences({seen, remedy}), offset));
 }
@@ -274,15 +274,15 @@ void find_running_start(const FittedRecord& fit, RecordFindings& findings) {
         kOverOthers * found_elsewhere(motion, fit) < 1 && start_is_evident(fit);
     if (!moves && !has_strange_beginning(fit)) return;
     const OptionName option{"initial_state"};
-    const Message message =
-        moves ? Message(
-                    "The record begins in the middle of a movement of {} of about {}: no start from rest explains "
-                    "its first samples. Use {} = \"estimate\", or begin the record later.",
-                    fit.output(), fit.with_unit(largest, 2), option)
-              : Message(
-                    "The record begins in the middle of a movement of {}: no start from rest explains its first "
-                    "samples. Use {} = \"estimate\", or begin the record later.",
-                    fit.output(), option);
+    const Message message = moves
+                                ? Message(
+                                      "The data start during a movement of {} of about {}: a start from rest does not "
+                                      "explain the first samples. Use {} = \"estimate\", or start the data later.",
+                                      fit.output(), fit.with_unit(largest, 2), option)
+                                : Message(
+                                      "The data start during a movement of {}: a start from rest does not explain the "
+                                      "first samples. Use {} = \"estimate\", or start the data later.",
+                                      fit.output(), option);
     findings.push_back(about(fit, "running_start", Weight::kWarning, message, largest));
 }
 
@@ -293,19 +293,19 @@ void find_sampling_rate(const FittedRecord& fit, RecordFindings& findings) {
     const Number times = rounded(ratio, 2);
     const Message bandwidth = with_unit(rounded(band, 2), "rad/" + fit.data.time_unit);
     if (ratio < kSlow && band < kBeyond * input_frequency(fit))
-        findings.push_back(about(fit, "slow_sampling", Weight::kWarning,
-                                 Message("The sampling frequency is {} times the bandwidth of about {}; 10 to 30 times "
-                                         "is usual. What happens between the samples is lost: sample faster, and do "
-                                         "not trust fast poles.",
-                                         times, bandwidth),
-                                 ratio));
+        findings.push_back(about(
+            fit, "slow_sampling", Weight::kWarning,
+            Message("The sampling frequency is {} times the bandwidth of about {}; 10 to 30 times is usual. The data "
+                    "do not show the behavior between the samples: sample faster, and do not trust fast poles.",
+                    times, bandwidth),
+            ratio));
     else if (ratio > kFast)
-        findings.push_back(
-            about(fit, "fast_sampling", Weight::kNote,
-                  Message("The sampling frequency is {} times the bandwidth of about {}; continuous-time "
-                          "methods do not mind, but before arx and its like use resample(data, 1, {}).",
-                          times, bandwidth, std::min<Index>(static_cast<Index>(ratio / 30), 1000)),
-                  ratio));
+        findings.push_back(about(
+            fit, "fast_sampling", Weight::kNote,
+            Message("The sampling frequency is {} times the bandwidth of about {}. This is suitable for "
+                    "continuous-time methods; before arx and other discrete-time methods, use resample(data, 1, {}).",
+                    times, bandwidth, std::min<Index>(static_cast<Index>(ratio / 30), 1000)),
+            ratio));
 }
 
 void find_integrator(const FittedRecord& fit, RecordFindings& findings) {
@@ -318,8 +318,8 @@ void find_integrator(const FittedRecord& fit, RecordFindings& findings) {
     if (!part.allFinite() || !(standard_deviation(part) > kIntegrates * standard_deviation(all))) return;
     const double duration = static_cast<double>(window.sample_count()) * window.Ts;
     findings.push_back(about(fit, "integrator", Weight::kWarning,
-                             Message("{} sums {} up and settles nowhere within {}: the plant integrates. Build the "
-                                     "pole at zero into the model with {}, and keep the mean of {} near zero.",
+                             Message("{} integrates {} and does not settle within {}. Include the pole at zero in the "
+                                     "model with {}, and keep the mean of {} near zero.",
                                      fit.output(), fit.input(), with_unit(rounded(duration, 2), fit.data.time_unit),
                                      OptionName{"integration"}, fit.input()),
                              *pole));
@@ -380,12 +380,12 @@ bool find_load(const FittedRecord& fit, RecordFindings& findings) {
     if (!fit.runs_away() && !(found->error < kAsWell * std::sqrt(own))) return false;
     const Message load = with_unit(rounded(found->load, 2), fit.data.input_units.front());
     const Message balance = with_unit(rounded(-found->load, 2), fit.data.input_units.front());
-    findings.push_back(about(
-        fit, "load", Weight::kWarning,
-        Message("{} integrates {} and a constant load of about {}: it stands still when {} is {}, not zero. Count "
-                "{} from there, and build the pole at zero into the model with {}.",
-                fit.output(), fit.input(), load, fit.input(), balance, fit.input(), OptionName{"integration"}),
-        found->load));
+    findings.push_back(
+        about(fit, "load", Weight::kWarning,
+              Message("{} integrates {} and a constant load of about {}: it is at rest when {} is {}, not zero. "
+                      "Subtract this value from {}, and include the pole at zero in the model with {}.",
+                      fit.output(), fit.input(), load, fit.input(), balance, fit.input(), OptionName{"integration"}),
+              found->load));
     return true;
 }
 

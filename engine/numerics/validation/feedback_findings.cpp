@@ -116,9 +116,9 @@ JointTest joint_test(const Vector& r, const Vector& R, double N) {
 
 Message remedy_for_feedback(const Experiment& experiment) {
     if (experiment.r.cols() == 0)
-        return Message("Record with the loop open, or give iddata the reference, which clsrivc and clivsvf use.");
+        return Message("Record data in open loop, or add the reference to iddata for clsrivc and clivsvf.");
     if ((experiment.r.array() == experiment.r(0, 0)).all())
-        return Message("The reference never changes, so that clsrivc and clivsvf have nothing to go by: let it move.");
+        return Message("The reference never changes, so clsrivc and clivsvf cannot use it: vary the reference.");
     return Message("The data have the loop's reference, which clsrivc and clivsvf use.");
 }
 
@@ -147,8 +147,8 @@ void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
     const double largest = products.tail(kFeedbackLags + 1).cwiseAbs().maxCoeff(&lag);
     const Message when = lag == 0 ? Message("at the same sample") : plural(lag, "{} sample later", "{} samples later");
     const Message seen = Message(
-        "{} follows disturbances of {} (correlation {}, {}): a controller was running. Noise then enters "
-        "the input, which biases lssvf, arx, ivsvf and srivc.",
+        "{} responds to disturbances of {} (correlation {}, {}): a controller was active. Noise then enters the input, "
+        "which biases lssvf, arx, ivsvf and srivc.",
         fit.input(), fit.output(), rounded(largest, 2), when);
     findings.push_back(about(fit, "feedback", Weight::kWarning,
                              sentences({seen, remedy_for_feedback(fit.data.experiments.front())}), largest));
@@ -156,13 +156,13 @@ void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
 
 bool find_runaway(const FittedRecord& fit, RecordFindings& findings) {
     if (!fit.runs_away()) return false;
-    findings.push_back(about(
-        fit, "unstable", Weight::kWarning,
-        Message("The linear model from {} to {} that suits best is unstable, and its simulation runs away from the "
-                "record: nothing can be measured against it. If the plant is unstable, a controller was running: give "
-                "iddata the reference and use clsrivc, or predict (armax, pe) instead of simulating.",
-                fit.input(), fit.output()),
-        fit.simulation.fit_percent));
+    findings.push_back(
+        about(fit, "unstable", Weight::kWarning,
+              Message("The best linear model from {} to {} is unstable, and its simulation diverges from the data, so "
+                      "other checks are not possible. If the plant is unstable, a controller was active: add the "
+                      "reference to iddata and use clsrivc, or predict (armax, pe) instead of simulating.",
+                      fit.input(), fit.output()),
+              fit.simulation.fit_percent));
     return true;
 }
 

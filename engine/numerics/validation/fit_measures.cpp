@@ -11,11 +11,11 @@ namespace {
 
 void require_pair(const VectorView& y, const VectorView& y_sim) {
     if (y.size() != y_sim.size())
-        throw InvalidArgument("The simulated output must be as long as the measured one, and has {} instead of {}",
+        throw InvalidArgument("The simulated output must be as long as the measured output, but has {} instead of {}",
                               plural(y_sim.size(), "{} value", "{} values"), y.size());
     if (y.size() < 2)
-        throw InvalidArgument(plural(y.size(), "A fit needs at least two samples, and {} was given",
-                                     "A fit needs at least two samples, and {} were given"));
+        throw InvalidArgument(plural(y.size(), "A fit needs at least two samples, but {} was given",
+                                     "A fit needs at least two samples, but {} were given"));
 }
 
 double square_about_mean(const VectorView& x) {
@@ -27,7 +27,7 @@ double square_about_mean(const VectorView& x) {
 double variation_about_mean(const VectorView& y) {
     require_pair(y, y);
     if ((y.array() == y[0]).all())
-        throw InvalidArgument("The measured output never changes, so a fit relative to its variation has no meaning");
+        throw InvalidArgument("The measured output never changes, so a relative fit is undefined");
     return square_about_mean(y);
 }
 
@@ -40,7 +40,7 @@ YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorVie
                    const MatrixView& covariance) {
     require_pair(y, y_sim);
     if (covariance.rows() != theta.size() || covariance.cols() != theta.size())
-        throw InvalidArgument("YIC needs a covariance of {} x {}, and {} x {} was given", theta.size(), theta.size(),
+        throw InvalidArgument("YIC needs a covariance of {} x {}, but {} x {} was given", theta.size(), theta.size(),
                               covariance.rows(), covariance.cols());
     YoungCriterion criterion;
     double relative_variances = 0;
@@ -51,7 +51,7 @@ YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorVie
             relative_variances += covariance(i, i) / (theta[i] * theta[i]);
     }
     const double used = static_cast<double>(theta.size()) - static_cast<double>(criterion.skipped.size());
-    if (used == 0) throw InvalidArgument("YIC needs at least one parameter that is not zero");
+    if (used == 0) throw InvalidArgument("YIC needs at least one nonzero parameter");
     const double unexplained = square_about_mean(y - y_sim) / variation_about_mean(y);
     criterion.value = unexplained == 0 || relative_variances == 0
                           ? -std::numeric_limits<double>::infinity()
@@ -63,7 +63,7 @@ InformationCriteria information_criteria(double mean_square, Index samples, Inde
     if (!(mean_square >= 0) || parameters < 0 || samples <= parameters + 1)
         throw InvalidArgument(
             "Information criteria need a mean square that is not negative and more samples than parameters plus one, "
-            "and got {}, {} and {}",
+            "but got {}, {} and {}",
             mean_square, plural(samples, "{} sample", "{} samples"),
             plural(parameters, "{} parameter", "{} parameters"));
     const double N = static_cast<double>(samples), d = static_cast<double>(parameters);

@@ -15,10 +15,10 @@ RecordFinding too_short(Index samples) {
             Weight::kWarning,
             "",
             plural(samples,
-                   "The record has only {} sample. Every parameter of a model wants about ten of them: record longer, "
-                   "or stay with a model of one pole.",
-                   "The record has only {} samples. Every parameter of a model wants about ten of them: record longer, "
-                   "or stay with a model of one pole."),
+                   "The data have only {} sample. A model needs about ten samples per parameter: record longer, or use "
+                   "a model with one pole.",
+                   "The data have only {} samples. A model needs about ten samples per parameter: record longer, or "
+                   "use a model with one pole."),
             static_cast<double>(samples),
             0,
             {}};

@@ -14,12 +14,13 @@ Message missing_part(const ModelStanding& model) {
     if (!model.start.empty()) return model.start;
     if (model.acts_at_once)
         return Message(
-            "The input acts at once, which the model leaves out: try a direct feedthrough, as many zeros as poles.");
+            "The output responds to the input immediately, but the model does not: try a direct feedthrough, with as "
+            "many zeros as poles.");
     if (model.acts_earlier)
-        return Message("The input acts earlier than the model's delay lets it: try a shorter delay.");
+        return Message("The output responds earlier than the model's delay allows: try a shorter delay.");
     return Message(
-        "Dynamics are missing: try another delay, one more pole or one more zero, and then look for a "
-        "nonlinearity or a drift.");
+        "Dynamics are missing: try another delay, one more pole or one more zero, and then check for a nonlinearity or "
+        "a drift.");
 }
 
 /// Whether a parameter belongs to the output of this number alone: b0_y2 and b0_y2u1 to 2. One without an output's
@@ -44,43 +45,43 @@ ModelDoubts ModelDoubts::about(std::size_t i, const std::string& name) const {
 Message model_verdict(const ModelStanding& model) {
     const Number fit = significant(model.fit_percent, 3);
     if (model.unstable) {
-        const Message verdict =
-            Message("The model is unstable and not to be used, whatever the tests of its errors say.");
+        const Message verdict = Message("The model is unstable. Do not use it, whatever the residual tests show.");
         return model.doubts.remedy.empty() ? verdict : sentences({verdict, model.doubts.remedy});
     }
     if (model.tested && explains_little(model.fit_percent)) {
         const Message verdict =
-            Message("The model explains little of the output (fit {} %), whatever the tests of its errors say.", fit);
+            Message("The model explains little of the output (fit {} %), whatever the residual tests show.", fit);
         const bool missing = !model.independent || !model.doubts.remedy.empty();
-        return sentences({verdict, missing
-                                       ? missing_part(model)
-                                       : Message("A disturbance, another input or a nonlinearity makes up the rest.")});
+        return sentences(
+            {verdict, missing ? missing_part(model)
+                              : Message("The rest comes from a disturbance, another input or a nonlinearity.")});
     }
     const bool cause_known = !model.doubts.remedy.empty() || !model.start.empty();
     if (!model.independent || (!model.white && cause_known)) return missing_part(model);
     if (!model.doubts.undetermined.empty())
         return Message(
-            "Nothing more of the output is explained by the input, but the data hardly determine {}: a "
-            "simpler structure may do as well.",
+            "The residuals are uncorrelated with the input, but the data do not reliably determine {}: a simpler "
+            "structure may be sufficient.",
             listed(model.doubts.undetermined));
-    if (model.white) return Message("The model explains all that the data show, and its standard errors hold.");
+    if (model.white)
+        return Message("The model explains everything that the data show, and its standard errors are valid.");
     if (!model.tested)
         return Message(
-            "Missing dynamics or a coloured disturbance: without an input that changes the record cannot "
-            "tell which.");
+            "The cause is missing dynamics or a colored disturbance: these data, without a varying input, cannot "
+            "distinguish them.");
     if (model.of_predictions)
         return Message(
-            "The dynamics are described, but not the disturbance: try another order of its noise model, and "
-            "until then robust standard errors.");
+            "The model describes the dynamics, but not the disturbance: try another order of its noise model. Until "
+            "then, use robust standard errors.");
     if (model.fit_percent < kMostlyExplained)
         return Message(
-            "The input explains no more than the model says (fit {} %). What is left has more than half of "
-            "the output's standard deviation: a coloured disturbance, for which robust standard errors or a "
-            "method with a noise model are in place, another input, or a nonlinearity.",
+            "The model explains everything that depends on the input (fit {} %). The residual has more than half of "
+            "the output's standard deviation. Possible causes are another input, a nonlinearity, or a colored "
+            "disturbance; for the latter, use robust standard errors or a method with a noise model.",
             fit);
     return Message(
-        "The dynamics are described; the disturbance is coloured, so that robust standard errors or a "
-        "method with a noise model are in place.");
+        "The model describes the dynamics. The disturbance is colored: use robust standard errors or a method with a "
+        "noise model.");
 }
 
 }  // namespace dynlab::inline numerics

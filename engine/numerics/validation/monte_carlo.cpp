@@ -26,7 +26,7 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 using Outcome = MonteCarloOutcome;
 
 Message failure_of(const MonteCarloEstimate& estimate) {
-    if (estimate.theta.size() == 0) return Message("it gave no parameters");
+    if (estimate.theta.size() == 0) return Message("the estimator returned no parameters");
     if (!estimate.theta.allFinite()) return Message("a parameter is not finite");
     return {};
 }
@@ -52,12 +52,11 @@ class NoisyRecords {
         } else {
             loop_.emplace(study.system, *study.controller, study.Ts, study.hold);
             if (!loop_->stable())
-                throw InvalidArgument("the loop of system and controller is unstable: lower the controller's gain");
+                throw InvalidArgument("the loop of system and controller is unstable: decrease the controller's gain");
             clean_ = loop_->to_reference(study.u);
             hold_ = study.controller->sampled() ? Hold::kZoh : Hold::kFoh;
         }
-        if (!clean_.x.allFinite())
-            throw InvalidArgument("the output of the system grows beyond all bounds: it is unstable");
+        if (!clean_.x.allFinite()) throw InvalidArgument("the output of the system diverges: the system is unstable");
     }
 
     const Vector& noise_free_output() const { return clean_.x; }
@@ -207,8 +206,8 @@ void fill_runs(MonteCarloResult& result, const std::vector<Outcome>& outcomes, I
         const MonteCarloEstimate& estimate = outcome.estimate;
         Message failure = outcome.failure;
         if (failure.empty() && estimate.theta.size() != d)
-            failure = plural(estimate.theta.size(), "it gave {} parameter, but {} in an earlier run",
-                             "it gave {} parameters, but {} in an earlier run", d);
+            failure = plural(estimate.theta.size(), "the estimator returned {} parameter, but {} in an earlier run",
+                             "the estimator returned {} parameters, but {} in an earlier run", d);
         if (!failure.empty()) {
             if (result.failed++ == 0) result.first_failure = failure;
             continue;
@@ -253,7 +252,7 @@ MonteCarloResult result_of(const MonteCarloStudy& study, const MonteCarloMethod&
     const MonteCarloEstimate* sample = first_estimate(outcomes);
     fill_runs(result, outcomes, sample == nullptr ? 0 : sample->theta.size());
     if (sample == nullptr && result.failed > 0)
-        throw InvalidArgument("every run of '{}' failed; the first one says: {}", method.label, result.first_failure);
+        throw InvalidArgument("every run of '{}' failed; the first error: {}", method.label, result.first_failure);
     if (sample == nullptr) return result;
     result.names = names_for(*sample, study.system);
     for (Vector* statistic :
@@ -269,7 +268,7 @@ void check_methods(const std::vector<MonteCarloMethod>& methods) {
     for (std::size_t i = 0; i < methods.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (methods[i].label == methods[j].label)
-                throw InvalidArgument("two estimators are called '{}': give each a label of its own", methods[i].label);
+                throw InvalidArgument("two estimators are named '{}': give each a different label", methods[i].label);
 }
 
 }  // namespace
@@ -282,7 +281,7 @@ void MonteCarloStudy::validate() const {
     if (sigma.has_value() == snr.has_value())
         throw InvalidArgument("give either sigma, the noise's standard deviation, or snr in dB");
     if (sigma && !(*sigma >= 0 && std::isfinite(*sigma)))
-        throw InvalidArgument("sigma must be a number from 0 on, but {} was given", *sigma);
+        throw InvalidArgument("sigma must be zero or positive, but {} was given", *sigma);
     if (snr && !std::isfinite(*snr)) throw InvalidArgument("snr must be a number of decibels, but {} was given", *snr);
 }
 

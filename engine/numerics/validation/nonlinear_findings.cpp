@@ -237,16 +237,16 @@ Number in_percent(double effect) {
 RecordFinding curve_at_output(const FittedRecord& fit, double effect) {
     if (runs_into_a_limit(slopes_of_curve(fit))) {
         return about(fit, "saturation", Weight::kWarning,
-                     Message("{} hardly rises where a linear model rises on: it saturates at a limit under the noise "
-                             "({} % of its movement is missing). Leave these stretches out with data:discard, or "
-                             "repeat the experiment with a smaller amplitude.",
+                     Message("{} flattens where a linear model continues to rise: the signal saturates at a limit "
+                             "below the noise ({} % of its movement is missing). Exclude these ranges with "
+                             "data:discard, or repeat the experiment with a smaller amplitude.",
                              fit.output(), in_percent(effect)),
                      effect);
     }
     return about(fit, "nonlinear", Weight::kWarning,
-                 Message("{} follows a bent curve of what a linear model puts out (a square law, a limit): that makes "
-                         "{} % of what is seen of {}, and no linear model can follow it. Use a smaller amplitude, or "
-                         "straighten the output by the curve of its sensor.",
+                 Message("{} is a nonlinear function of a linear model's output (a square law, a limit): this effect "
+                         "is {} % of the variation of {}, which no linear model can follow. Use a smaller amplitude, "
+                         "or correct the output by the characteristic of its sensor.",
                          fit.output(), in_percent(effect), fit.output()),
                  effect);
 }
@@ -256,30 +256,29 @@ RecordFinding nonlinear_finding(const FittedRecord& fit, Curve kind, double effe
         case Curve::kInput:
             return about(
                 fit, "nonlinear", Weight::kWarning,
-                Message("{} acts through a bent curve (a dead band, a square law, a limit): that makes {} % of "
-                        "what is seen of {}, and no linear model can follow it. Use a smaller amplitude about "
-                        "one operating point, or estimate the curve as well with hammerstein.",
+                Message("{} acts through a nonlinear characteristic (a dead band, a square law, a limit): this effect "
+                        "is {} % of the variation of {}, which no linear model can follow. Use a smaller amplitude "
+                        "around one operating point, or estimate the characteristic with hammerstein.",
                         fit.input(), in_percent(effect), fit.output()),
                 effect);
         case Curve::kInputPlay:
-            return about(
-                fit, "nonlinear", Weight::kWarning,
-                Message("{} acts with backlash or friction: it matters from which side it comes: that makes {} "
-                        "% of what is seen of {}, and no linear model can follow it. Move in one direction "
-                        "only, take up the play, or use amplitudes far larger than it.",
-                        fit.input(), in_percent(effect), fit.output()),
-                effect);
+            return about(fit, "nonlinear", Weight::kWarning,
+                         Message("{} acts with backlash or friction, so its effect depends on the direction of "
+                                 "movement: this effect is {} % of the variation of {}, which no linear model can "
+                                 "follow. Move in one direction only, remove the play, or use much larger amplitudes.",
+                                 fit.input(), in_percent(effect), fit.output()),
+                         effect);
         case Curve::kOutputPlay:
             return about(fit, "nonlinear", Weight::kWarning,
-                         Message("{} shows backlash or friction: it stays where it is when the movement turns: that "
-                                 "makes {} % of what is seen of {}, and no linear model can follow it. Take up the "
-                                 "play, or use amplitudes far larger than it.",
+                         Message("{} shows backlash or friction, because it does not follow when the movement "
+                                 "reverses: this effect is {} % of the variation of {}, which no linear model can "
+                                 "follow. Remove the play, or use much larger amplitudes.",
                                  fit.output(), in_percent(effect), fit.output()),
                          effect);
         case Curve::kGain:
             return about(fit, "changing_gain", Weight::kWarning,
-                         Message("The gain from {} to {} changes in the course of the record: that makes {} % of what "
-                                 "is seen of {}. Fit the parts one by one (data:range), and look what changed: a "
+                         Message("The gain from {} to {} changes during the experiment: this effect is {} % of the "
+                                 "variation of {}. Fit the parts separately (data:range), and find out what changed: a "
                                  "temperature, a load, a supply.",
                                  fit.input(), fit.output(), in_percent(effect), fit.output()),
                          effect);

@@ -89,33 +89,31 @@ Message passed_over(const OrderSelection& selection, const Places& estimated, st
     if (!other.sound())
         return selection.validated
                    ? Message(
-                         "With {} the validation fit would be better still, but that model has {}, a sign of too "
-                         "many parameters.",
-                         structure, faults_of(other))
-                   : Message(
-                         "With {} the BIC would be better still, but that model has {}, a sign of too many "
+                         "With {} the validation fit would be better, but that model has {}, a sign of too many "
                          "parameters.",
-                         structure, faults_of(other));
+                         structure, faults_of(other))
+                   : Message("With {} the BIC would be better, but that model has {}, a sign of too many parameters.",
+                             structure, faults_of(other));
     if (other.unstable && !taken.unstable)
         return selection.validated
-                   ? Message("With {} the validation fit would be better still, but that model is unstable.", structure)
-                   : Message("With {} the BIC would be better still, but that model is unstable.", structure);
+                   ? Message("With {} the validation fit would be better, but that model is unstable.", structure)
+                   : Message("With {} the BIC would be better, but that model is unstable.", structure);
     const int more = other.parameters() - taken.parameters();
     if (more <= 0) return {};
     const Message price = plural(more, "{} more parameter", "{} more parameters");
     return selection.validated
-               ? Message("With {} the validation fit would be better still, but not by enough to pay for {}.",
-                         structure, price)
-               : Message("With {} the BIC would be better still, but not by enough to pay for {}.", structure, price);
+               ? Message("With {} the validation fit would be better, but not enough to justify {}.", structure, price)
+               : Message("With {} the BIC would be better, but not enough to justify {}.", structure, price);
 }
 
 /// Empty where there is none.
 Message validation_doubt(const OrderSelection& selection, const Places& sound, std::size_t chosen) {
-    if (!selection.validated) return Message("Check it on a second record before you trust it.");
+    if (!selection.validated) return Message("Check this structure on validation data before you use it.");
     const OrderCandidate& taken = selection.candidates[chosen];
     if (*taken.validation_fit >= taken.fit_percent - 10 * kNoteworthyFit || sound.empty()) return {};
     return Message(
-        "On the second record it fits clearly worse than on the first: the records differ, or the model is wrong.");
+        "On the validation data the model fits clearly worse than on the estimation data: the data sets differ, or the "
+        "model is wrong.");
 }
 
 Message sentences_that_are_there(std::vector<Message> all) {
@@ -131,17 +129,16 @@ OrderChoice recommend(const OrderSelection& selection, const Places& estimated) 
     std::vector<Message> explanation;
     if (sound.empty()) {
         explanation.push_back(
-            Message("No structure gives a sound model; least bad: {} ({}), with {}. Try fewer poles and zeros, or a "
-                    "record with more excitation.",
+            Message("No structure gives a sound model; the least bad one is {} ({}), with {}. Try fewer poles and "
+                    "zeros, or data with more excitation.",
                     structure_text(taken), measures_of(taken), faults_of(taken)));
     } else {
         explanation.push_back(Message("Recommended: {} ({}).", structure_text(taken), measures_of(taken)));
-        explanation.push_back(
-            selection.validated
-                ? Message("Among the models without cancelling zeros or undetermined parameters no simpler one follows "
-                          "the second record nearly as well.")
-                : Message("It balances a small error against few parameters (BIC) and has neither a zero that cancels "
-                          "a pole nor an undetermined parameter."));
+        explanation.push_back(selection.validated
+                                  ? Message("Among the models without cancelling zeros or undetermined parameters, no "
+                                            "simpler model fits the validation data nearly as well.")
+                                  : Message("This structure balances a small error against few parameters (BIC). It "
+                                            "has neither a zero that cancels a pole nor an undetermined parameter."));
         explanation.push_back(passed_over(selection, estimated, chosen));
     }
     explanation.push_back(validation_doubt(selection, sound, chosen));
@@ -200,7 +197,7 @@ Message structure_text(const OrderCandidate& candidate) {
 OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criterion) {
     if (criterion == OrderCriterion::kValidationFit && !selection.validated)
         throw InvalidArgument(
-            "there is no validation fit: give srivcstruc a second record, as in srivcstruc(data, {poles = {1, 4}, "
+            "no validation fit is available: give srivcstruc validation data, as in srivcstruc(data, {poles = {1, 4}, "
             "validate = data2})");
     const Places estimated =
         places_where(selection, [](const OrderCandidate& candidate) { return candidate.failure.empty(); });

@@ -166,7 +166,8 @@ void check_selection(const IdData& data, const std::vector<TransferStructure>& c
     check_channels(data, false);
     if (options.validation != nullptr) check_channels(*options.validation, true);
     if (options.threads < 0) throw InvalidArgument("threads must not be negative, but {} was given", options.threads);
-    if (candidates.empty()) throw InvalidArgument("there is no structure to try: there must be fewer zeros than poles");
+    if (candidates.empty())
+        throw InvalidArgument("no structure can be tried: the number of zeros must be less than the number of poles");
     for (const TransferStructure& structure : candidates) {
         structure.validate();
         if (!structure.single_channel()) throw InvalidArgument("every structure must have one input and one output");
@@ -208,14 +209,14 @@ std::vector<const Fit*> poorer_fits(const std::vector<TransferStructure>& struct
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
                                           const std::vector<double>& delays, bool free_delay, bool feedthrough) {
     if (poles.first < 1 || poles.second < poles.first)
-        throw InvalidArgument("poles must be a range from at least 1 upwards, such as {1, 4}");
+        throw InvalidArgument("poles must be a range starting at 1 or higher, such as {1, 4}");
     if (zeros.first < 0 || zeros.second < zeros.first)
-        throw InvalidArgument("zeros must be a range from at least 0 upwards, such as {0, 2}");
-    if (delays.empty()) throw InvalidArgument("at least one delay must be given, 0 for none");
+        throw InvalidArgument("zeros must be a range starting at 0 or higher, such as {0, 2}");
+    if (delays.empty()) throw InvalidArgument("at least one delay must be given; use 0 for none");
     const double wanted =
         (1.0 + poles.second - poles.first) * (1.0 + zeros.second - zeros.first) * static_cast<double>(delays.size());
     if (wanted > kMostCandidates)
-        throw InvalidArgument("there are more than {} structures to try: take smaller ranges", kMostCandidates);
+        throw InvalidArgument("more than {} structures would be tried: use smaller ranges", kMostCandidates);
     std::vector<TransferStructure> grid;
     for (int n = poles.first; n <= poles.second; ++n)
         for (int m = zeros.first; m <= std::min(zeros.second, feedthrough ? n : n - 1); ++m)
@@ -245,7 +246,7 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
     const auto try_one = [&](std::size_t i) {
         OrderCandidate& candidate = selection.candidates[i];
         if (stopped()) {
-            candidate.failure = Message("the search was stopped before its turn");
+            candidate.failure = Message("the search was interrupted");
             return;
         }
         candidate = candidate_of(seen, candidates[i], options, poorer_fits(candidates, i, selection.candidates));
@@ -267,7 +268,7 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
         for (OrderCandidate& candidate : selection.candidates)
             if (estimated(candidate)) append_integrator(candidate.estimate);
     if (!selection.cancelled && std::none_of(selection.candidates.begin(), selection.candidates.end(), estimated))
-        throw InvalidArgument("none of the structures could be estimated; the first one says: {}",
+        throw InvalidArgument("none of the structures could be estimated; the first error: {}",
                               selection.candidates.front().failure);
     return selection;
 }

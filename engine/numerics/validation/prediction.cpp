@@ -22,17 +22,16 @@ void check_sampling(const IdData& data, double Ts) {
     constexpr double kRounding = 1e-9;
     if (Ts == 0 || std::abs(data.Ts - Ts) <= kRounding * Ts) return;
     throw InvalidArgument(
-        "The model and its noise count samples of Ts = {} s, and the data are sampled every {} s: both "
-        "must be equal",
-        Ts, data.Ts);
+        "The model and its noise have the sampling time Ts = {} s, but the data have {} s: the two must be equal", Ts,
+        data.Ts);
 }
 
 void check_invertible(const Vector& C, const Vector& D) {
     for (const auto& [name, p] : {std::pair{"C", C}, std::pair{"D", D}})
         if (!inside_unit_circle(p))
             throw InvalidArgument(
-                "The noise model's {} has a root on or outside the unit circle, so that its white "
-                "noise cannot be recovered from the data",
+                "The noise model's {} has a root on or outside the unit circle, so its white noise cannot be computed "
+                "from the data",
                 name);
 }
 
@@ -129,8 +128,8 @@ StartedPrediction best_start(const IdData& data, const OrderedParameters& model,
     }
     if (candidates.empty())
         throw InvalidArgument(
-            "The data hold too few samples to predict: the model needs {} before the first that it "
-            "predicts, and more than the values it estimates",
+            "The data have too few samples for a prediction: the model needs {} before the first predicted sample, and "
+            "more samples than the values it estimates",
             model.orders.past());
     std::vector<Index> common = candidates.front().lengths;
     for (const StartedPrediction& candidate : candidates)
@@ -163,8 +162,8 @@ Predictions predict_difference_equation(const IdData& data, const NoisyModel& mo
     const OrderedParameters ordered = ordered_parameters(*model.polynomial);
     if (static_cast<std::size_t>(data.input_count()) != ordered.orders.inputs())
         throw InvalidArgument(plural(static_cast<Index>(ordered.orders.inputs()),
-                                     "The model has {} input, and the data have {}: select those of the model",
-                                     "The model has {} inputs, and the data have {}: select those of the model",
+                                     "The model has {} input, but the data have {}: select the input of the model",
+                                     "The model has {} inputs, but the data have {}: select the inputs of the model",
                                      data.input_count()));
     check_polynomial_data("The prediction", data, ordered.orders);
     check_sampling(data, model.polynomial->Ts);
@@ -197,12 +196,12 @@ Predictions predict_from_simulation(const IdData& data, const NoisyModel& model,
     if (noisy) {
         if (!data.regular())
             throw InvalidArgument(
-                "The noise model counts samples, and the data are sampled irregularly: interpolate them to even steps "
-                "first (interp1)");
+                "The noise model is discrete-time, but the data are sampled irregularly: interpolate them to equal "
+                "steps first (interp1)");
         check_sampling(data, model.noise_Ts);
         check_invertible(model.C, model.D);
         if (data.output_count() != 1)
-            throw InvalidArgument("A noise model belongs to one output, and the data hold {}: select one",
+            throw InvalidArgument("A noise model has one output, but the data have {}: select one",
                                   data.output_count());
     }
     const Comparison comparison = compare_all(data, model.channels, options.start);
@@ -284,7 +283,7 @@ Matrix Predictions::output_errors(const IdData& data, std::size_t experiment) co
 
 Predictions predict(const IdData& data, const NoisyModel& model, const PredictionOptions& options) {
     if (options.steps && *options.steps < 1)
-        throw InvalidArgument("A prediction goes at least 1 step ahead, and {} was given", *options.steps);
+        throw InvalidArgument("The prediction horizon must be at least 1 step, but {} was given", *options.steps);
     return model.polynomial && model.has_noise_model() ? predict_difference_equation(data, model, options)
                                                        : predict_from_simulation(data, model, options);
 }

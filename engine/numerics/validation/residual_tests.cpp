@@ -100,14 +100,14 @@ Message independence_verdict(const IndependenceTest& test, const IdData& data) {
     const std::string& name = data.input_names[static_cast<std::size_t>(test.input)];
     const auto probability = probability_text(test.p_value);
     if (!test.independent)
-        return Message("{} still explains part of it ({}; most at {}).", name, probability,
+        return Message("{} still explains part of the error ({}; most at {}).", name, probability,
                        lag_text(strongest_lag(test), data));
     if (!test.without_feedback)
         return Message(
-            "{} explains nothing more of it ({}), but its later values go with the error ({}): the output "
+            "{} explains no more of the error ({}), but its later values correlate with the error ({}): the output "
             "seems to act back on the input.",
             name, probability, probability_text(test.p_value_future));
-    return Message("{} explains nothing more of it ({}).", name, probability);
+    return Message("{} explains no more of the error ({}).", name, probability);
 }
 
 // An input, its covariances at lags 0 and on, and those with the error at lags of both signs.
@@ -147,7 +147,7 @@ IndependenceTest test_independence(const Signals& e, double variance, const Test
     if (Ru == 0) {
         test.tested = false;
         test.correlation = Vector::Zero(2 * lags + 1);
-        test.verdict = Message("{} never changes, so that its correlation with the error says nothing.",
+        test.verdict = Message("{} never changes, so its correlation with the error is meaningless.",
                                data.input_names[static_cast<std::size_t>(input)]);
         return test;
     }
@@ -202,12 +202,14 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
     constexpr double kRounding = 1e4 * std::numeric_limits<double>::epsilon();
     if (result.variance <= kRounding * kRounding * output_power) {
         result.exact = true;
-        result.verdict =
-            kind == ErrorKind::kOutput
-                ? Message("{}: the simulated output equals the measured one to rounding, so nothing is left to test.",
-                          name)
-                : Message("{}: the predicted output equals the measured one to rounding, so nothing is left to test.",
-                          name);
+        result.verdict = kind == ErrorKind::kOutput ? Message(
+                                                          "{}: the simulated output equals the measured output to "
+                                                          "rounding error, so no residuals remain to test.",
+                                                          name)
+                                                    : Message(
+                                                          "{}: the predicted output equals the measured output to "
+                                                          "rounding error, so no residuals remain to test.",
+                                                          name);
         return result;
     }
     result.whiteness = whiteness_of_covariances(e, R, options.confidence, kind);
@@ -223,17 +225,16 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
 
 std::vector<Matrix> output_errors(const IdData& data, std::vector<Matrix> simulated) {
     if (simulated.size() != data.experiments.size() || data.experiments.empty())
-        throw InvalidArgument("The residual tests need a simulated output for each experiment ({}), and got {}",
+        throw InvalidArgument("The residual tests need a simulated output for each experiment ({}), but got {}",
                               plural(static_cast<Index>(data.experiments.size()), "{} experiment", "{} experiments"),
                               simulated.size());
     for (std::size_t k = 0; k < simulated.size(); ++k) {
         const Matrix& y = data.experiments[k].y;
         if (y.rows() != simulated[k].rows() || y.cols() != simulated[k].cols())
-            throw InvalidArgument("The simulated output of experiment {} must be {} x {}, and is {} x {}", k + 1,
+            throw InvalidArgument("The simulated output of experiment {} must be {} x {}, but is {} x {}", k + 1,
                                   y.rows(), y.cols(), simulated[k].rows(), simulated[k].cols());
         if (!simulated[k].allFinite())
-            throw InvalidArgument(
-                "The simulated output is not finite everywhere: the model is unstable on this record");
+            throw InvalidArgument("The simulated output is not finite everywhere: the model is unstable on these data");
         simulated[k] = y - simulated[k];
     }
     return simulated;
@@ -246,7 +247,7 @@ ResidualTests tests_of(const IdData& data, std::vector<Matrix> errors, ErrorKind
     for (const Matrix& own : tests.residuals) most = std::max(most, own.rows());
     if (most < 2 * options.lags)
         throw InvalidArgument(
-            "Tests over {} need at least {} samples in one record, and the longest has {}: ask for fewer lags",
+            "Tests over {} need at least {} samples in one experiment, but the longest has {}: use fewer lags",
             plural(options.lags, "{} lag", "{} lags"), 2 * options.lags, most);
     for (Index i = 0; i < data.output_count(); ++i) {
         tests.outputs.push_back(test_output(tests.residuals, data, i, kind, options));
@@ -285,7 +286,7 @@ Message better_start(const IdData& data, const std::vector<TransferFunction>& ch
     const Comparison best = compare_all(data, channels, {});
     const double reached = best.fit_percent[static_cast<Index>(output)];
     if (!(reached - fit >= kBetterStart * (100 - fit))) return {};
-    return Message("The record does not start as was assumed: simulated {}, the fit is {} % instead of {} %.",
+    return Message("The assumed initial conditions are wrong: simulated {}, the fit is {} % instead of {} %.",
                    description(best.results[0][output].start), significant(reached, 4), significant(fit, 4));
 }
 
@@ -300,7 +301,7 @@ ResidualTests prediction_error_tests(const IdData& data, const Predictions& pred
         for (std::size_t i = 0; i < outputs.size(); ++i) own.col(static_cast<Index>(i)) = outputs[i].errors;
         if (!own.allFinite())
             throw InvalidArgument(
-                "The prediction errors are not finite everywhere: the model is unstable on this record");
+                "The prediction errors are not finite everywhere: the model is unstable on these data");
     }
     ResidualTests tests = tests_of(data, std::move(errors), ErrorKind::kPrediction, options);
     conclude(tests, [&](std::size_t i) { return standing_of(tests.outputs[i], ErrorKind::kPrediction); });

@@ -40,8 +40,8 @@ RecordFinding mixed_sampling(const Clock& clock, Index place, std::size_t experi
     return {"mixed_sampling",
             Weight::kWarning,
             "",
-            Message("The record mixes two sampling times: {} steps of {} and {} of {}, first at sample {}. Two files "
-                    "were probably joined; make an experiment of each part, resample one and merge them.",
+            Message("The data mix two sampling times: {} steps of {} and {} of {}, first at sample {}. Two files were "
+                    "probably joined; make an experiment of each part, resample one and merge them.",
                     clock.alike_to(clock.usual), with_unit(significant(clock.usual, 4), unit), clock.alike_to(other),
                     with_unit(significant(other, 4), unit), place + 1),
             other,
@@ -57,7 +57,7 @@ RecordFinding gaps(const Clock& clock, Index count, std::size_t experiment, cons
             Weight::kWarning,
             "",
             Message("The time jumps at {}, first after sample {} by {} instead of {}: samples are missing. Interpolate "
-                    "small gaps (interp1); make experiments of the parts between large ones.",
+                    "small gaps (interp1); at large gaps, split the data into experiments.",
                     plural(count, "{} place", "{} places"), place + 1, with_unit(significant(step, 4), unit),
                     with_unit(significant(clock.usual, 4), unit)),
             step,

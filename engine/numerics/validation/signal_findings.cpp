@@ -69,28 +69,27 @@ double range_of(const Vector& x) {
 
 /// A constant input other than zero may be a step with which the record begins.
 void find_step_at_the_start(const Channel& channel, std::vector<RecordFinding>& findings) {
-    findings.push_back(about(channel, "step_input", Weight::kNote,
-                             Message("{} stays at {} throughout: a step experiment, if it was switched on with the "
-                                     "first sample and the output started from rest. It shows gain, dead time and one "
-                                     "or two time constants.",
-                                     subject(channel), value_of(channel, channel.x[0])),
-                             0));
+    findings.push_back(about(
+        channel, "step_input", Weight::kNote,
+        Message("{} stays at {} throughout: this is a step experiment if the input was switched on with the first "
+                "sample and the output started from rest. It shows gain, dead time and one or two time constants.",
+                subject(channel), value_of(channel, channel.x[0])),
+        0));
 }
 
 void find_constant(const Channel& channel, std::vector<RecordFinding>& findings) {
-    findings.push_back(
-        about(channel, "constant", Weight::kWarning,
-              Message("{} stays at {} throughout, so no dynamics can be estimated from it. It is at a limit all the "
-                      "time, its sensor or wire is dead, or a wrong column was read.",
-                      subject(channel), value_of(channel, channel.x[0])),
-              channel.x[0]));
+    findings.push_back(about(channel, "constant", Weight::kWarning,
+                             Message("{} stays at {} throughout, so no dynamics can be estimated from it. Possible "
+                                     "causes are saturation, a dead sensor or wire, or a wrong column.",
+                                     subject(channel), value_of(channel, channel.x[0])),
+                             channel.x[0]));
 }
 
 /// One of several inputs: nothing tells what it does.
 void find_resting_input(const Channel& channel, std::vector<RecordFinding>& findings) {
     findings.push_back(about(channel, "constant", Weight::kWarning,
-                             Message("{} stays at {} throughout, so that its effect cannot be told from an offset. "
-                                     "Leave it out with data:select, or let it move.",
+                             Message("{} stays at {} throughout, so its effect cannot be distinguished from an offset. "
+                                     "Exclude it with data:select, or vary it.",
                                      subject(channel), value_of(channel, channel.x[0])),
                              channel.x[0]));
 }
@@ -102,8 +101,8 @@ void find_time_column(const Channel& channel, std::vector<RecordFinding>& findin
     const double mean = steps.mean();
     if (!(mean > 0) || (steps.array() - mean).abs().maxCoeff() > 1e-3 * mean) return;
     findings.push_back(about(channel, "time_column", Weight::kWarning,
-                             Message("{} rises by the same {} from every sample to the next: it looks like the time. "
-                                     "Check which column of the file is which.",
+                             Message("{} increases by the same {} from every sample to the next, like a time column. "
+                                     "Check the columns of the file.",
                                      subject(channel), significant(mean, 4)),
                              mean));
 }
@@ -148,18 +147,17 @@ void find_saturation(const Channel& channel, const Quantisation& grid, std::vect
     const double share = static_cast<double>(samples) / static_cast<double>(channel.x.size());
     const Message who = subject(channel), limit = value_of(channel, channel.x[runs[0].first - 1]);
     const Number percent = significant(100 * share, 2);
-    const Message message =
-        share > 0.5
-            ? Message(
-                  "{} is cut off at a limit for {} % of the record (samples {}): it runs into {} at full speed and "
-                  "stays there. A linear model cannot follow that. Most of the record is saturated: repeat the "
-                  "experiment with a smaller amplitude or another range of the sensor.",
-                  who, percent, listed_places(runs), limit)
-            : Message(
-                  "{} is cut off at a limit for {} % of the record (samples {}): it runs into {} at full speed and "
-                  "stays there. A linear model cannot follow that. Leave these stretches out with data:discard, or "
-                  "repeat the experiment with a smaller amplitude.",
-                  who, percent, listed_places(runs), limit);
+    const Message message = share > 0.5
+                                ? Message(
+                                      "{} saturates for {} % of the data (samples {}): it reaches {} at full speed and "
+                                      "stays there. A linear model cannot follow that. Most of the data are saturated: "
+                                      "repeat the experiment with a smaller amplitude or another range of the sensor.",
+                                      who, percent, listed_places(runs), limit)
+                                : Message(
+                                      "{} saturates for {} % of the data (samples {}): it reaches {} at full speed and "
+                                      "stays there. A linear model cannot follow that. Exclude these ranges with "
+                                      "data:discard, or repeat the experiment with a smaller amplitude.",
+                                      who, percent, listed_places(runs), limit);
     RecordFinding finding = about(channel, "saturation", Weight::kWarning, message, share);
     finding.sections = runs;
     findings.push_back(std::move(finding));
@@ -168,13 +166,13 @@ void find_saturation(const Channel& channel, const Quantisation& grid, std::vect
 void find_quantisation(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
     const double range = range_of(channel.x);
     if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
-    findings.push_back(about(channel, "quantisation", Weight::kWarning,
-                             Message("{} is recorded in steps of {}, only {} of them over its range. That acts like "
-                                     "noise of standard deviation {}; use a finer range of the converter or a larger "
-                                     "amplitude.",
-                                     subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
-                                     value_of(channel, grid.step / std::sqrt(12.0), 2)),
-                             grid.step));
+    findings.push_back(
+        about(channel, "quantisation", Weight::kWarning,
+              Message("{} is quantized in steps of {}, only {} of them over its range. The effect is like noise of "
+                      "standard deviation {}; use a finer range of the converter or a larger amplitude.",
+                      subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
+                      value_of(channel, grid.step / std::sqrt(12.0), 2)),
+              grid.step));
 }
 
 double bend_at(const Vector& x, Index k) {
@@ -212,10 +210,9 @@ void find_outliers(const Channel& channel, const Quantisation& grid, std::vector
     if (count == 0 || static_cast<double>(count) > 0.05 * static_cast<double>(channel.x.size())) return;
     RecordFinding finding =
         about(channel, "outliers", Weight::kWarning,
-              Message("{} has {} far out from the neighbours ({}). Look whether they can be true; if not, filloutliers "
-                      "puts straight lines there.",
-                      subject(channel), plural(count, "{} sample that stands", "{} samples that stand"),
-                      listed_places(repaired.stretches)),
+              Message("{} has {} far from the neighboring samples ({}). Check whether these samples are valid. If not, "
+                      "filloutliers replaces them by linear interpolation.",
+                      subject(channel), plural(count, "{} sample", "{} samples"), listed_places(repaired.stretches)),
               static_cast<double>(count));
     finding.sections = repaired.stretches;
     findings.push_back(std::move(finding));
@@ -233,8 +230,8 @@ bool find_wrap(const Channel& channel, std::vector<RecordFinding>& findings) {
     const std::optional<double> period = wrapped_period(channel.x, periods);
     if (!period) return false;
     findings.push_back(about(channel, "wrapped", Weight::kWarning,
-                             Message("{} is an angle that jumps by a whole turn ({}) where it leaves its range, which "
-                                     "no linear model can follow: take the jumps out with {}.",
+                             Message("{} is an angle that jumps by a full turn ({}) at the end of its range, which no "
+                                     "linear model can follow: remove the jumps with {}.",
                                      subject(channel), value_of(channel, *period),
                                      *period == kDegreesPerTurn ? "unwrap(x, 360)" : "unwrap(x)"),
                              *period));
@@ -247,8 +244,8 @@ void find_degrees(const Channel& channel, std::vector<RecordFinding>& findings) 
     if ((unit != "rad" && unit != "radian" && unit != "radians") || swing <= std::numbers::pi) return;
     findings.push_back(
         about(channel, "degrees", Weight::kWarning,
-              Message("{} is declared in rad but swings by ±{}, which would be {} turns. It is "
-                      "probably in degrees: multiply it by pi/180, or declare the unit deg.",
+              Message("{} is declared in rad but oscillates by ±{}, which would be {} turns. The unit is probably "
+                      "degrees: multiply by pi/180, or declare the unit deg.",
                       subject(channel), significant(swing, 3), significant(swing / (2 * std::numbers::pi), 2)),
               swing));
 }
@@ -304,19 +301,19 @@ Index changes_of(const Vector& u) {
 Message few_changes(const Channel& channel, Index changes) {
     return changes == 1
                ? Message(
-                     "{} changes once only: a step experiment. It shows gain, dead time and one or two time "
-                     "constants (procsrivc, step_first_order); for higher orders excite with a prbs.",
+                     "{} changes only once: a step experiment. It shows gain, dead time and one or two time constants "
+                     "(procsrivc, step_first_order); for higher orders, excite the system with a prbs.",
                      subject(channel))
                : Message(
-                     "{} changes {} times only: a step experiment. It shows gain, dead time and one or two time "
-                     "constants (procsrivc, step_first_order); for higher orders excite with a prbs.",
+                     "{} changes only {} times: a step experiment. It shows gain, dead time and one or two time "
+                     "constants (procsrivc, step_first_order); for higher orders, excite the system with a prbs.",
                      subject(channel), changes);
 }
 
 Message excitation_of(const Channel& channel, Index order) {
     if (order < kPoorOrder)
         return Message(
-            "{} can determine no more than {}: it holds about {} only. Excite with a prbs, a chirp or a "
+            "{} can determine no more than {}: it contains only about {}. Excite the system with a prbs, a chirp or a "
             "multisine that covers the plant's bandwidth.",
             subject(channel), plural(order, "{} parameter", "{} parameters"),
             plural((order + 1) / 2, "{} frequency", "{} frequencies"));
@@ -343,10 +340,10 @@ void find_twins(const std::vector<Channel>& channels, std::vector<RecordFinding>
         for (std::size_t j = i + 1; j < channels.size(); ++j) {
             const Channel &a = channels[i], &b = channels[j];
             if (a.experiment != b.experiment || range_of(a.x) == 0 || a.x != b.x) continue;
-            findings.push_back(about(b, "same_column", Weight::kWarning,
-                                     Message("{} is sample by sample the same as {}: one column of the file was "
-                                             "probably read twice.",
-                                             subject(b), a.name)));
+            findings.push_back(
+                about(b, "same_column", Weight::kWarning,
+                      Message("{} is identical to {} in every sample: the same column was probably read twice.",
+                              subject(b), a.name)));
         }
 }
 

@@ -32,20 +32,20 @@ Vector simulated_sum(const std::vector<TransferFunction>& models, const MatrixVi
 SimulationSpread simulation_spread(const ModelsOfParameters& models, const Vector& theta, const Matrix& covariance,
                                    const MatrixView& u, double Ts, Hold hold, Index runs, RandomStream& random) {
     const Index d = theta.size();
-    if (runs < 2) throw InvalidArgument("A spread needs at least 2 runs, and {} were asked", runs);
+    if (runs < 2) throw InvalidArgument("A spread needs at least 2 runs, but {} were requested", runs);
     constexpr Index kMostValues = 50'000'000;
     const Index N = u.rows();
     if (N > kMostValues / runs)
-        throw InvalidArgument(
-            "A spread of {} runs of {} samples is too large to keep: give a shorter input or fewer runs", runs, N);
+        throw InvalidArgument("A spread of {} runs of {} samples is too large: use a shorter input or fewer runs", runs,
+                              N);
     if (covariance.rows() != d || covariance.cols() != d || !covariance.allFinite())
         throw InvalidArgument(
-            "The spread needs the finite covariance of the {} parameters, and got a matrix of {} x {}", d,
+            "The spread needs the finite covariance of the {} parameters, but got a matrix of {} x {}", d,
             covariance.rows(), covariance.cols());
     const std::vector<TransferFunction> own = models(theta);
     if (u.cols() != static_cast<Index>(own.size()))
-        throw InvalidArgument(plural(static_cast<Index>(own.size()), "The model has {} input, and {} were given",
-                                     "The model has {} inputs, and {} were given", u.cols()));
+        throw InvalidArgument(plural(static_cast<Index>(own.size()), "The model has {} input, but {} were given",
+                                     "The model has {} inputs, but {} were given", u.cols()));
     const Matrix root = root_of_covariance(covariance);
     SimulationSpread spread{simulated_sum(own, u, Ts, hold), {}, Matrix(N, runs), 0};
     for (Index run = 0; run < runs; ++run) {
@@ -75,7 +75,7 @@ SimulationSpread simulation_spread(const UncertainModel& model, const VectorView
 SimulationSpread simulation_spread(const TransferStructure& structure, const Vector& theta, const Matrix& covariance,
                                    const MatrixView& u, double Ts, Hold hold, Index runs, RandomStream& random) {
     if (structure.outputs != 1)
-        throw InvalidArgument("The spread is that of a model with one output, and this one has {}", structure.outputs);
+        throw InvalidArgument("The spread requires a model with one output, but this model has {}", structure.outputs);
     const auto of_parameters = [&](Vector drawn) {
         for (Index input = 0; input < structure.inputs && structure.free_delays; ++input) {
             double& delay = drawn[structure.delay_index(0, input)];

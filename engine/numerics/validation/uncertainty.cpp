@@ -16,16 +16,16 @@ namespace dynlab::inline numerics {
 namespace {
 
 void check_model(const TransferFunction& G, const Matrix& covariance) {
-    if (!G.continuous()) throw InvalidArgument("Uncertainty is worked out for continuous-time models: give d2c(G)");
+    if (!G.continuous()) throw InvalidArgument("Uncertainty is computed for continuous-time models: give d2c(G)");
     if (!G.proper())
         throw InvalidArgument(
-            "Uncertainty needs a model with at least as many poles as zeros, and this one has {} and {}",
+            "Uncertainty needs a model with at least as many poles as zeros, but this model has {} and {}",
             G.pole_count(), G.zero_count());
     const Index d = G.pole_count() + G.num().size();
     if (covariance.rows() != covariance.cols() || (covariance.rows() != d && covariance.rows() != d + 1))
         throw InvalidArgument(
-            "The covariance of a model with {} and {} is {} x {}, with an estimated delay one more, and "
-            "not {} x {}",
+            "The covariance of a model with {} and {} must be {} x {}, or one larger with an estimated delay, not {} x "
+            "{}",
             plural(G.pole_count(), "{} pole", "{} poles"), plural(G.zero_count(), "{} zero", "{} zeros"), d, d,
             covariance.rows(), covariance.cols());
 }
@@ -123,7 +123,7 @@ UncertainModel::UncertainModel(const ProcessModel& process, const MatrixView& pa
     : G(process.transfer_function()) {
     const Index q = process.parameters.size();
     if (parameter_covariance.rows() != q || parameter_covariance.cols() != q)
-        throw InvalidArgument("The covariance of {} parameters is {} x {}, and not {} x {}", q, q, q,
+        throw InvalidArgument("The covariance of {} parameters must be {} x {}, not {} x {}", q, q, q,
                               parameter_covariance.rows(), parameter_covariance.cols());
     const Matrix J = coefficients_by_parameter(process);
     covariance = J * parameter_covariance * J.transpose();
@@ -196,9 +196,9 @@ ModelUncertainty describe_uncertainty(const UncertainModel& model) {
     const auto poles = pole_uncertainty(model);
     for (const PoleDescription& mode : damping(G)) result.modes.push_back(mode_uncertainty(mode, poles));
     if (std::any_of(poles.begin(), poles.end(), [](const auto& pole) { return pole.near_multiple; }))
-        result.warnings.push_back(Message(
-            "Some poles lie closer together than their standard errors can tell apart, so that the errors given "
-            "for poles, damping and time constants mean little: fewer poles may do."));
+        result.warnings.push_back(
+            Message("Some poles are closer together than their standard errors, so the errors of poles, damping and "
+                    "time constants mean little: fewer poles may suffice."));
     return result;
 }
 

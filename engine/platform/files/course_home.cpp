@@ -68,11 +68,11 @@ std::optional<fs::path> own_course() {
     const char* named = std::getenv("DYNLAB_COURSE");
     if (named == nullptr || *named == '\0') return std::nullopt;
     const fs::path folder = fs::absolute(named).lexically_normal();
-    if (!fs::is_directory(folder)) throw EnvironmentError("DYNLAB_COURSE: there is no folder '{}'", named);
+    if (!fs::is_directory(folder)) throw EnvironmentError("DYNLAB_COURSE: folder not found: '{}'", named);
     for (const char* part : kParts)
         if (fs::is_directory(folder / part)) return folder;
     throw EnvironmentError(
-        "DYNLAB_COURSE: in {} there is none of lessons, data and report_templates; a course has one of them at least",
+        "DYNLAB_COURSE: {} contains none of lessons, data and report_templates; a course needs at least one of them",
         folder.string());
 }
 

@@ -33,7 +33,7 @@ int reason_of(const std::filesystem::filesystem_error& error) {
 Message file_error_sentence(const std::filesystem::filesystem_error& error) {
     const std::string attempt = attempt_of(error), reason = system_reason(reason_of(error));
     const std::string file = error.path1().string(), other = error.path2().string();
-    if (attempt.starts_with("cannot create director")) return Message("cannot make the folder {}: {}", file, reason);
+    if (attempt.starts_with("cannot create director")) return Message("cannot create the folder {}: {}", file, reason);
     if (attempt.find("directory iterator") != std::string::npos)
         return Message("cannot read the folder {}: {}", file, reason);
     const Message tried =

@@ -33,14 +33,14 @@ fs::path new_folder_in(const fs::path& parent, std::error_code& error) {
 void make_whole_folder(const fs::path& folder, const std::function<void(const fs::path&)>& fill) {
     const auto refuse_if_taken = [&folder] {
         if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
-            throw EnvironmentError("{} exists already; choose another name, nothing was changed", folder.string());
+            throw EnvironmentError("{} exists already; give another name; nothing was changed", folder.string());
     };
     refuse_if_taken();
     const fs::path target = fs::absolute(folder).lexically_normal();
     const fs::path clean = target.has_filename() ? target : target.parent_path();
     std::error_code error;
     const fs::path growing = new_folder_in(clean.parent_path(), error);
-    if (growing.empty()) throw EnvironmentError("cannot make the folder {}: {}", folder.string(), error.message());
+    if (growing.empty()) throw EnvironmentError("cannot create the folder {}: {}", folder.string(), error.message());
     const EndsWithProgram ends(growing);
     try {
         fill(growing);

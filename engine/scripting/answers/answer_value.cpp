@@ -68,7 +68,8 @@ class AnswerWriter {
 
     void count(Index numbers) {
         count_ += numbers;
-        if (count_ > kMostNumbers) throw InvalidArgument("an answer holds at most {} numbers or letters", kMostNumbers);
+        if (count_ > kMostNumbers)
+            throw InvalidArgument("an answer can have at most {} numbers or letters", kMostNumbers);
     }
 
     void text_members(int index) {
@@ -82,7 +83,8 @@ class AnswerWriter {
     /// The list part in its order, the named fields by name.
     void table_members(int index, int depth) {
         if (depth >= kDeepest)
-            throw InvalidArgument("the table contains itself, or tables are nested more than {} deep", kDeepest);
+            throw InvalidArgument("the table contains itself, or its tables are nested deeper than {} levels",
+                                  kDeepest);
         luaL_checkstack(L, 8, "nested tables");
         const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
         json_.member("items");
@@ -136,7 +138,8 @@ class AnswerWriter {
             write_value(json_, *system);
             return "model";
         }
-        throw InvalidArgument("{} cannot be an answer; it can be a {}", given_value(L, index), listed(answer_kinds()));
+        throw InvalidArgument("{} cannot be an answer; an answer can be a {}", given_value(L, index),
+                              listed(answer_kinds()));
     }
 
     lua_State* L;
@@ -166,14 +169,14 @@ Matrix matrix_members(ValueReader& answer) {
     const auto rows = member_of<Index>(answer, "rows"), columns = member_of<Index>(answer, "columns");
     const Vector values = member_of<Vector>(answer, "values");
     if (rows < 0 || columns < 0 || (rows > 0 && columns > values.size() / rows) || rows * columns != values.size())
-        answer.refuse(Message("there are not rows x columns values"));
+        answer.refuse(Message("the number of values is not rows x columns"));
     return values.reshaped(rows, columns);
 }
 
 void push_answer(lua_State* L, ValueReader& answer, int depth);
 
 void push_answer_table(lua_State* L, ValueReader& answer, int depth) {
-    if (depth >= kDeepest) throw InvalidArgument("the answer's tables are nested too deep");
+    if (depth >= kDeepest) throw InvalidArgument("the answer's tables are nested too deeply");
     luaL_checkstack(L, 8, "nested tables");
     lua_newtable(L);
     need_member(answer, "items");
@@ -217,7 +220,7 @@ void push_members(lua_State* L, const std::string& kind, ValueReader& answer, in
     } else if (kind == "table") {
         push_answer_table(L, answer, depth);
     } else {
-        throw InvalidArgument("the answer is of an unknown kind");
+        throw InvalidArgument("the answer has an unknown kind");
     }
 }
 
@@ -248,7 +251,7 @@ void push_answer_value(lua_State* L, const std::string& text) {
 Message undeclared_answer(const std::string& name, const std::vector<std::string>& names) {
     const auto near = nearest_word(name, names);
     return near ? Message("the script's header declares no answer \"{}\"; did you mean \"{}\"?", name, *near)
-                : Message("the script's header declares no answer \"{}\"; it declares {}", name, listed(names));
+                : Message("the script's header declares no answer \"{}\"; the answers are {}", name, listed(names));
 }
 
 }  // namespace dynlab::inline scripting

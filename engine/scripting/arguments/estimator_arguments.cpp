@@ -14,8 +14,8 @@ constexpr double kLargestOrder = 1e6;
 
 int checked_order(double value, int index, std::span<const OrderEntry> entries, const char* name) {
     if (std::floor(value) != value || value < 0 || value > kLargestOrder)
-        throw InvalidArgument("argument {} (orders) must be {}, but {} is {}, and must be a whole number from 0 on",
-                              index, meaning_of(entries), name, significant(value, 10));
+        throw InvalidArgument("argument {} (orders) must be {}, but {} is {}; it must be a whole number from 0", index,
+                              meaning_of(entries), name, significant(value, 10));
     return static_cast<int>(value);
 }
 
@@ -37,7 +37,7 @@ std::vector<int> entry_list(lua_State* L, int index, std::span<const OrderEntry>
     for (lua_Integer i = 1; i <= count; ++i) {
         lua_rawgeti(L, -1, i);
         if (lua_type(L, -1) != LUA_TNUMBER)
-            throw InvalidArgument("argument {} (orders) must be {}, but {} holds {}", index, meaning_of(entries), name,
+            throw InvalidArgument("argument {} (orders) must be {}, but {} has {}", index, meaning_of(entries), name,
                                   given_value(L, lua_gettop(L)));
         list.push_back(checked_order(lua_tonumber(L, -1), index, entries, name));
         lua_pop(L, 1);
@@ -63,7 +63,7 @@ std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span
         const Message has = plural(count, "{} entry", "{} entries");
         if (count > static_cast<Index>(entries.size()) + 1)
             throw InvalidArgument(
-                "argument {} (orders) must be {}, but it has {}; with several inputs an entry is a list of one value "
+                "argument {} (orders) must be {}, but it has {}. With several inputs an entry is a list with one value "
                 "for each, such as {1, 1}",
                 index, meaning_of(entries), has);
         throw InvalidArgument("argument {} (orders) must be {}, but it has {}", index, meaning_of(entries), has);
@@ -114,7 +114,7 @@ std::vector<int> counts_argument(const Call& call, int index, ArgumentName what)
     std::vector<int> counts;
     for (const double value : values) {
         if (!(value >= 0) || value != std::floor(value))
-            throw InvalidArgument("{} must hold whole numbers from 0 on", argument_label(index, what));
+            throw InvalidArgument("{} must contain whole numbers from 0", argument_label(index, what));
         counts.push_back(static_cast<int>(value));
     }
     return counts;
@@ -139,14 +139,14 @@ void check_coefficients(std::span<const OrderEntry> entries, std::string_view po
                         const std::vector<int>& coefficients) {
     for (const int n : poles)
         if (n < 1)
-            throw InvalidArgument("argument {} (orders) must be {}, but {} is {}, and must be at least 1", 2,
+            throw InvalidArgument("argument {} (orders) must be {}, but {} is {}; it must be at least 1", 2,
                                   meaning_of(entries), poles_name, n);
     for (std::size_t i = 0; i < coefficients.size(); ++i) {
         const int nb = coefficients[i];
         const int n = i < poles.size() ? poles[i] : poles.back();
         if (nb < 1 || nb > n + 1)
             throw InvalidArgument(
-                "argument {} (orders) must be {}, but {} is {}, and with {} = {} must lie between 1 and {}", 2,
+                "argument {} (orders) must be {}, but {} is {}; with {} = {} it must be between 1 and {}", 2,
                 meaning_of(entries), kNb.name, nb, poles_name, n, n + 1);
     }
 }
@@ -155,7 +155,7 @@ std::vector<double> delays_of(const std::vector<int>& samples, const IdData& dat
     std::vector<double> delays;
     for (const int nk : samples) {
         if (nk > 0 && !data.regular())
-            throw InvalidArgument("nk counts samples of delay, which irregularly sampled data do not have: give 0");
+            throw InvalidArgument("nk counts samples of delay, which do not exist in irregularly sampled data: use 0");
         delays.push_back(nk * data.Ts);
     }
     return delays;
@@ -201,14 +201,14 @@ StartedStructure started_structure(const Call& call, const Options& options, con
     }
     for (const char* name : {"IODelay", "Td0"})
         if (options.has(name))
-            throw InvalidArgument("option '{}' does not go with a start model: it has its own delay", name);
+            throw InvalidArgument("option '{}' cannot be combined with a start model, which has its own delay", name);
     SearchAids aids;
     const auto outputs = static_cast<Index>(object_argument<Model>(call, 2, Message("start model")).outputs);
     const auto structure =
         TransferStructure::of_models(channels_argument(call, 2, Message("start model")), outputs, aids.start);
     return {[structure](const IdData& data) {
                 if (data.input_count() != structure.inputs || data.output_count() != structure.outputs)
-                    throw InvalidArgument("the start model has {} and {}, and the data have {} and {}",
+                    throw InvalidArgument("the start model has {} and {}, but the data have {} and {}",
                                           plural(structure.inputs, "{} input", "{} inputs"),
                                           plural(structure.outputs, "{} output", "{} outputs"), data.input_count(),
                                           data.output_count());

@@ -28,8 +28,7 @@ LoopKnowledge loop_knowledge(const Options& options) {
     options.read(known);
     if (!options.has("controller")) {
         if (options.has("ComputingDelay"))
-            throw InvalidArgument(
-                "option 'ComputingDelay' says how late the controller answers: give 'controller', too");
+            throw InvalidArgument("option 'ComputingDelay' is the delay of the controller: give 'controller', too");
         return known;
     }
     known.controller = controller_at(options.call(), options.push("controller"));

@@ -34,12 +34,12 @@ namespace {
 Message no_such_name(const std::string& kind, const std::string& table, const std::string& name,
                      const std::string& names) {
     if (kind == "state")
-        return names.empty() ? Message("{} has no state {}; there is none", table, name)
+        return names.empty() ? Message("{} has no state {}; it has no states", table, name)
                              : Message("{} has no state {}; the states are {}", table, name, names);
     if (kind == "parameter")
-        return names.empty() ? Message("{} has no parameter {}; there is none", table, name)
+        return names.empty() ? Message("{} has no parameter {}; it has no parameters", table, name)
                              : Message("{} has no parameter {}; the parameters are {}", table, name, names);
-    return names.empty() ? Message("{} has no input {}; there is none", table, name)
+    return names.empty() ? Message("{} has no input {}; it has no inputs", table, name)
                          : Message("{} has no input {}; the inputs are {}", table, name, names);
 }
 

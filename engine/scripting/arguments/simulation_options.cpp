@@ -114,7 +114,7 @@ std::optional<Index> steps_option(const Options& options, std::optional<Index> f
     if (!steps) return fallback;
     if (std::isinf(*steps) && *steps > 0) return std::nullopt;
     if (*steps >= 1 && *steps <= 1e9 && *steps == std::floor(*steps)) return static_cast<Index>(*steps);
-    refuse_option("k", Message("a whole number of steps ahead from 1 on, or math.huge for a simulation"),
+    refuse_option("k", Message("a whole number of steps, at least 1, or math.huge for a simulation"),
                   Message("{}", significant(*steps, 10)));
 }
 

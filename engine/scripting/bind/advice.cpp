@@ -34,7 +34,7 @@ std::string text_of(const Call& call, const Advice& advice, std::size_t experime
                         experiments > 1 ? localized(call, Message("Experiment {}:", finding.experiment + 1)) + " " : "",
                         localized(call, finding.message));
     if (advice.clean())
-        text += localized(call, Message("There is no objection to fitting a model to this record.")) + "\n";
+        text += localized(call, Message("No problem was found. You can fit a model to these data.")) + "\n";
     return text;
 }
 

@@ -12,7 +12,8 @@ namespace {
 void need_values(Index count, Index least) {
     if (count == 0) throw InvalidArgument("{} has no elements", argument_label(1, "v"));
     if (count < least)
-        throw InvalidArgument("the spread of a single value is not defined; at least two values are needed");
+        throw InvalidArgument(
+            "the standard deviation of a single value is undefined; at least two values are required");
 }
 
 /// A number for a vector, a vector with one number for each column of a matrix. Every column is summed in the same

@@ -12,8 +12,7 @@ int compare_traced(const Call& call, const std::shared_ptr<Trace>& trace) {
     const auto x = traced_node(call.state(), 1, trace), y = traced_node(call.state(), 2, trace);
     const bool above = Relation()(1., 0.), with_equal = Relation()(0., 0.), below = Relation()(0., 1.);
     if (!x || !y || above == below)
-        throw InvalidArgument(
-            "with a value that is not known yet only gt, lt, ge and le of two numbers can be followed");
+        throw InvalidArgument("with a symbolic value, only gt, lt, ge and le of two numbers are possible");
     ExpressionTape& tape = trace->tape;
     const bool turned = above == with_equal;  // x >= y is what y - x > 0 leaves
     const auto difference = tape.apply(Operation::kSubtract, turned ? *y : *x, turned ? *x : *y);
@@ -41,7 +40,7 @@ int compare_elements(Call& call) {
 int find(Call& call) {
     call.at_most(1);
     MaskBlock* mask = call.given(1) ? to_mask(call.state(), 1) : nullptr;
-    if (mask == nullptr) wrong_argument(call.state(), 1, "mask", Message("a mask, as gt, lt, ge, le and eq give it"));
+    if (mask == nullptr) wrong_argument(call.state(), 1, "mask", Message("a mask returned by gt, lt, ge, le or eq"));
     double* next = push_vector(call.state(), std::count(mask->data(), mask->data() + mask->size, true)).data();
     for (Index i = 0; i < mask->size; ++i)
         if (mask->data()[i]) *next++ = static_cast<double>(i + 1);

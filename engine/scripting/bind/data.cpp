@@ -225,16 +225,16 @@ void check_names(const IdData& data) {
     for (const auto* names : {&data.input_names, &data.output_names})
         for (const std::string& name : *names)
             if (!seen.insert(name).second)
-                throw InvalidArgument("the name '{}' names two channels: give each its own InputName or OutputName",
-                                      name);
+                throw InvalidArgument(
+                    "the name '{}' is used for two channels: give each a different InputName or OutputName", name);
 }
 
 /// Once in a run: time constants come out in samples where seconds are meant.
 void tell_sampling_time(const Call& call) {
     if (std::exchange(call.context().told_sampling_time, true)) return;
-    call.print(localized(call, Message("iddata: no sampling time was given, so one sample a second is taken; write "
-                                       "iddata(y, u, Ts)")) +
-               "\n");
+    call.print(
+        localized(call, Message("iddata: no sampling time was given, so dynlab uses 1 s; write iddata(y, u, Ts)")) +
+        "\n");
 }
 
 /// A sampling time that is not that of the columns.
@@ -245,9 +245,10 @@ void tell_other_clock(const Call& call, const IdData& data) {
         constexpr double kClose = 0.01;
         if (!unit || origin.Ts == 0 || std::abs(data.Ts * *unit - origin.Ts) <= kClose * origin.Ts) continue;
         call.print(
-            localized(call, Message("iddata: the sampling time {} {} is taken, but by the time '{}' of their file "
-                                    "the samples follow each other every {} s",
-                                    significant(data.Ts, 6), data.time_unit, origin.clock, significant(origin.Ts, 6))) +
+            localized(
+                call,
+                Message("iddata: the sampling time is {} {}, but according to the time '{}' of the file it is {} s",
+                        significant(data.Ts, 6), data.time_unit, origin.clock, significant(origin.Ts, 6))) +
             "\n");
         return;
     }
@@ -256,8 +257,8 @@ void tell_other_clock(const Call& call, const IdData& data) {
 /// Once in a run: models do not know the unit of their data's time.
 void tell_time_unit(const Call& call, const std::string& unit) {
     if (unit == "s" || std::exchange(call.context().told_time_unit, true)) return;
-    call.print(localized(call, Message("iddata: these data count time in {}, and so do models made from them: where "
-                                       "their texts and axes say s, read {}",
+    call.print(localized(call, Message("iddata: these data, and models estimated from them, have the time unit {}: if "
+                                       "their texts and axes show s, read {}",
                                        unit, unit)) +
                "\n");
 }
@@ -285,8 +286,8 @@ int make_iddata(Call& call) {
     const Options options(call, 4, kIddataTables);
     if (call.holds_vector(3))
         throw InvalidArgument(
-            "{} must be a number of seconds, but instants were given; where they lie at uneven distances write "
-            "iddata(y, u, nil, {SamplingInstants = t})",
+            "{} must be a number of seconds, but instants were given; for unequal distances write iddata(y, u, nil, "
+            "{SamplingInstants = t})",
             argument_label(3, "Ts"));
     const bool inputs_only = !call.given(1) && call.given(2);
     const Matrix y = inputs_only ? Matrix(call.matrix(2, "u").rows(), 0) : Matrix(call.matrix(1, "y"));
@@ -305,7 +306,8 @@ int make_iddata(Call& call) {
     check_names(data);
     tell_time_unit(call, data.time_unit);
     if (options.has("Tstart") && options.has("SamplingInstants"))
-        throw InvalidArgument("option 'Tstart' does not go with 'SamplingInstants', which tell the first instant, too");
+        throw InvalidArgument(
+            "option 'Tstart' cannot be combined with 'SamplingInstants', which include the first instant");
     data.experiments.front().start_time = options.number("Tstart", data.experiments.front().start_time);
     if (!std::isfinite(data.experiments.front().start_time))
         throw InvalidArgument("option 'Tstart' must be a finite number");

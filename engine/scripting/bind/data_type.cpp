@@ -18,7 +18,7 @@ const IdData& data_self(Call& call) {
 
 const Experiment& only_experiment(const IdData& data) {
     if (data.experiments.size() != 1)
-        throw InvalidArgument("the data hold {} experiments; take one of them with data:experiment(k)",
+        throw InvalidArgument("the data have {} experiments; select one with data:experiment(k)",
                               data.experiments.size());
     return data.experiments.front();
 }
@@ -31,7 +31,7 @@ int give_channels(Call& call) {
 int give_reference(Call& call) {
     const Experiment& experiment = only_experiment(data_self(call));
     if (experiment.r.cols() == 0)
-        throw InvalidArgument("these data have no reference; iddata(y, u, Ts, {Reference = r}) gives them one");
+        throw InvalidArgument("these data have no reference; add one with iddata(y, u, Ts, {Reference = r})");
     return give_columns(call, experiment.r);
 }
 
@@ -51,17 +51,17 @@ int part(Call& call) {
 
 Index whole_index(double number) {
     if (number != std::floor(number))
-        throw InvalidArgument("samples and channels are counted in whole numbers, but {} was given", number);
+        throw InvalidArgument("samples and channels must be whole numbers, but {} was given", number);
     return static_cast<Index>(number);
 }
 
 /// data[{i, j}]
 int part_by_table(Call& call) {
     if (call.type(2) != LUA_TTABLE)
-        throw InvalidArgument("the samples i to j are data[{i, j}]; the signals are data.y, data.u and data.t");
+        throw InvalidArgument("write data[{i, j}] for the samples i to j; the signals are data.y, data.u and data.t");
     const VectorMap bounds = call.vector(2, "{first, last}");
     if (bounds.size() != 2)
-        throw InvalidArgument("the samples i to j are data[{i, j}], not {}",
+        throw InvalidArgument("write data[{i, j}] for the samples i to j, not {}",
                               plural(bounds.size(), "{} number", "{} numbers"));
     return give_data(call, data_self(call).range(whole_index(bounds[0]), whole_index(bounds[1])));
 }

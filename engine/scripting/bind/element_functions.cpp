@@ -19,12 +19,12 @@ int apply(Call& call) {
     call.at_most(1);
     if (const auto trace = trace_among(call)) {
         if (kTraced == kNotTraced)
-            throw InvalidArgument("{} cannot be followed with a value that is not known yet", call.function_name());
+            throw InvalidArgument("{} is not supported for symbolic values", call.function_name());
         return give_traced_operation(call, trace, kTraced, 1);
     }
     const auto checked = [](double x) {
         if (kDomain == Domain::kFromZero && x < 0)
-            throw InvalidArgument("it is not defined for the negative number {}", significant(x, 6));
+            throw InvalidArgument("the function is undefined for the negative number {}", significant(x, 6));
         return kFunction(x);
     };
     if (call.type(1) == LUA_TNUMBER) return call.give(checked(call.number(1, "x")));
@@ -53,7 +53,7 @@ int exponential(Call& call) {
     const std::optional<double> delay = delay_of(*model);
     if (!delay || *delay < 0)
         throw InvalidArgument(
-            "of models only a delay is there: exp(-Td*s) with s = tf(\"s\") and Td from 0 on, or {IODelay = Td}");
+            "of models, only a delay is supported: exp(-Td*s) with s = tf(\"s\") and Td from 0, or {IODelay = Td}");
     const Vector one = Vector::Ones(1);
     return give_model(call, TransferFunction(one, one, 0, *delay));
 }

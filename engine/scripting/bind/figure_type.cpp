@@ -90,8 +90,8 @@ double place_at(const Call& call, double number, const char* coordinate) {
     lua_pushnumber(L, number);
     lua_call(L, 1, 1);
     if (lua_type(L, -1) != LUA_TNUMBER)
-        throw InvalidArgument("the function '{}' of the handle must give a number, but for {} it gave {}", coordinate,
-                              number, given_value(L, lua_gettop(L)));
+        throw InvalidArgument("the function '{}' of the handle must return a number, but for {} it returned {}",
+                              coordinate, number, given_value(L, lua_gettop(L)));
     const double place = lua_tonumber(L, -1);
     lua_pop(L, 1);
     return place;
@@ -102,10 +102,9 @@ const RecordedSlider& slider_of_handle(const Options& options, const std::string
     const auto& sliders = options.call().context().recorder.record().sliders;
     const auto found = sliders.find(name);
     if (found != sliders.end()) return found->second;
-    if (name.empty())
-        throw InvalidArgument("'{}' is a function: {} = \"NAME\" must say of which slider", coordinate, key);
+    if (name.empty()) throw InvalidArgument("'{}' is a function: {} = \"NAME\" must name its slider", coordinate, key);
     throw InvalidArgument(
-        "the script has not asked for a slider \"{}\" yet: slider(\"{}\", ...) must stand before the handle", name,
+        "the script has not requested a slider \"{}\" yet: slider(\"{}\", ...) must come before the handle", name,
         name);
 }
 
@@ -132,9 +131,8 @@ double handle_coordinate(const Options& options, const char* coordinate, bool ho
     lua_settop(call.state(), given - 1);
     const Vector steps = scale.places.tail(kScaleNumbers - 1) - scale.places.head(kScaleNumbers - 1);
     if (!scale.places.allFinite() || !((steps.array() > 0).all() || (steps.array() < 0).all()))
-        throw InvalidArgument(
-            "the function '{}' of the handle must rise or fall all the way as the slider \"{}\" goes from {} to {}",
-            coordinate, scale.slider, slider.from, slider.to);
+        throw InvalidArgument("the function '{}' of the handle must be monotonic for the slider \"{}\" from {} to {}",
+                              coordinate, scale.slider, slider.from, slider.to);
     handle.scales.push_back(std::move(scale));
     return here;
 }
@@ -148,7 +146,8 @@ int add_handle(Call& call) {
     handle.y = handle_coordinate(options, "y", false, handle);
     handle.text = Message::verbatim(options.text("text", ""));
     if (handle.scales.empty())
-        throw InvalidArgument("a handle moves a slider: x or y must be a function of its number (fig:mark otherwise)");
+        throw InvalidArgument(
+            "a handle moves a slider: x or y must be a function of its number (otherwise use fig:mark)");
     panel_of(figure_self(call), options.size("panel", 1)).annotations.push_back(std::move(handle));
     figure_self(call).validate();
     return give_self(call);
@@ -190,8 +189,9 @@ int rule_paper(Call& call) {
     for (const int axis : {0, 1})
         if (const double size = ranges[axis].second - ranges[axis].first;
             !(steps[axis] > 0) || size / steps[axis] > kMostLines)
-            throw InvalidArgument("fig:rule: {} must be a positive number and give at most {} lines, but {} was given",
-                                  axis == 0 ? "dx" : "dy", kMostLines, steps[axis]);
+            throw InvalidArgument(
+                "fig:rule: {} must be a positive number that gives at most {} lines, but {} was given",
+                axis == 0 ? "dx" : "dy", kMostLines, steps[axis]);
     for (const auto& [times, width] : {std::pair(1., 0.15), std::pair(5., 0.45)})
         for (const int axis : {0, 1}) {
             panel.curves.push_back(ruled_lines(ranges[axis], times * steps[axis], ranges[1 - axis], axis == 0));

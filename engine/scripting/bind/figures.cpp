@@ -140,8 +140,8 @@ std::string curve_name(const Call& call, int index) {
             "= \"red\", style = \"points\"})",
             name);
     if (is_line_specification(name))
-        throw InvalidArgument("a text names the curve; for the look \"{}\" write {style = \"points\"} or {dash = 1}",
-                              name);
+        throw InvalidArgument(
+            "a text is the name of the curve; for the style \"{}\" use {style = \"points\"} or {dash = 1}", name);
     return name;
 }
 
@@ -160,7 +160,7 @@ std::vector<Curve> read_curves(const Call& call, int last) {
     }
     if (curves.empty())
         throw InvalidArgument(
-            "there is nothing to draw; write plot(x, y) or plot(x, y, \"name\", {xlabel = \"time (s)\"})");
+            "plot has nothing to draw; write plot(x, y) or plot(x, y, \"name\", {xlabel = \"time (s)\"})");
     return curves;
 }
 
@@ -178,9 +178,11 @@ void note_left_out(const Call& call, const Panel& panel) {
     }
     if (left_out > 0)
         call.print(
-            localized(call, Message("{}: {} of {} points are left out: a logarithmic axis has no place for values "
-                                    "that are not positive",
-                                    call.function_name(), left_out, all)) +
+            localized(
+                call,
+                Message(
+                    "{}: {} of {} points are left out, because a logarithmic axis has no values that are not positive",
+                    call.function_name(), left_out, all)) +
             "\n");
 }
 
@@ -248,7 +250,7 @@ int subplot(Call& call) {
     figure.rows = count_in_grid(call.size(1, "rows"));
     figure.columns = count_in_grid(call.size(2, "columns"));
     if (call.type(3) != LUA_TTABLE)
-        throw InvalidArgument("the figures are given as a list: subplot(2, 1, {figure1, figure2})");
+        throw InvalidArgument("the figures must be a list: subplot(2, 1, {figure1, figure2})");
     for (lua_Integer i = 1; lua_rawgeti(L, 3, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
         const FigurePointer* part = to_object<FigurePointer>(L, -1);
         if (part == nullptr)
@@ -271,7 +273,8 @@ Matrix signals_of_parts(const Options& options, const char* name, const RigDrawi
     for (std::size_t k = 0; k < rig.parts.size(); ++k) {
         const RigPart& part = rig.parts[k];
         if (lua_getfield(call.state(), table, part.signal.c_str()) == LUA_TNIL)
-            throw InvalidArgument("option '{}' lacks the {} ({}), which moves the rig", name, part.signal, part.unit);
+            throw InvalidArgument("option '{}' lacks the {} ({}), which moves the animated plant", name, part.signal,
+                                  part.unit);
         const Call with_signal(call.state());  // it counts what stands on the stack now
         if (!with_signal.holds_vector(with_signal.count()))
             throw InvalidArgument("the {} {} must be a vector, but it is {}", name, part.signal,
@@ -305,7 +308,7 @@ int save(Call& call) {
     call.at_most(2);
     if (call.type(1) == LUA_TSTRING)
         throw InvalidArgument(
-            "the figure comes first: save(fig, path); variables are written by save_mat(path, {x = x}) and save_csv");
+            "save takes the figure first: save(fig, path); use save_mat(path, {x = x}) or save_csv for variables");
     ScriptFigure& figure = used_figure(call, 1, "figure");
     const std::filesystem::path file = output_path(call.context(), call.text(2, "path"));
     if (call.context().options.graded) return 0;

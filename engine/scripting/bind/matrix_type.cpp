@@ -76,7 +76,7 @@ int read_matrix_element(Call& call) {
     lua_State* L = call.state();
     if (call.type(2) != LUA_TTABLE || lua_rawlen(L, 2) != 2)
         throw InvalidArgument(
-            "an element of a matrix is A[{i, j}], a row A:row(i), a column A:col(j), but {} was given in the brackets",
+            "write an element of a matrix as A[{i, j}], a row as A:row(i), a column as A:col(j), not as A[{}]",
             given_value(L, 2));
     lua_rawgeti(L, 2, 1);
     lua_rawgeti(L, 2, 2);
@@ -88,7 +88,7 @@ int read_matrix_element(Call& call) {
 int write_matrix_element(Call& call) {
     lua_State* L = call.state();
     if (call.type(2) != LUA_TTABLE || lua_rawlen(L, 2) != 2)
-        throw InvalidArgument("an element of a matrix is set by A[{i, j}] = x or A:set(i, j, x)");
+        throw InvalidArgument("set an element of a matrix with A[{i, j}] = x or A:set(i, j, x)");
     lua_rawgeti(L, 2, 1);
     lua_rawgeti(L, 2, 2);
     lua_rotate(L, 3, 2);  // A, {i, j}, i, j, value
@@ -98,7 +98,7 @@ int write_matrix_element(Call& call) {
 }
 
 int refuse_length(Call&) {
-    throw InvalidArgument("the operator # counts the elements of a vector; a matrix has A.rows and A.columns");
+    throw InvalidArgument("the operator # counts the elements of a vector; for a matrix, use A.rows and A.columns");
 }
 
 constexpr std::array kMatrixTypeFields = {Member{"rows", guarded<matrix_rows>},

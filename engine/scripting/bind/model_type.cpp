@@ -21,14 +21,15 @@ const Model& model_self(Call& call) {
 
 const Estimate& estimate_in(const Model& model) {
     if (!model.estimate)
-        throw InvalidArgument("this model was written down, not estimated, so it has no standard errors and no report");
+        throw InvalidArgument("this model was specified, not estimated, so it has no standard errors and no report");
     return *model.estimate;
 }
 
 /// The transfer function of a model with one channel.
 const TransferFunction& only_channel(const Model& model) {
     if (model.single_channel()) return model.G;
-    throw InvalidArgument("this field is one channel's, and the model has several channels: {}", channels_hint(model));
+    throw InvalidArgument("this field is for a model with one channel, but the model has several channels: {}",
+                          channels_hint(model));
 }
 Vector numerator_of(const Model& model) {
     return only_channel(model).num();
@@ -41,8 +42,8 @@ const PolynomialModel& polynomials(Call& call) {
     const Model& model = model_self(call);
     if (model.polynomial) return *model.polynomial;
     throw InvalidArgument(
-        "only models of difference equations, as arx, oe and sriv give them, have this polynomial; lssvf and ivsvf "
-        "give A and B, srivc and its like B and F, rivc gives C and D too, n4sid matrices A, B, C and D");
+        "only models of difference equations, from arx, oe or sriv, have this polynomial: lssvf and ivsvf give A and "
+        "B, srivc, coe and tfsrivc B and F, rivc B, C, D and F, n4sid the matrices A, B, C and D");
 }
 bool is_carx(Call& call) {
     const Model& model = model_self(call);
@@ -91,7 +92,7 @@ int field_channels(Call& call) {
 int field_history(Call& call) {
     const Estimate& estimate = estimate_in(model_self(call));
     if (!estimate.history)
-        throw InvalidArgument("{} looks at all samples at once; rlssvf, rivsvf and rsrivc give a history",
+        throw InvalidArgument("{} processes all samples at once; rlssvf, rivsvf and rsrivc give a history",
                               estimate.method);
     return give_table(call, "t", estimate.history->t, "theta", estimate.history->theta, "std", estimate.history->std,
                       "names", estimate.names);
@@ -100,13 +101,13 @@ int field_history(Call& call) {
 double noise_variance_of(const Model& model) {
     const Estimate& estimate = estimate_in(model);
     if (const std::optional<double> variance = estimate.report().number("noise_variance")) return *variance;
-    throw InvalidArgument("{} tells no variance of the noise", estimate.method);
+    throw InvalidArgument("{} does not estimate the variance of the noise", estimate.method);
 }
 
 std::shared_ptr<const Assessment> assessment_of(const Model& model) {
     const Estimate& estimate = estimate_in(model);
     if (auto assessment = estimate.diagnostics.assessment()) return assessment;
-    throw InvalidArgument("{} gives no robust standard errors", estimate.method);
+    throw InvalidArgument("{} does not compute robust standard errors", estimate.method);
 }
 
 int field_report(Call& call) {
@@ -222,7 +223,7 @@ constexpr std::array kSystemFields = {
 constexpr std::array kSystemOperators = {Member{"__tostring", localized_field<StateSpace, system_text>}};
 
 Message free_structure_text(const ProcessStructure& structure) {
-    return Message("{} with the free parameters {}: procsrivc(data, ...) estimates them", structure.text(),
+    return Message("{} with the free parameters {}: estimate them with procsrivc(data, ...)", structure.text(),
                    listed(structure.parameter_names()));
 }
 

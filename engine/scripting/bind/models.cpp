@@ -30,7 +30,7 @@ constexpr OptionEntry kIdprocOptions[] = {
     {"Tp1", ValueKind::kNumber, about("first time constant"), {.unit = "s"}},
     {"Tp2", ValueKind::kNumber, about("second time constant"), {.unit = "s"}},
     {"Tp3", ValueKind::kNumber, about("third time constant"), {.unit = "s"}},
-    {"Tw", ValueKind::kNumber, about("1/w0 of an under-damped pair (U)"), {.unit = "s"}},
+    {"Tw", ValueKind::kNumber, about("1/w0 of an underdamped pair (U)"), {.unit = "s"}},
     {"Zeta", ValueKind::kNumber, about("damping ratio of that pair")},
     {"Tz", ValueKind::kNumber, about("time constant of the zero (Z)"), {.unit = "s"}},
     {"Td", ValueKind::kNumber, about("delay (D)"), {.unit = "s"}}};
@@ -126,7 +126,7 @@ int make_tf(Call& call) {
         const std::string name = call.text(1, "variable");
         if (name == "s") return give_model(call, TransferFunction::variable());
         if (name == "z" && call.given(2)) return give_model(call, TransferFunction::variable(call.number(2, "Ts")));
-        throw InvalidArgument("the variable is written tf(\"s\"), or tf(\"z\", Ts) with the sampling time in seconds");
+        throw InvalidArgument("write the variable as tf(\"s\"), or tf(\"z\", Ts) with the sampling time in seconds");
     }
     if (holds_model(call, 1)) return give_model(call, model_argument(call, 1, "model").G);
     if (holds_model_struct(call)) {
@@ -197,7 +197,8 @@ int connect_parallel(Call& call) {
 int connect_feedback(Call& call) {
     call.at_most(3);
     const Index sign = call.given(3) ? call.integer(3, "sign") : -1;
-    if (sign != 1 && sign != -1) throw InvalidArgument("the sign is -1 (negative feedback) or 1 (positive feedback)");
+    if (sign != 1 && sign != -1)
+        throw InvalidArgument("the sign must be -1 (negative feedback) or 1 (positive feedback)");
     const auto part = [&](int index, ArgumentName what) {
         return with_rational_delay("feedback", model_argument(call, index, what).G);
     };
@@ -213,7 +214,7 @@ Discretisation method_argument(const Call& call, int index) {
     if (name == "zoh") return Discretisation::kZoh;
     if (name == "foh") return Discretisation::kFoh;
     if (name == "tustin") return Discretisation::kTustin;
-    throw InvalidArgument("the method is \"zoh\", \"foh\" or \"tustin\", but \"{}\" was given", name);
+    throw InvalidArgument("the method must be \"zoh\", \"foh\" or \"tustin\", but \"{}\" was given", name);
 }
 
 int to_discrete(Call& call) {

@@ -70,7 +70,7 @@ InputSignals input_argument(const Call& call) {
         call.at_most(3);
         const IdData& data = signals_of_argument(call, 2, "data");
         if (data.experiments.size() != 1)
-            throw InvalidArgument("the data hold {} experiments; take one of them with data:experiment(k)",
+            throw InvalidArgument("the data have {} experiments; select one with data:experiment(k)",
                                   data.experiments.size());
         return {data.experiments.front().u, data.time(), data.Ts, data.hold, 3};
     }
@@ -83,7 +83,7 @@ InputSignals input_argument(const Call& call) {
 Matrix simulated_outputs(const std::vector<TransferFunction>& channels, const InputSignals& input, Hold hold) {
     const auto inputs = static_cast<std::size_t>(input.u.cols());
     if (inputs == 0 || channels.size() % inputs != 0)
-        throw InvalidArgument("the model has {}, which cannot belong to {}",
+        throw InvalidArgument("the model has {}, which is inconsistent with {}",
                               plural(channels.size(), "{} channel", "{} channels"),
                               plural(inputs, "{} input", "{} inputs"));
     Matrix y = Matrix::Zero(input.u.rows(), static_cast<Index>(channels.size() / inputs));
@@ -98,16 +98,15 @@ Matrix simulated_outputs(const std::vector<TransferFunction>& channels, const In
 /// The standard deviation of a model's own white noise e.
 double own_noise_std(const Model* model) {
     if (model == nullptr || !model->estimate)
-        throw InvalidArgument(
-            "this model was not estimated and knows nothing of its noise: give the option snr, in dB");
+        throw InvalidArgument("this model was not estimated, so its noise is unknown: give the option snr, in dB");
     if (model->estimate->carx)
-        throw InvalidArgument(
-            "{} knows the error of its equation, which is no noise of the output: give the option snr, in dB",
-            model->estimate->method);
+        throw InvalidArgument("{} estimates an equation error, not the noise of the output: give the option snr, in dB",
+                              model->estimate->method);
     if (const std::optional<double> variance = model->estimate->report().number("noise_variance");
         variance && *variance >= 0)
         return std::sqrt(*variance);
-    throw InvalidArgument("{} tells no variance of the noise: give the option snr, in dB", model->estimate->method);
+    throw InvalidArgument("{} does not estimate the variance of the noise: give the option snr, in dB",
+                          model->estimate->method);
 }
 
 /// The script's own stream, or one of its own from the option seed.
@@ -136,9 +135,10 @@ int simulate_with_noise(Call& call) {
     if (!options.flag("noise", snr.has_value()))
         return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
     if (y.cols() != 1)
-        throw InvalidArgument("noise is simulated for one output, and the model has {}: take its channels", y.cols());
+        throw InvalidArgument("noise can be simulated for one output only, but the model has {}: use its channels",
+                              y.cols());
     if (model.noise_Ts > 0 && std::abs(model.noise_Ts - input.Ts) > 1e-9 * model.noise_Ts)
-        throw InvalidArgument("the noise model counts samples of {} s, and the input is sampled every {} s",
+        throw InvalidArgument("the noise model has the sampling time {} s, but the input has {} s",
                               significant(model.noise_Ts, 10), significant(input.Ts, 10));
     const ColouredNoise noise = noise_of(model);
     const double sigma =
@@ -152,8 +152,8 @@ int simulate_with_noise(Call& call) {
 std::optional<TransferStructure> structure_of_estimate(const Model& model) {
     if (model.estimate && !model.polynomial && !model.estimate->of_coefficients)
         throw InvalidArgument(
-            "the covariance is not that of the model's own coefficients (Integration, hammerstein): nothing can be "
-            "drawn");
+            "the covariance does not refer to the model's own coefficients (Integration, hammerstein), so no models "
+            "can be drawn");
     if (!model.G.continuous() || model.process || model.system || !model.estimate->of_coefficients) return std::nullopt;
     Vector theta;
     TransferStructure structure = TransferStructure::of_models(channels_of(model), 1, theta);
@@ -167,7 +167,7 @@ std::optional<TransferStructure> structure_of_estimate(const Model& model) {
 SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold hold, Index runs, RandomStream& random) {
     if (input.Ts == 0) throw InvalidArgument("the input must be sampled regularly");
     if (static_cast<std::size_t>(input.u.cols()) != model.inputs())
-        throw InvalidArgument("the model has {}, and {} were given", plural(model.inputs(), "{} input", "{} inputs"),
+        throw InvalidArgument("the model has {}, but {} were given", plural(model.inputs(), "{} input", "{} inputs"),
                               input.u.cols());
     if (const auto uncertain = uncertain_model(model))
         return simulation_spread(*uncertain, input.u.col(0), input.Ts, hold, runs, random);
@@ -178,7 +178,7 @@ SimulationSpread spread_of(const Model& model, const InputSignals& input, Hold h
             return simulation_spread(*structure, model.estimate->theta, covariance, input.u, input.Ts, hold, runs,
                                      random);
     }
-    throw InvalidArgument("an estimated model with one output is wanted, and the covariance of its parameters");
+    throw InvalidArgument("simsd requires an estimated model with one output, and the covariance of its parameters");
 }
 
 Figure spread_figure(const std::string& name, const SimulationSpread& spread, const Vector& t, double level) {

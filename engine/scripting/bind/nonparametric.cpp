@@ -161,7 +161,7 @@ int regression_on_past_inputs(Call& call) {
     wanted.lags = lags;
     options.read(wanted);
     if (!wanted.smooth && options.has("Kernel"))
-        throw InvalidArgument("option 'Kernel' is of the smooth estimate, and 'smooth' is false");
+        throw InvalidArgument("option 'Kernel' is only for the smooth estimate, but 'smooth' is false");
     wanted.confidence = confidence_option(options);
     const RegressedResponse result = impulseest(read.data, wanted);
     give_impulse(call, options, read, result);

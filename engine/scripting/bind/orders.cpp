@@ -81,7 +81,7 @@ std::pair<int, int> range_of(const Options& options, const char* name, std::pair
     }
     const auto [from, to] = *options.range(name);
     if (from != std::floor(from) || to != std::floor(to))
-        throw InvalidArgument("option '{}' must hold whole numbers {from, to}", name);
+        throw InvalidArgument("option '{}' must contain whole numbers {from, to}", name);
     return {static_cast<int>(from), static_cast<int>(to)};
 }
 
@@ -92,11 +92,12 @@ std::vector<double> delays_of(const Options& options, const IdData& data) {
     const bool single = lua_isnumber(L, options.push("delays"));
     lua_pop(L, 1);
     const Vector samples = single ? Vector::Constant(1, options.number("delays", 0)) : Vector(options.vector("delays"));
-    if (!data.regular()) throw InvalidArgument("delays count samples, which irregularly sampled data do not have");
+    if (!data.regular())
+        throw InvalidArgument("delays count samples, which are not defined for irregularly sampled data");
     std::vector<double> delays;
     for (const double k : samples) {
         if (k < 0 || k != std::floor(k))
-            throw InvalidArgument("option 'delays' must hold whole numbers of samples, such as {0, 1, 2}");
+            throw InvalidArgument("option 'delays' must contain whole numbers of samples, such as {0, 1, 2}");
         delays.push_back(k * data.Ts);
     }
     return delays;
@@ -106,7 +107,8 @@ std::vector<double> delays_of(const Options& options, const IdData& data) {
 std::vector<TransferStructure> grid_of(const Options& options, const IdData& data) {
     const bool free_delay = options.has("TdMax");
     if (free_delay && options.has("delays"))
-        throw InvalidArgument("give either delays, to try those, or TdMax, to have the delay estimated up to it");
+        throw InvalidArgument(
+            "give either delays, a list of delays to try, or TdMax, the upper limit of an estimated delay");
     return order_grid(range_of(options, "poles", {1, 4}), range_of(options, "zeros", {0, 2}),
                       free_delay ? std::vector{options.number("TdMin", 0)} : delays_of(options, data), free_delay,
                       options.flag("Feedthrough", false));
@@ -214,7 +216,7 @@ ArxCriterion arx_criterion_of(const Call& call, const ArxSelection& table) {
 
 int select_arx_structure(Call& call) {
     call.at_most(2);
-    const ArxSelection& table = object_argument<ArxSelection>(call, 1, Message("what arxstruc gave"));
+    const ArxSelection& table = object_argument<ArxSelection>(call, 1, Message("the result of arxstruc"));
     const ArxCriterion criterion = arx_criterion_of(call, table);
     const OrderChoice choice = choose_arx(table, criterion);
     call.print(arx_table_text(table, choice, reader_of(call)));

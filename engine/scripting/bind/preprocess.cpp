@@ -16,7 +16,7 @@ namespace {
 constexpr OptionEntry kTrendOptions[] = {
     {"samples", ValueKind::kCount,
      about(
-         "for \"start\", number of samples whose mean is the level; by default all samples before an input changes")}};
+         "for \"start\", number of samples to average for the level; by default all samples before an input changes")}};
 constexpr std::array kFilterStarts = {"zero", "steady"};
 constexpr OptionEntry kFilterStart = {
     "start",
@@ -65,7 +65,7 @@ constexpr ArgumentEntry kMergeArguments[] = {
     {"data1, ...", ValueKind::kData, about("data objects with the same channels and sampling time")}};
 constexpr ArgumentEntry kGapArguments[] = {{"x", ValueKind::kVector, about("signal")}};
 constexpr ArgumentEntry kOutlierArguments[] = {
-    {"x", ValueKind::kAny, about("signal, or a data object, whose outputs are cleaned")}};
+    {"x", ValueKind::kAny, about("signal, or a data object, to clean its outputs")}};
 
 /// What a function works on: a data object, or one signal, which becomes the output of one.
 struct Signals {
@@ -88,7 +88,7 @@ std::vector<Segment> segments_argument(const Call& call) {
     const MatrixMap rows = call.matrix(2, "{{first, last}, ...}");
     if (rows.cols() != 2 || (rows.array() != rows.array().floor()).any() || !(rows.array().abs() < 1e15).all())
         throw InvalidArgument(
-            "the stretches are lists of two sample numbers, {{1, 200}, {350, 900}}: the first and the last of each");
+            "the ranges must be lists of two sample numbers, {{1, 200}, {350, 900}}: the first and the last of each");
     std::vector<Segment> segments;
     for (const auto& row : rows.rowwise()) segments.push_back({static_cast<Index>(row[0]), static_cast<Index>(row[1])});
     return segments;
@@ -98,7 +98,7 @@ std::vector<Segment> segments_argument(const Call& call) {
 PassBand band_argument(const Call& call) {
     const VectorMap edges = call.vector(2, "{lower, upper}");
     if (edges.size() != 2)
-        throw InvalidArgument("the band is {lower, upper} in rad/s ({0, w} is a low-pass filter), not {}",
+        throw InvalidArgument("the band must be {lower, upper} in rad/s ({0, w} is a low-pass filter), not {}",
                               plural(edges.size(), "{} number", "{} numbers"));
     return {edges[0], edges[1]};
 }
@@ -110,7 +110,7 @@ std::string trend_kind(const Call& call) {
     const double degree = call.number(2, "kind");
     if (degree == 0) return "mean";
     if (degree == 1) return "linear";
-    throw InvalidArgument("a trend has the degree 0 (\"mean\") or 1 (\"linear\"), but {} was given",
+    throw InvalidArgument("a trend must have the degree 0 (\"mean\") or 1 (\"linear\"), but {} was given",
                           significant(degree, 10));
 }
 
@@ -182,7 +182,8 @@ int detrend_signals(Call& call) {
         throw InvalidArgument("{} must be {}, but \"{}\" was given", Message("the kind of trend"),
                               Message("\"linear\", \"mean\" or \"start\""), kind);
     if (options.has("samples"))
-        throw InvalidArgument("option 'samples' belongs to the kind \"start\": how many samples come before the step");
+        throw InvalidArgument(
+            "option 'samples' requires the kind \"start\": it is the number of samples before the step");
     return give_signals(call, signals,
                         detrend(signals.data, kind == "linear" ? TrendKind::kLinear : TrendKind::kConstant));
 }
@@ -191,13 +192,14 @@ int filter_signals(Call& call) {
     call.at_most(3);
     const Options options(call, 3, kButterworthTables);
     const Signals signals = signals_argument(call, options.number("Ts", 1));
-    if (!signals.bare && options.has("Ts")) throw InvalidArgument("option 'Ts' is for a vector; data have their own");
+    if (!signals.bare && options.has("Ts"))
+        throw InvalidArgument("option 'Ts' is for a vector; a data object has a sampling time");
     FilterOptions wanted;
     options.read(wanted);
     wanted.steady_start = options.has("start") && options.choice(kFilterStart) == 1;
     if (wanted.zero_phase && options.has("start"))
         throw InvalidArgument(
-            "option 'start' is for the causal filter; with zero_phase the record is continued at both ends");
+            "option 'start' is for the causal filter; with zero_phase the signal is continued at both ends");
     return give_signals(call, signals, filter_data(signals.data, band_argument(call), wanted));
 }
 

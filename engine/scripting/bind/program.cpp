@@ -31,7 +31,7 @@ int tic(Call& call) {
 
 int toc(Call& call) {
     call.at_most(0);
-    if (call.context().tic == Clock::time_point{}) throw InvalidArgument("tic() has to be called before");
+    if (call.context().tic == Clock::time_point{}) throw InvalidArgument("call tic() before toc()");
     return call.give(seconds_since(call.context().tic));
 }
 
@@ -47,17 +47,17 @@ std::filesystem::path file_of_module(const Call& call, const std::string& name) 
     };
     if (name.empty() || !std::all_of(name.begin(), name.end(), allowed) || name.find("..") != std::string::npos)
         throw InvalidArgument(
-            "a file beside the script is named without its ending, such as \"tools\" for tools.lua, but \"{}\" was "
-            "given",
+            "give the name of a file in the script's folder without its extension, such as \"tools\" for tools.lua, "
+            "but \"{}\" was given",
             name);
     std::string relative = name;
     std::replace(relative.begin(), relative.end(), '.', '/');
     const std::filesystem::path folder = call.context().options.script_folder, file = folder / (relative + ".lua");
     call.context().recorder.note_file_read(file);  // also one that is not there: it may come
     if (!std::filesystem::is_regular_file(file))
-        throw InvalidArgument("there is no file {}.lua in the script's folder; libraries from elsewhere are not there",
+        throw InvalidArgument("file not found: {}.lua in the script's folder; scripts cannot use libraries elsewhere",
                               relative);
-    if (!lies_below(file, folder)) throw InvalidArgument("{}.lua leads outside the script's folder", relative);
+    if (!lies_below(file, folder)) throw InvalidArgument("{}.lua is outside the script's folder", relative);
     return file;
 }
 
@@ -90,7 +90,7 @@ int require_file(Call& call) {
 std::filesystem::path script_at(const std::string& path) {
     std::filesystem::path file = path;
     if (std::filesystem::is_directory(file)) file /= "analysis.lua";
-    if (!std::filesystem::is_regular_file(file)) throw InvalidArgument("there is no script {}", file.string());
+    if (!std::filesystem::is_regular_file(file)) throw InvalidArgument("script not found: {}", file.string());
     return file;
 }
 
@@ -117,7 +117,7 @@ int run_file(Call& call) {
     push_prompt_variables(L);
     if (lua_isnil(L, -1))
         throw InvalidArgument(
-            "scripts are run at the prompt, where their variables stay; in a script write require(name)");
+            "use this at the prompt, where variables are kept after a script; in a script write require(name)");
     const std::filesystem::path file = script_at(call.text(1, "path"));
     const std::string text = read_text(file);
     const ShownCalls& shown = *call.context().shown_calls;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array kSliderOptions = {
     option<&RecordedSlider::step>(
-        "step", about("distance between positions; by default every number in the range is available")),
+        "step", about("step between positions; by default, every number in the range can be selected")),
     option<&RecordedSlider::logarithmic>("log",
                                          about("positions equally spaced on a logarithmic scale; not with `step`")),
     option<&RecordedSlider::unit>("unit", about("unit after the number")),
@@ -57,9 +57,8 @@ std::string new_name(const Call& call, const Taken& taken) {
     const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
         return std::isalnum(c) || c == '_' || c == '-';
     });
-    if (!plain) throw InvalidArgument("the name \"{}\" must be made of letters, digits, _ and -", name);
-    if (taken(name))
-        throw InvalidArgument("the name \"{}\" is taken already; every entry needs a name of its own", name);
+    if (!plain) throw InvalidArgument("the name \"{}\" may contain only letters, digits, _ and -", name);
+    if (taken(name)) throw InvalidArgument("the name \"{}\" is used already; every entry needs a different name", name);
     return name;
 }
 
@@ -124,7 +123,7 @@ int report_table(Call& call) {
     auto& tables = call.context().recorder.record().tables;
     const std::string name = new_name(call, [&](const std::string& n) { return tables.count(n) != 0; });
     if (call.type(2) != LUA_TTABLE)
-        wrong_argument(call.state(), 2, "rows", Message("a list of rows, the first one the header"));
+        wrong_argument(call.state(), 2, "rows", Message("a list of rows, with the header first"));
     RecordedTable table;
     lua_State* L = call.state();
     for (lua_Integer i = 1; lua_rawgeti(L, 2, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
@@ -135,7 +134,8 @@ int report_table(Call& call) {
                                   plural(cells.size(), "{} cell", "{} cells"), table.header.size());
         if (i > 1) table.rows.push_back(std::move(cells));
     }
-    if (table.header.empty()) throw InvalidArgument("the table has no header; its first row holds the column titles");
+    if (table.header.empty())
+        throw InvalidArgument("the table has no header; its first row must contain the column titles");
     tables[name] = std::move(table);
     return 0;
 }
@@ -164,17 +164,17 @@ int report_language(Call& call) {
 
 void check_range(const std::string& name, const RecordedSlider& slider) {
     if (!(slider.from < slider.to) || !std::isfinite(slider.from) || !std::isfinite(slider.to))
-        throw InvalidArgument("the slider \"{}\" must go from a number to a greater one, not from {} to {}", name,
+        throw InvalidArgument("the range of the slider \"{}\" must increase, but it is from {} to {}", name,
                               slider.from, slider.to);
     if (slider.logarithmic && slider.from <= 0)
-        throw InvalidArgument("the slider \"{}\" has log = true and must begin above 0, not at {}", name, slider.from);
+        throw InvalidArgument("the slider \"{}\" has log = true and must start above 0, not at {}", name, slider.from);
     if (slider.step && !(*slider.step > 0 && *slider.step <= slider.to - slider.from))
         throw InvalidArgument("the step of the slider \"{}\" must be above 0 and at most {}, not {}", name,
                               slider.to - slider.from, *slider.step);
     for (const double value : {slider.initial, slider.value})
         if (!(value >= slider.from && value <= slider.to))
-            throw InvalidArgument("the slider \"{}\" goes from {} to {}; {} lies outside", name, slider.from, slider.to,
-                                  value);
+            throw InvalidArgument("the range of the slider \"{}\" is {} to {}; {} is outside", name, slider.from,
+                                  slider.to, value);
 }
 
 int slider(Call& call) {
@@ -189,7 +189,7 @@ int slider(Call& call) {
     slider.label = name;
     Options(call, 5, kSliderTables).read(slider);
     if (slider.step && slider.logarithmic)
-        throw InvalidArgument("the slider \"{}\" has log = true: it takes no step", name);
+        throw InvalidArgument("the slider \"{}\" has log = true and cannot have a step", name);
     const SliderValues* const given = call.context().services.sliders;
     const SliderValues values = given != nullptr ? *given : SliderValues();
     const auto found = values.chosen.find(name);
@@ -233,14 +233,15 @@ int guess(Call& call) {
     const std::string unit = call.given(3) ? call.text(3, "unit") : "";
     push_guesses(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TNIL)
-        throw InvalidArgument("\"{}\" was guessed already; a guess is made once, before it is looked up", name);
+        throw InvalidArgument(
+            "the prediction \"{}\" was made before; make each prediction once, before you see the result", name);
     lua_pop(L, 1);
     lua_createtable(L, 0, 2);
     if (call.given(2)) {
-        lua_pushnumber(L, call.number(2, Message("your guess")));
+        lua_pushnumber(L, call.number(2, Message("your prediction")));
         lua_setfield(L, -2, "value");
     } else {
-        call.print(localized(call, Message("{}: not guessed yet; type your number in the place of nil", name)) + "\n");
+        call.print(localized(call, Message("{}: no prediction yet; replace nil with your number", name)) + "\n");
     }
     lua_pushstring(L, unit.c_str());
     lua_setfield(L, -2, "unit");
@@ -252,21 +253,21 @@ int outcome(Call& call) {
     call.at_most(2);
     lua_State* const L = call.state();
     const std::string name = call.text(1, "name");
-    const double found = call.number(2, Message("what was found"));
+    const double found = call.number(2, Message("result"));
     push_guesses(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TTABLE)
-        throw InvalidArgument("nothing called \"{}\" was guessed before; write guess(\"{}\", 1) above", name, name);
+        throw InvalidArgument("no prediction is named \"{}\"; write guess(\"{}\", 1) above", name, name);
     lua_getfield(L, -1, "unit");
     const std::string unit = lua_tostring(L, -1);
     const Message shown = with_unit(found, unit);
     if (lua_getfield(L, -2, "value") == LUA_TNIL) {
-        call.print(localized(call, Message("{}: found {}, not guessed", name, shown)) + "\n");
+        call.print(localized(call, Message("{}: result {}, no prediction", name, shown)) + "\n");
         return 0;
     }
     const double guessed = lua_tonumber(L, -1);
     const Message off = distance(guessed, found, unit), own = with_unit(guessed, unit);
-    call.print(localized(call, off.empty() ? Message("{}: guessed {}, found {}", name, own, shown)
-                                           : Message("{}: guessed {}, found {} ({})", name, own, shown, off)) +
+    call.print(localized(call, off.empty() ? Message("{}: prediction {}, result {}", name, own, shown)
+                                           : Message("{}: prediction {}, result {} ({})", name, own, shown, off)) +
                "\n");
     return 0;
 }

@@ -128,7 +128,7 @@ std::vector<TransferFunction> call_fitter(lua_State* L, const IdData& training) 
     const Model* model = to_object<Model>(L, -1);
     if (model == nullptr)
         throw InvalidArgument(
-            "the function that fits must return a model, as in function(d) return procsrivc(d, \"P1\") end, but it "
+            "the estimation function must return a model, as in function(d) return procsrivc(d, \"P1\") end, but it "
             "returned {}",
             given_value(L, -1));
     std::vector<TransferFunction> channels = channels_of(*model);

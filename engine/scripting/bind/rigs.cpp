@@ -52,7 +52,7 @@ const Rig& rig_of(const Call& call) {
     if (const Rig* rig = find_rig(name)) return *rig;
     std::vector<std::string> names;
     for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
-    throw InvalidArgument("there is no rig '{}'; there are {}", name, listed(names));
+    throw InvalidArgument("unknown simulated plant '{}'; the plants are {}", name, listed(names));
 }
 
 void give_description(const Call& call, const Rig& rig) {

@@ -118,7 +118,7 @@ void add_channels(CsvTable& table, const Matrix& channels, const std::vector<std
 
 CsvTable table_of_data(const IdData& data) {
     if (data.experiments.size() != 1)
-        throw InvalidArgument("a CSV file holds one experiment; write each with data:experiment(k)");
+        throw InvalidArgument("a CSV file can contain one experiment; write each experiment with data:experiment(k)");
     CsvTable table;
     table.names.push_back("t");
     table.columns.push_back(data.time());
@@ -165,7 +165,7 @@ std::map<std::string, std::string> texts_by_name(const Call& call, const Options
     lua_pushnil(L);
     while (lua_next(L, index)) {
         if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)
-            throw InvalidArgument("option '{}' must give a text for each name", option);
+            throw InvalidArgument("option '{}' must contain a text for each name", option);
         texts[lua_tostring(L, -2)] = lua_tostring(L, -1);
         lua_pop(L, 1);
     }
@@ -223,7 +223,7 @@ Variable variable_on_top(const Call& call, const std::string& name, int depth) {
 
 VariableTable variables_of(const Call& call, int index, int depth) {
     if (depth > kDeepestSavedTable)
-        throw InvalidArgument("tables within tables are written to {} levels only", kDeepestSavedTable);
+        throw InvalidArgument("nested tables are written to at most {} levels", kDeepestSavedTable);
     luaL_checkstack(call.state(), 8, "the tables are nested too deeply");
     VariableTable variables;
     for (const std::string& name : names_of_entries(call.state(), index)) {

@@ -62,7 +62,7 @@ std::pair<double, double> levels(const Call& call, int index, double low, double
     if (!call.given(index)) return {low, high};
     const VectorMap values = call.vector(index, "{low, high}");
     if (values.size() != 2)
-        throw InvalidArgument("the levels are written {low, high}, not {}",
+        throw InvalidArgument("the levels must be {low, high}, not {}",
                               plural(values.size(), "{} number", "{} numbers"));
     return {values[0], values[1]};
 }

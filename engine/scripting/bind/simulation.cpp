@@ -121,7 +121,7 @@ int filter_states(Call& call) {
     call.at_most(4);
     const Options options(call, 4, kSvfTables);
     const auto Ts = options.optional_number("Ts");
-    if (!Ts) throw InvalidArgument("the sampling time is needed: svf(x, n, lambda, {Ts = 0.01})");
+    if (!Ts) throw InvalidArgument("svf needs the sampling time: svf(x, n, lambda, {Ts = 0.01})");
     const VectorMap x = call.vector(1, "x");
     return call.give_matrix(state_variable_filter(x, static_cast<int>(call.size(2, "n")), call.number(3, "lambda"), *Ts,
                                                   hold_option(options, Hold::kFoh)));
@@ -198,15 +198,15 @@ void refuse_last_value(const Call& call, int index) {
     if (call.type(index) != LUA_TNUMBER) return;
     const Number last = significant(call.number(index, "t or w"), 6);
     throw InvalidArgument(
-        "give all instants or frequencies instead of the last one, such as x = linspace(0, {}, 300): step(G, x) gives "
-        "numbers, plot(x, step(G, x)) a figure",
+        "give all instants or frequencies instead of only the last, such as x = linspace(0, {}, 300): step(G, x) "
+        "returns numbers, plot(x, step(G, x)) a figure",
         last);
 }
 
 void refuse_option_texts(const Call& call, int index) {
     if (call.type(index) == LUA_TSTRING)
         throw InvalidArgument(
-            "options are written as a table: {confidence = 0.99} for the bands; bode_values(G, w) and step(G, t) give "
+            "write options as a table: {confidence = 0.99} for the bands; bode_values(G, w) and step(G, t) return "
             "standard deviations as numbers");
 }
 

@@ -62,8 +62,9 @@ MonteCarloMethod method_of_table(const Call& call, const std::string& label, con
     MethodArguments arguments{find_estimation_reader(name), {}};
     if (arguments.reader == nullptr)
         throw InvalidArgument(
-            "estimator '{}' is none of {}; write any other as a function: {} = function(data) return ... end", name,
-            listed(estimation_names()), label);
+            "unknown estimator '{}'; the estimators are {}. Use a function for other estimators: {} = function(data) "
+            "return ... end",
+            name, listed(estimation_names()), label);
     lua_pushlightuserdata(L, const_cast<char*>(name.c_str()));
     lua_pushlightuserdata(L, &arguments);
     lua_pushcclosure(L, guarded<read_arguments>, 2);
@@ -88,7 +89,7 @@ MonteCarloEstimate returned_estimate(lua_State* L, int first) {
     const Call call(L);
     if (const Model* model = to_object<Model>(L, first)) return estimate_of_model(*model);
     if (!call.holds_vector(first))
-        throw InvalidArgument("it must return a model or a vector of parameters, but returned {}",
+        throw InvalidArgument("the function must return a model or a vector of parameters, but returned {}",
                               given_value(L, first));
     MonteCarloEstimate estimate{call.vector(first, "theta")};
     if (call.holds_vector(first + 1)) estimate.std = call.vector(first + 1, "std");
@@ -139,7 +140,7 @@ MonteCarloMethod method_of_entry(const Call& call, const std::string& label) {
     const bool holds_function = names_itself && lua_rawgeti(L, value, 2) == LUA_TFUNCTION;
     if (lua_rawgeti(L, value, names_itself ? 2 : 1) == LUA_TNUMBER && takes_orders(call, name))
         throw InvalidArgument(
-            "the arguments of the estimator '{}' stand in a table, and its orders in one inside: {} = {{1, 1, 0}}",
+            "the arguments of the estimator '{}' must be a table that contains the table of orders: {} = {{1, 1, 0}}",
             name, name);
     lua_settop(L, value + (holds_function ? 2 : 0));
     if (holds_function) return method_of_function(call, label.empty() ? name : label, lua_gettop(L));
@@ -198,8 +199,8 @@ void read_excitation(const Options& options, MonteCarloStudy& study) {
     const char *name = loop ? "reference" : "input", *other = loop ? "input" : "reference";
     if (options.has(other))
         throw InvalidArgument(
-            loop ? Message("in a closed loop the input follows from controller and reference: give no 'input'")
-                 : Message("option 'reference' is that of a closed loop: give its 'controller', too"));
+            loop ? Message("in a closed loop, controller and reference determine the input: omit 'input'")
+                 : Message("option 'reference' is for a closed loop: give 'controller', too"));
     if (!options.has(name)) throw InvalidArgument("option '{}' is missing: the samples of the {}", name, name);
     study.u = options.vector(name);
     if (!loop) return;
@@ -233,7 +234,7 @@ void make_in_parts(MonteCarloStudy& study, lua_State* L) {
         std::vector<MonteCarloRun> all;
         for (const std::string& part : parts->all(context_of(L).recorder.record().files_read, runs, bytes_of))
             for (MonteCarloRun& run : from_cbor<std::vector<MonteCarloRun>>(part)) all.push_back(std::move(run));
-        if (all.size() != runs) throw EnvironmentError("the parts of montecarlo are not {} runs together", runs);
+        if (all.size() != runs) throw EnvironmentError("the parts of montecarlo do not add up to {} runs", runs);
         return all;
     };
 }

@@ -41,7 +41,7 @@ int study_named(Call& call) {
     const std::string label = call.text(2, "label");
     for (const MonteCarloResult& result : study.results)
         if (result.label == label) return push_result(call, result);
-    throw InvalidArgument("this study has no estimator or field '{}'; its estimators are {}", label,
+    throw InvalidArgument("unknown estimator or field of this study: '{}'; the estimators are {}", label,
                           listed(labels_of(study)));
 }
 

@@ -15,7 +15,7 @@ constexpr std::array kWeightings = {"MOESP", "N4SID", "CVA"};  // in the order o
 constexpr std::array kSubspaceOptions = {
     option<&SubspaceOptions::block_rows>("BlockRows",
                                          about("number of past and of future samples, more than the order; 0 for a "
-                                               "number that suits the order and the length of the data"),
+                                               "number based on the order and the length of the data"),
                                          {.member = "block_rows"}),
     option<&SubspaceOptions::weighting>("Weighting", about("weighting of the directions against the noise"),
                                         {.initial = "\"MOESP\"", .choices = kWeightings}),

@@ -195,7 +195,7 @@ struct MeasuredModel {
 
 void check_one_output(Index outputs) {
     if (outputs == 1) return;
-    throw InvalidArgument("fit_measures is of one output, and the model has {}", outputs);
+    throw InvalidArgument("fit_measures requires one output, but the model has {}", outputs);
 }
 
 MeasuredModel measured_model(const Call& call, int index) {

@@ -15,7 +15,7 @@ namespace {
 
 Message elements_of(Index size) {
     return size == 0   ? Message("no elements")
-           : size == 1 ? Message("the element 1 only")
+           : size == 1 ? Message("only the element 1")
                        : Message("the elements 1 to {}", size);
 }
 
@@ -42,8 +42,8 @@ Index element_index(lua_State* L, int index, Index size, const char* what) {
                                             given_value(L, index)));
     const double number = lua_tonumber(L, index);
     if (std::floor(number) != number)
-        throw InvalidArgument("{}[{}]: an element has a whole number from 1 to {}", what, significant(number, 10),
-                              size);
+        throw InvalidArgument("{}[{}]: the index of an element must be a whole number from 1 to {}", what,
+                              significant(number, 10), size);
     if (number >= 1 && number <= static_cast<double>(size)) return static_cast<Index>(number) - 1;
     refuse_element(what, number, size);
 }
@@ -57,8 +57,8 @@ int write_element(Call& call) {
     NumericBlock* v = to_vector(call.state(), 1);
     if (lua_isinteger(call.state(), 2) && lua_tointeger(call.state(), 2) > v->rows)
         throw InvalidArgument(
-            "v[{}] does not exist: v has {}, and a vector keeps its length; zeros(n) makes one to fill, vector{v, x} "
-            "one that is longer by x",
+            "v[{}] does not exist: v has {}, and its length is fixed; zeros(n) creates a vector to fill, vector{v, x} "
+            "a vector that is longer by x",
             lua_tointeger(call.state(), 2), plural(v->rows, "{} element", "{} elements"));
     const Index number = element_index(call.state(), 2, v->rows, "v");
     v->data()[number] = call.number(3, Message("the new value"));

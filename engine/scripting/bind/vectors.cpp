@@ -63,15 +63,14 @@ constexpr std::array kInterp1Arguments = {
 
 int make_vector(Call& call) {
     if (call.count() != 1 || (to_vector(call.state(), 1) == nullptr && call.type(1) != LUA_TTABLE))
-        throw InvalidArgument("a vector is written with braces: vector{1, 2, 3}");
+        throw InvalidArgument("write a vector with braces: vector{1, 2, 3}");
     const VectorMap values = call.vector(1, "values");
     return call.give_vector(values);
 }
 
 int make_matrix(Call& call) {
     if (call.count() != 1 || call.type(1) != LUA_TTABLE)
-        throw InvalidArgument(
-            "a matrix is written with braces: matrix{{1, 2}, {3, 4}} (rows) or matrix{v1, v2} (columns)");
+        throw InvalidArgument("write a matrix with braces: matrix{{1, 2}, {3, 4}} (rows) or matrix{v1, v2} (columns)");
     make_matrix_of_table(call.state(), 1, argument_label(1, Message("rows or columns")));
     return 1;
 }
@@ -118,7 +117,7 @@ int range(Call& call) {
     call.at_most(3);
     const double first = call.number(1, "first"), last = call.number(call.given(3) ? 3 : 2, "last");
     const double step = call.given(3) ? call.number(2, "step") : 1;
-    if (step == 0 || !std::isfinite(step)) throw InvalidArgument("the step must be a number other than zero");
+    if (step == 0 || !std::isfinite(step)) throw InvalidArgument("the step must not be zero");
     const double count = std::floor((last - first) / step * (1 + 1e-15) + 1e-10) + 1;
     if (!std::isfinite(count)) throw InvalidArgument("first and last must be finite numbers");
     NumericBlock& block = push_vector(call.state(), static_cast<Index>(std::clamp(count, 0.0, 1e15)));

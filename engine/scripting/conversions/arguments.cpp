@@ -24,11 +24,11 @@ constexpr double kLargestExactWhole = 9007199254740992.0;  // 2^53
     const Message given = given_value(L, index);
     if (to_mask(L, index) != nullptr)
         throw InvalidArgument(
-            "{} must be {}, but {} was given; find(mask) gives the places, #find(mask) how many there are", label,
-            wanted, given);
+            "{} must be {}, but {} was given; find(mask) returns the indices, #find(mask) their number", label, wanted,
+            given);
     if (wanted == with_article("iddata") && lua_istable(L, index))
-        throw InvalidArgument("{} must be {}, but {} was given; iddata(y, u, Ts) makes one of vectors", label, wanted,
-                              given);
+        throw InvalidArgument("{} must be {}, but {} was given; create one from vectors with iddata(y, u, Ts)", label,
+                              wanted, given);
     throw InvalidArgument("{} must be {}, but {} was given", label, wanted, given);
 }
 
@@ -134,9 +134,9 @@ void Call::at_most(int arguments) const {
     const bool named = arguments >= 1 && lua_type(state_, arguments) == LUA_TSTRING;
     const Message all = plural(arguments, "{} argument", "{} arguments");
     if (orders)
-        throw InvalidArgument("takes at most {}, but {} were given; orders are written as one table {}", all,
-                              arguments_, "{1, 1, 0}");
-    throw InvalidArgument("takes at most {}, but {} were given; options are written as one table {}", all, arguments_,
+        throw InvalidArgument("takes at most {}, but {} were given; write the orders as one table {}", all, arguments_,
+                              "{1, 1, 0}");
+    throw InvalidArgument("takes at most {}, but {} were given; write the options as one table {}", all, arguments_,
                           fmt::format("{{{} = value}}", named ? lua_tostring(state_, arguments) : "name"));
 }
 
@@ -245,9 +245,8 @@ void Options::check_names(const std::vector<std::string>& known) const {
     lua_State* L = call_.state();
     if (lua_type(L, index_) != LUA_TTABLE) {
         if (known.empty())
-            throw InvalidArgument("options are written as a table {name = value}, but {} was given",
-                                  given_value(L, index_));
-        throw InvalidArgument("options are written as a table {name = value}, but {} was given; the names are {}",
+            throw InvalidArgument("options must be a table {name = value}, but {} was given", given_value(L, index_));
+        throw InvalidArgument("options must be a table {name = value}, but {} was given; the names are {}",
                               given_value(L, index_), listed(known));
     }
     lua_pushnil(L);
@@ -255,9 +254,8 @@ void Options::check_names(const std::vector<std::string>& known) const {
         lua_pop(L, 1);
         if (lua_type(L, -1) != LUA_TSTRING) {
             if (known.empty())
-                throw InvalidArgument("options are written {name = value}; the entry [{}] has no name",
-                                      given_value(L, -1));
-            throw InvalidArgument("options are written {name = value}; the entry [{}] has no name; the names are {}",
+                throw InvalidArgument("options must be {name = value}; the entry [{}] has no name", given_value(L, -1));
+            throw InvalidArgument("options must be {name = value}; the entry [{}] has no name; the names are {}",
                                   given_value(L, -1), listed(known));
         }
         const std::string name = lua_tostring(L, -1);
@@ -265,7 +263,7 @@ void Options::check_names(const std::vector<std::string>& known) const {
         if (is_known(name)) continue;
         if (const std::string other = with_other_case(name); is_known(other)) {
             if (lua_getfield(L, index_, other.c_str()) != LUA_TNIL)
-                throw InvalidArgument("options '{}' and '{}' are the same: give one of them", name, other);
+                throw InvalidArgument("options '{}' and '{}' are the same: give only one", name, other);
             lua_pop(L, 1);
             continue;
         }
@@ -282,7 +280,7 @@ void Options::check_bounds(const OptionEntry& option) const {
     const Number given = significant(value, 10), lowest = significant(least, 10), highest = significant(most, 10);
     if (std::isinf(most)) throw InvalidArgument("{} must be at least {}, but {} was given", label, lowest, given);
     if (std::isinf(least)) throw InvalidArgument("{} must be at most {}, but {} was given", label, highest, given);
-    throw InvalidArgument("{} must lie between {} and {}, but {} was given", label, lowest, highest, given);
+    throw InvalidArgument("{} must be between {} and {}, but {} was given", label, lowest, highest, given);
 }
 
 void Options::read_members(const void* tag, void* into) const {

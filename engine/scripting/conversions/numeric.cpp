@@ -19,7 +19,7 @@ void need_memory(lua_State* L, double bytes, const What& what) {
     if (bytes <= limit && memory.fits(static_cast<std::size_t>(bytes))) return;
     if (bytes <= limit) lua_gc(L, LUA_GCCOLLECT);
     if (bytes > limit || !memory.fits(static_cast<std::size_t>(bytes)))
-        throw InvalidArgument("{} needs {}, but the script may use {} in all and holds {} already", what(),
+        throw InvalidArgument("{} needs {}, but the limit of the script is {} and it already uses {}", what(),
                               size_phrase(bytes), size_phrase(limit), size_phrase(static_cast<double>(memory.used())));
 }
 
@@ -69,7 +69,7 @@ Index joined_size(lua_State* L, int index, Index entries, const Message& label) 
     collect_text_keys(L, index, names);
     if (names.empty()) throw InvalidArgument("{} must have rows or columns, but the table is empty", label);
     std::sort(names.begin(), names.end());
-    throw InvalidArgument("{} must have rows or columns, but the table holds {}: give one of these, such as data.{}",
+    throw InvalidArgument("{} must have rows or columns, but the table contains {}: give one of these, such as data.{}",
                           label, listed(names), names.front());
 }
 
@@ -89,8 +89,8 @@ void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what) {
 }
 
 Message numbered_from_one(Index count) {
-    return count == 0   ? Message("there is none")
-           : count == 1 ? Message("there is 1 only")
+    return count == 0   ? Message("there are none")
+           : count == 1 ? Message("there is only 1")
                         : Message("there are 1 to {}", count);
 }
 

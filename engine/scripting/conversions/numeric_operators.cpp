@@ -26,7 +26,7 @@ Operand operand(const Call& call, int index, const char* sign) {
     if (call.type(index) == LUA_TTABLE) make_vector_of_table(L, index, Message("x {} y: the table", sign));
     if (NumericBlock* vector = to_vector(L, index)) return {vector, 0, true};
     if (NumericBlock* matrix = to_matrix(L, index)) return {matrix, 0, false};
-    throw InvalidArgument("x {} y cannot work with {}", sign, given_value(L, index));
+    throw InvalidArgument("x {} y is not defined for {}", sign, given_value(L, index));
 }
 
 /// Room for a result shaped like `model`, on top of the stack.
@@ -89,14 +89,14 @@ int numeric_multiply(Call& call) {
 int numeric_divide(Call& call) {
     const Operand b = operand(call, 2, "/");
     if (b.block != nullptr && !b.is_vector)
-        throw InvalidArgument("x / A does not exist for a matrix A; write solve(A, b) for A\\b");
+        throw InvalidArgument("x / A is not defined for a matrix A; write solve(A, b) for A\\b");
     return elementwise(call, "/", [](double x, double y) { return x / y; });
 }
 
 int numeric_power(Call& call) {
     const Operand a = operand(call, 1, "^"), b = operand(call, 2, "^");
     if ((a.block != nullptr && !a.is_vector) || (b.block != nullptr && !b.is_vector))
-        throw InvalidArgument("A ^ x does not exist for a matrix A; write A*A, or A:times(A) element by element");
+        throw InvalidArgument("A ^ x is not defined for a matrix A; write A*A, or A:times(A) element by element");
     if (b.block == nullptr && b.number == 2) return elementwise(call, "^", [](double x, double) { return x * x; });
     return elementwise(call, "^", [](double x, double y) { return std::pow(x, y); });
 }
@@ -114,8 +114,8 @@ int numeric_times(Call& call) {
 
 int refuse_comparison(Call&) {
     throw InvalidArgument(
-        "vectors are compared element by element with the functions gt(x, y), lt, ge, le and eq, which give a mask; "
-        "x < y would give a single true or false");
+        "compare vectors element by element with gt(x, y), lt, ge, le and eq, which return a mask; x < y would return "
+        "a single true or false");
 }
 
 }  // namespace dynlab::inline scripting

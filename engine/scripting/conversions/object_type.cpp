@@ -78,9 +78,9 @@ std::string_view page_of(std::string_view kind) {
 Message no_elements(const ObjectType& type) {
     if (std::string_view(type.name) == "figure")
         return Message(
-            "a figure has no elements; help(\"figure\") tells what it has, and bode_values(G, w), freqresp(G, w) and "
-            "lsim(G, u, t) give numbers");
-    return Message("{} has no elements; help(\"{}\") tells what it has", with_article(type.name), page_of(type.name));
+            "a figure has no elements; help(\"figure\") lists its fields, and bode_values(G, w), freqresp(G, w) and "
+            "lsim(G, u, t) return numbers");
+    return Message("{} has no elements; help(\"{}\") lists its fields", with_article(type.name), page_of(type.name));
 }
 
 /// __index; upvalues: methods, fields, the entry of the type.
@@ -110,13 +110,13 @@ int read_member(lua_State* L) {
 
 int refuse_writing(lua_State* L) {
     const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
-    raise_error(L, Message("{} cannot be changed; make a new one", with_article(type.name)));
+    raise_error(L, Message("{} cannot be changed; create a new object", with_article(type.name)));
 }
 
 /// __concat: Lua would say "concatenate a userdata value".
 int refuse_joining(lua_State* L) {
     const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
-    raise_error(L, Message(".. joins texts; make a text of {} first: tostring(x)", with_the(type.name)));
+    raise_error(L, Message(".. joins texts; convert {} to a text first: tostring(x)", with_the(type.name)));
 }
 
 void set_with_type(lua_State* L, const char* name, lua_CFunction function, const ObjectType& type) {

@@ -21,8 +21,8 @@ Message with_script_options(const Message& message, const Reader& reader) {
 
 Message unknown_option(const std::string& name, const std::vector<std::string>& known) {
     const auto near = nearest_word(name, known);
-    return near ? Message("option '{}' is unknown; did you mean '{}'?", name, *near)
-                : Message("option '{}' is unknown; the options are {}", name, listed(known));
+    return near ? Message("unknown option '{}'; did you mean '{}'?", name, *near)
+                : Message("unknown option '{}'; the options are {}", name, listed(known));
 }
 
 MessageList listed_in_quotes(const std::vector<std::string>& texts) {

@@ -27,7 +27,7 @@ int call_with_checked_length(lua_State* L) {
     if (luaL_getmetafield(L, 1, "__len") != LUA_TNIL) {
         lua_pop(L, 1);
         if (luaL_len(L, 1) > kLongestTable)
-            raise_error(L, Message("the table claims to have more elements than fit into memory"));
+            raise_error(L, Message("the table claims to have more elements than fit in memory"));
     }
     return call_original(L);
 }
@@ -40,7 +40,7 @@ int call_with_checked_range(lua_State* L) {
         const lua_Integer last = luaL_checkinteger(L, kFirst + 1);
         const bool far_apart = last > first && static_cast<lua_Unsigned>(last) - static_cast<lua_Unsigned>(first) >
                                                    static_cast<lua_Unsigned>(kLongestTable);
-        if (far_apart) raise_error(L, Message("the range from {} to {} is longer than a table can be", first, last));
+        if (far_apart) raise_error(L, Message("the range from {} to {} is longer than the longest table", first, last));
     }
     return call_with_checked_length(L);
 }
@@ -59,7 +59,7 @@ int repeat_string(lua_State* L) {
     const MemoryAccount& memory = context_of(L).memory;
     if (bytes > static_cast<double>(memory.limit()))
         raise_error(L, Message("{}: {}", "rep",
-                               Message("the text would take {}, but the script may use {}", size_phrase(bytes),
+                               Message("the text would take {}, but the limit of the script is {}", size_phrase(bytes),
                                        size_phrase(static_cast<double>(memory.limit())))));
     return call_original(L);
 }

@@ -76,7 +76,7 @@ json capabilities() {
 
 std::vector<json> LanguageServer::answers_to(const std::string& text) {
     const json message = json::parse(text, nullptr, false);
-    if (message.is_discarded()) return {error_answer(nullptr, kParseError, "this is no JSON")};
+    if (message.is_discarded()) return {error_answer(nullptr, kParseError, "the text is not JSON")};
     if (!message.is_object() || !message.contains("method") || !message["method"].is_string()) {
         if (message.is_object() && message.contains("result")) return {};  // to a request: there are none of ours
         return {error_answer(nullptr, kInvalidRequest, "a message needs a method")};

@@ -138,7 +138,7 @@ bool put_at_depth(lua_State* L, int index, CborWriter& archive, int depth) {
 void push_table(const Call& call, CborReader& archive, std::vector<FigurePointer>& figures) {
     lua_State* L = call.state();
     const std::size_t count = archive.begin_list(2 * sizeof(lua_Number));
-    if (count % 2 == 0) archive.refuse(Message("a table has a name and pairs of a key and a value"));
+    if (count % 2 == 0) archive.refuse(Message("a table consists of a name and pairs of a key and a value"));
     archive.element();
     const auto data_name = read_fresh<std::optional<std::string>>(archive);
     lua_createtable(L, 0, static_cast<int>(count / 2));
@@ -146,7 +146,7 @@ void push_table(const Call& call, CborReader& archive, std::vector<FigurePointer
         archive.element();
         push_archived_value(call, archive, figures);
         const bool usable = !lua_isnil(L, -1) && !(lua_isnumber(L, -1) && lua_tonumber(L, -1) != lua_tonumber(L, -1));
-        if (!usable) archive.refuse(Message("this cannot be a key of a table"));
+        if (!usable) archive.refuse(Message("the value cannot be the key of a table"));
         archive.element();
         push_archived_value(call, archive, figures);
         lua_rawset(L, -3);
@@ -157,7 +157,7 @@ void push_table(const Call& call, CborReader& archive, std::vector<FigurePointer
 
 void push_array(const Call& call, CborReader& archive) {
     const NumberArray numbers = archive.array({});
-    if (numbers.is_complex()) archive.refuse(Message("complex numbers stand in an object"));
+    if (numbers.is_complex()) archive.refuse(Message("complex numbers must be in an object"));
     Matrix values(numbers.rows, numbers.columns);
     if (numbers.bytes() > 0) std::memcpy(values.data(), numbers.numbers, numbers.bytes());
     if (numbers.form == ArrayForm::kVector)
@@ -173,7 +173,7 @@ void push_known_object(const Call& call, CborReader& archive, std::vector<Figure
         codec.push(call, archive, figures);
         return archive.end_object();
     }
-    archive.refuse(Message("it is an object of an unknown type"));
+    archive.refuse(Message("the object has an unknown type"));
 }
 
 }  // namespace
@@ -206,7 +206,7 @@ void push_archived_value(const Call& call, CborReader& archive, std::vector<Figu
         case Kind::kObject:
             return push_known_object(call, archive, figures);
         default:
-            archive.refuse(Message("it is a value of an unknown kind"));
+            archive.refuse(Message("the value has an unknown kind"));
     }
 }
 

@@ -51,7 +51,7 @@ Access<IdData>& object_argument<IdData>(const Call& call, int index, ArgumentNam
     const IdData& data = signals_of_argument(call, index, what);
     if (data.output_count() > 0) return data;
     throw InvalidArgument(
-        "{} must have an output, and these data hold inputs only, which is enough for sim, simsd and idplot",
+        "{} must have an output, but these data contain only inputs, which is sufficient for sim, simsd and idplot",
         argument_label(index, what));
 }
 

@@ -13,7 +13,8 @@ std::string parameter_line(const GreyFit& grey, Index i, const Reader& reader) {
     const std::string line = fmt::format("  {:<8} {:>12}  ", grey.fit.names[place], number(grey.fit.theta[i], 6));
     if (grey.model.parameters[place].fixed) return line + message_text(Message("(fixed)"), reader) + "\n";
     if (grey.fit.at_bound[place]) return line + message_text(Message("(at its bound)"), reader) + "\n";
-    if (!std::isfinite(grey.fit.std[i])) return line + message_text(Message("(not told by the record)"), reader) + "\n";
+    if (!std::isfinite(grey.fit.std[i]))
+        return line + message_text(Message("(not determined by the data)"), reader) + "\n";
     return line + fmt::format("± {:<10} ", number(grey.fit.std[i], 3)) +
            message_text(
                Message("95 %: {} to {}", significant(grey.intervals(i, 0), 5), significant(grey.intervals(i, 1), 5)),

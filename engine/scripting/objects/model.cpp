@@ -62,7 +62,7 @@ bool holds_model(const Call& call, int index) {
 }
 
 Message channels_hint(const Model& model) {
-    return Message("it has {} and {}: take one of its channels, {}", plural(model.inputs(), "{} input", "{} inputs"),
+    return Message("it has {} and {}: use one of its channels, {}", plural(model.inputs(), "{} input", "{} inputs"),
                    plural(model.outputs, "{} output", "{} outputs"),
                    model.outputs == 1 ? Message("G.channels[1] for the first input")
                                       : Message("G.channels[2][1] for the second output and first input"));
@@ -71,8 +71,9 @@ Message channels_hint(const Model& model) {
 namespace {
 
 [[noreturn]] void refuse_simulated(int index, ArgumentName what, const Message& kind) {
-    throw InvalidArgument("{} must be a linear model, but {} is not linear; lsim, compare, fit and resid simulate it",
-                          argument_label(index, what), kind);
+    throw InvalidArgument(
+        "{} must be a linear model, but {} is not linear; simulate it with lsim, compare, fit and resid",
+        argument_label(index, what), kind);
 }
 
 /// A grey box with linear equations, one input and one output.

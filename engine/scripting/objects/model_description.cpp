@@ -8,12 +8,12 @@ void check_value(const Estimate& estimate, const ValueLimits&) {
     const bool with_errors = estimate.std().size() == d || estimate.std().size() == 0;
     const bool with_covariance = known == estimate.covariance().cols() && (known == d || known == 0);
     if (!named || !with_errors || !with_covariance)
-        throw InvalidArgument("its parameters, their names, standard errors and covariance differ in number");
+        throw InvalidArgument("the numbers of parameters, names, standard errors and covariances differ");
 }
 
 void check_value(const Model& model, const ValueLimits&) {
     if (model.outputs == 0 || model.channels.size() % model.outputs != 0)
-        throw InvalidArgument("its channels do not make whole outputs");
+        throw InvalidArgument("its channels do not form complete outputs");
 }
 
 }  // namespace dynlab::inline scripting

@@ -31,7 +31,7 @@ constexpr std::array kArrowOptions = {
 constexpr std::array kOneCurveOptions = {
     OptionEntry{"x", ValueKind::kVector, about("values on the x axis, by default 1, 2, 3, ...")},
     OptionEntry{"y", ValueKind::kVector, about("values on the y axis")},
-    OptionEntry{"y_upper", ValueKind::kVector, about("upper end of a band, whose lower end is y")}};
+    OptionEntry{"y_upper", ValueKind::kVector, about("upper end of a band from y")}};
 constexpr OptionTable kPanelTables[] = {kPanelOptions}, kReferenceTables[] = {kMarkPlaceOptions, kReferenceOptions},
                       kAnnotationTables[] = {kMarkPlaceOptions, kAnnotationOptions}, kArrowTables[] = {kArrowOptions},
                       kOneCurveTables[] = {kOneCurveOptions, kCurveLookOptions};
@@ -60,7 +60,7 @@ double needed_number(const Options& options, const char* name, const Message& wh
 ReferenceLine read_reference(const Call& call, int index) {
     const Options options(call, index, kReferenceTables);
     if (options.has("x") == options.has("y"))
-        throw InvalidArgument("a reference is {y = level} or {x = instant}, one of both");
+        throw InvalidArgument("a reference must be either {y = level} or {x = instant}");
     ReferenceLine line;
     line.horizontal = options.has("y");
     line.at = line.horizontal ? options.number("y", 0) : options.number("x", 0);
@@ -96,12 +96,12 @@ int colour_at(const Call& call, int index) {
         if (found != kColourNames.end()) return static_cast<int>(std::min(found - kColourNames.begin(), kGrey));
         throw InvalidArgument(
             "{} must be {}, but \"{}\" was given", option_label("colour"),
-            Message("a number from 0 on, or one of {}", listed_in_quotes({kColourNames.begin(), kColourNames.end()})),
+            Message("a number from 0, or one of {}", listed_in_quotes({kColourNames.begin(), kColourNames.end()})),
             name);
     }
     const double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : -1;
     if (number < 0 || number != std::floor(number) || number > 1000)
-        refuse_option("colour", Message("a whole number from 0 on, or a name such as \"red\""), given_value(L, index));
+        refuse_option("colour", Message("a whole number from 0, or a name such as \"red\""), given_value(L, index));
     return static_cast<int>(number);
 }
 

@@ -21,7 +21,7 @@ inline constexpr std::array kPanelOptions = {
     option<&Panel::equal_axes>("equal_axes", about("equal units on both axes")),
     option<&Panel::legend>("legend",
                            about("place of the legend; \"direct\" writes each name next to its curve, or creates a "
-                                 "legend if there is no clear space"),
+                                 "legend if space is missing"),
                            {.initial = "\"automatic\"", .choices = kLegendPlaces}),
     OptionEntry{"curves", ValueKind::kTable,
                 about("list of curves, {x =, y =, label =, style =, colour =, dash =, line_width =, marker =}; with "

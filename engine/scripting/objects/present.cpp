@@ -126,7 +126,8 @@ std::string Presentation::gain_and_poles(const TransferFunction& G,
 
 std::string Presentation::polynomial_lines(const PolynomialModel& model) const {
     std::string lines =
-        text(Message("Polynomials (weights of the present sample, the one before, ...; those not shown are 1):")) +
+        text(Message(
+            "Polynomials (weights of the current sample, the previous one, ...; polynomials not shown are 1):")) +
         "\n";
     const auto add = [&](const std::string& name, const Vector& p) {
         if (p.size() > 1 || p[0] != 1) lines += fmt::format("  {:<5} {}\n", name, vector_text(p, reader_));
@@ -143,9 +144,10 @@ std::string Presentation::polynomial_lines(const PolynomialModel& model) const {
 }
 
 std::string Presentation::noise_lines(const NoiseModel& noise) const {
-    if (noise.C.size() + noise.D.size() <= 2) return text(Message("Noise: taken as white")) + "\n";
+    if (noise.C.size() + noise.D.size() <= 2) return text(Message("Noise: assumed white")) + "\n";
     std::string lines =
-        text(Message("Noise C(q^-1)/D(q^-1) e, e white (weights of the samples before; the present one's is 1):")) +
+        text(Message(
+            "Noise C(q^-1)/D(q^-1) e, e white (weights of the previous samples; the current sample has weight 1):")) +
         "\n";
     const auto add = [&](const char* name, const Vector& p, const Vector& std) {
         for (Index i = 1; i < p.size(); ++i)

@@ -68,7 +68,7 @@ std::string StudyText::bias_of(const MonteCarloResult& result) const {
         if (std::abs(result.bias[i]) > kSignificantDeviation * result.spread[i] / root)
             names.push_back(result.names[static_cast<std::size_t>(i)]);
     if (names.empty()) return "";
-    return text(Message("{} is biased: the mean of {} is off the true value by more than chance explains.",
+    return text(Message("{} is biased: the mean of {} differs from the true value by more than chance explains.",
                         result.label, listed(names))) +
            "\n";
 }
@@ -76,11 +76,11 @@ std::string StudyText::bias_of(const MonteCarloResult& result) const {
 std::string StudyText::troubles_of(const MonteCarloResult& result, int runs) const {
     std::string lines;
     if (result.failed > 0)
-        lines += text(Message("{}: {} of {} runs failed and are left out; the first one says: {}.", result.label,
+        lines += text(Message("{}: {} of {} runs failed and are excluded; the first error: {}.", result.label,
                               result.failed, runs, result.first_failure)) +
                  "\n";
     if (result.not_converged > 0)
-        lines += text(Message("{}: {} of {} runs did not converge; their last values are counted.", result.label,
+        lines += text(Message("{}: {} of {} runs did not converge; their last values are included.", result.label,
                               result.not_converged, runs)) +
                  "\n";
     return lines;
@@ -117,7 +117,7 @@ std::string StudyText::of(const MonteCarlo& study) const {
                            sigma, significant(study.snr, 3))
                  : Message("Monte Carlo study of {} runs, noise of standard deviation {}", study.runs, sigma)) +
         "\n";
-    if (study.cancelled) lines += text(Message("The study was stopped before its end.")) + "\n";
+    if (study.cancelled) lines += text(Message("The study was interrupted.")) + "\n";
     std::size_t who_width = 5;
     for (const MonteCarloResult& result : study.results) who_width = std::max(who_width, result.label.size());
     const MonteCarloResult* before = nullptr;
@@ -163,7 +163,7 @@ std::string StudyText::of(const ArxSelection& selection, const OrderChoice& choi
         lines += fmt::format("{} {:>4} {:>4} {:>4} {:>10} {:>11} {:>9} {:>9}", i == choice.place ? '*' : ' ', one.na,
                              one.nb, one.nk, one.parameters(), text(one.loss), fixed(one.aic, 4), fixed(one.bic, 4));
         if (one.validation_loss) lines += fmt::format(" {:>11}", text(*one.validation_loss));
-        if (!one.determined) lines += "  " + text(Message("not determined: the input is too poor"));
+        if (!one.determined) lines += "  " + text(Message("not determined: the input is not exciting enough"));
         lines += "\n";
     }
     return lines + text(choice.explanation) + "\n";

@@ -9,7 +9,7 @@ using Node = ExpressionTape::Node;
 
 Node operand_of(const Call& call, int index, const std::shared_ptr<Trace>& trace) {
     if (const auto node = traced_node(call.state(), index, trace)) return *node;
-    throw InvalidArgument("with a value that is not known yet only numbers can be combined, but {} was given",
+    throw InvalidArgument("with a symbolic value only numbers can be combined, but {} was given",
                           given_value(call.state(), index));
 }
 
@@ -20,23 +20,22 @@ int operate(Call& call) {
 
 int refuse_order(Call&) {
     throw InvalidArgument(
-        "two values that are not known yet cannot be compared: where(c, a, b) is a where c > 0 and b elsewhere, and "
-        "sign, max, min and abs work on such values, too");
+        "symbolic values cannot be compared: where(c, a, b) is a where c > 0 and b elsewhere; sign, max, min and abs "
+        "also support symbolic values");
 }
 
 int input_of(Call& call) {
     const TracedValue& value = object_argument<TracedValue>(call, 1, "u");
-    if (!value.inputs)
-        throw InvalidArgument("this is a single value: only the inputs u have elements, u[1], u[2], ...");
+    if (!value.inputs) throw InvalidArgument("this is a scalar: only the inputs u have elements, u[1], u[2], ...");
     const Index i = call.integer(2, Message("number of the input"));
-    if (i < 1 || i > 1000) throw InvalidArgument("u[{}] does not exist: inputs are counted from 1", i);
+    if (i < 1 || i > 1000) throw InvalidArgument("u[{}] does not exist: inputs are numbered from 1", i);
     value.trace->inputs = std::max(value.trace->inputs, i);
     value.trace->inputs_indexed = true;
     return give_traced(call, value.trace, value.trace->tape.variable(Operation::kInput, i - 1));
 }
 
 int text_of(Call& call) {
-    return call.give(std::string("a value that is not known yet"));
+    return call.give(std::string("a symbolic value"));
 }
 
 constexpr std::array kTracedOperators = {Member{"__add", guarded<operate<Operation::kAdd, 2>>},

@@ -80,7 +80,7 @@ class Prompt {
     }
 
     void give_up() {
-        print_now("(given up: the statement was not complete)\n");
+        print_now("(discarded: the statement was not complete)\n");
         pending_.clear();
     }
 

@@ -71,7 +71,7 @@ LineEditor::State::State(CommandHistory& kept_history, std::function<Completion(
     : kept(kept_history), complete(std::move(completer)) {
     use_utf8();
     editor = el_init("dynlab", stdin, stdout, stderr);
-    if (editor == nullptr || history == nullptr) throw InvalidArgument("the terminal cannot be used for line editing");
+    if (editor == nullptr || history == nullptr) throw InvalidArgument("the terminal does not support line editing");
     HistEvent event;
     ::history(history, &event, H_SETSIZE, static_cast<int>(CommandHistory::kMostLines));
     for (const std::string& line : kept.lines()) ::history(history, &event, H_ENTER, line.c_str());
@@ -97,7 +97,7 @@ LineEditor::State& LineEditor::State::of(EditLine* editor) {
 void LineEditor::State::bind_keys() {
     el_set(editor, EL_EDITOR, "emacs");
     el_set(editor, EL_ADDFN, "dynlab-complete", "complete the word before the cursor", complete_at_cursor);
-    el_set(editor, EL_ADDFN, "dynlab-stop", "hand the terminal back to the shell", stop_program);
+    el_set(editor, EL_ADDFN, "dynlab-stop", "return the terminal to the shell", stop_program);
     constexpr const char* kKeys[][2] = {
         {"^I", "dynlab-complete"},           {"^Z", "dynlab-stop"},
         {"^R", "em-inc-search-prev"},        {"\\e[A", "ed-search-prev-history"},

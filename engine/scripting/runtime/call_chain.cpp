@@ -56,7 +56,7 @@ int collect_calls(lua_State* L) {
             if (calls.size() == kLongestChain) {
                 RuntimeContext& context = context_of(L);
                 calls.push_back(
-                    {Message("began a longer chain of calls"), context.script_name, main_chunk_line(context)});
+                    {Message("started a longer chain of calls"), context.script_name, main_chunk_line(context)});
                 break;
             }
             calls.push_back({called, record.short_src, record.currentline});

@@ -38,9 +38,9 @@ Message stop_sentence(const RuntimeContext& context, StopReason reason) {
             return Message("the script used more than {} s of processor time",
                            context.options.time->seconds(TimeLimit::kProcessor));
         case StopReason::kClockTime:
-            return Message("the script had not ended after {} s", context.options.time->seconds(TimeLimit::kClock));
+            return Message("the script did not finish within {} s", context.options.time->seconds(TimeLimit::kClock));
         case StopReason::kOutputLimit:
-            return Message("the script printed more text than a run may keep");
+            return Message("the script printed more text than allowed");
         default:
             return Message("interrupted");
     }

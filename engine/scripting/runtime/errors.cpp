@@ -43,14 +43,14 @@ Message with_advice(const Message& sentence, const Message& advice) {
 }
 
 Message call_sentence(const std::string& text, const std::string& type) {
-    if (auto name = between(text, "method '", "')")) return Message("there is no method '{}' on this object", *name);
+    if (auto name = between(text, "method '", "')")) return Message("the object has no method '{}'", *name);
     if (text.find("for iterator") != std::string::npos && type != "nil")
-        return Message("{} cannot be looped over so; write for i, x in ipairs(v) do ... end", what_it_is(type));
+        return Message("{} does not support this loop; write for i, x in ipairs(v) do ... end", what_it_is(type));
     if (type == "nil")
         return Message("{} is nil (it has no value), so it cannot be called like a function", subject(text));
-    const Message advice = type == "model"    ? Message("its values at frequencies are freqresp(G, w)")
-                           : type == "matrix" ? Message("the element i, j is written A[{i, j}]")
-                           : type == "vector" || type == "table" ? Message("the element i is written v[i]")
+    const Message advice = type == "model"    ? Message("freqresp(G, w) returns its values at frequencies")
+                           : type == "matrix" ? Message("write the element i, j as A[{i, j}]")
+                           : type == "vector" || type == "table" ? Message("write the element i as v[i]")
                                                                  : Message();
     return with_advice(Message("{} is {}, so it cannot be called like a function", subject(text), what_it_is(type)),
                        advice);
@@ -87,7 +87,7 @@ Message argument_sentence(const std::string& text) {
     const std::string inside = reason->substr(0, reason->size() - 1);
     if (*function == "format" && inside.find("no integer representation") != std::string::npos)
         return Message("{}: {}", *function,
-                       Message("argument {} is not a whole number, which %d wants; write %g or %.0f", *number));
+                       Message("argument {} is not a whole number, which %d requires; write %g or %.0f", *number));
     const std::string given = between(inside, " expected, got ", "").value_or("");
     if ((given == "vector" || given == "matrix") && takes_vectors(*function))
         return Message("math.{} takes numbers, but {} was given; write {}(x), without math", *function,
@@ -108,12 +108,12 @@ struct PlainMessage {
 
 const auto& fixed_messages() {
     static const std::array messages = {
-        PlainMessage{"stack overflow", Message("functions call each other without end (stack overflow)")},
-        PlainMessage{"C stack overflow", Message("functions call each other without end (stack overflow)")},
-        PlainMessage{"error in error handling", Message("an error happened while another error was being handled")},
-        PlainMessage{"number has no integer representation", Message("a whole number is needed here")},
+        PlainMessage{"stack overflow", Message("functions call each other endlessly (stack overflow)")},
+        PlainMessage{"C stack overflow", Message("functions call each other endlessly (stack overflow)")},
+        PlainMessage{"error in error handling", Message("an error occurred while another error was handled")},
+        PlainMessage{"number has no integer representation", Message("a whole number is required")},
         PlainMessage{"attempt to divide by zero", Message("a whole number cannot be divided by zero with //")},
-        PlainMessage{"attempt to perform 'n%0'", Message("the remainder of a division by zero does not exist")},
+        PlainMessage{"attempt to perform 'n%0'", Message("the remainder of a division by zero is undefined")},
         PlainMessage{"'for' step is zero", Message("the step of a for loop must not be zero")},
         PlainMessage{"index is nil", Message("the key of the table is nil (it has no value)")},
         PlainMessage{"table index is nil", Message("the key of the table is nil (it has no value)")},
@@ -121,11 +121,11 @@ const auto& fixed_messages() {
         PlainMessage{"table overflow", Message("the table has too many elements")},
         PlainMessage{"resulting string too large", Message("the text would be too long")},
         PlainMessage{"string length overflow", Message("the text would be too long")},
-        PlainMessage{"cannot resume dead coroutine", Message("this coroutine has ended and cannot go on")},
+        PlainMessage{"cannot resume dead coroutine", Message("this coroutine has ended and cannot be resumed")},
         PlainMessage{"cannot resume non-suspended coroutine", Message("this coroutine is running already")},
         PlainMessage{"attempt to yield from outside a coroutine",
-                     Message("coroutine.yield works inside a coroutine only")},
-        PlainMessage{"not enough memory", Message("the script needs more memory than it may use")},
+                     Message("coroutine.yield works only inside a coroutine")},
+        PlainMessage{"not enough memory", Message("the script needs more memory than allowed")},
     };
     return messages;
 }
@@ -143,20 +143,21 @@ Message plain_sentence(const std::string& text) {
                                ? Message("the element i, j of a matrix is A[{i, j}]")
                                : Message());
     if (auto type = between(text, "attempt to perform arithmetic on a ", " value"))
-        return with_advice(Message("{} is {}, so it cannot be calculated with", subject(text), what_it_is(*type)),
-                           *type == "table"          ? Message("make a vector of it: vector(t)")
-                           : *type == kComplexNumber ? Message("calculate with its fields re, im, abs and arg")
+        return with_advice(Message("{} is {}, so arithmetic with it is not possible", subject(text), what_it_is(*type)),
+                           *type == "table"          ? Message("convert it to a vector: vector(t)")
+                           : *type == kComplexNumber ? Message("use its fields re, im, abs and arg")
                                                      : Message());
     if (auto type = between(text, "attempt to perform bitwise operation on a ", " value"))
-        return with_advice(Message("{} is {}, so & | ~ << >> cannot work with it", subject(text), what_it_is(*type)),
-                           *type == "boolean" ? Message("'not' is written not x") : Message());
+        return with_advice(Message("{} is {}, so & | ~ << >> do not support it", subject(text), what_it_is(*type)),
+                           *type == "boolean" ? Message("write 'not' as not x") : Message());
     if (auto type = between(text, "attempt to concatenate a ", " value"))
-        return Message("{} is {}, so .. cannot join it to a text; use tostring(x)", subject(text), what_it_is(*type));
+        return Message("{} is {}, so .. cannot join it to a string; use tostring(x)", subject(text), what_it_is(*type));
     if (auto type = between(text, "attempt to get length of a ", " value"))
         return with_advice(Message("{} is {}, so # cannot count its elements", subject(text), what_it_is(*type)),
                            *type == "iddata" ? Message("data.N is the number of samples") : Message());
     if (text.find(" a 'string' with a ") != std::string::npos)
-        return Message("a text cannot be calculated with; two dots join texts and numbers: \"a = \" .. x");
+        return Message(
+            "arithmetic with a string is not possible; use two dots to join strings and numbers: \"a = \" .. x");
     if (starts_with(text, "attempt to compare ")) return compare_sentence(text);
     if (starts_with(text, "bad argument #")) return argument_sentence(text);
     if (auto part = between(text, "bad 'for' ", " (number expected, got "))
@@ -177,21 +178,22 @@ Message syntax_sentence(const std::string& text, const std::string& near) {
         return Message("the '{}' of line {} is not closed: {} is missing", *between(text, "(to close '", "' at line "),
                        *between(text, "at line ", ")"), *closing);
     if (auto name = between(text, "attempt to assign to const variable '", "'"))
-        return Message("'{}' was declared constant and cannot change", *name);
+        return Message("'{}' is a constant and cannot change", *name);
     if (auto line = between(text, "break outside loop at line ", ""))
-        return Message("the break of line {} stands outside of any loop", line->substr(0, line->find(' ')));
+        return Message("the break of line {} is outside a loop", line->substr(0, line->find(' ')));
     if (auto most = between(text, "too many local variables (limit is ", ")"))
         return Message(
-            "here can be at most {} local variables; declare further ones without 'local', or keep them in a table",
+            "a function can have at most {} local variables; declare further variables without 'local', or put them in "
+            "a table",
             *most);
-    if (text.find("unfinished string") != std::string::npos) return Message("a text is not closed with its quote");
+    if (text.find("unfinished string") != std::string::npos) return Message("unterminated string");
     if (near == "<eof>") return Message("the script ends in the middle of a statement");
     if (starts_with(text, "<eof> expected") && near != "end")
-        return Message("'{}' cannot follow: return ends its block; -- before it takes it out", near);
-    if (starts_with(text, "<eof> expected")) return Message("this '{}' closes nothing: there is one too many", near);
-    if (starts_with(text, "<name> expected")) return Message("a name is missing before '{}'", near);
-    if (auto wanted = between(text, "", " expected")) return Message("{} is missing before '{}'", *wanted, near);
-    if (!near.empty()) return Message("'{}' cannot stand here", near);
+        return Message("unexpected '{}': return must be the last statement of its block; comment it out with --", near);
+    if (starts_with(text, "<eof> expected")) return Message("unexpected '{}': it closes nothing", near);
+    if (starts_with(text, "<name> expected")) return Message("expected a name before '{}'", near);
+    if (auto wanted = between(text, "", " expected")) return Message("expected {} before '{}'", *wanted, near);
+    if (!near.empty()) return Message("unexpected '{}'", near);
     return Message::verbatim(text);
 }
 
@@ -233,7 +235,7 @@ PlacedMessage syntax_error(const std::string& message, const std::string& source
     LocatedMessage placed = take_apart(message);
     const auto at = [&](int line, Message text) { return PlacedMessage{std::move(text), placed.file, line}; };
     if (placed.text.find("attempt to load a binary chunk") != std::string::npos)
-        return {Message("this is not Lua text but a compiled chunk, which is not accepted")};
+        return {Message("this is a compiled Lua chunk, which dynlab does not accept; submit the source text")};
     std::string near = between(placed.text, " near '", "").value_or("");
     if (!near.empty()) near.pop_back();
     if (placed.text.find(" near <eof>") != std::string::npos) near = "<eof>";
@@ -243,7 +245,7 @@ PlacedMessage syntax_error(const std::string& message, const std::string& source
         if (Message hint = lone_word_hint(line_of(source, line)); !hint.empty()) return at(line, std::move(hint));
     }
     if (const auto line = line_cut_off(source, placed.line); line && near != "end")
-        return at(*line, Message("this statement goes on, but the cell ends here"));
+        return at(*line, Message("the statement is incomplete at the end of the cell"));
     if (near == "<eof>") {
         int line = 0;
         for (const std::string& text : lines_of(source)) {
@@ -260,9 +262,9 @@ PlacedMessage syntax_error(const std::string& message, const std::string& source
     const bool ended_early = near == "<eof>" && placed.text.find("unfinished string") == std::string::npos;
     Message hint = ended_early ? Message() : matlab_syntax_hint(wrong, near);
     if (hint.empty() && starts_with(placed.text, "'do' expected"))
-        hint = Message("a loop is written: while condition do ... end");
+        hint = Message("write a loop as while condition do ... end");
     if (hint.empty() && starts_with(placed.text, "'then' expected"))
-        hint = Message("a condition is written: if a > b then ... end");
+        hint = Message("write a condition as if a > b then ... end");
     return at(placed.line, with_advice(syntax_sentence(placed.text, near), hint));
 }
 
@@ -302,7 +304,7 @@ int translate_error(lua_State* L) {
 }
 
 PlacedMessage memory_error(const RuntimeContext& context) {
-    return {Message("the script needs more memory than the {} it may use",
+    return {Message("the script needs more memory than the limit of {}",
                     size_phrase(static_cast<double>(context.memory.limit()))),
             context.script_name, context.refusal_line};
 }

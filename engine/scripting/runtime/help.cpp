@@ -25,6 +25,32 @@ using FunctionList = std::vector<const FunctionEntry*>;
 
 constexpr std::size_t kSummaryColumn = 21, kMostFound = 20;
 
+/// Terms of other programs and of textbooks, and the functions that they mean.
+struct Synonym {
+    std::string_view term, names;
+};
+constexpr Synonym kSynonyms[] = {{"pole zero map", "pzmap"},
+                                 {"transport delay", "delayest tfsrivc procsrivc"},
+                                 {"dead time", "delayest tfsrivc procsrivc"},
+                                 {"pid", "simloop feedback margin"},
+                                 {"root locus", "feedback pole"},
+                                 {"spike", "filloutliers"},
+                                 {"crop", "iddata"},
+                                 {"psd", "spa etfe"},
+                                 {"ode", "idgrey greyest"},
+                                 {"overfitting", "crossvalidate srivcstruc"},
+                                 {"hold out", "crossvalidate compare"},
+                                 {"curve fitting", "polyfit polyfit_report"},
+                                 {"moving average", "idfilt armax"},
+                                 {"two curves", "plot"},
+                                 {"procest", "procsrivc"},
+                                 {"idtf", "tf"},
+                                 {"predict_first", "guess"},
+                                 {"reveal", "outcome"},
+                                 {"plant", "rig"},
+                                 {"variant", "rig"},
+                                 {"true_model", "rig_truth"}};
+
 std::vector<std::string> help_names(const FunctionList& functions) {
     std::vector<std::string> names;
     for (const FunctionEntry* entry : functions) names.emplace_back(entry->name);
@@ -62,6 +88,11 @@ bool begin_words(const std::string& text, const std::vector<std::string>& words)
     return std::ranges::all_of(words, [&](const auto& word) { return begins_a_word(text, word); });
 }
 
+std::vector<std::string> words_of(const std::string& text) {
+    std::istringstream stream(text);
+    return {std::istream_iterator<std::string>(stream), {}};
+}
+
 struct Found {
     int rank;  ///< 0 in the name, 1 in the summary, 2 in the page
     std::string name, summary;
@@ -69,11 +100,17 @@ struct Found {
 
 std::vector<Found> pages_about(const std::string& asked, const FunctionList& functions) {
     std::vector<Found> found;
-    std::istringstream stream(in_small_letters(asked));
-    const std::vector<std::string> words(std::istream_iterator<std::string>(stream), {});
+    const std::string small = in_small_letters(asked);
+    const std::vector<std::string> words = words_of(small);
     if (words.empty()) return found;
+    const auto is_meant = [&](const std::string& name) {
+        return std::ranges::any_of(kSynonyms, [&](const Synonym& one) {
+            return contains_word(one.names, name) && begin_words(small, words_of(std::string(one.term)));
+        });
+    };
     const auto look = [&](const std::string& name, const std::string& summary, std::string_view text) {
-        const int rank = begin_words(in_small_letters(name), words)                ? 0
+        const int rank = is_meant(name)                                            ? 0
+                         : begin_words(in_small_letters(name), words)              ? 0
                          : begin_words(in_small_letters(summary), words)           ? 1
                          : begin_words(in_small_letters(std::string(text)), words) ? 2
                                                                                    : 3;
@@ -243,8 +280,8 @@ std::string with_row(const std::string& page, const FunctionEntry& function) {
 
 [[noreturn]] void refuse_topic(const std::string& name, const FunctionList& functions) {
     const auto near = nearest_word(name, help_names(functions));
-    if (near) throw InvalidArgument("there is no help about '{}'; did you mean '{}'?", name, *near);
-    throw InvalidArgument("there is no help about '{}'; help() lists everything", name);
+    if (near) throw InvalidArgument("no help for '{}'; did you mean '{}'?", name, *near);
+    throw InvalidArgument("no help for '{}'; help() lists all topics", name);
 }
 
 }  // namespace

@@ -17,16 +17,16 @@ Message comment_form() {
     return Message("a comment starts with -- in Lua");
 }
 Message for_loop_form() {
-    return Message("a loop is written: for k = 1, N do ... end");
+    return Message("write a loop as for k = 1, N do ... end");
 }
 Message condition_form() {
-    return Message("a condition is written: if a > b then ... end");
+    return Message("write a condition as if a > b then ... end");
 }
 Message named_function_form() {
-    return Message("a function is written: function name(x) ... return y end");
+    return Message("write a function as function name(x) ... return y end");
 }
 Message inline_function_form() {
-    return Message("a function is written function(x) return x^2 end");
+    return Message("write a function as function(x) return x^2 end");
 }
 
 /// A character that word processors and printed pages put in the place of one that Lua knows.
@@ -135,11 +135,11 @@ bool has_assignment_condition(const std::string& code) {
 
 Message element_hint(const std::string& code) {
     static const RE2 kWholeLine(R"(\w[\[(]\s*(:\s*,|[\w.]+\s*,\s*:\s*[\])]))", RE2::Latin1);
-    if (RE2::PartialMatch(code, kWholeLine))
-        return Message("the row i of a matrix is A:row(i), the column j is A:col(j)");
+    if (RE2::PartialMatch(code, kWholeLine)) return Message("row i of a matrix is A:row(i), column j is A:col(j)");
     static const RE2 kTakenOut(R"(=\s*\[\s*\]\s*;?\s*$)", RE2::Latin1);
     if (RE2::PartialMatch(code, kTakenOut) && contains(code, ")"))
-        return Message("a vector keeps its length; v:select(mask) or v:select({1, 3}) gives the elements that stay");
+        return Message(
+            "the length of a vector is fixed; v:select(mask) or v:select({1, 3}) returns the selected elements");
     if (contains(code, "[end") || contains(code, "(end"))
         return Message("the last element is x[#x]; vector{x, y} appends y to x");
     static const RE2 kTwoPlaces(R"(\w\[\s*[\w.:]+\s*,)", RE2::Latin1);
@@ -148,26 +148,25 @@ Message element_hint(const std::string& code) {
     static const RE2 kElementSet(R"(\s*(?:local\s+)?([A-Za-z_]\w*)\(([\w\s,:#]+)\)\s*=[^=].*)", RE2::Latin1);
     std::string name, place;
     if (RE2::FullMatch(code, kElementSet, &name, &place))
-        return contains(place, ",") ? Message("an element of a matrix is written {}[{{}}]", name, place)
-                                    : Message("an element is written {}[{}]", name, place);
+        return contains(place, ",") ? Message("write an element of a matrix as {}[{{}}]", name, place)
+                                    : Message("write an element as {}[{}]", name, place);
     static const RE2 kImaginary(R"((^|[^\w.])\d+(\.\d*)?[ij]\b)", RE2::Latin1);
     if (RE2::PartialMatch(code, kImaginary))
         return Message(
-            "there are no complex numbers to calculate with; those that functions give have the fields re, im, abs, "
-            "arg");
+            "dynlab has no complex arithmetic; complex numbers returned by functions have the fields re, im, abs, arg");
     return {};
 }
 
 Message operator_hint(const std::string& code) {
-    if (contains(code, ".*")) return Message("for vectors write x*y, for matrices A:times(B), instead of .*");
+    if (contains(code, ".*")) return Message("write x*y for vectors and A:times(B) for matrices, instead of .*");
     if (contains(code, "./")) return Message("for vectors write x/y instead of ./");
     if (contains(code, ".^")) return Message("for vectors write x^2 instead of .^");
-    if (contains(code, "**")) return Message("a power is written x^2");
-    if (contains(code, "!=") || contains(code, "<>")) return Message("'not equal' is ~= in Lua");
-    if (contains(code, "!")) return Message("'not' is written not x");
-    if (contains(code, ":=")) return Message("a value is given by =: x = 3");
-    if (contains(code, "&&")) return Message("'and' is written and");
-    if (contains(code, "||")) return Message("'or' is written or");
+    if (contains(code, "**")) return Message("write a power as x^2");
+    if (contains(code, "!=") || contains(code, "<>")) return Message("write 'not equal' as ~= in Lua");
+    if (contains(code, "!")) return Message("write 'not' as not x");
+    if (contains(code, ":=")) return Message("assign a value with =: x = 3");
+    if (contains(code, "&&")) return Message("write 'and' as and");
+    if (contains(code, "||")) return Message("write 'or' as or");
     if (contains(code, "+=") || contains(code, "-=") || contains(code, "*="))
         return Message("write x = x + 1 instead of x += 1");
     if (contains(code, "++")) return Message("write x = x + 1 instead of x++");
@@ -177,16 +176,17 @@ Message operator_hint(const std::string& code) {
 Message block_hint(const std::string& code) {
     const std::string word = first_word(code);
     if ((word == "for" || word == "while") && !contains(code, " do"))
-        return word == "for" ? for_loop_form() : Message("a loop is written: while condition do ... end");
+        return word == "for" ? for_loop_form() : Message("write a loop as while condition do ... end");
     if ((word == "if" || word == "elseif") && !contains(code, "then")) return condition_form();
     if (word == "function" && contains(code, "=")) return named_function_form();
     if (word == "switch" || word == "case" || word == "otherwise")
         return Message("Lua has no switch: write if ... elseif ... else ... end");
     if (word == "elif" || word == "elsif") return Message("write elseif ... then");
     if (word == "def") return named_function_form();
-    if (word == "const" || word == "let" || word == "var") return Message("a variable is written: local x = 3");
+    if (word == "const" || word == "let" || word == "var") return Message("write a variable as local x = 3");
     if (word == "try" || word == "catch") return Message("write local ok, message = pcall(f) instead of try");
-    if (word == "end" && contains(code, "end;")) return Message("one 'end' too many, or a block that was not opened");
+    if (word == "end" && contains(code, "end;"))
+        return Message("one 'end' too many, or the start of a block is missing");
     return {};
 }
 
@@ -195,7 +195,7 @@ Message command_hint(const std::string& code, const std::string& near) {
     static const RE2 kAsked(R"(\s*\?\s*(\w+)\s*)", RE2::Latin1),
         kTwoWords(R"(\s*([A-Za-z_]\w*)[ \t]+(\w+)[\s;]*)", RE2::Latin1);
     std::string first, second;
-    if (RE2::FullMatch(code, kAsked, &first)) return Message("help is asked for by help(\"{}\")", first);
+    if (RE2::FullMatch(code, kAsked, &first)) return Message("to get help, write help(\"{}\")", first);
     const bool words_only = std::ranges::all_of(
         code, [](char c) { return name_character(c) || std::string_view(" \t\r;").find(c) != std::string_view::npos; });
     const Message* const hint = words_only ? matlab_name_hint(first_word(code)) : nullptr;
@@ -203,8 +203,8 @@ Message command_hint(const std::string& code, const std::string& near) {
     if (block_hint(code).empty() && RE2::FullMatch(code, kTwoWords, &first, &second) && second == near &&
         first != "local" && first != "return" && first != "goto" && first != "function")
         return first == "help" || first == "load" || first == "run" || first == "require"
-                   ? Message("a call is written {}(\"{}\")", first, second)
-                   : Message("a call is written {}({})", first, second);
+                   ? Message("write a call as {}(\"{}\")", first, second)
+                   : Message("write a call as {}({})", first, second);
     return {};
 }
 
@@ -214,7 +214,8 @@ Message lone_word_hint(const std::string& line) {
     const std::string code = code_only(line), word = first_word(code);
     const auto last = code.find_last_not_of(" \t\r;");
     if (last == std::string::npos || last + 1 != code.find(word) + word.size()) return {};
-    return word == "try" || word == "catch" ? Message("'{}' is no word of Lua; {}", word, block_hint(code)) : Message();
+    return word == "try" || word == "catch" ? Message("'{}' is not a keyword of Lua; {}", word, block_hint(code))
+                                            : Message();
 }
 
 Message colon_block_hint(const std::string& line) {
@@ -229,15 +230,16 @@ Message foreign_character_sentence(const std::string& line) {
     std::string_view rest = code;
     while (!rest.empty()) {
         const std::optional<char32_t> character = take_character(rest);
-        if (!character) return Message("a byte that is not UTF-8 cannot stand here; save the script as UTF-8");
+        if (!character) return Message("unexpected byte that is not UTF-8; save the script as UTF-8");
         if (*character < 128) continue;
         const auto known = std::ranges::find(kForeign, *character, &ForeignCharacter::character);
         const std::string_view instead = known == kForeign.end() ? std::string_view() : known->instead;
-        const Message advice = known == kForeign.end() ? Message("names are made of the letters a to z, digits and _")
-                               : instead.empty()       ? Message("write nothing instead")
-                               : instead == " "        ? Message("write a space instead")
-                                                       : Message("write {} instead", instead);
-        return Message("the character {} ({}) cannot stand here; {}", utf8_of(*character),
+        const Message advice = known == kForeign.end()
+                                   ? Message("a name may contain only the letters a to z, digits and _")
+                               : instead.empty() ? Message("remove it")
+                               : instead == " "  ? Message("replace it with a space")
+                                                 : Message("replace it with {}", instead);
+        return Message("unexpected character {} ({}); {}", utf8_of(*character),
                        fmt::format("U+{:04X}", static_cast<unsigned>(*character)), advice);
     }
     return {};
@@ -262,19 +264,19 @@ Message matlab_syntax_hint(const std::string& line, const std::string& near) {
     if (first != std::string::npos && (code[first] == '%' || code[first] == '#')) return comment_form();
     if (has_assignment_condition(code)) return Message("to compare, write == instead of =");
     if (Message hint = operator_hint(code); !hint.empty()) return hint;
-    if (ends_with(code, "...") && near != ")")
-        return Message("a statement may simply go on in the next line, without ...");
-    if (has_transpose(code)) return Message("the transpose is A:t(); vectors are columns already");
+    if (ends_with(code, "...") && near != ")") return Message("a statement can continue in the next line without ...");
+    if (has_transpose(code)) return Message("the transpose is A:t(); a vector is already a column");
     if (Message hint = block_hint(code); !hint.empty()) return hint;
     if (Message hint = element_hint(code); !hint.empty()) return hint;
-    if (has_bracket_list(code)) return Message("a vector is written vector{1, 2, 3}, a matrix matrix{{1, 2}, {3, 4}}");
+    if (has_bracket_list(code)) return Message("write a vector as vector{1, 2, 3}, a matrix as matrix{{1, 2}, {3, 4}}");
     if (contains(code, "lambda ")) return inline_function_form();
     if (has_colon_range(code))
-        return Message("a range is range(first, last) or range(first, step, last), a part of a vector v:range(i, j)");
+        return Message(
+            "write a range as range(first, last) or range(first, step, last), a part of a vector v as v:range(i, j)");
     if (contains(code, "%") || contains(code, "# ")) return comment_form();
-    if (contains(code, "\\")) return Message("A\\b is written solve(A, b)");
+    if (contains(code, "\\")) return Message("write A\\b as solve(A, b)");
     static const RE2 kBeginsWithDigit(R"(\d+[A-Za-z_]\w*)", RE2::Latin1), kContinue(R"(\bcontinue\b)", RE2::Latin1);
-    if (RE2::FullMatch(near, kBeginsWithDigit)) return Message("a name begins with a letter");
+    if (RE2::FullMatch(near, kBeginsWithDigit)) return Message("a name must start with a letter");
     if (RE2::PartialMatch(code, kContinue)) return *matlab_name_hint("continue");
     if (contains(code, "@(")) return inline_function_form();
     return {};

@@ -94,8 +94,7 @@ int refuse_unknown_member(lua_State* L) {
 
 int refuse_change(lua_State* L) {
     const std::string table = lua_tostring(L, lua_upvalueindex(1));
-    raise_error(
-        L, Message("'{}' belongs to dynlab and cannot be changed; use a table or a local function of your own", table));
+    raise_error(L, Message("'{}' belongs to dynlab and cannot be changed; use a table or a local function", table));
 }
 
 /// __pairs of a sealed table: walks a copy of what it shows.
@@ -170,24 +169,24 @@ void collect_text_keys(lua_State* L, int table, std::vector<std::string>& names)
 
 Message unknown_name(const std::string& name, const std::string& line, std::vector<std::string> names) {
     if (const Message comment = comment_hint(line, name); !comment.empty())
-        return Message("there is no variable '{}'; {}", name, comment);
+        return Message("unknown variable '{}'; {}", name, comment);
     if (const Message* const matlab = matlab_name_hint(name))
-        return Message("there is no function '{}' here; {}", name, *matlab);
+        return Message("unknown function '{}'; {}", name, *matlab);
     const auto near = nearest(name, std::move(names));
-    return near ? Message("there is no function or variable '{}'; did you mean '{}'?", name, *near)
-                : Message("there is no function or variable '{}'", name);
+    return near ? Message("unknown function or variable '{}'; did you mean '{}'?", name, *near)
+                : Message("unknown function or variable '{}'", name);
 }
 
 Message replaced_name(const std::string& name) {
     return Message(
         "'{}' is a function or table of dynlab and cannot be replaced; choose another name, or write 'local {} = ...' "
-        "to use the name for a variable of your own",
+        "to define a variable with this name",
         name, name);
 }
 
 Message unknown_member(const std::string& table, const std::string& key, bool of_library,
                        std::vector<std::string> names) {
-    if (key == "randomseed") return Message("the random numbers of a run begin with rng(seed)");
+    if (key == "randomseed") return Message("to set the seed of random numbers, write rng(seed)");
     if (of_library) return Message("'{}' has no member '{}'; write {}(x), without {}", table, key, key, table);
     const auto near = nearest(key, std::move(names));
     return near ? Message("'{}' has no member '{}'; did you mean '{}'?", table, key, *near)

@@ -22,13 +22,13 @@ fs::path output_path(const RuntimeContext& context, const std::string& path) {
         throw InvalidArgument("the path of a file to write must not be empty");
     const fs::path file = fs::weakly_canonical(fs::absolute(context.options.out_folder / path));
     if (!lies_below(file, context.options.out_folder) && !lies_below(file, context.options.script_folder))
-        throw InvalidArgument("'{}' lies outside the script's folder and the output folder; scripts write only there",
+        throw InvalidArgument("'{}' is outside the script's folder and the output folder; scripts write only there",
                               path);
     if (context.services.written != nullptr) context.services.written->take(file);
     std::error_code failure;
     fs::create_directories(file.parent_path(), failure);
     if (failure)
-        throw EnvironmentError("the folder {} cannot be made: {}", file.parent_path().string(), failure.message());
+        throw EnvironmentError("the folder {} cannot be created: {}", file.parent_path().string(), failure.message());
     return file;
 }
 

@@ -118,8 +118,8 @@ int coroutine_close(lua_State* L) {
     lua_Debug record;
     const bool suspended = co != L && (lua_status(co) == LUA_YIELD || lua_getstack(co, 0, &record) == 0);
     if (!suspended)
-        raise_error(L,
-                    Message("{}: {}", "coroutine.close", Message("only a coroutine that does not run can be closed")));
+        raise_error(
+            L, Message("{}: {}", "coroutine.close", Message("only a coroutine that is not running can be closed")));
     if (lua_resetthread(co) == LUA_OK) {
         lua_pushboolean(L, 1);
         return 1;

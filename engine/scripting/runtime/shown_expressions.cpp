@@ -201,16 +201,17 @@ std::optional<DecimalComma> decimal_comma_of(const std::string& source) {
 
 std::optional<MisreadLine> misread_line_of(const std::string& source) {
     if (const std::optional<int> line = line_with_semicolon_rows(source))
-        return MisreadLine{*line, Message("the rows of a matrix are tables of their own: matrix{{1, 2}, {3, 4}}; a "
-                                          "semicolon separates entries as a comma does")};
+        return MisreadLine{
+            *line,
+            Message(
+                "each row of a matrix is a table: matrix{{1, 2}, {3, 4}}; a semicolon separates entries like a comma")};
     if (const std::optional<int> line = line_with_compared_place(source))
-        return MisreadLine{*line, Message("max(v) and min(v) give the element's place, too, which math.max and "
+        return MisreadLine{*line, Message("max(v) and min(v) also return the index of the element, which math.max and "
                                           "math.min would compare like a value: write math.max(x, (max(v)))")};
     if (const std::optional<DecimalComma> number = decimal_comma_of(source)) {
         const auto& [line, name, whole, fraction] = *number;
-        return MisreadLine{
-            line, Message("{} = {},{} gives {} the value {}: a decimal number is written with a point, {}.{}", name,
-                          whole, fraction, name, whole, whole, fraction)};
+        return MisreadLine{line, Message("{} = {},{} gives {} the value {}: write a decimal number with a point, {}.{}",
+                                         name, whole, fraction, name, whole, whole, fraction)};
     }
     return std::nullopt;
 }

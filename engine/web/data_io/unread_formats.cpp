@@ -8,7 +8,7 @@ namespace dynlab::inline data_io {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const char* format) {
-    throw EnvironmentError("{}: a page in a browser reads no {} files; save the data as CSV", file.string(), format);
+    throw EnvironmentError("{}: dynlab in a browser cannot read {} files; save the data as CSV", file.string(), format);
 }
 
 }  // namespace
@@ -18,7 +18,7 @@ VariableTable read_mat_file(const std::filesystem::path& file, bool, std::vector
 }
 
 void write_mat_file(const std::filesystem::path& file, const VariableTable&, int) {
-    throw EnvironmentError("{}: a page in a browser writes no MAT files; save the data as CSV", file.string());
+    throw EnvironmentError("{}: dynlab in a browser cannot write MAT files; save the data as CSV", file.string());
 }
 
 SheetText read_sheet(const std::filesystem::path& file, const std::string&) {

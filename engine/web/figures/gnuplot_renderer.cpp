@@ -8,8 +8,8 @@ class GnuplotRenderer::Work {};
 GnuplotRenderer::GnuplotRenderer(const Cache*) {}
 GnuplotRenderer::~GnuplotRenderer() = default;
 void GnuplotRenderer::draw(const Figure&, const std::filesystem::path& file, FigureFormat, const Reader&) {
-    throw FigureError(Message("{}: a page in a browser makes no files of figures; run the script with dynlab for them",
-                              file.string()));
+    throw FigureError(Message(
+        "{}: dynlab in a browser cannot write figure files; run the script with the installed dynlab", file.string()));
 }
 void GnuplotRenderer::finish() {}
 CacheUse GnuplotRenderer::use() const {

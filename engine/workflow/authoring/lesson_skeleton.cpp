@@ -196,8 +196,7 @@ std::vector<std::string> make_lesson_skeleton(const fs::path& folder) {
     const fs::path whole = fs::absolute(folder).lexically_normal();
     const std::string slug = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
     if (!is_name("_" + slug))
-        throw EnvironmentError("'{}' is no name for a lesson: letters, digits, _ and - make one, as in 08_springs",
-                               slug);
+        throw EnvironmentError("'{}' is not a valid lesson name: use letters, digits, _ and -, as in 08_springs", slug);
     const std::map<std::string, std::string> files = {{"lesson.lua", replaced(kLesson, "SLUG", slug)},
                                                       {"record.csv", record()},
                                                       {"checks.lua", kChecks},

@@ -34,7 +34,7 @@ WrittenBefore written_before(const fs::path& folder) {
 }
 
 [[noreturn]] void refuse(const fs::path& folder, const Message& why) {
-    throw EnvironmentError("{}: {}; give a new or an empty folder, nothing was changed", folder.string(), why);
+    throw EnvironmentError("{}: {}; give a new or an empty folder; nothing was changed", folder.string(), why);
 }
 
 /// A file in the way that is not as the manual of before wrote it.
@@ -42,9 +42,9 @@ void check_file(const fs::path& folder, const std::string& name, const WrittenBe
     const fs::path file = folder / name;
     if (!fs::exists(fs::symlink_status(file))) return;
     const auto known = before.find(name);
-    if (known == before.end()) refuse(folder, Message("it has a file {} that no manual wrote", name));
+    if (known == before.end()) refuse(folder, Message("it contains a file {} that is not part of a manual", name));
     if (!fs::is_regular_file(fs::symlink_status(file)) || !known->second.count(sha256_of_file(file)))
-        refuse(folder, Message("{} was changed since the manual was made", name));
+        refuse(folder, Message("{} was changed after the manual was made", name));
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ void check_manual_folder(const fs::path& folder) {
                     [](const auto& entry) { return entry.is_directory() && !entry.is_symlink(); }))
         return;
     const auto before = written_before(folder);
-    if (before.empty()) refuse(folder, Message("it holds other things than a manual"));
+    if (before.empty()) refuse(folder, Message("it contains other files than a manual"));
     for (const auto& [name, hashes] : before) check_file(folder, name, before);
 }
 

@@ -128,7 +128,7 @@ ManualPage gallery_page(const std::vector<ManualPage>& pages) {
                 figure.code);
         main += "</div>\n";
     }
-    return overview("gallery.html", "Gallery", "Figures of the course and of the examples, with what made them", main);
+    return overview("gallery.html", "Gallery", "Figures of the course and of the examples, with their sources", main);
 }
 
 }  // namespace dynlab::inline workflow

@@ -152,8 +152,8 @@ std::string beginning_of(std::string_view help_page) {
 ManualText methods_text() {
     ManualText methods{"methods", "", {}};
     std::string text =
-        "# Methods\n\nEvery method of dynlab: the model that it fits, what it assumes of the noise, and where it "
-        "comes from. The pages of the functions tell options, results and errors.\n\n";
+        "# Methods\n\nEvery method of dynlab: the model, the assumption about the noise, and the source. The pages of "
+        "the functions describe options, results and errors.\n\n";
     for (const MethodEntry& method : method_catalogue()) {
         std::string title = method.title, names;
         title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));

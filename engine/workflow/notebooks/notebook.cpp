@@ -194,21 +194,20 @@ json notebook_metadata() {
 
 /// The cells of a notebook that we can read, or the sentence why we cannot.
 const json& checked_cells(const json& notebook, const std::filesystem::path& name) {
-    if (!notebook.is_object()) refuse_notebook(name, Message("this is JSON, but no Jupyter notebook"));
+    if (!notebook.is_object()) refuse_notebook(name, Message("the file is JSON, but not a Jupyter notebook"));
     const auto format = notebook.find("nbformat");
     if (format == notebook.end() || !format->is_number_integer())
-        refuse_notebook(name, Message("this is JSON, but no Jupyter notebook (it has no nbformat)"));
+        refuse_notebook(name, Message("the file is JSON, but not a Jupyter notebook (it has no nbformat)"));
     if (*format != 4)
-        refuse_notebook(name,
-                        Message("a notebook of nbformat {}, and nbformat 4 is read: open and save it in a Jupyter of "
-                                "today, or run python3 -m nbconvert --to notebook",
-                                format->dump()));
+        refuse_notebook(name, Message("the notebook has nbformat {}, but dynlab reads nbformat 4: open and save it in "
+                                      "a current Jupyter, or run python3 -m nbconvert --to notebook",
+                                      format->dump()));
     const json& metadata = object_at(notebook, "metadata");
     for (const json* told : {&object_at(metadata, "language_info"), &object_at(metadata, "kernelspec")}) {
         const std::string language = text_at(*told, told == &object_at(metadata, "kernelspec") ? "language" : "name");
         if (!language.empty() && language != kKernelLanguage && language != "Lua")
-            refuse_notebook(name,
-                            Message("a notebook in {}; dynlab runs notebooks in Lua, of its own kernel", language));
+            refuse_notebook(
+                name, Message("the notebook uses {}; dynlab runs only Lua notebooks, with its own kernel", language));
     }
     const auto cells = notebook.find("cells");
     if (cells == notebook.end() || !cells->is_array())
@@ -247,10 +246,10 @@ void add_losses_of_code(const std::string& code, int cell, const std::filesystem
     for (const std::string& line : lines_of(code)) {
         ++number;
         if (!is_cell_marker(line)) continue;
-        losses.push_back(placed(
-            {name}, Message("cell {}, line {}: \"{}\" would begin a cell of the script, where it is \"{}\"; inside a "
-                            "string, write it in another way, such as \"--\" .. \" %%\"",
-                            cell, number, line, script_line(line, false))));
+        losses.push_back(
+            placed({name}, Message("cell {}, line {}: \"{}\" would start a cell of the script, where it becomes "
+                                   "\"{}\"; inside a string, write it in another way, such as \"--\" .. \" %%\"",
+                                   cell, number, line, script_line(line, false))));
     }
 }
 
@@ -300,7 +299,7 @@ std::string notebook_of(const PercentScript& script, const RunRecord* record,
 NotebookScript script_of_notebook(std::string_view text, const std::filesystem::path& name) {
     const json notebook = json::parse(text, nullptr, false);
     if (notebook.is_discarded())
-        refuse_notebook(name, Message("this is no Jupyter notebook: it is not JSON, or cut off"));
+        refuse_notebook(name, Message("the file is not a Jupyter notebook: it is not JSON, or is truncated"));
     const json& cells = checked_cells(notebook, name);
     NotebookScript script;
     int number = 0;
@@ -312,12 +311,13 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
         if (!object_at(cell, "attachments").empty())
             script.losses.push_back(placed(
                 {name},
-                Message("cell {} has a picture that was pasted; save it as a file and name that in the text", number)));
+                Message("cell {} contains a pasted picture; save it as a file and give the file name in the text",
+                        number)));
         CellText read = cell_of_json(cell, first);
         if (kind == "raw" && read.marked) {  // a comment in its place, by which later cells keep their numbers
             read.source = "<!-- A raw cell of the notebook was here. -->";
-            script.losses.push_back(
-                placed({name}, Message("cell {} is a raw cell, which a script cannot hold; it is left out", number)));
+            script.losses.push_back(placed(
+                {name}, Message("cell {} is a raw cell, which a script cannot contain; it is left out", number)));
         }
         if (!read.text) add_losses_of_code(read.source, number, name, script.losses);
         std::string written = remembered(cell, read);
@@ -332,11 +332,11 @@ NotebookScript read_notebook(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > kMostNotebookBytes)
-        refuse_notebook(file, Message("a notebook of {} MB, and at most {} MB are read: clear its outputs", bytes >> 20,
+        refuse_notebook(file, Message("the notebook has {} MB, but the limit is {} MB: clear its outputs", bytes >> 20,
                                       kMostNotebookBytes >> 20));
     NotebookScript script = script_of_notebook(read_text(file), file);
     if (script.source.size() > kMostSourceBytes)
-        refuse_notebook(file, Message("its cells have {} MB of text, and a script has at most {} MB",
+        refuse_notebook(file, Message("its cells have {} MB of text, but the limit for a script is {} MB",
                                       (script.source.size() + (1 << 20) - 1) >> 20, kMostSourceBytes >> 20));
     return script;
 }

@@ -54,8 +54,8 @@ Machines slurm_in(const std::string& list) {
         if (!only_of(name, "abcdefghijklmnopqrstuvwxyz-") || value.empty() ||
             (ours && number_up_to(WorkPart::kMost, value) == 0))
             throw EnvironmentError(
-                "\"{}\" in --on slurm:{} is no OPTION=VALUE: tasks=N and rounds=N (up to {}), or any option of sbatch, "
-                "such as partition=short or time=2:00:00",
+                "\"{}\" in --on slurm:{} is not OPTION=VALUE: use tasks=N and rounds=N (up to {}), or any option of "
+                "sbatch, such as partition=short or time=2:00:00",
                 word, list, WorkPart::kMost);
         if (ours)
             (name == "tasks" ? machines.parts : machines.rounds) = number_up_to(WorkPart::kMost, value);
@@ -74,7 +74,7 @@ Machines hosts_in(const std::string& list) {
         if (slots == 0 || host.starts_with('-') ||
             !only_of(host, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_@:[]"))
             throw EnvironmentError(
-                "\"{}\" in --on hosts:{} is no host: write HOST, USER@HOST, or 4/HOST for four parts at once", word,
+                "\"{}\" in --on hosts:{} is not a host: write HOST, USER@HOST, or 4/HOST for four parallel parts", word,
                 list);
         machines.words.push_back(word);
         machines.parts = std::min(WorkPart::kMost, machines.parts + kPartsOfASlot * slots);
@@ -128,15 +128,15 @@ Message first_line(const ChildResult& child) {
 
 [[noreturn]] void refuse_work(const ChildResult& child) {
     const std::string& said = child.error_output;
-    Message remedy = Message("the options after slurm: in --on are given to sbatch");
+    Message remedy = Message("dynlab passes the options after slurm: in --on to sbatch");
     if (said.find("partition") != std::string::npos) {
         const ChildResult known = ask_slurm({"sinfo", "--noheader", "--format=%R"});
-        remedy = Message("the partitions here are {}", listed(words_between_spaces(known.output)));
+        remedy = Message("the partitions of this cluster are {}", listed(words_between_spaces(known.output)));
     } else if (said.find("contact slurm controller") != std::string::npos ||
                said.find("onnection refused") != std::string::npos || child.timed_out) {
-        remedy = Message("slurmctld is not running or cannot be reached; `sinfo` must answer");
+        remedy = Message("slurmctld is not running or cannot be reached; `sinfo` must respond");
     }
-    throw EnvironmentError("Slurm does not take the work ({}): {}", first_line(child), remedy);
+    throw EnvironmentError("Slurm does not accept the work ({}): {}", first_line(child), remedy);
 }
 
 /// A job that runs this script; its id.
@@ -180,8 +180,7 @@ void refuse_queued_jobs(const fs::path& folder) {
     const ChildResult child = ask_slurm({"squeue", "--noheader", "--format=%i", "--jobs=" + jobs});
     if (child.exit_code == 0 && !words_between_spaces(child.output).empty())
         throw EnvironmentError(
-            "the Slurm jobs {} are still at work in {}; follow them with squeue, or end them first: "
-            "scancel {}",
+            "the Slurm jobs {} are still running in {}; follow them with squeue, or cancel them first: scancel {}",
             jobs, folder.parent_path().string(), replaced(jobs, ",", " "));
 }
 
@@ -201,7 +200,7 @@ Machines machines_in(const std::string& text) {
     if (name == "hosts" && !rest.empty()) return hosts_in(rest);
     if (name == "processes" && number_up_to(256, rest) > 0) return hosts_in(rest + "/:");
     throw EnvironmentError(
-        "--on \"{}\" is none of slurm[:OPTION=VALUE,...], hosts:HOST,N/HOST,... and processes:N (1 to 256)", text);
+        "--on \"{}\" must be slurm[:OPTION=VALUE,...], hosts:HOST,N/HOST,... or processes:N (1 to 256)", text);
 }
 
 Message submit_to_slurm(const Machines& machines, const WorkInParts& work) {
@@ -226,10 +225,8 @@ Message submit_to_slurm(const Machines& machines, const WorkInParts& work) {
                          fmt::format(kScript, command_line() + " --join")));
     write_file_atomically(logs / kJobs, fmt::format("{}", fmt::join(ids, ",")));
     return Message(
-        "{}\n"
-        "  follow    squeue --jobs={}; tail {}/slurm-*.txt\n"
-        "  cancel    scancel {}\n"
-        "  continue  the same command again: what is done stays\n",
+        "{}\n  follow    squeue --jobs={}; tail {}/slurm-*.txt\n  cancel    scancel {}\n  continue  repeat the "
+        "command; finished parts are kept\n",
         plural(static_cast<std::int64_t>(work.missing.size()),
                "Slurm has {} part (of {}) in job {}; job {} joins the parts.",
                "Slurm has {} parts (of {}) in job {}; job {} joins the parts.", machines.parts, ids.front(),
@@ -259,8 +256,8 @@ std::vector<Message> do_on_hosts(const Machines& machines, const WorkInParts& wo
         if (!line.empty()) said.push_back(Message::verbatim(line));
     if (done.exit_code != 0)
         throw EnvironmentError(
-            "not all parts were done ({} has them): {}\nEach host must see this folder, and `ssh HOST {} --version` "
-            "must work without a password. The same command again continues",
+            "not all parts were processed ({} has them): {}\nEach host must see this folder, and `ssh HOST {} "
+            "--version` must work without a password. Repeat the command to continue",
             log.string(), MessageList{said, Join::kLines}, running_program().string());
     return said;
 }

@@ -24,7 +24,7 @@ TEST(language, of_a_script_is_that_of_lint_and_its_errors) {
     const std::string french = script(folder, "french.lua", kFrench + std::string("prinnt(1)\n"));
     const std::string english = script(folder, "english.lua", "prinnt(1)\n");
     EXPECT_THAT(command_line({"lint", french}).output, HasSubstr("il n'y a ni fonction ni variable «"));
-    EXPECT_THAT(command_line({"lint", english}).output, HasSubstr("there is no function or variable 'prinnt'"));
+    EXPECT_THAT(command_line({"lint", english}).output, HasSubstr("unknown function or variable 'prinnt'"));
     const std::string broken = script(folder, "broken.lua", "-- ---\n-- titel: T\n-- language: fr\n-- ---\n");
     EXPECT_THAT(command_line({"run", broken}).error_output, HasSubstr("la clé «"));
     EXPECT_THAT(command_line({"lint", broken}).output, HasSubstr("broken.lua:2:1: en-tête du script"));
@@ -34,7 +34,7 @@ TEST(language, of_the_option_is_that_of_errors) {
     EXPECT_THAT(command_line({"hint", "03_crane", "99", "--lang", "fr"}).error_output,
                 StartsWith("dynlab: la leçon 03_crane n'a pas d'indices pour la question 99"));
     EXPECT_THAT(command_line({"hint", "03_crane", "99"}).error_output, StartsWith("dynlab: lesson 03_crane has no"));
-    EXPECT_THAT(command_line({"raport", "a"}).error_output, StartsWith("dynlab: there is no command 'raport'"));
+    EXPECT_THAT(command_line({"raport", "a"}).error_output, StartsWith("dynlab: unknown command 'raport'"));
 }
 
 TEST(language, of_the_environment_is_that_of_commands_without_another) {

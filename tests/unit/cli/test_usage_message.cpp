@@ -20,25 +20,25 @@ void expect_wrong_usage(const std::vector<std::string>& words, const std::string
 
 TEST(usage_message, of_a_misspelt_command_or_option_suggests_the_nearest) {
     expect_wrong_usage({"raport", "my-work"},
-                       "dynlab: there is no command 'raport'; did you mean 'report'?\nRun with --help");
+                       "dynlab: unknown command 'raport'; did you mean 'report'?\nRun with --help");
     expect_wrong_usage({"report", "02", "--outputt", "a.pdf"},
                        "dynlab: dynlab report has no option '--outputt'; did you mean '--output'?\n");
-    expect_wrong_usage({"xyzzy", "a"}, "dynlab: there is no command 'xyzzy'\n");
-    expect_wrong_usage({"report", "a", "b", "c"}, "dynlab: nothing is known of b c here\n");
-    expect_wrong_usage({"mine.lua"}, "dynlab: a script is run by its command: dynlab run mine.lua\nRun with --help");
+    expect_wrong_usage({"xyzzy", "a"}, "dynlab: unknown command 'xyzzy'\n");
+    expect_wrong_usage({"report", "a", "b", "c"}, "dynlab: too many arguments: b c\n");
+    expect_wrong_usage({"mine.lua"}, "dynlab: use the command run for a script: dynlab run mine.lua\nRun with --help");
 }
 
 TEST(usage_message, of_missing_and_excluding_words_is_an_error_of_usage) {
     for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"run"},
                                                {"report"},
-                                               {"look"},
+                                               {"inspect"},
                                                {"lint"},
                                                {"run", "-e", "print(1)", "--seed", "many"},
                                                {"run", "-e", "print(1)", "--seed", "-1"},
                                                {"run", "a.lua", "--set", "k=much"},
-                                               {"look", "a.csv", "--delimiter", "ab"},
-                                               {"look", "a.csv", "-o", "a.gif"},
+                                               {"inspect", "a.csv", "--delimiter", "ab"},
+                                               {"inspect", "a.csv", "-o", "a.gif"},
                                                {"demo", "--list", "delays"},
                                                {"demo", "--wrong"},
                                                {"help", "lsim", "--sheet", "cheat.pdf"},
@@ -53,22 +53,22 @@ TEST(usage_message, of_identify_names_the_option_and_the_wanted_word) {
         expect_wrong_usage(words, message);
     };
     wrong({}, "--poles");
-    wrong({"--poles", "two"}, "wanted a whole number or the word auto, not 'two'");
-    wrong({"--poles", "2", "--delay", "soon"}, "wanted a number of seconds or the word auto, not 'soon'");
-    wrong({"--poles", "2", "--zeros", "a"}, "dynlab: --zeros wants a number, but 'a' was given\n");
-    wrong({"--poles", "2", "--zeros", "3"}, "from 0 to that of the poles, 2; it is 3");  // IdentifyRequest::validate
-    wrong({"--poles", "2", "--time", "t", "--time", "u"}, "dynlab: --time can be given once only\n");
+    wrong({"--poles", "two"}, "expected a whole number or the word auto, not 'two'");
+    wrong({"--poles", "2", "--delay", "soon"}, "expected a number of seconds or the word auto, not 'soon'");
+    wrong({"--poles", "2", "--zeros", "a"}, "dynlab: --zeros requires a number, but 'a' was given\n");
+    wrong({"--poles", "2", "--zeros", "3"}, "from 0 to the number of poles, 2, but is 3");  // IdentifyRequest::validate
+    wrong({"--poles", "2", "--time", "t", "--time", "u"}, "dynlab: --time was given more than once\n");
     wrong({"--poles", "2", "--wrong", "1"}, "--wrong");
     wrong({"--poles", "2", "-o", "a.pdf", "--script"}, "--script");
     expect_wrong_usage({"identify", "d.csv", "extra", "--input", "u", "--output", "x", "--poles", "2"},
-                       "dynlab: nothing is known of extra here\n");
+                       "dynlab: too many arguments: extra\n");
 }
 
 TEST(usage_message, every_command_has_a_help_that_starts_with_its_usage) {
     const CommandResult all = command_line({"--help"});
     EXPECT_EQ(all.exit_code, kDone);
-    for (const char* command : {"run", "look", "identify", "report", "sheet", "hint", "weave", "new", "lessons", "demo",
-                                "help", "notebook", "lint"}) {
+    for (const char* command : {"run", "inspect", "identify", "report", "sheet", "hint", "weave", "new", "lessons",
+                                "demo", "help", "notebook", "lint"}) {
         const CommandResult help = command_line({command, "--help"});
         EXPECT_EQ(help.exit_code, kDone) << command;
         EXPECT_THAT(help.output, HasSubstr(std::string("dynlab ") + command)) << command;

@@ -89,7 +89,7 @@ TEST(frequency_output_channels, are_one) {
     const FrequencyData data = data_of(InterSample::kBandLimited, 0);
     const TransferStructure two = TransferStructure::grid(1, 2, Denominators::kPerOutput, {2}, {1}, {0.0});
     EXPECT_THAT(thrown_message([&] { FrequencyOutput(data, two, Vector::Ones(4)); }),
-                HasSubstr("one input and one output, and the model has 2 and 1"));
+                HasSubstr("one input and one output, but the model has 2 and 1"));
 }
 
 }  // namespace test_frequency_output

@@ -47,7 +47,7 @@ TEST(monomials, have_the_values_of_their_texts) {  // oracle: powers by std::pow
 
 TEST(monomials, that_are_too_many_are_refused) {
     EXPECT_THAT(thrown_message([] { Monomials("narx", 40, 4); }), HasSubstr("more than 2000 monomials"));
-    EXPECT_THAT(thrown_message([] { Monomials("narx", 2, 10); }), HasSubstr("`degree` must lie between 0 and 9"));
+    EXPECT_THAT(thrown_message([] { Monomials("narx", 2, 10); }), HasSubstr("`degree` must be between 0 and 9"));
     EXPECT_THAT(thrown_message([] { Monomials("narx", 2, -1); }), HasSubstr("narx: `degree`"));
 }
 

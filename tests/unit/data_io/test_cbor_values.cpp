@@ -112,7 +112,7 @@ TEST(cbor_values, every_beginning_is_refused) {
         EXPECT_NE(refusal<VariableTable>(variables.substr(0, length)), "") << length;
     for (std::size_t length = 0; length < whole.size(); ++length)
         EXPECT_NE(refusal<Whole>(whole.substr(0, length)), "") << length;
-    EXPECT_EQ(refusal<Whole>(whole + "x"), "the value: bytes are left behind its end");
+    EXPECT_EQ(refusal<Whole>(whole + "x"), "the value: extra bytes follow the value");
 }
 
 // Oracle: the contract, for bytes that are changed at random, doubled or cut out.
@@ -140,12 +140,12 @@ TEST(cbor_values, hostile_bytes_cost_nothing) {
         EXPECT_NE(refusal<Variable>(std::string(3'000'000, opening)), "") << static_cast<int>(opening);
     EXPECT_THAT(refusal<Variable>(std::string(3'000'000, '\x81')), HasSubstr("nested deeper than 200"));
     EXPECT_THAT(refusal<std::vector<int>>(std::string("\x9b\x00\xff\xff\xff\xff\xff\xff\xff", 9)),
-                HasSubstr("more elements than there are bytes"));
+                HasSubstr("more elements than the data have bytes"));
     EXPECT_NE(refusal<std::string>(std::string("\x7b\xff\xff\xff\xff\xff\xff\xff\xff", 9)), "");
     EXPECT_NE(refusal<Vector>(std::string("\xd8\x56\x5b\xff\xff\xff\xff\xff\xff\xff\xff", 11)), "");
     const std::string huge =
         std::string("\xd9\x04\x10\x82\x82\x1a\x40\x00\x00\x00\x1a\x40\x00\x00\x00\xd8\x56\x40", 18);
-    EXPECT_THAT(refusal<Matrix>(huge), HasSubstr("1073741824 x 1073741824 numbers do not stand in 0 bytes"));
+    EXPECT_THAT(refusal<Matrix>(huge), HasSubstr("1073741824 x 1073741824 numbers do not fit 0 bytes"));
 }
 
 // Oracle: a list of a million empty texts takes a million strings, whatever it takes in CBOR.
@@ -155,14 +155,14 @@ TEST(cbor_values, no_more_memory_is_taken_than_allowed) {
     for (int i = 0; i < 1'000'000; ++i) writer.text("");
     ValueLimits limits;
     limits.memory = 1'000'000 * sizeof(std::string) - 1;
-    EXPECT_THAT(refusal<std::vector<std::string>>(writer.bytes(), limits), HasSubstr("more than the 31999999 bytes"));
+    EXPECT_THAT(refusal<std::vector<std::string>>(writer.bytes(), limits), HasSubstr("exceeds the allowed 31999999 bytes"));
     limits.memory += 1000;
     EXPECT_EQ(refusal<std::vector<std::string>>(writer.bytes(), limits), "");
     limits.memory = 800;
     EXPECT_NE(refusal<Vector>(cbor_of(Vector(Vector::Zero(101))), limits), "");
     EXPECT_EQ(refusal<Vector>(cbor_of(Vector(Vector::Zero(100))), limits), "");
     limits.bytes = 10;
-    EXPECT_THAT(refusal<std::string>(cbor_of(std::string("0123456789")), limits), HasSubstr("more than the 10 bytes"));
+    EXPECT_THAT(refusal<std::string>(cbor_of(std::string("0123456789")), limits), HasSubstr("exceeds the limit of 10 bytes"));
 }
 
 TEST(cbor_values, errors_tell_the_place_what_was_wanted_and_given) {
@@ -178,19 +178,19 @@ TEST(cbor_values, errors_tell_the_place_what_was_wanted_and_given) {
         return writer.take();
     };
     EXPECT_EQ(refusal<std::vector<Part>>(with_parts(members([](CborWriter& w) { w.member("name"), w.number(1); }))),
-              "[2].name: a text was wanted, a number was given");
+              "[2].name: expected a text, got a number");
     EXPECT_EQ(refusal<std::vector<Part>>(with_parts(members([](CborWriter& w) { w.member("nome"), w.text("b"); }))),
               "[2]: its member \"name\" is missing");
     EXPECT_EQ(refusal<std::vector<Part>>(with_parts(
                   members([](CborWriter& w) { w.member("name"), w.text("b"), w.member("count"), w.whole(40000); }))),
-              "[2].count: a whole number from -32768 to 32767 was wanted, 40000 was given");
+              "[2].count: expected a whole number from -32768 to 32767, got 40000");
     EXPECT_EQ(refusal<std::vector<Part>>(with_parts(cbor_of(Part{"b", 13}))), "[2]: thirteen parts bring bad luck");
     std::map<std::string, Shade> shades = {{"wall", Shade::kDark}};
     std::string grey = cbor_of(shades);
     grey.replace(grey.find("dark"), 4, "grey");
     EXPECT_EQ((refusal<std::map<std::string, Shade>>(grey)),
-              "[\"wall\"]: one of light, dark was wanted, another text was given");
-    EXPECT_THAT(refusal<Vector>(cbor_of(Matrix{{1, 2}})), HasSubstr("a vector was wanted, a matrix was given"));
+              "[\"wall\"]: expected one of light, dark, got another text");
+    EXPECT_THAT(refusal<Vector>(cbor_of(Matrix{{1, 2}})), HasSubstr("expected a vector, got a matrix"));
 }
 
 }  // namespace test_cbor_values

@@ -86,30 +86,29 @@ TEST_F(csv_file, does_not_depend_on_the_locale) {
 }
 
 TEST_F(csv_file, names_line_and_column_of_what_is_wrong) {
-    const std::string remedy = "; where a sample is missing, write nothing or NaN";
-    EXPECT_EQ(complaint("t,y\n0,1\n1,abc\n"), ", line 3, column y: wanted a number, given \"abc\"" + remedy);
-    EXPECT_EQ(complaint("t,y\n0,1\n-inf,1\n"), ", line 3, column t: wanted a finite number, given \"-inf\"" + remedy);
-    EXPECT_EQ(complaint("t\n1e999\n"),
-              ", line 2, column t: wanted a number that fits double precision, given \"1e999\"");
-    EXPECT_EQ(complaint("t,y\n0,1\n1\n"), ", line 3: wanted 2 cells as in the header line, given 1");
-    EXPECT_EQ(complaint("t,y\n0,1\n0,1,2\n1,2\n"), ", line 3: wanted 2 cells as in the header line, given 3");
+    const std::string remedy = "; leave the cell of a missing sample empty, or write NaN";
+    EXPECT_EQ(complaint("t,y\n0,1\n1,abc\n"), ", line 3, column y: expected a number, got \"abc\"" + remedy);
+    EXPECT_EQ(complaint("t,y\n0,1\n-inf,1\n"), ", line 3, column t: expected a finite number, got \"-inf\"" + remedy);
+    EXPECT_EQ(complaint("t\n1e999\n"), ", line 2, column t: expected a number within double precision, got \"1e999\"");
+    EXPECT_EQ(complaint("t,y\n0,1\n1\n"), ", line 3: expected 2 cells as in the header line, got 1");
+    EXPECT_EQ(complaint("t,y\n0,1\n0,1,2\n1,2\n"), ", line 3: expected 2 cells as in the header line, got 3");
     EXPECT_EQ(complaint("t,y\n0,1,2\n"),
-              ", line 1: 2 names, but the rows below have 3 cells; where that line does not belong to the table, write "
+              ", line 1: 2 names, but the rows below have 3 cells; if that line is not part of the table, use "
               "load(file, {skip = 1})");
-    EXPECT_EQ(complaint("t,y\n0,1.5.2\n1,2\n2,3\n"), ", line 2, column y: wanted a number, given \"1.5.2\"" + remedy);
-    EXPECT_EQ(complaint("t,y\n0,1\n1,1 2\n"), ", line 3, column y: wanted a number, given \"1 2\"" + remedy);
+    EXPECT_EQ(complaint("t,y\n0,1.5.2\n1,2\n2,3\n"), ", line 2, column y: expected a number, got \"1.5.2\"" + remedy);
+    EXPECT_EQ(complaint("t,y\n0,1\n1,1 2\n"), ", line 3, column y: expected a number, got \"1 2\"" + remedy);
     EXPECT_EQ(complaint("t;y\n0;1.5\n1;1.234,5\n"),
-              ", line 3, column y: wanted a number, given \"1.234,5\"; write it without a sign between the thousands");
+              ", line 3, column y: expected a number, got \"1.234,5\"; write it without thousands separators");
     EXPECT_EQ(complaint("t,y\n0,1\n1,3.2 V\n2,3\n3,4\n"),
-              ", line 3, column y: wanted a number, given \"3.2 V\"; write the unit in the header, not in the cell");
+              ", line 3, column y: expected a number, got \"3.2 V\"; write the unit in the header, not in the cell");
     EXPECT_EQ(complaint("t,y\n0,3.2 V\n1,3.2 V\n2,150 mV\n3,4 V\n"),
-              ", line 4, column y: wanted a number with the unit V as in the other rows, given \"150 mV\"");
-    EXPECT_EQ(complaint("a,b\n\"two\nlines\",1\nx,y\n"), ", line 4, column b: wanted a number, given \"y\"" + remedy);
-    EXPECT_EQ(complaint("a,b\nx,1\n\"never closed,2\ny,3\n"), ", line 3: a quotation mark is opened and never closed");
-    EXPECT_EQ(complaint("t,y\n0,\"1\n1,2\n"), ", line 2: a quotation mark is opened and never closed");
+              ", line 4, column y: expected a number with the unit V as in the other rows, got \"150 mV\"");
+    EXPECT_EQ(complaint("a,b\n\"two\nlines\",1\nx,y\n"), ", line 4, column b: expected a number, got \"y\"" + remedy);
+    EXPECT_EQ(complaint("a,b\nx,1\n\"never closed,2\ny,3\n"), ", line 3: a quotation mark is not closed");
+    EXPECT_EQ(complaint("t,y\n0,\"1\n1,2\n"), ", line 2: a quotation mark is not closed");
     EXPECT_EQ(complaint("a,b\n\"x\"y,1\n"), ", line 2: there is text after a closing quotation mark");
     EXPECT_EQ(complaint("y\n1\n" + std::string(60, 'z') + "\n2\n3\n4\n"),
-              ", line 3, column y: wanted a number, given \"" + std::string(40, 'z') + "...\"" + remedy);
+              ", line 3, column y: expected a number, got \"" + std::string(40, 'z') + "...\"" + remedy);
 }
 
 // Oracle: file, line and counts of this table.
@@ -119,23 +118,23 @@ TEST_F(csv_file, error_has_the_file_and_the_line_as_arguments) {
         read_csv_file(file_);
         FAIL() << "the last row is too short";
     } catch (const EnvironmentError& error) {
-        EXPECT_EQ(error.message(), Message("{}, line {}: wanted {} as in the header line, given {}", file_.string(), 3,
+        EXPECT_EQ(error.message(), Message("{}, line {}: expected {} as in the header line, got {}", file_.string(), 3,
                                            plural(2, "{} cell", "{} cells"), 1));
     }
 }
 
 TEST_F(csv_file, names_what_is_wrong_above_the_rows) {
-    EXPECT_EQ(complaint(""), ": there is no header line with the names of the columns");
-    EXPECT_EQ(complaint("# only: remarks\n"), ": there is no header line with the names of the columns");
-    EXPECT_EQ(complaint("t,y\n\n"), ": there are no rows below the header line");
+    EXPECT_EQ(complaint(""), ": the table has no header line with the names of the columns");
+    EXPECT_EQ(complaint("# only: remarks\n"), ": the table has no header line with the names of the columns");
+    EXPECT_EQ(complaint("t,y\n\n"), ": the table has no rows below the header line");
     EXPECT_EQ(complaint("\n# Ts: fast\nt\n1\n"),
-              ", line 2: the sampling time Ts must be a positive number of seconds, given \"fast\"");
+              ", line 2: the sampling time Ts must be a positive number of seconds, but \"fast\" was given");
     EXPECT_EQ(complaint("# Ts: -1\nt\n1\n"),
-              ", line 1: the sampling time Ts must be a positive number of seconds, given \"-1\"");
+              ", line 1: the sampling time Ts must be a positive number of seconds, but \"-1\" was given");
     EXPECT_EQ(complaint("# unit z: m\nt,y\n1,2\n"),
-              ": a unit is given for z, but there is no such column; the columns are t, y");
+              ": a unit is given for z, which is not a column; the columns are t, y");
     EXPECT_EQ(complaint(std::string("t,y\n1,\0\n", 8)),
-              ": it holds bytes that are no text; export the table as CSV in UTF-8");
+              ": the file contains bytes that are not text; export the table as CSV in UTF-8");
 }
 
 /// What a table says: names, then the rows, one line each.
@@ -175,8 +174,7 @@ TEST_F(csv_file, finds_the_separator) {
           "t,u,y\n0,-1,2.5,\n0.1,1e-5,3,\n0.2,3,-4.5,\n"})
         EXPECT_EQ(shown_table(read(text)), wanted) << text;
     EXPECT_EQ(shown_table(read("y\n1,5\n2,5\n")), "y\n1.5\n2.5");
-    EXPECT_THAT(texts_of(read("t;u\n0;1,5\n").notes),
-                ElementsAre("numbers are written with a decimal comma, such as 1,5"));
+    EXPECT_THAT(texts_of(read("t;u\n0;1,5\n").notes), ElementsAre("the numbers have a decimal comma, as in 1,5"));
     EXPECT_THAT(read("t,u\n0,1.5\n").notes, testing::IsEmpty());
 }
 
@@ -188,9 +186,9 @@ TEST_F(csv_file, passes_over_what_stands_around_a_table) {
                              "# t,y\n0,1\n1,2\n", "% t  y\n0 1\n1 2\n"})
         EXPECT_EQ(shown_table(read(text)), wanted) << text;
     EXPECT_THAT(texts_of(read("A\nB\n\nt;y\n0;1\n1;2\n").notes),
-                ElementsAre("the table begins in line 4; 2 lines above it are passed over"));
+                ElementsAre("the table starts in line 4; 2 lines above it are skipped"));
     EXPECT_THAT(texts_of(read("# t,y\n0,1\n1,2\n").notes),
-                ElementsAre("the names of the columns are those of the comment above the numbers"));
+                ElementsAre("the column names come from the comment above the numbers"));
 }
 
 TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
@@ -200,9 +198,9 @@ TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
         EXPECT_EQ(shown_table(table), wanted) << missing;
         EXPECT_THAT(
             texts_of(table.notes),
-            ElementsAre("numbers are missing and become NaN: 2 of 4 in y (first in line 2); fillmissing(u, {method = "
-                        "\"previous\"}) holds an input that is logged when it changes, fillmissing(y) "
-                        "interpolates an output"));
+            ElementsAre(
+                "missing numbers were replaced with NaN: 2 of 4 in y (first in line 2); fillmissing(u, {method = "
+                "\"previous\"}) holds an input that is logged when it changes, fillmissing(y) interpolates an output"));
     }
     const CsvTable benchmark = read("u,y,Ts,\n0,1,4,\n1,2,,\n2,3,,\n");
     EXPECT_EQ(benchmark.columns[2], (Vector{{4}}));
@@ -215,23 +213,23 @@ TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
 TEST_F(csv_file, gives_names_where_there_are_none) {
     const CsvTable pandas = read(",t,y\n0,0,1\n1,0.1,2\n");
     EXPECT_EQ(shown_table(pandas), "index|t|y\n0|0|1\n1|0.1|2");
-    EXPECT_THAT(texts_of(pandas.notes), ElementsAre("the header has no name for it: column 1 is called index"));
+    EXPECT_THAT(texts_of(pandas.notes), ElementsAre("columns without a name in the header: column 1 is named index"));
     EXPECT_EQ(shown_table(read("\"t\" \"y\"\n\"1\" 0 1\n\"2\" 0.1 2\n")), "index|t|y\n1|0|1\n2|0.1|2");  // as R does
     EXPECT_EQ(shown_table(read("t,,y\n1,2,3\n")), "t|column_2|y\n1|2|3");
     const CsvTable twice = read("t,y,y,y_2,y\n1,2,3,4,5\n");
     EXPECT_THAT(twice.names, ElementsAre("t", "y", "y_3", "y_2", "y_4"));
-    EXPECT_THAT(texts_of(twice.notes), ElementsAre("columns of equal names are numbered: y_3, y_4"));
+    EXPECT_THAT(texts_of(twice.notes), ElementsAre("columns with the same name are numbered: y_3, y_4"));
     const CsvTable bare = read("0 1\n1 2\n");
     EXPECT_EQ(shown_table(bare), "c1|c2\n0|1\n1|2");
     EXPECT_THAT(texts_of(bare.notes),
-                ElementsAre(HasSubstr("there is no line of names, so the columns are called c1, c2")));
+                ElementsAre(HasSubstr("the file has no line of names, so the columns are named c1, c2")));
 }
 
 TEST_F(csv_file, finds_units) {
     const CsvTable row = read("t,u,y,label\ns,V,deg C,\n0,1,2,a\n1,2,3,b\n");
     EXPECT_EQ(shown_table(row), "t|u|y|label\n0|1|2|a\n1|2|3|b");
     EXPECT_EQ(row.units, (std::map<std::string, std::string>{{"t", "s"}, {"u", "V"}, {"y", "deg C"}}));
-    EXPECT_THAT(texts_of(row.notes), ElementsAre("line 2 is taken for units: t in s, u in V, y in deg C"));
+    EXPECT_THAT(texts_of(row.notes), ElementsAre("line 2 is read as units: t in s, u in V, y in deg C"));
     EXPECT_EQ(read("t\ty\n(ms)\t[m/s^2]\n0\t1\n").units.at("y"), "m/s^2");
     const CsvTable scope = read("x-axis,1,2\nsecond,Volt,Volt\n-0.1,0.5,0.25\n0,0.6,0.3\n");
     EXPECT_EQ(shown_table(scope), "x-axis|1|2\n-0.1|0.5|0.25\n0|0.6|0.3");
@@ -272,7 +270,7 @@ TEST_F(csv_file, switches_are_ones_and_zeros) {
     EXPECT_THAT(read("t,name\n0,on\n1,left\n").texts.at("name"), ElementsAre("on", "left"));
     std::string late = "t,h\n";
     for (int i = 0; i < 400; ++i) late += fmt::format("{},{}\n", i, i == 350 ? "broken" : i % 2 == 0 ? "ON" : "OFF");
-    EXPECT_EQ(complaint(late), ", line 352, column h: wanted on or off as in the other rows, given \"broken\"");
+    EXPECT_EQ(complaint(late), ", line 352, column h: expected on or off as in the other rows, got \"broken\"");
 }
 
 TEST_F(csv_file, units_in_cells_become_the_columns_units) {
@@ -296,7 +294,7 @@ TEST_F(csv_file, units_in_cells_become_the_columns_units) {
     }
     EXPECT_EQ(read("t (ms),y\n0 ms,1\n20 ms,2\n").columns[0], (Vector{{0, 20}}));
     EXPECT_THAT(texts_of(read("t,y\n0,5 pieces\n1,6 pieces\n").notes),
-                testing::Contains(HasSubstr("holds texts, not numbers")));
+                testing::Contains(HasSubstr("contains text, not numbers")));
 }
 
 TEST_F(csv_file, signs_between_thousands_are_read_where_they_are_certain) {
@@ -311,7 +309,7 @@ TEST_F(csv_file, signs_between_thousands_are_read_where_they_are_certain) {
           "t;y\n0;1\u2019234.5\n1;12\u2019345.25\n2;1\u2019234\u2019567\n"}) {
         const CsvTable table = read(text);
         EXPECT_EQ(table.columns[1], wanted) << text;
-        EXPECT_THAT(texts_of(table.notes), testing::Contains(HasSubstr("between the thousands"))) << text;
+        EXPECT_THAT(texts_of(table.notes), testing::Contains(HasSubstr("contains thousands"))) << text;
     }
     // One sign before three digits is what the other numbers leave.
     EXPECT_EQ(read("t;y\n0,5;1.234\n1,0;2.500\n").columns[1], (Vector{{1234, 2500}}));
@@ -332,9 +330,9 @@ TEST_F(csv_file, lines_below_a_table_are_left_out) {
         EXPECT_EQ(shown_table(read(rows + footer)), wanted) << footer;
     }
     EXPECT_THAT(texts_of(read(rows + "END\n").notes),
-                ElementsAre("line 14 and what follows it are below the table and are left out: \"END\""));
-    EXPECT_THAT(complaint(rows + "broken;1;2\n4;5;6\n"), HasSubstr("line 14, column t: wanted a number"));
-    EXPECT_THAT(complaint(rows + "3;4\n"), HasSubstr("line 14: wanted 3 cells")) << "a file that was cut off";
+                ElementsAre("dynlab ignores line 14 and the lines after it, which are below the table: \"END\""));
+    EXPECT_THAT(complaint(rows + "broken;1;2\n4;5;6\n"), HasSubstr("line 14, column t: expected a number"));
+    EXPECT_THAT(complaint(rows + "3;4\n"), HasSubstr("line 14: expected 3 cells")) << "a file that was cut off";
 }
 
 TEST_F(csv_file, empty_columns_at_the_end_are_columns_where_they_have_a_name) {
@@ -358,7 +356,7 @@ TEST_F(csv_file, instruments_exports_are_read) {
     const std::string again =
         "LabVIEW Measurement\nX_Columns\tOne\n***End_of_Header***\nX_Dimension\tTime\n***End_of_Header***\n"
         "X_Value\ty\tComment\n0\t1\n1\t2\nX_Dimension\tTime\n***End_of_Header***\n0\t1\n";
-    EXPECT_THAT(complaint(again), HasSubstr(", line 10: another record begins here"));
+    EXPECT_THAT(complaint(again), HasSubstr(", line 10: another recording starts here"));
     const CsvTable rigol =
         read("X,CH1,CH2,Start,Increment,\nSequence,Volt,Volt,-5.0e-03,4.0e-06\n0,1.00,0.5,,\n1,1.25,0.6,,\n");
     EXPECT_THAT(rigol.names, ElementsAre("X", "CH1", "CH2"));
@@ -381,7 +379,7 @@ TEST_F(csv_file, instruments_exports_are_read) {
     EXPECT_EQ(shown_table(pico), "Time|Channel A|Channel B\n-0.02|0.1|5\n0|0.2|6\n0.02|0.3|7");
     EXPECT_EQ(pico.units.at("Time"), "ms");
     EXPECT_THAT(complaint("Time,A\n(ms),(V)\n0,1\n1,\u221E\n2,3\n"),
-                HasSubstr("line 4, column A: wanted a finite number"));
+                HasSubstr("line 4, column A: expected a finite number"));
     const CsvTable monitor = read("10:12:05.000 -> 100,83.33\n10:12:05.500 -> 100,95.87\n10:12:06.000 -> 50,96\n");
     EXPECT_THAT(numbers(monitor.columns[0]), ElementsAre(36725, 36725.5, 36726));
     EXPECT_THAT(numbers(monitor.columns[1]), ElementsAre(100, 100, 50));
@@ -398,7 +396,7 @@ TEST_F(csv_file, reads_other_alphabets) {
     EXPECT_EQ(shown_table(windows), wanted);
     EXPECT_EQ(windows.units.at("Temp\u00E9rature"), "\u00B0C");
     EXPECT_EQ(message_text(windows.notes.front()),
-              "the text is not UTF-8 and is read as Windows-1252, for example \"Temp\u00E9rature\"");
+              "the text is not UTF-8 and was read as Windows-1252, for example \"Temp\u00E9rature\"");
     for (const bool big_endian : {false, true}) {
         std::string utf16 = big_endian ? "\xFE\xFF" : "\xFF\xFE";
         for (const char16_t c : std::u16string(u"temps;Temp\u00E9rature\n0;20,5\n1;21\n")) {
@@ -517,7 +515,7 @@ TEST_F(csv_file, many_cells_take_a_memory_with_a_limit) {
         return test::peak_memory([&] { EXPECT_THAT(complaint(text), HasSubstr(wanted)); });
     };
     const double before = test::peak_memory([] {});
-    EXPECT_LT(peak_of(commas, "line 2: there are more than 100000 cells in one row") - before, kMost);
+    EXPECT_LT(peak_of(commas, "line 2: the row has more than 100000 cells") - before, kMost);
     std::string words = "name\n";
     for (int i = 0; i < 16 << 20; ++i) words += "ab\n";
     EXPECT_LT(peak_of(words, "the table has too many cells: reading it takes more than 512 MB") - before, kMost);

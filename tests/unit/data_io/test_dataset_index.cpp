@@ -117,17 +117,18 @@ TEST_F(dataset_index, loads_files_by_path) {
 
 TEST_F(dataset_index, unknown_names_list_the_known_ones) {
     EXPECT_EQ(complaint("heat_exchangr"),
-              "there is no data set \"heat_exchangr\"; did you mean \"heat_exchanger\"? The data sets are "
-              "heat_exchanger, step_response; files of your own are looked for in " +
-                  scripts_.path().string());
-    EXPECT_THAT(complaint_in(scripts_.path() / ".", "heat_exchangr"), EndsWith("in " + scripts_.path().string()));
+              "unknown data set \"heat_exchangr\"; did you mean \"heat_exchanger\"? The data sets are heat_exchanger, "
+              "step_response. dynlab searches " +
+                  scripts_.path().string() + " for your own files");
+    EXPECT_THAT(complaint_in(scripts_.path() / ".", "heat_exchangr"),
+                EndsWith("searches " + scripts_.path().string() + " for your own files"));
     EXPECT_THAT(complaint("pendulum"), HasSubstr("\"pendulum\"; the data sets are heat_exchanger, step_response"));
     EXPECT_THAT(complaint("step_respose.csv"), HasSubstr("did you mean \"step_response\"?"));
-    EXPECT_EQ(complaint("records/none.csv"), "there is no file " + (scripts_.path() / "records/none.csv").string());
+    EXPECT_EQ(complaint("records/none.csv"), "file not found: " + (scripts_.path() / "records/none.csv").string());
     write_file_atomically(scripts_.path() / "notes.doc", "x");
     for (const char* name : {"./notes.doc", "notes.doc"})
         EXPECT_THAT(complaint(name),
-                    HasSubstr("notes.doc is of no kind that can be read: those are .mat, .xlsx, .csv,"));
+                    HasSubstr("notes.doc has an unsupported file type; supported types are .mat, .xlsx, .csv,"));
     for (const char* name : {"", ".", "..", "not_a_set"}) EXPECT_NE(complaint(name), "no error") << name;
 }
 
@@ -139,7 +140,7 @@ TEST_F(dataset_index, damaged_files_of_a_student_are_refused) {
     write_mat(scripts_.path() / "mine.mat", 1);
     const std::string bytes = read_file(scripts_.path() / "mine.mat");
     write_file_atomically(scripts_.path() / "mine.mat", bytes.substr(0, bytes.size() - 3));
-    EXPECT_THAT(complaint("mine.mat"), HasSubstr("is cut off"));
+    EXPECT_THAT(complaint("mine.mat"), HasSubstr("is truncated"));
 }
 
 TEST_F(dataset_index, says_how_to_get_a_record_of_a_package) {
@@ -147,12 +148,12 @@ TEST_F(dataset_index, says_how_to_get_a_record_of_a_package) {
     fs::create_directories(folder);
     write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: no-kilns-here /nowhere/kiln.gz 10 samples 0.5 s\n");
     EXPECT_EQ(complaint("kiln"),
-              "this record comes with the Debian package no-kilns-here, which is not installed: sudo apt-get install "
-              "no-kilns-here");
+              "this data set is part of the Debian package no-kilns-here, which is not installed: run sudo apt-get "
+              "install no-kilns-here");
     EXPECT_EQ(missing_package("kiln"), "no-kilns-here");
     EXPECT_EQ(missing_package("heat_exchanger"), std::nullopt);
     write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: nothing but words\n");
-    EXPECT_THAT(complaint("kiln"), HasSubstr("there is no data set \"kiln\""));
+    EXPECT_THAT(complaint("kiln"), HasSubstr("unknown data set \"kiln\""));
     write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: libc6 /nowhere/kiln.gz 10 samples 0.5 s\n");
     write_mat(folder / "kiln.mat", 8);
     EXPECT_EQ(std::get<double>(load("kiln").variables.at("y").value), 8);
@@ -172,7 +173,7 @@ TEST_F(dataset_index, course_files_lie_in_the_data_sets_own_folder) {
         for (const char* name : {"mine", "elsewhere.mat", "elsewhere"})
             EXPECT_EQ(complaint(name),
                       (data / "mine/SOURCE.md").string() +
-                          ": after \"Course file:\" stand names of files in that folder, but the path \"" + path +
+                          ": \"Course file:\" must be followed by file names in that folder, but the path \"" + path +
                           "\" was given");
     }
     write_file_atomically(data / "mine/SOURCE.md", "Mine.\nCourse file: elsewhere.mat\n");
@@ -190,12 +191,12 @@ TEST_F(dataset_index, packages_are_named_by_the_installation_only) {
     fs::create_directories(mine);
     for (const fs::path& file : {there, project_.path() / "not_there.gz"}) {
         write_file_atomically(mine / "SOURCE.md", source(file));
-        EXPECT_THAT(complaint("kiln"), HasSubstr("there is no data set \"kiln\""));
+        EXPECT_THAT(complaint("kiln"), HasSubstr("unknown data set \"kiln\""));
     }
     // A copy of an installed data set, as a lesson's bundle holds it, still stands for the installed one.
     fs::create_directories(home_.path() / "data/kiln");
     write_file_atomically(home_.path() / "data/kiln/SOURCE.md", source("/nowhere/kiln.gz"));
-    EXPECT_THAT(complaint("kiln"), HasSubstr("this record comes with the Debian package no-kilns-here"));
+    EXPECT_THAT(complaint("kiln"), HasSubstr("this data set is part of the Debian package no-kilns-here"));
 }
 
 // oracle: the file that the links lead to, which can be read where nobody is graded
@@ -208,7 +209,7 @@ TEST_F(dataset_index, links_lead_a_graded_script_nowhere) {
     fs::create_symlink(project_.path() / "elsewhere.mat", scripts_.path() / "data/mine/mine.mat");
     for (const char* name : {"link", "link.mat", "records/elsewhere.mat", "mine", "mine.mat"}) {
         EXPECT_EQ(std::get<double>(load(name).variables.at("y").value), 9) << name;
-        EXPECT_THAT(complaint(name, true), HasSubstr("leads outside the folder")) << name;
+        EXPECT_THAT(complaint(name, true), HasSubstr("is outside the folder")) << name;
     }
     write_mat(scripts_.path() / "own.mat", 7);
     fs::create_symlink("own.mat", scripts_.path() / "own_link.mat");
@@ -228,7 +229,7 @@ TEST_F(dataset_index, refuses_damaged_records_of_packages) {
     write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: kilns " + file.string() + " 10 samples 0.5 s\n");
     write_file_atomically(file, "title\nsettings\n1\n2\n");
     EXPECT_THAT(complaint("kiln"),
-                HasSubstr("kiln.gz ends or holds text at input 1 of 10: reinstall the package kilns"));
+                HasSubstr("kiln.gz ends, or has text, at input 1 of 10: reinstall the package kilns"));
 }
 
 // Facts: 1000 samples, a binary input of 3.41 and 6.41, one sample every 0.08 s; first and last values of the file.

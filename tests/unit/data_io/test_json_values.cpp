@@ -61,12 +61,12 @@ TEST(json_values, long_lists_and_objects_are_read) {
 
 TEST(json_values, errors_tell_the_place) {
     EXPECT_EQ(refusal<std::vector<Part>>(R"([{"name": "a", "count": 1}, {"name": 3, "count": 1}])"),
-              "[2].name: a text was wanted, JSON of the type number was given");
+              "[2].name: expected a text, got JSON of the type number");
     EXPECT_EQ(refusal<std::vector<Part>>(R"([{"name": "a"}])"), "[1]: its member \"count\" is missing");
     EXPECT_EQ(refusal<Part>(R"({"name": "a", "count": 1e5})"),
-              "count: a whole number was wanted, JSON of the type number was given");
+              "count: expected a whole number, got JSON of the type number");
     EXPECT_EQ(refusal<Part>(R"({"name": "a", "count": 18446744073709551615})"),
-              "count: a whole number from -32768 to 32767 was wanted, 18446744073709551615 was given");
+              "count: expected a whole number from -32768 to 32767, got 18446744073709551615");
     EXPECT_EQ(refusal<Part>(R"({"name": "a", "count": 13})"), "the value: thirteen parts bring bad luck");
     EXPECT_THAT(refusal<Matrix>(R"({"rows": 2, "columns": 2, "values": [1, 2, 3]})"), HasSubstr("2 x 2 numbers"));
     EXPECT_THAT(refusal<Matrix>(R"({"rows": 2000000000, "columns": 2000000000, "values": []})"), HasSubstr("numbers"));
@@ -77,13 +77,13 @@ TEST(json_values, errors_tell_the_place) {
 TEST(json_values, hostile_texts_are_refused) {
     ValueLimits limits;
     limits.depth = 50;
-    EXPECT_THAT(refusal<Part>(std::string(3'000'000, '['), limits), HasSubstr("nested too deep"));
+    EXPECT_THAT(refusal<Part>(std::string(3'000'000, '['), limits), HasSubstr("nested too deeply"));
     std::string many = "[0";
     for (int i = 0; i < 100'000; ++i) many += ",0";
     limits.memory = 1'000'000;
     EXPECT_THAT(refusal<Vector>(many + "]", limits), HasSubstr("too many values"));
     limits.bytes = 1000;
-    EXPECT_THAT(refusal<Vector>(many + "]", limits), HasSubstr("longer than is read"));
+    EXPECT_THAT(refusal<Vector>(many + "]", limits), HasSubstr("the length limit"));
     for (const char* text : {"", "[", "nul", "{\"a\": }", "\xFF", "[1,]"}) EXPECT_NE(refusal<Vector>(text), "") << text;
 }
 

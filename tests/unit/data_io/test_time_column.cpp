@@ -137,7 +137,7 @@ TEST_F(time_column, two_likely_units_are_asked_for_and_can_be_stated) {
     options.time_unit = "us";
     EXPECT_EQ(found("time", steps(20000), options), "0.02");
     options.time_unit = "V";
-    EXPECT_THAT(found("time", steps(20), options), HasSubstr("has the unit V, which is none of time"));
+    EXPECT_THAT(found("time", steps(20), options), HasSubstr("has the unit V, which is not a unit of time"));
 }
 
 TEST_F(time_column, stated_sampling_time_decides_between_units_and_is_compared) {
@@ -153,7 +153,7 @@ TEST_F(time_column, stated_sampling_time_decides_between_units_and_is_compared) 
         EXPECT_NEAR(data.time.clock->spacing.step, std::string(Ts) == "20" ? 20 : 0.02, 1e-12) << Ts;
     }
     EXPECT_THAT(texts_of(with_Ts("0.01", 0.02).notes),
-                Contains(HasSubstr("states Ts = 0.01 s, but its time 'time' advances by 0.02 s")));
+                Contains(HasSubstr("gives Ts = 0.01 s, but its time 'time' advances by 0.02 s")));
     EXPECT_THAT(with_Ts("0.02", 0.02).notes, IsEmpty());
 }
 
@@ -161,7 +161,7 @@ TEST_F(time_column, whole_seconds_are_assumed_with_a_note) {
     for (const double step : {1.0, 2.0, 30.0, 60.0, 600.0, 3600.0}) {
         EXPECT_EQ(found("time", steps(step)), fmt::format("{:.5g}", step));
         EXPECT_THAT(texts_of(read("time", steps(step)).notes),
-                    Contains(testing::AllOf(HasSubstr("is taken for s"), HasSubstr("--time-unit"))));
+                    Contains(testing::AllOf(HasSubstr("assumes s"), HasSubstr("--time-unit"))));
     }
 }
 
@@ -184,7 +184,7 @@ TEST_F(time_column, numbers_since_1970_and_days_of_spreadsheets_are_known) {
     EXPECT_EQ(found("time", [](int i) { return fmt::format("{:.10f}", 739687.4 + i / 1440.0); }), "60");
     const LoadedData data = read("Date", ten_minutes, {.time = "Date"});
     EXPECT_EQ(std::get<Vector>(data.variables.at("t").value)[0], 0);
-    EXPECT_THAT(texts_of(data.notes), Contains(HasSubstr("is taken for days")));
+    EXPECT_THAT(texts_of(data.notes), Contains(HasSubstr("assumes days")));
     EXPECT_EQ(found("time", steps(0.02, 2, 45000)), "0.02") << "seconds of a day";
 }
 
@@ -201,7 +201,7 @@ TEST_F(time_column, counters_that_begin_again_are_counted_on) {
     EXPECT_EQ(found("ticks (ms)", counter(50, 65536 - 77, 65536)), "0.05");
     EXPECT_EQ(found("time (s)", counter(10, 86400 - 200, 86400)), "10") << "seconds of the day";
     EXPECT_EQ(found("time (min)", [](int i) { return fmt::format("{}", (1430 + i) % 1440); }), "60");
-    EXPECT_THAT(texts_of(read("millis", counter(20, 65536 - 300, 65536)).notes), Contains(HasSubstr("wraps at 65536")));
+    EXPECT_THAT(texts_of(read("millis", counter(20, 65536 - 300, 65536)).notes), Contains(HasSubstr("wraps around at 65536")));
     EXPECT_THAT(found("millis", [](int i) { return fmt::format("{}", i % 20 * 20); }), HasSubstr("must increase"));
 }
 
@@ -234,7 +234,7 @@ TEST_F(time_column, times_of_day_are_seconds_past_midnight_too) {
     EXPECT_EQ(found("clock", clock(43200 + 3600 - 100, 10, "twelve")), "10");
     EXPECT_THAT(texts_of(read("clock", clock(86390, 1, "hms")).notes), Contains(HasSubstr("pass midnight")));
     const Cell two_fields = [](int i) { return fmt::format("{:02}:{:02}", i / 60, i % 60); };
-    EXPECT_THAT(found("clock", two_fields), HasSubstr("hours and minutes or minutes and seconds"));
+    EXPECT_THAT(found("clock", two_fields), HasSubstr("hours and minutes, or minutes and seconds"));
     EXPECT_EQ(found("clock", two_fields, {.time_unit = "h"}), "60");
     EXPECT_EQ(found("clock", two_fields, {.time_unit = "min"}), "1");
     EXPECT_EQ(found("clock", [](int i) { return fmt::format("{:02}:{:02}.5", i / 60, i % 60); }), "1");
@@ -314,8 +314,8 @@ TEST_F(time_column, rows_written_twice_are_left_out_and_other_equal_times_explai
     EXPECT_EQ(std::get<Vector>(data.variables.at("y").value), Vector(Vector::LinSpaced(40, 0, 39)));
     EXPECT_THAT(texts_of(data.notes), Contains(HasSubstr("3 rows repeat the row before them")));
     EXPECT_EQ(table(all).rows, 40);
-    EXPECT_THAT(message_text(*table(pairs).time.question), HasSubstr("the least and the largest value of an interval"));
-    EXPECT_THAT(message_text(*table(coarse).time.question), HasSubstr("counts too coarsely"));
+    EXPECT_THAT(message_text(*table(pairs).time.question), HasSubstr("the minimum and the maximum of an interval"));
+    EXPECT_THAT(message_text(*table(coarse).time.question), HasSubstr("is too coarse"));
 }
 
 }  // namespace test_time_column

@@ -107,7 +107,7 @@ TEST_F(workbook, is_read_as_a_table) {
     EXPECT_EQ(voltage[0], 0.025);
     EXPECT_TRUE(std::isnan(voltage[1]) && std::isnan(voltage[2]));
     EXPECT_EQ(data.units.at("voltage"), "V");
-    EXPECT_THAT(message_text(data.notes.front()), HasSubstr("of its sheets Run 1, Run 2 the first is read"));
+    EXPECT_THAT(message_text(data.notes.front()), HasSubstr("of the sheets Run 1, Run 2, dynlab reads the first; the"));
     ImportOptions second;
     second.sheet = "Run 2";
     EXPECT_EQ(std::get<Vector>(read_data_file(file_, true, second).variables.at("c1").value), (Vector{{5}}));
@@ -118,7 +118,7 @@ TEST_F(workbook, is_read_as_a_table) {
         read_data_file(file_, true);
         ADD_FAILURE() << "no error";
     } catch (const EnvironmentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("x.xlsx, line 3, column time: wanted a number, given \"five\""));
+        EXPECT_THAT(error.what(), HasSubstr("x.xlsx, line 3, column time: expected a number, got \"five\""));
     }
 }
 
@@ -129,19 +129,19 @@ TEST_F(workbook, refusal_is_a_message_that_can_be_translated) {
         read_sheet(file_, "Run 3");
         FAIL() << "there is no such sheet";
     } catch (const EnvironmentError& error) {
-        EXPECT_EQ(error.message(),
-                  Message("{} has no sheet \"{}\"; it has {}", file_.string(), "Run 3", listed({"Run 1", "Run 2"})));
+        EXPECT_EQ(error.message(), Message("{} has no sheet \"{}\"; the sheets are {}", file_.string(), "Run 3",
+                                           listed({"Run 1", "Run 2"})));
     }
 }
 
 TEST_F(workbook, says_what_is_wrong) {
     EXPECT_THAT(complaint(), HasSubstr("no such file"));
     write_file_atomically(file_, "t,y\n0,1\n");
-    EXPECT_THAT(complaint(), HasSubstr("is no workbook (.xlsx): it is no zip archive"));
+    EXPECT_THAT(complaint(), HasSubstr("is not a workbook (.xlsx): it is not a zip archive"));
     write({{"other.xml", "<a/>"}});
-    EXPECT_THAT(complaint(), HasSubstr("is no workbook, or damaged: it has no part xl/workbook.xml"));
+    EXPECT_THAT(complaint(), HasSubstr("is damaged or is not a workbook: its part xl/workbook.xml"));
     write(parts_of(kRows));
-    EXPECT_THAT(complaint("Run 3"), HasSubstr("has no sheet \"Run 3\"; it has Run 1, Run 2"));
+    EXPECT_THAT(complaint("Run 3"), HasSubstr("has no sheet \"Run 3\"; the sheets are Run 1, Run 2"));
     const std::string bytes = read_file(file_);
     write_file_atomically(file_, std::string_view(bytes).substr(0, bytes.size() / 2));
     EXPECT_NE(complaint(), "no error");

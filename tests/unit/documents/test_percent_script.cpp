@@ -99,7 +99,7 @@ TEST(percent_script, header_mistakes_name_the_line_and_the_mend) {
     EXPECT_THAT(refusal("-- ---\n-- seed: -1\n-- ---\n"), HasSubstr("0 to 4294967295"));
     EXPECT_THAT(refusal("-- ---\n-- seed: 4294967296\n-- ---\n"), HasSubstr("0 to 4294967295"));
     EXPECT_THAT(refusal("-- ---\n-- language: de\n-- ---\n"), HasSubstr("en or fr"));
-    EXPECT_THAT(refusal("-- ---\n-- template: ../../x\n-- ---\n"), HasSubstr("without folder"));
+    EXPECT_THAT(refusal("-- ---\n-- template: ../../x\n-- ---\n"), HasSubstr("without a folder"));
     EXPECT_THAT(refusal("-- ---\n-- answers:\n--   G1:\n-- ---\n"), HasSubstr("needs a kind"));
     EXPECT_THAT(refusal("-- ---\n--   G1: model\n-- ---\n"), HasSubstr("answers:"));
 }
@@ -199,7 +199,7 @@ TEST(percent_script, a_file_that_is_not_there_is_named) {
 TEST(percent_script, a_message_that_quotes_a_zero_byte_goes_on_behind_it) {
     using namespace std::string_literals;
     EXPECT_EQ(refusal("-- ---\n-- \0\0rest\n-- ---\n"s),
-              "lesson.lua:2: script header: \"??rest\" is not of the form \"key: value\"");
+              "lesson.lua:2: script header: \"??rest\" does not have the form \"key: value\"");
 }
 
 TEST(percent_script, a_file_far_too_large_is_refused) {
@@ -210,7 +210,8 @@ TEST(percent_script, a_file_far_too_large_is_refused) {
         read_percent_script(file);
         FAIL() << "no error";
     } catch (const DocumentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("a.lua: a script or template has at most 4 MB, this file has 5 MB"));
+        EXPECT_THAT(error.what(),
+                    HasSubstr("a.lua: a script or template may have at most 4 MB, but this file has 5 MB"));
     }
 }
 

@@ -29,14 +29,15 @@ TEST(unplaced_entries, are_told_with_the_line_to_write) {
     for (const UnplacedEntries& entries :
          unplaced_entries(record(), "Only words, and `gain` without a slot; ![](figure:residuals_3){#fig:x}"))
         texts.push_back(message_text(entries.message()));
-    EXPECT_THAT(texts,
-                ElementsAre("the figures 'residuals', 'residuals_2' are reported, but have no place in the text; write "
-                            "![](figure:residuals){#fig:residuals}",
-                            "the table 'models' is reported, but has no place in the text; write ::: {.table "
-                            "name=models} above and ::: below its caption",
-                            "the text 'remark' is reported, but has no place in the text; write ::: {.text "
-                            "name=remark} and ::: below",
-                            "the value 'gain' is reported, but has no place in the text; write `gain`{.value}"));
+    EXPECT_THAT(
+        texts,
+        ElementsAre("the figures 'residuals', 'residuals_2' are passed to the report but never shown; write "
+                    "![](figure:residuals){#fig:residuals}",
+                    "the table 'models' is passed to the report but never shown; write ::: {.table name=models} above "
+                    "and ::: below its caption",
+                    "the text 'remark' is passed to the report but never shown; write ::: {.text name=remark} and, on "
+                    "a later line, :::",
+                    "the value 'gain' is passed to the report but never shown; write `gain`{.value}"));
 }
 
 TEST(unplaced_entries, are_none_where_all_have_a_slot) {

@@ -132,8 +132,9 @@ TEST(weave, a_recorded_error_stands_at_its_cell) {
     RunRecord record;
     record.error = RecordedError{Message("x is nil"), "lesson.lua", 2};
     const std::string text = weave("-- %%\nx()\n-- %% [markdown]\n-- after\n", record).text;
-    EXPECT_LT(text.find("```{.error}\nlesson.lua:2: x is nil\nThe script stopped here; nothing below was run.\n```"),
-              text.find("after"));
+    EXPECT_LT(
+        text.find("```{.error}\nlesson.lua:2: x is nil\nThe script stopped here; the cells below were not run.\n```"),
+        text.find("after"));
 }
 
 }  // namespace test_weave

@@ -134,7 +134,7 @@ TEST(arx, too_high_orders_are_told) {  // oracle: the simulated system; the past
 TEST(arx, doubtful_results_come_with_a_sentence) {  // oracle: the simulated system
     const Vector u = random_levels(300, 3, 1), e = RandomStream(4).normal(300);
     EXPECT_THAT(message_text(arx(IdData(Matrix(e), Matrix(u), 1), kSecond).full_message()),
-                HasSubstr("hardly determine"));
+                HasSubstr("do not reliably determine"));
     const PolynomialOrders first = PolynomialOrders::arx(1, {1}, {1});
     const Vector y = model_output(PolynomialModel(first, Vector{{-1.05, 1}}, 1), u, e);
     EXPECT_THAT(message_text(arx(IdData(Matrix(y), Matrix(u), 1), first).full_message()), HasSubstr("unstable"));
@@ -187,7 +187,7 @@ TEST(arx, an_operating_point_is_named) {  // oracle: a heater of gain 0.6 from 2
         }
         const std::string message =
             message_text(arx(IdData(Matrix(y), Matrix(u), 1), PolynomialOrders::arx(2, {2}, {1})).full_message());
-        EXPECT_EQ(message.find("Take the means off") != std::string::npos, level > 0) << message;
+        EXPECT_EQ(message.find("Remove the means") != std::string::npos, level > 0) << message;
     }
 }
 

@@ -249,7 +249,7 @@ TEST(coe, refuses_bad_input_in_words) {  // oracle: the sentence names what is w
     still = data;
     still.experiments[0].y.setConstant(3);
     EXPECT_THAT(refusal(still, kCourse), HasSubstr("never changes"));
-    EXPECT_THAT(refusal(data, TransferStructure::single(2, 0, 20)), HasSubstr("not shorter than the record"));
+    EXPECT_THAT(refusal(data, TransferStructure::single(2, 0, 20)), HasSubstr("not shorter than the data"));
     EXPECT_THAT(refusal(data, TransferStructure::grid(1, 2, Denominators::kCommon, {2}, {0}, {0.0})),
                 HasSubstr("2 inputs"));
     FitOptions options;

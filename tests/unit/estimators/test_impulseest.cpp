@@ -203,7 +203,7 @@ TEST(impulseest, a_response_that_outlasts_the_lags_is_told) {
     const Vector g = Vector::Constant(200, 0.1);
     const ImpulseEstimate estimate = impulseest(record(g, RandomStream(1).normal(900), 0.01, 1), plain(40));
     ASSERT_EQ(estimate.warnings.size(), 1u);
-    EXPECT_THAT(message_text(estimate.warnings[0]), HasSubstr("not died out"));
+    EXPECT_THAT(message_text(estimate.warnings[0]), HasSubstr("not decayed"));
 }
 
 }  // namespace test_impulseest

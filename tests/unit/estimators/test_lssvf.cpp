@@ -52,7 +52,7 @@ TEST(lssvf, long_records_keep_the_errors_of_a_white_equation_error_and_say_so) {
     const Matrix plain = found.covariance;
     colour_covariance(found, data, cutoff(3), false);
     EXPECT_EQ(found.covariance, plain);
-    EXPECT_NE(message_text(found.full_message()).find("as white"), std::string::npos)
+    EXPECT_NE(message_text(found.full_message()).find("assume a white"), std::string::npos)
         << message_text(found.full_message());
 }
 
@@ -104,8 +104,8 @@ TEST(lssvf, irregular_instants_that_are_regular_give_the_same) {  // oracle: sec
 
 TEST(lssvf, warns_of_a_cutoff_far_from_the_band) {  // oracle: the system's poles are -1 and -3
     const IdData data = course_record(0, 1);
-    EXPECT_NE(message_text(lssvf(data, kCourse, cutoff(100)).full_message()).find("usual choice"), std::string::npos);
-    EXPECT_EQ(message_text(lssvf(data, kCourse, cutoff(3)).full_message()).find("usual choice"), std::string::npos);
+    EXPECT_NE(message_text(lssvf(data, kCourse, cutoff(100)).full_message()).find("choose lambda"), std::string::npos);
+    EXPECT_EQ(message_text(lssvf(data, kCourse, cutoff(3)).full_message()).find("choose lambda"), std::string::npos);
 }
 
 TEST(lssvf, refuses_bad_input_in_words) {  // oracle: the sentence names what is wrong
@@ -117,7 +117,7 @@ TEST(lssvf, refuses_bad_input_in_words) {  // oracle: the sentence names what is
     says(data, kCourse, cutoff(0), "lambda");
     says(data, kCourse, cutoff(-3), "lambda");
     says(data.range(1, 5), kCourse, cutoff(3), "samples are needed");
-    says(data, TransferStructure::single(2, 0, 15), cutoff(3), "not shorter than the record");
+    says(data, TransferStructure::single(2, 0, 15), cutoff(3), "not shorter than the data");
     const Matrix y = data.experiments[0].y, zero = Matrix::Zero(y.rows(), 1);
     says(IdData(y, zero, 0.01), kCourse, cutoff(3), "zero throughout");
     says(IdData(y, Matrix(y.rows(), 0), 0.01), kCourse, cutoff(3), "no input");

@@ -173,7 +173,7 @@ TEST(n4sid, noise_averages_out) {  // oracle: consistency, error ~ 1/sqrt(N), fi
 
 TEST(n4sid, tells_of_more_states_than_the_data_show) {  // oracle: the simulated order
     const auto result = n4sid(record(square_system(false), 400, 0, 1), 6);
-    EXPECT_THAT(message_text(result.fit.full_message()), HasSubstr("The data show 3 states only"));
+    EXPECT_THAT(message_text(result.fit.full_message()), HasSubstr("The data show only 3 states"));
 }
 
 TEST(n4sid, refuses_what_it_cannot_use) {  // oracle: definitions
@@ -182,12 +182,12 @@ TEST(n4sid, refuses_what_it_cannot_use) {  // oracle: definitions
     const auto refusal = [](const IdData& given, int order, SubspaceOptions options = {}) {
         return thrown_message([&] { n4sid(given, order, options); });
     };
-    EXPECT_THAT(refusal(data, 0), HasSubstr("must lie between 1 and 100"));
+    EXPECT_THAT(refusal(data, 0), HasSubstr("must be between 1 and 100"));
     EXPECT_THAT(refusal(data, 5, with(SubspaceWeighting::kMoesp, false, 5)), HasSubstr("greater than the order"));
     EXPECT_THAT(refusal(data, 5, with(SubspaceWeighting::kMoesp, false, -1)), HasSubstr("must not be negative"));
-    EXPECT_THAT(refusal(data.range(1, 20), 3), HasSubstr("too short"));
+    EXPECT_THAT(refusal(data.range(1, 20), 3), HasSubstr("too few"));
     EXPECT_EQ(refusal(data.range(1, 45), 3), "");
-    EXPECT_THAT(refusal(data, 3, with(SubspaceWeighting::kMoesp, false, 60)), HasSubstr("too short"));
+    EXPECT_THAT(refusal(data, 3, with(SubspaceWeighting::kMoesp, false, 60)), HasSubstr("too few"));
     EXPECT_THAT(refusal(IdData(y, Matrix(400, 0), 1), 2), HasSubstr("needs an input"));
     EXPECT_THAT(refusal(IdData(y, Matrix::Ones(400, 1), 1), 2), HasSubstr("not persistently exciting enough"));
     EXPECT_THAT(refusal(IdData(y, u, Vector::LinSpaced(400, 0, 1)), 2), HasSubstr("regularly"));

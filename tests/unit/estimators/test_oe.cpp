@@ -154,7 +154,7 @@ TEST(oe, doubtful_results_come_with_a_sentence) {  // oracle: the simulated syst
     EXPECT_THAT(
         message_text(
             oe(IdData(noise, inputs(300, 1, 1), 1), PolynomialOrders::output_error({5}, {0}, {1})).full_message()),
-        HasSubstr("hardly determine"));
+        HasSubstr("do not reliably determine"));
     const auto high = oe(simulated(c, 300, 0, 1), PolynomialOrders::output_error({3}, {3}, {1}));
     EXPECT_THAT(message_text(high.full_message()), HasSubstr("do not determine all parameters separately"));
     EXPECT_GT(high.fit_percent[0], 99.99);

@@ -137,7 +137,7 @@ TEST(step_test, delayed_without_delay_says_so) {  // oracle: analytic
         EXPECT_GE(parameter(result, "D"), 0);
         EXPECT_LT(parameter(result, "D"), 0.02);
         EXPECT_EQ(parameter(result, "D") == 0,
-                  message_text(result.message).find("no room for a delay") != std::string::npos);
+                  message_text(result.message).find("no time for a delay") != std::string::npos);
         least = std::min(least, parameter(result, "D"));
     }
     EXPECT_EQ(least, 0);
@@ -201,7 +201,7 @@ TEST(step_test, refuses_an_input_that_is_no_step) {
     EXPECT_THAT(refusal([&] { step_first_order(pulse); }), HasSubstr("goes 2 times"));
     IdData stairs = record_of(e, 1, first_order(0.5));
     stairs.experiments[0].u.middleRows(300, 50).setConstant(0.7);
-    EXPECT_THAT(refusal([&] { step_first_order(stairs); }), HasSubstr("away from both levels"));
+    EXPECT_THAT(refusal([&] { step_first_order(stairs); }), HasSubstr("but the two levels"));
     IdData nothing = record_of(e, 1, first_order(0.5));
     nothing.experiments[0].u.setZero();
     EXPECT_THAT(refusal([&] { step_first_order(nothing); }), HasSubstr("zero throughout"));
@@ -240,7 +240,7 @@ TEST(step_test, refuses_a_response_without_overshoot) {  // justified: a first-o
 TEST(step_test, refuses_an_output_that_does_not_answer) {  // justified: it is noise alone
     Experimental e;
     e.noise = 0.1;
-    EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 0, first_order(0.8))); }), HasSubstr("does not answer"));
+    EXPECT_THAT(refusal([&] { step_first_order(record_of(e, 0, first_order(0.8))); }), HasSubstr("does not respond"));
 }
 
 TEST(step_test, refuses_records_it_cannot_read) {

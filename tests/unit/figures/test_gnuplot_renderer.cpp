@@ -269,7 +269,7 @@ TEST_F(gnuplot_renderer_replaced, an_error_is_told_that_comes_after_the_pipe_has
 
 TEST_F(gnuplot_renderer_replaced, files_that_are_not_whole_are_not_delivered) {
     replace_by("echo 'figure 1 done' >&2\nwhile read -r line; do :; done\n");
-    EXPECT_THAT(failure(), HasSubstr("not complete"));
+    EXPECT_THAT(failure(), HasSubstr("incomplete"));
 }
 
 TEST_F(gnuplot_renderer_replaced, ctrl_c_ends_the_wait_and_leaves_nothing) {

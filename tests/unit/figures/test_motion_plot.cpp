@@ -128,7 +128,7 @@ std::string refusal(const RigDrawing& rig, const MotionRecord& made, const Motio
 TEST(motion_plot, says_what_does_not_fit) {
     MotionRecord falling = record(10, 0.1);
     falling.t[4] = falling.t[3];
-    EXPECT_THAT(refusal(crane(), falling), HasSubstr("must rise, but number 4 is 0.3"));
+    EXPECT_THAT(refusal(crane(), falling), HasSubstr("must increase, but number 4 is 0.3"));
     MotionRecord none = record(10, 0.1);
     none.measured.resize(0, 0), none.simulated.resize(0, 0);
     EXPECT_THAT(refusal(crane(), none), HasSubstr("measured or simulated"));
@@ -137,13 +137,13 @@ TEST(motion_plot, says_what_does_not_fit) {
     EXPECT_THAT(refusal(crane(), narrow), HasSubstr("10 x 2, but they are 10 x 1"));
     EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{2.0}})), HasSubstr("goes from 0 s to 0.9"));
     EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{0.5, 0.2, 0.5}})),
-                HasSubstr("0.5 s stands in the list twice"));
+                HasSubstr("0.5 s occurs twice in the list"));
     RigDrawing wrong = crane();
     wrong.parts[1].on = 1;
-    EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("carried by one before it"));
+    EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("defined before it"));
     wrong = crane();
     wrong.pieces[0].part[1] = 2;
-    EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("a part that is not there"));
+    EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("a part that does not exist"));
     Figure cut = motion_plot(crane(), record(10, 0.1));
     cut.panels[2].curves.pop_back();
     EXPECT_THROW(cut.validate(), InvalidArgument);

@@ -206,7 +206,7 @@ TEST(style, stems_beyond_the_bound_have_a_marker_of_their_own) {
     for (const Panel& panel : residuals().panels)
         for (const Curve& curve : panel.curves)
             if (curve.style == CurveStyle::kStems)
-                markers[message_text(curve.label) == "beyond the bound"].insert(style::look_of(curve, 0).point_type);
+                markers[message_text(curve.label) == "outside the bound"].insert(style::look_of(curve, 0).point_type);
     ASSERT_EQ(markers.size(), 2u);
     EXPECT_NE(markers[false], markers[true]);
 }

@@ -130,7 +130,7 @@ TEST(validation_plots, residual_plot_sets_what_lies_beyond_the_bound_apart) {  /
     for (const Curve& curve : figure.panels[0].curves) {
         if (curve.style != CurveStyle::kStems) continue;
         all += curve.x.size();
-        if (message_text(curve.label) == "beyond the bound") beyond = curve.x.size();
+        if (message_text(curve.label) == "outside the bound") beyond = curve.x.size();
     }
     EXPECT_EQ(all, 25);
     EXPECT_EQ(beyond, tests.outputs[0].whiteness.outside);

@@ -38,11 +38,8 @@ TEST(diagnosis, of_models) {  // oracle: poles and zeros written down
     EXPECT_THAT(texts_of(cancelling.warnings), ElementsAre(HasSubstr("A pole near -1 and a zero nearly cancel")));
     Fit unstable = fit_of(2, 0, values({-1, 3, 2}));
     describe_models(unstable);
-    EXPECT_THAT(
-        texts_of(unstable.warnings),
-        ElementsAre(
-            "The model is unstable: unless the system is unstable, too, srivc with `stable` = true finds the best "
-            "stable one."));
+    EXPECT_THAT(texts_of(unstable.warnings), ElementsAre("The model is unstable. Unless the system is also unstable, "
+                                                         "srivc with `stable` = true finds the best stable model."));
 }
 
 TEST(diagnosis, of_parameters) {  // oracle: the definition
@@ -72,7 +69,7 @@ TEST(diagnosis, of_delays) {  // oracle: the definition
         return texts_of(fit.warnings);
     };
     EXPECT_THAT(said(0.5, {0, 1}), IsEmpty());
-    EXPECT_THAT(said(1, {0, 1}), ElementsAre(HasSubstr("to output 2 lies at `largest_delay` = 1 s")));
+    EXPECT_THAT(said(1, {0, 1}), ElementsAre(HasSubstr("to output 2 is `largest_delay` = 1 s")));
     EXPECT_THAT(said(0.2, {0.2, 1}), ElementsAre(HasSubstr("lower `least_delay`")));
     EXPECT_THAT(said(0, {0, 1}), ElementsAre(HasSubstr("No delay from input 1 to output 2 is visible")));
     EXPECT_THAT(said(0.7, {0.7, 0.7}), ElementsAre(HasSubstr("`least_delay`")));
@@ -89,7 +86,7 @@ TEST(diagnosis, of_poor_fits) {
     warn_of_delay(poor, 0, {0, 1});
     EXPECT_THAT(poor.warnings, IsEmpty());
     warn_of_delay(poor, 1, {0, 1});
-    EXPECT_THAT(texts_of(poor.warnings), ElementsAre(HasSubstr("lies at `largest_delay`")));
+    EXPECT_THAT(texts_of(poor.warnings), ElementsAre(HasSubstr("The delay is `largest_delay`")));
 }
 
 TEST(diagnosis, of_unstable_poles) {  // oracle: poles written down
@@ -110,13 +107,12 @@ TEST(diagnosis, of_the_search) {  // oracle: the sentences that scripts promise
     fit.termination = Termination::kIterationLimit;
     EXPECT_FALSE(has_settled(fit));
     describe_search(fit, course_record(0, 1), options, {});
-    EXPECT_THAT(texts_of(fit.warnings),
-                ElementsAre("The search had not settled after `max_iterations` = 7 iterations; the best point so far "
-                            "is given."));
+    EXPECT_THAT(texts_of(fit.warnings), ElementsAre("The search did not converge within `max_iterations` = 7 "
+                                                    "iterations; the result is the best point so far."));
     fit.termination = Termination::kCancelled;
     fit.warnings.clear();
     warn_of_search(fit, options);
-    EXPECT_THAT(texts_of(fit.warnings), ElementsAre(HasSubstr("was stopped before its end")));
+    EXPECT_THAT(texts_of(fit.warnings), ElementsAre(HasSubstr("was interrupted")));
     fit.fit_percent = values({50, 60});
     EXPECT_EQ(message_text(simulation_text(fit)), "fit 50 % and 60 % (simulation)");
     fit.fit_percent = values({50, 60, 70});

@@ -24,7 +24,7 @@ TEST(fit, options_that_make_no_sense_are_named) {  // oracle: the promises of th
     EXPECT_THAT(refusal([](FitOptions& o) { o.lambda = -1; }), HasSubstr("lambda must be a positive number"));
     EXPECT_THAT(refusal([](FitOptions& o) { o.least_delay = -1; }), HasSubstr("`least_delay` must not be negative"));
     EXPECT_THAT(refusal([](FitOptions& o) { o.least_delay = 2, o.largest_delay = 1; }),
-                HasSubstr("`largest_delay` must be at least `least_delay` = 2, and is 1"));
+                HasSubstr("`largest_delay` must be at least `least_delay` = 2, but is 1"));
     EXPECT_THAT(refusal([](FitOptions& o) { o.delay_count = 0; }), HasSubstr("`delay_count`"));
     EXPECT_THAT(refusal([](FitOptions& o) { o.max_iterations = -1; }), HasSubstr("`max_iterations`"));
     EXPECT_THAT(refusal([](FitOptions& o) { o.tolerance = 0; }), HasSubstr("`tolerance` must be positive"));

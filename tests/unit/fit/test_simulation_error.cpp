@@ -49,7 +49,7 @@ TEST(simulation_error, that_overflows_is_no_fit_and_told) {  // oracle: exp(2 * 
     EXPECT_EQ(fit.fit_percent[0], -kInfinity);
     EXPECT_EQ(fit.loss, kInfinity);
     EXPECT_EQ(message_text(fit.full_message()),
-              "Found. The simulation of the model grows beyond all bounds over the record: it has no fit.");
+              "Found. The simulation of the model diverges on these data: no fit can be computed.");
 }
 
 TEST(simulation_error, of_a_model_that_explodes_is_infinite) {  // oracle: exp(40 s per second) beyond all numbers

@@ -206,7 +206,7 @@ TEST(transfer_refinement, doubts_are_told) {  // oracle: the simulated system
     options = {};
     options.cancel = [] { return true; };
     EXPECT_THAT(message_text(refine_output_error(data, plain, kRest, Vector{{3.0, 1.0}}, options).full_message()),
-                HasSubstr("before its end"));
+                HasSubstr("interrupted"));
     TransferStructure delayed = plain;
     delayed.free_delays = true;
     const IdData late = simulated(delayed, Vector{{0.8, 2.0, 1.0}}, 400, 0.01);
@@ -223,7 +223,7 @@ TEST(transfer_refinement, doubts_are_told) {  // oracle: the simulated system
     options.least_delay = 0;
     EXPECT_THAT(
         message_text(refine_output_error(data, delayed, kRest, Vector{{0.8, 2.0, 0.05}}, options).full_message()),
-        HasSubstr("without one suits"));
+        HasSubstr("without delay"));
 }
 
 TEST(transfer_refinement, refuses_what_cannot_be_estimated) {
@@ -242,7 +242,7 @@ TEST(transfer_refinement, refuses_what_cannot_be_estimated) {
         refine(data, TransferStructure::grid(1, 2, Denominators::kCommon, {2}, {0}, {0.0}), kRest, Vector::Ones(4)),
         HasSubstr("2 inputs"));
     EXPECT_THAT(refine(data, TransferStructure::single(2, 0, 100), kRest, theta),
-                HasSubstr("not shorter than the record"));
+                HasSubstr("not shorter than the data"));
     EXPECT_THAT(refine(IdData(data.experiments[0].y, Matrix::Zero(100, 1), kTs), structure, kRest, theta),
                 HasSubstr("zero throughout"));
     EXPECT_THAT(refine(IdData(Matrix::Ones(100, 1), data.experiments[0].u, kTs), structure, kRest, theta),

@@ -125,7 +125,7 @@ TEST(transfer_search, fixed_parameters_keep_their_values) {
     EXPECT_NEAR(fit.theta[0], 4, 5 * fit.std[0]);
     options.fixed = {{"a3", 1}};
     EXPECT_EQ(thrown_message([&] { search_transfer("test", data, structure, options); }),
-              "`fixed`: the model has no parameter a3; it has a1, a2, b0");
+              "`fixed`: the model has no parameter a3; its parameters are a1, a2, b0");
 }
 
 // Oracle: the weighted criterion itself, searched from the two outputs' own optima.

@@ -63,7 +63,7 @@ TEST(least_squares, refusals) {
     EXPECT_EQ(thrown_message([] { solve_least_squares(Matrix::Ones(2, 3), Vector::Ones(2)); }),
               "least squares: 2 equations cannot determine 3 parameters; more data are needed");
     EXPECT_EQ(thrown_message([] { solve_least_squares(Matrix::Ones(2, 1), Vector::Constant(2, NAN)); }),
-              "least squares: the right-hand side holds a value that is not finite");
+              "least squares: the right-hand side contains a value that is not finite");
 }
 
 }  // namespace test_least_squares

@@ -78,7 +78,7 @@ TEST(matrix_exponential, refusals) {
     EXPECT_EQ(thrown_message([] { matrix_exponential(Matrix::Zero(2, 3)); }),
               "matrix exponential: the matrix must be square, but it has 2 rows and 3 columns");
     EXPECT_EQ(thrown_message([] { matrix_exponential(Matrix::Constant(1, 1, NAN)); }),
-              "matrix exponential: the matrix holds a value that is not finite");
+              "matrix exponential: the matrix contains a value that is not finite");
 }
 
 }  // namespace test_matrix_exponential

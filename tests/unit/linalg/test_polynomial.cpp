@@ -92,7 +92,7 @@ TEST(polynomial, refuses_what_has_no_roots) {
     EXPECT_EQ(thrown_message([] {
                   roots(from({1, NAN}));
               }),
-              "roots: the polynomial holds a coefficient that is not finite");
+              "roots: the polynomial contains a coefficient that is not finite");
 }
 
 TEST(polynomial, monic_puts_a_one_first) {  // oracle: definition

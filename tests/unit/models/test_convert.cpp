@@ -148,7 +148,7 @@ TEST(convert, delays_become_poles_where_they_can) {  // oracle: second route, th
             EXPECT_NEAR(std::abs(H.at(z) - G.at(z)), 0, 1e-12);
     }
     EXPECT_EQ(with_rational_delay("test", kSecondOrder).den(), kSecondOrder.den());
-    EXPECT_NE(thrown_message([] { with_rational_delay("ss", kSecondOrder.with_delay(1)); }).find("give pade(G, n)"),
+    EXPECT_NE(thrown_message([] { with_rational_delay("ss", kSecondOrder.with_delay(1)); }).find("use pade(G, n)"),
               std::string::npos);
 }
 

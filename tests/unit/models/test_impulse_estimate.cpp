@@ -32,7 +32,7 @@ TEST(impulse_estimate, the_first_response_is_followed_by_another_of_its_sign) { 
     ImpulseEstimate none = estimate_of(Vector{{1.0, -2.0, 2.0, 1.0}});
     read_dead_time(none, 0.1, Hold::kZoh, 3);
     EXPECT_FALSE(none.first);
-    EXPECT_THAT(message_text(none.message), HasSubstr("No part of it stands out"));
+    EXPECT_THAT(message_text(none.message), HasSubstr("The response never exceeds"));
 }
 
 TEST(impulse_estimate, as_many_lags_as_the_record_bears) {  // oracle: the rule of the header

@@ -119,7 +119,7 @@ TEST(transfer_function, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([] { TransferFunction(Vector(), from({1})); }),
               "transfer function: the numerator has no coefficients");
     EXPECT_EQ(thrown_message([] { TransferFunction(from({NAN}), from({1})); }),
-              "transfer function: the numerator holds a coefficient that is not finite");
+              "transfer function: the numerator contains a coefficient that is not finite");
     EXPECT_EQ(thrown_message([] { TransferFunction(from({1}), from({1}), 0, -1); }),
               "transfer function: the delay must not be negative, but it is -1 s");
     EXPECT_EQ(thrown_message([] { TransferFunction(from({1}), from({1}), 0.1, 0.25); }),

@@ -27,7 +27,7 @@ TEST(file_error, is_told_in_the_words_of_other_messages) {
     const fs::path file = folder.path() / "file", below = file / "below", none = folder.path() / "none";
     std::ofstream(file) << "text";
     EXPECT_EQ(told([&] { fs::create_directories(below); }),
-              "cannot make the folder " + below.string() + ": not a directory");
+              "cannot create the folder " + below.string() + ": not a directory");
     EXPECT_EQ(told([&] { fs::directory_iterator{none}; }),
               "cannot read the folder " + none.string() + ": no such file or directory");
     EXPECT_EQ(told([&] { fs::copy_file(none, below); }),

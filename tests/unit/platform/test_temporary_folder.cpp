@@ -36,7 +36,7 @@ TEST(temporary_folder, lies_below_tmpdir) {
         const TemporaryFolder impossible;
         ADD_FAILURE();
     } catch (const EnvironmentError& error) {
-        EXPECT_STREQ(error.what(), "cannot make a temporary folder in /none/such: no such file or directory");
+        EXPECT_STREQ(error.what(), "cannot create a temporary folder in /none/such: no such file or directory");
     }
 }
 

@@ -78,7 +78,7 @@ TEST(random_phase_multisine, has_lower_peaks_where_they_are_wanted) {  // oracle
 
 TEST(random_phase_multisine, refuses_what_cannot_be) {
     RandomPhaseOptions options;
-    EXPECT_THAT(refusal(4, options), HasSubstr("at least 8 samples, and has 4"));
+    EXPECT_THAT(refusal(4, options), HasSubstr("at least 8 samples, but has 4"));
     options.lines = Vector{{1.0, 16.0}};
     EXPECT_THAT(refusal(32, options), HasSubstr("from 1 to 15, but one is 16"));
     options.lines = Vector{{1.5}};
@@ -87,10 +87,10 @@ TEST(random_phase_multisine, refuses_what_cannot_be) {
     EXPECT_THAT(refusal(32, options), HasSubstr("2 occurs more often"));
     options.lines = Vector{{2.0, 4.0}};
     options.odd = true;
-    EXPECT_THAT(refusal(32, options), HasSubstr("no line is left"));
+    EXPECT_THAT(refusal(32, options), HasSubstr("no line remains for"));
     options = {};
     options.detection = 1;
-    EXPECT_THAT(refusal(32, options), HasSubstr("groups hold at least 2 lines"));
+    EXPECT_THAT(refusal(32, options), HasSubstr("groups need at least 2 lines"));
     options = {};
     options.amplitude = 0;
     EXPECT_THAT(refusal(32, options), HasSubstr("amplitude must be positive"));

@@ -38,13 +38,13 @@ TEST(segments, discarding_keeps_the_rest) {  // oracle: by hand; overlaps joined
 TEST(segments, refuses_stretches_outside_the_record) {
     for (const Segment& wrong : {Segment{0, 3}, Segment{3, 11}, Segment{5, 4}}) {
         EXPECT_THAT(thrown_message([&] { keep_segments(counted(10), {wrong}); }),
-                    HasSubstr("the record has samples 1 to 10"));
+                    HasSubstr("the data have samples 1 to 10"));
         EXPECT_THROW(discard_segments(counted(10), {wrong}), InvalidArgument);
     }
     EXPECT_THROW(keep_segments(counted(10), {}), InvalidArgument);
-    EXPECT_THAT(thrown_message([] { discard_segments(counted(10), {{1, 9}}); }), HasSubstr("nothing would be left"));
+    EXPECT_THAT(thrown_message([] { discard_segments(counted(10), {{1, 9}}); }), HasSubstr("no samples would remain"));
     const IdData two = IdData::merge({counted(3), counted(3)});
-    EXPECT_THAT(thrown_message([&] { keep_segments(two, {{1, 2}}); }), HasSubstr("take one with data:experiment(k)"));
+    EXPECT_THAT(thrown_message([&] { keep_segments(two, {{1, 2}}); }), HasSubstr("select one with data:experiment(k)"));
 }
 
 }  // namespace test_segments

@@ -136,9 +136,9 @@ TEST(closed_loop, refuses_what_is_no_loop) {  // oracle: the sentence names the 
     EXPECT_THAT(refused(G, {TransferFunction(Vector{{3}}, Vector{{1}}, 0.1)}), HasSubstr("sampling time 0.1 s"));
     EXPECT_THAT(refused(G, {TransferFunction(Vector{{1, 0}}, Vector{{1}})}),
                 HasSubstr("controller has 1 zero but only 0"));
-    EXPECT_THAT(refused(G, {gain, 1}), HasSubstr("belongs to a sampled controller"));
+    EXPECT_THAT(refused(G, {gain, 1}), HasSubstr("needs a sampled controller"));
     EXPECT_THAT(refused(G.with_delay(0.1), {gain}), HasSubstr("pade(G, n)"));
-    EXPECT_THAT(refused(direct, {sampled_gain}), HasSubstr("without end"));
+    EXPECT_THAT(refused(direct, {sampled_gain}), HasSubstr("algebraic loop"));
     EXPECT_THAT(refused(discrete(Vector{{1}}, Vector{{1, -0.5}}), {sampled_gain}), HasSubstr("continuous time"));
     EXPECT_EQ(refused(direct, {sampled_gain, 1}), "");
     const Vector r = Vector::Ones(10);

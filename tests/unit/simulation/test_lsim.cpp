@@ -150,7 +150,7 @@ TEST(lsim, says_what_is_wrong) {
                   lsim(kSecondOrder, from({1, NAN}), 0.1);
               }),
               "lsim: sample 2 of the input is not a number (NaN); fillmissing(u, {method = \"previous\"}) holds the "
-              "value before");
+              "previous value");
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1, 2}), 0);
               }),
@@ -159,12 +159,11 @@ TEST(lsim, says_what_is_wrong) {
                   lsim(kSecondOrder, from({1, 2, 3}), from({0, 2, 1}));
               }),
               "lsim: the time must increase from sample to sample, but instant 3 is 1 after 2");
-    EXPECT_EQ(
-        thrown_message([] {
-            lsim(TransferFunction(from({1, 0}), from({1})), from({1}), 0.1);
-        }),
-        "lsim: the transfer function has 1 zero but only 0 poles; an improper model cannot be simulated, it needs "
-        "at least as many poles as zeros");
+    EXPECT_EQ(thrown_message([] {
+                  lsim(TransferFunction(from({1, 0}), from({1})), from({1}), 0.1);
+              }),
+              "lsim: the transfer function has 1 zero but only 0 poles; an improper model cannot be simulated, because "
+              "it needs at least as many poles as zeros");
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1}), 0.1, Hold::kZoh, from({1, 2, 3}));
               }),
@@ -172,12 +171,13 @@ TEST(lsim, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([] {
                   lsim(TransferFunction(from({1}), from({1, 0}), 0.2), from({1}), 0.1);
               }),
-              "lsim: the model is discrete with Ts = 0.2 s but the data are sampled every 0.1 s; both must be equal");
+              "lsim: the model is discrete with Ts = 0.2 s, but the data have the sampling time 0.1 s; the two must be "
+              "equal");
     EXPECT_EQ(thrown_message([] { lsim(kSecondOrder, Vector(), 0.1); }), "lsim: the input has no samples");
     EXPECT_EQ(thrown_message([] {
                   state_variable_filter(from({1, 2}), 1000000, 3, 0.1);
               }),
-              "state-variable filter: the order must lie between 1 and 50, but it is 1000000");
+              "state-variable filter: the order must be between 1 and 50, but it is 1000000");
     EXPECT_EQ(thrown_message([] {
                   state_variable_filter(from({1, 2}), 2, -3, 0.1);
               }),

@@ -52,7 +52,7 @@ TEST(time_response, natural_window_of_models_that_do_not_settle) {
 
 TEST(time_response, refusals) {
     EXPECT_EQ(thrown_message([] { step_response(kLag, Eigen::Vector2d(-1, 0)); }),
-              "step: the response begins at time 0, but the first instant is -1");
+              "step: the response starts at time 0, but the first instant is -1");
     EXPECT_EQ(thrown_message([] { impulse_response(kLag, Vector()); }), "impulse: the time vector is empty");
     const TransferFunction discrete(Vector::Ones(1), Eigen::Vector2d(1, -0.9), 0.1);
     EXPECT_EQ(thrown_message([&] { step_response(discrete, Eigen::Vector2d(0, 0.15)); }),

@@ -25,7 +25,7 @@ TEST(identifiability, names_a_combination_and_how_it_changes) {  // oracle: k/m 
     const Ambiguity found = find_ambiguity(of_ratio(3, 0.02), {"k", "m", "c"}, Vector{{3, 0.02, 1}}, 10);
     EXPECT_THAT(found.parameters, ElementsAre(true, true, false));
     ASSERT_EQ(found.sentences.size(), 1u);
-    EXPECT_THAT(message_text(found.sentences[0]), HasSubstr("does not tell k, m apart"));
+    EXPECT_THAT(message_text(found.sentences[0]), HasSubstr("cannot separate k, m"));
     EXPECT_THAT(message_text(found.sentences[0]), HasSubstr("k +1 %, m +1 %"));
 }
 

@@ -56,7 +56,7 @@ TEST(crossvalidate, the_true_model_fits_every_noise_free_fold) {  // oracle: the
     EXPECT_EQ(result.fit_percent.rows(), 5);
     EXPECT_GT(result.fit_percent.minCoeff(), 100 - 1e-6);
     EXPECT_LT(result.spread[0], 1e-6);
-    EXPECT_THAT(message_text(result.message), HasSubstr("5 parts that the model had not seen: fit 100 % on average"));
+    EXPECT_THAT(message_text(result.message), HasSubstr("5 parts not used for estimation: fit 100 % on average"));
 }
 
 TEST(crossvalidate, fit_of_a_fold_is_that_of_compare) {  // oracle: second route

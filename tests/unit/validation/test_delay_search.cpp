@@ -82,7 +82,7 @@ TEST(delay_search, no_delay_is_told) {  // oracle: the simulated system has none
     const TransferFunction G(Vector{{2}}, Vector{{1, 4, 3}});
     const DelaySearch search = search_delay(record(G, prbs(7, 8), 0.05, 10, 1));
     EXPECT_LT(search.delay, 0.1);
-    EXPECT_THAT(message_text(search.explanation), HasSubstr("does not differ significantly from no delay"));
+    EXPECT_THAT(message_text(search.explanation), HasSubstr("does not differ significantly from zero"));
 }
 
 TEST(delay_search, rivals_of_periodic_inputs_are_told) {

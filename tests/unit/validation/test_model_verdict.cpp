@@ -18,8 +18,8 @@ std::string verdict_text(const ModelStanding& model) {
 }
 
 TEST(model_verdict, good_models_only_are_called_good) {
-    EXPECT_EQ(verdict_text({}), "The model explains all that the data show, and its standard errors hold.");
-    const auto not_good = Not(HasSubstr("explains all"));
+    EXPECT_EQ(verdict_text({}), "The model explains everything that the data show, and its standard errors are valid.");
+    const auto not_good = Not(HasSubstr("explains everything that the data show"));
     EXPECT_THAT(verdict_text({.unstable = true}), not_good);
     EXPECT_THAT(verdict_text({.fit_percent = 5}), not_good);
     EXPECT_THAT(verdict_text({.fit_percent = -30}), not_good);
@@ -34,11 +34,11 @@ TEST(model_verdict, the_gravest_comes_first) {
     EXPECT_THAT(verdict_text({.fit_percent = 5, .independent = false}),
                 testing::AllOf(StartsWith("The model explains little"), HasSubstr("Dynamics are missing")));
     EXPECT_THAT(verdict_text({.white = false, .doubts = {.undetermined = {"b0"}}}), HasSubstr("hardly determine b0"));
-    EXPECT_THAT(verdict_text({.white = false}), HasSubstr("the disturbance is coloured"));
-    EXPECT_THAT(verdict_text({.white = false, .tested = false}), HasSubstr("cannot tell which"));
-    EXPECT_THAT(
-        verdict_text({.fit_percent = 38, .white = false}),
-        testing::AllOf(Not(HasSubstr("dynamics are described")), HasSubstr("(fit 38 %)"), HasSubstr("nonlinearity")));
+    EXPECT_THAT(verdict_text({.white = false}), HasSubstr("the dynamics. The disturbance is colored:"));
+    EXPECT_THAT(verdict_text({.white = false, .tested = false}), HasSubstr("cannot distinguish them"));
+    EXPECT_THAT(verdict_text({.fit_percent = 38, .white = false}),
+                testing::AllOf(Not(HasSubstr("model describes the dynamics")), HasSubstr("(fit 38 %)"),
+                               HasSubstr("nonlinearity")));
 }
 
 TEST(model_verdict, known_causes_come_before_missing_dynamics) {

@@ -129,7 +129,7 @@ TEST(monte_carlo, refuses_a_method_that_never_works) {
                                                            throw InvalidArgument("lambda is missing");
                                                        }}});
                 }),
-                HasSubstr("every run of 'broken' failed; the first one says: lambda is missing"));
+                HasSubstr("every run of 'broken' failed; the first error: lambda is missing"));
 }
 
 TEST(monte_carlo, cancel_keeps_what_was_done) {

@@ -76,7 +76,7 @@ TEST(order_selection, a_second_record_decides_when_it_is_given) {  // oracle: th
     EXPECT_EQ(chosen(selection).poles, 2);
     EXPECT_EQ(chosen(selection).zeros, 0);
     for (const OrderCandidate& candidate : selection.candidates) EXPECT_TRUE(candidate.validation_fit.has_value());
-    EXPECT_THAT(message_text(choose_order(selection).explanation), HasSubstr("second record"));
+    EXPECT_THAT(message_text(choose_order(selection).explanation), HasSubstr("validation data"));
 }
 
 // Oracles: srivc() of the integrated record with the integrator appended, compare() of that model, the system.
@@ -116,7 +116,7 @@ TEST(order_selection, an_unstable_model_is_recommended_only_where_all_are) {  //
     const OrderChoice choice = choose_order(selection);
     EXPECT_EQ(choice.place, 0u);
     EXPECT_THAT(message_text(choice.explanation),
-                HasSubstr("With 3 poles and no zero the BIC would be better still, but that model is unstable."));
+                HasSubstr("With 3 poles and no zero the BIC would be better, but that model is unstable."));
     selection.candidates.front().unstable = true;
     EXPECT_EQ(choose_order(selection).place, 1u);
 }
@@ -141,7 +141,7 @@ TEST(order_selection, a_second_record_with_an_offset_is_judged_as_the_estimation
         data.experiments.front().y.array() += outputs;
         return data;
     };
-    // The second record is one period of a running experiment, so that its means are a level at rest.
+    // The validation data is one period of a running experiment, so that its means are a level at rest.
     const IdData data = lifted(one, 3, 50), other = lifted(two.range(period.size() + 1, periods.size()), 5, -20);
     OrderSelectionOptions options;
     options.validation = &other;
@@ -300,7 +300,7 @@ TEST(order_selection, failures_are_kept_and_told) {
     EXPECT_THAT(thrown_message([&] {
                     select_order(data, order_grid({1, 2}, {0, 0}, {0.0}), options);
                 }),
-                AllOf(HasSubstr("the first one says: "), HasSubstr("lambda")));
+                AllOf(HasSubstr("the first error:"), HasSubstr("lambda")));
     options.estimation = {};
     options.cancel = [] { return true; };
     const OrderSelection stopped = select_order(data, order_grid({1, 2}, {0, 0}, {0.0}), options);

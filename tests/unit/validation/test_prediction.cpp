@@ -272,18 +272,18 @@ TEST(prediction, refuses_what_it_cannot_predict) {  // oracle: definitions
     const auto refusal = [](const IdData& data, const NoisyModel& model, std::optional<Index> k = 1) {
         return thrown_message([&] { predict(data, model, {k, {}}); });
     };
-    EXPECT_THAT(refusal(s.data(), noisy(s.model), 0), HasSubstr("at least 1 step ahead"));
+    EXPECT_THAT(refusal(s.data(), noisy(s.model), 0), HasSubstr("at least 1 step"));
     EXPECT_THAT(refusal(IdData(Matrix(s.y), Matrix(s.u), 0.25), noisy(s.model)),
-                HasSubstr("Ts = 0.5 s, and the data are sampled every 0.25 s"));
+                HasSubstr("Ts = 0.5 s, but the data have 0.25 s"));
     EXPECT_THAT(refusal(IdData(Matrix(s.y), Matrix::Ones(60, 2), 0.5), noisy(s.model)),
-                HasSubstr("The model has 1 input, and the data have 2"));
-    EXPECT_THAT(refusal(s.data().range(1, 2), noisy(s.model)), HasSubstr("too few samples to predict"));
+                HasSubstr("The model has 1 input, but the data have 2"));
+    EXPECT_THAT(refusal(s.data().range(1, 2), noisy(s.model)), HasSubstr("too few samples for a prediction"));
     Vector theta = kArmaxTheta;
     theta.tail(2) << -2.5, 1;
     EXPECT_THAT(refusal(s.data(), noisy(PolynomialModel(kArmax, theta, 0.5))),
                 HasSubstr("C has a root on or outside the unit circle"));
     const NoisyModel coloured{{TransferFunction()}, nullptr, Vector{{1, 0.5}}, Vector::Ones(1), 1};
-    EXPECT_THAT(refusal(s.data(), coloured), HasSubstr("both must be equal"));
+    EXPECT_THAT(refusal(s.data(), coloured), HasSubstr("the two must be equal"));
     EXPECT_THAT(
         refusal(IdData(Matrix(s.y), Matrix(s.u), Vector::LinSpaced(60, 0, 1).array().square().matrix()), coloured),
         HasSubstr("sampled irregularly"));

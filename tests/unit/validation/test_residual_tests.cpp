@@ -55,8 +55,8 @@ TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the
     EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
     EXPECT_TRUE(tests.outputs[0].inputs[0].without_feedback);
     EXPECT_THAT(message_text(tests.verdict), HasSubstr("y1: The output error is white"));
-    EXPECT_THAT(message_text(tests.verdict), HasSubstr("u1 explains nothing more of it"));
-    EXPECT_THAT(message_text(tests.verdict), HasSubstr("explains all that the data show"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("u1 explains no more of the error"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("explains everything that the data show"));
 }
 
 TEST(residual_tests, coloured_noise_on_the_true_model_is_told_apart_from_missing_dynamics) {
@@ -64,11 +64,11 @@ TEST(residual_tests, coloured_noise_on_the_true_model_is_told_apart_from_missing
     const auto coloured = plain_tests(record(y, u), kG);
     EXPECT_FALSE(coloured.outputs[0].whiteness.white);
     EXPECT_TRUE(coloured.outputs[0].inputs[0].independent);
-    EXPECT_THAT(message_text(coloured.verdict), HasSubstr("the disturbance is coloured"));
+    EXPECT_THAT(message_text(coloured.verdict), HasSubstr("the dynamics. The disturbance is colored:"));
     const TransferFunction poor(Vector{{2.0 / 3}}, Vector{{1.0, 1.0}});
     const auto missing = plain_tests(record(y, u), poor);
     EXPECT_FALSE(missing.outputs[0].inputs[0].independent);
-    EXPECT_THAT(message_text(missing.verdict), HasSubstr("u1 still explains part of it"));
+    EXPECT_THAT(message_text(missing.verdict), HasSubstr("u1 still explains part of the error"));
     EXPECT_THAT(message_text(missing.verdict), HasSubstr("Dynamics are missing"));
 }
 
@@ -92,7 +92,7 @@ TEST(residual_tests, known_causes_are_named) {
     EXPECT_THAT(verdict_on(fast, lsim(quick, fast, kTs) + e, late, {}), HasSubstr("try a shorter delay"));
     const Vector long_u = (Vector(2 * u.size()) << Vector::Constant(u.size(), 3), u).finished();
     const Vector running = lsim(kG, long_u, kTs).tail(u.size());
-    EXPECT_THAT(verdict(running + e, kG), HasSubstr("The record does not start as was assumed: simulated"));
+    EXPECT_THAT(verdict(running + e, kG), HasSubstr("The assumed initial conditions are wrong: simulated"));
     EXPECT_THAT(verdict(answer + 0.2 * u + e, kG, {{}, Message("With this the fit is 9 %.")}),
                 HasSubstr("With this the fit"));
     EXPECT_THAT(verdict(answer + e, kG, {{"b0"}, {}}), HasSubstr("the data hardly determine b0"));
@@ -106,9 +106,9 @@ TEST(residual_tests, tests_do_not_make_poor_models_good) {  // oracle: how the r
     const TransferFunction unstable(Vector{{2.0}}, Vector{{1.0, 4.0, -0.004}});  // a pole at 0.001
     const auto explodes = plain_tests(record(lsim(unstable, u, kTs) + 0.01 * e, u), unstable);
     EXPECT_TRUE(explodes.outputs[0].whiteness.white && explodes.outputs[0].inputs[0].independent);
-    EXPECT_THAT(message_text(explodes.verdict), HasSubstr("The model is unstable and not to be used"));
+    EXPECT_THAT(message_text(explodes.verdict), HasSubstr("The model is unstable. Do not use it"));
     for (const ResidualTests* tests : {&poor, &explodes})
-        EXPECT_EQ(message_text(tests->verdict).find("standard errors hold"), std::string::npos);
+        EXPECT_EQ(message_text(tests->verdict).find("standard errors are valid"), std::string::npos);
 }
 
 TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the record was made
@@ -167,7 +167,7 @@ TEST(residual_tests, says_when_there_is_nothing_to_test) {
     const Vector flat = Vector::Ones(100), y = lsim(kG, flat, kTs) + 0.1 * RandomStream(1).normal(100);
     EXPECT_THAT(message_text(plain_tests(record(y, flat), kG).verdict), HasSubstr("u1 never changes"));
     const Vector drift = lsim(kG, flat, kTs) + 0.1 * ar1(100, 0.9, 1);
-    EXPECT_THAT(message_text(plain_tests(record(drift, flat), kG).verdict), HasSubstr("the record cannot tell which"));
+    EXPECT_THAT(message_text(plain_tests(record(drift, flat), kG).verdict), HasSubstr(", cannot distinguish them"));
 }
 
 TEST(residual_tests, refuses_short_records_and_wrong_sizes) {

@@ -21,12 +21,12 @@ TEST(data_look, shows_columns_units_sampling_gaps_and_first_rows) {
     work.write("record.csv", text);
     const DataLook look = look_at_data(work.path("record.csv"), {});
     EXPECT_THAT(look.text, HasSubstr("record.csv: a table of 4 columns and 39 rows\n- units from the headers: time in "
-                                     "ms, u in V\n- numbers are missing"));
+                                     "ms, u in V\n- missing numbers were replaced"));
     EXPECT_THAT(look.text, ContainsRegex("time +ms +39 numbers +0 +390 +"));
     EXPECT_THAT(look.text, ContainsRegex("label +39 texts\n"));
     EXPECT_THAT(look.text, ContainsRegex("y +39 numbers +1 +0.5 +0.5 +0.5\n"));
     EXPECT_THAT(look.text,
-                AllOf(HasSubstr("column time, from 0 s to 0.39 s"), HasSubstr("in uneven steps, median 0.01 s"),
+                AllOf(HasSubstr("column time, from 0 s to 0.39 s"), HasSubstr("irregular, median step 0.01 s"),
                       HasSubstr("gaps: 1, 0.02 s after 0.19 s\n"),
                       ContainsRegex("first rows:\n +time +u +label +y\n +0 +0 +a +0.5\n")));
     ASSERT_TRUE(look.figure);
@@ -42,7 +42,7 @@ TEST(data_look, shows_the_variables_of_a_matlab_file_and_of_a_data_set) {
     EXPECT_THAT(look_at_data(work.path("a.mat"), {}).text,
                 AllOf(HasSubstr("a.mat: 4 variables\n"), HasSubstr("3 x 3 numbers"),
                       ContainsRegex("run +a struct\n +run.u +2 numbers +1 +2 +1.5\n"),
-                      HasSubstr("sampling time: 0.5 s, as the file states it")));
+                      HasSubstr("sampling time: 0.5 s, as given in the file")));
     EXPECT_THAT(look_at_data("crane", {}).text, HasSubstr("steps.theta"));
 }
 
@@ -50,7 +50,7 @@ TEST(data_look, of_a_file_that_cannot_be_read_names_the_place) {
     const WorkFolder work;
     work.write("bad.csv", "t,y\n0,1\n1,2\n2,three\n");
     EXPECT_THAT(error_of([&] { look_at_data(work.path("bad.csv"), {}); }),
-                HasSubstr("line 4, column y: wanted a number, given \"three\""));
+                HasSubstr("line 4, column y: expected a number, got \"three\""));
     EXPECT_THAT(error_of([&] { look_at_data(work.path("none.csv"), {}); }), HasSubstr("none.csv"));
 }
 

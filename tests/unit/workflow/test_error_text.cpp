@@ -36,8 +36,8 @@ TEST(error_text, of_more_locals_than_lua_can_have_names_the_limit) {
     std::string code;
     for (int i = 1; i <= 205; ++i) code += "local a" + std::to_string(i) + " = 0\n";
     EXPECT_THAT(shown(WorkFolder(), code),
-                HasSubstr("a.lua:201: here can be at most 200 local variables; declare further ones without 'local', "
-                          "or keep them in a table\n"));
+                HasSubstr("a.lua:201: a function can have at most 200 local variables; declare further variables "
+                          "without 'local', or put them in a table\n"));
 }
 
 TEST(error_text, of_the_main_chunk_shows_its_line_alone) {
@@ -77,10 +77,10 @@ TEST(error_text, cuts_long_arguments_and_long_chains_of_calls) {
                                    "deep(1000, s)\n");
     EXPECT_THAT(text, testing::StartsWith("a.lua:3: deep down\n"));
     EXPECT_THAT(text, HasSubstr("  a.lua:4: called deep(n = 0, s = \"\u00e9\u00e9"));
-    EXPECT_THAT(text, HasSubstr("  a.lua:7: began a longer chain of calls\n    deep(1000, s)"));
+    EXPECT_THAT(text, HasSubstr("  a.lua:7: started a longer chain of calls\n    deep(1000, s)"));
     EXPECT_LT(text.size(), 2000u);
     EXPECT_THAT(shown(WorkFolder(), "local function f() return 1 + f() end\nf()\n", "b.lua"),
-                HasSubstr("b.lua:1: functions call each other without end"));
+                HasSubstr("b.lua:1: functions call each other endlessly"));
 }
 
 TEST(error_text, names_a_required_file_with_its_folder_and_line) {

@@ -53,7 +53,7 @@ TEST_F(field_records, time_constant_is_the_same_however_the_time_is_called) {
         EXPECT_THAT(look(file), HasSubstr("every 0.02 s")) << file;
     }
     EXPECT_NEAR(time_constant(of("days.csv", "pwm", "speed", "Date")), 4500, 60);
-    EXPECT_THAT(printed_, AllOf(testing::StartsWith("days.csv: the time 'Date' has no unit and is taken for days"),
+    EXPECT_THAT(printed_, AllOf(testing::StartsWith("days.csv: the time 'Date' has no unit; dynlab assumes days"),
                                 HasSubstr("--time-unit")));
     EXPECT_NEAR(time_constant(of("days.csv", "pwm", "speed")), 4500, 60);
     EXPECT_NEAR(time_constant(of("clock.csv", "pwm", "speed", "clock")), 4, 0.2);
@@ -70,7 +70,7 @@ TEST_F(field_records, input_that_is_logged_on_change_is_held) {
     EXPECT_NEAR(run.record.values.at("a1").number.value_or(NAN), 2, 0.05);
     EXPECT_NEAR(run.record.values.at("a2").number.value_or(NAN), 4, 0.1);
     EXPECT_NEAR(run.record.values.at("b0").number.value_or(NAN), 4, 0.1);
-    EXPECT_THAT(run.printed, AllOf(HasSubstr("1480 of 1500 samples are missing; the input holds the value before them"),
+    EXPECT_THAT(run.printed, AllOf(HasSubstr("1480 of 1500 samples are missing; the input holds the previous value"),
                                    HasSubstr("method = \"previous\"")));
 }
 
@@ -113,18 +113,18 @@ TEST_F(field_records, two_records_side_by_side_keep_their_clocks) {
 
 TEST_F(field_records, cells_of_switches_percents_and_thousands_are_numbers) {
     EXPECT_NEAR(time_constant(of("onoff.csv", "heater", "temp")), 4, 0.2);
-    EXPECT_THAT(printed_, HasSubstr("column heater holds the words on and off, read as 1 and 0"));
+    EXPECT_THAT(printed_, HasSubstr("column heater contains the words on and off, read as 1 and 0"));
     EXPECT_NEAR(time_constant(of("percent.csv", "valve", "level")), 4, 0.2);
     EXPECT_NEAR(time_constant(of("milliers.csv", "d\u00E9bit", "pression")), 4, 0.2);
     EXPECT_THAT(look("monitor.txt"), HasSubstr("every 0.5 s"));
-    EXPECT_THAT(look("percent.csv"), HasSubstr("the unit is %"));
+    EXPECT_THAT(look("percent.csv"), HasSubstr("its unit is %"));
 }
 
 TEST_F(field_records, exports_of_instruments_are_tables_with_a_time) {
     EXPECT_NEAR(time_constant(of("record.lvm", "valve", "tacho")), 0.4, 0.02);
     EXPECT_THAT(look("record.lvm"), HasSubstr("column X_Value, from 0 s to 1.19 s, every 0.01 s"));
     EXPECT_THAT(look("rigol.csv"), HasSubstr("column X, from -0.005 s to -0.004524 s, every 4e-06 s"));
-    EXPECT_THAT(look("pairs.csv"), HasSubstr("the least and the largest value of an interval"));
+    EXPECT_THAT(look("pairs.csv"), HasSubstr("the minimum and the maximum of an interval"));
     EXPECT_THAT(refusal(of("pairs.csv", "C1", "C2")), HasSubstr("--Ts"));
 }
 
@@ -138,12 +138,11 @@ TEST_F(field_records, sampling_time_that_contradicts_the_file_is_reported) {
     const ScriptRun run = work_.run(
         "local d = load('wheel.csv') iddata(d.velocity, d.voltage, 0.05) iddata(d.velocity, d.voltage, 0.004)");
     EXPECT_EQ(run.printed,
-              "iddata: the sampling time 0.05 s is taken, but by the time 'time' of their file the samples follow "
-              "each other every 0.004 s\n");
+              "iddata: the sampling time is 0.05 s, but according to the time 'time' of the file it is 0.004 s\n");
     IdentifyRequest request = of("wheel.csv", "voltage", "velocity");
     request.Ts = 0.05;
     EXPECT_THAT(identification_script(request),
-                HasSubstr("The sampling time 0.05 s was given, but by the time 'time'"));
+                HasSubstr("The sampling time 0.05 s was given, but according to the time 'time'"));
 }
 
 }  // namespace test_field_records

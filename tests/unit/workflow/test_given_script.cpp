@@ -21,13 +21,13 @@ TEST(given_script, that_is_missing_is_looked_for_under_nearly_its_name) {
     work.write("whole/analysis.lua", "print(1)\n");
     EXPECT_EQ(meant_script(work.path("whole")), work.path("whole/analysis.lua"));
     EXPECT_THAT(error_of([&] { meant_script(work.path("capital")); }),
-                HasSubstr("capital, but Analysis.lua: call it analysis.lua"));
+                HasSubstr("capital, but Analysis.lua: rename it to analysis.lua"));
     EXPECT_THAT(error_of([&] { meant_script(work.path("second")); }),
-                HasSubstr("second, but analysis (2).lua: call it"));
+                HasSubstr("second, but analysis (2).lua: rename it"));
     EXPECT_THAT(error_of([&] { report_of(work.path("capital")); }),
-                HasSubstr("capital has no analysis.lua, but Analysis.lua: call it"));
+                HasSubstr("capital has no analysis.lua, but Analysis.lua: rename it"));
     EXPECT_THAT(error_of([&] { report_of(work.path("text")); }),
-                HasSubstr("text has no report.md, but Report.md: call it report.md"));
+                HasSubstr("text has no report.md, but Report.md: rename it to report.md"));
 }
 
 TEST(given_script, folders_that_are_no_lesson_tell_what_they_lack) {
@@ -35,12 +35,10 @@ TEST(given_script, folders_that_are_no_lesson_tell_what_they_lack) {
     work.write("capital/Analysis.lua", "print(1)\n");
     work.write("own/analysis.lua", "print(1)\n");
     const auto refusal = [&](const char* folder) { return error_of([&] { find_lesson(work.path(folder)); }); };
-    EXPECT_THAT(
-        refusal("capital"),
-        HasSubstr("capital' holds no lesson.lua and no analysis.lua, but Analysis.lua: call it analysis.lua; the "
-                  "lessons are "));
-    EXPECT_THAT(refusal(""), HasSubstr("' holds no lesson.lua and no analysis.lua; the lessons are "));
-    EXPECT_THAT(refusal("own"), HasSubstr("own' holds no lesson.lua; the lessons are "));
+    EXPECT_THAT(refusal("capital"), HasSubstr("capital' contains neither lesson.lua nor analysis.lua, but "
+                                              "Analysis.lua: rename it to analysis.lua; the lessons are"));
+    EXPECT_THAT(refusal(""), HasSubstr("' contains neither lesson.lua nor analysis.lua; the lessons are"));
+    EXPECT_THAT(refusal("own"), HasSubstr("own' contains no lesson.lua; the lessons are"));
 }
 
 TEST(given_script, that_is_no_script_is_refused_with_the_command_to_type) {
@@ -56,7 +54,7 @@ TEST(given_script, that_is_no_script_is_refused_with_the_command_to_type) {
     EXPECT_THAT(message_text(why_no_script(work.path("mine/report.pdf"), "weave")),
                 HasSubstr("report.pdf is the report's PDF: give the folder, dynlab weave "));
     EXPECT_EQ(message_text(why_no_script(work.path("data.csv"), "run")),
-              "data.csv is a table of data: give a script (.lua) or a notebook (.ipynb)");
+              "data.csv is a data table: give a script (.lua) or a notebook (.ipynb)");
     EXPECT_EQ(message_text(why_no_script(work.path("mine"), "run")), "");
     EXPECT_EQ(message_text(why_no_script(work.path("mine/analysis.lua"), "run")), "");
 }

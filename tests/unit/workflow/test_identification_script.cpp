@@ -115,9 +115,9 @@ TEST_F(identification_script, takes_several_inputs) {
 
 TEST_F(identification_script, fills_missing_samples_and_reports_doubts_about_the_data) {
     EXPECT_THAT(printed(of("holes.csv")),
-                AllOf(HasSubstr("holes.csv: numbers are missing"), HasSubstr("the output is interpolated"),
-                      HasSubstr("fit to the estimation data: 9")));
-    EXPECT_THAT(printed(of("cut.csv")), HasSubstr("! The output x is cut off"));  // as advice() marks a warning
+                AllOf(HasSubstr("holes.csv: missing numbers were replaced"),
+                      HasSubstr("the output is linearly interpolated"), HasSubstr("fit to the estimation data: 9")));
+    EXPECT_THAT(printed(of("cut.csv")), HasSubstr("! The output x saturates"));  // as advice() marks a warning
 }
 
 /// A record of 2/(s^2 + 4s + 3), whose cells are left out where `keeps_u` or `keeps_y` says no, every `step` s.
@@ -188,8 +188,8 @@ TEST_F(identification_script, doubts_about_the_data_are_printed_and_no_part_of_t
     std::string printed;
     request.print = [&printed](const std::string& text) { printed += text; };
     make_report(request);
-    EXPECT_THAT(printed, HasSubstr("The output x is cut off"));
-    EXPECT_THAT(files_->read("cut.md"), AllOf(HasSubstr("From u to x"), Not(HasSubstr("is cut off"))));
+    EXPECT_THAT(printed, HasSubstr("The output x saturates"));
+    EXPECT_THAT(files_->read("cut.md"), AllOf(HasSubstr("From u to x"), Not(HasSubstr("saturates"))));
 }
 
 TEST_F(identification_script, takes_uneven_instants_as_they_are) {
@@ -287,16 +287,16 @@ TEST(identify_request, of_orders_delay_or_names_that_make_no_sense_is_refused) {
     refused([](auto& r) { r.outputs = {"x", "x"}; }, "the output 'x' is given twice");
     refused([](auto& r) { r.outputs = {"u"}; }, "cannot be both input and output");
     refused([](auto& r) { r.poles = 0; }, "at least 1, not 0");
-    refused([](auto& r) { r.zeros = 3; }, "from 0 to that of the poles, 2; it is 3");
+    refused([](auto& r) { r.zeros = 3; }, "from 0 to the number of poles, 2, but is 3");
     refused([](auto& r) { r.zeros = -1; }, "it is -1");
     refused([](auto& r) { r.delay = -1; }, "must be at least 0 s, not -1");
     refused([](auto& r) { r.delay = NAN; }, "the delay must be at least 0 s");
     refused([](auto& r) { r.Ts = 0; }, "Ts must be greater than 0 s");
     refused([](auto& r) { r.Ts = 1, r.time = "t"; }, "not both");
     refused([](auto& r) { r.poles.reset(), r.delay = 0.3; }, "or the delay auto");
-    refused([](auto& r) { r.poles.reset(), r.zeros = 4; }, "there must be fewer zeros");
+    refused([](auto& r) { r.poles.reset(), r.zeros = 4; }, "must exceed the number of zeros");
     refused([](auto& r) { r.poles.reset(), r.zeros = -1; }, "it is -1");
-    refused([](auto& r) { r.poles.reset(), r.inputs = {"u", "v"}; }, "with several give the number");
+    refused([](auto& r) { r.poles.reset(), r.inputs = {"u", "v"}; }, "with several inputs, give the number");
 }
 
 }  // namespace test_identification_script

@@ -32,7 +32,7 @@ TEST(report_errors, a_slot_without_an_entry_leaves_a_draft_and_names_slot_file_a
         EXPECT_FALSE(draft.up_to_date) << "a draft is never up to date";
         EXPECT_THAT(texts_of(draft.gaps),
                     ElementsAre(AllOf(HasSubstr("report.md:5"), HasSubstr("fti"), HasSubstr("fit")),
-                                AllOf(HasSubstr("report.md:7"), HasSubstr("@fig:step points to nothing"))));
+                                AllOf(HasSubstr("report.md:7"), HasSubstr("@fig:step has no target"))));
         ASSERT_EQ(draft.unplaced.size(), 1u);
         EXPECT_THAT(message_text(draft.unplaced.front().message()), HasSubstr("write `fit`{.value}"));
     }
@@ -61,7 +61,7 @@ TEST(report_errors, the_error_of_a_script_stands_in_the_report_up_to_there) {
                     HasSubstr("analysis.lua:4: on purpose"))
             << repeat;
     EXPECT_THAT(work.read("report.md"),
-                testing::ContainsRegex("\nbefore\n(.|\n)*on purpose(.|\n)*nothing below was run(.|\n)*print"));
+                testing::ContainsRegex("\nbefore\n(.|\n)*on purpose(.|\n)*the cells below were not run(.|\n)*print"));
 }
 
 TEST(report_errors, of_the_group_file_name_the_file_and_its_line) {

@@ -129,7 +129,7 @@ TEST_F(report_memory, a_number_set_for_a_slider_makes_another_document) {
     EXPECT_THAT(error_of([&] {
                     weave(cells, "a.md", {{"kk", 5}});
                 }),
-                HasSubstr("a.lua has no slider \"kk\"; it has k"));
+                HasSubstr("a.lua has no slider \"kk\"; the sliders are k"));
 }
 
 /// The data that another place of a slider reads are part of its page.

@@ -67,7 +67,7 @@ Fit by_passes(const IdData& data, const TransferStructure& structure, const FitO
     const bool settled = estimate.termination == Termination::kConverged;
     estimate.message = settled ? Message("CLSRIVC converged after {}, {}: {}.", passes,
                                          instruments_text(signals, in_loop), simulation_text(estimate))
-                               : Message("CLSRIVC had not settled after {}, {}: {}.", passes,
+                               : Message("CLSRIVC did not converge after {}, {}: {}.", passes,
                                          instruments_text(signals, in_loop), simulation_text(estimate));
     return estimate;
 }
@@ -97,16 +97,17 @@ Fit two_stage(const IdData& data, const TransferStructure& structure, const FitO
     const IdData projected = with_projected_inputs(data, signals);
     Fit estimate = srivc(projected, structure, options);
     estimate.covariance = output_covariance(projected, structure, estimate.theta);
-    estimate.warnings = {Message(
-        "The standard errors take the projection of the input as known: they may be several times too large, or a "
-        "quarter too small.")};
+    estimate.warnings = {
+        Message("The standard errors treat the projection of the input as known. They can be several times too large, "
+                "or a quarter too small.")};
     measure_simulation(estimate, data);
     describe_models(estimate);
     estimate.message =
         has_settled(estimate)
-            ? Message("SRIVC on the input's projection on the reference (two-stage route), converged after {}: {}.",
-                      iteration_count(estimate), simulation_text(estimate))
-            : Message("SRIVC on the input's projection on the reference (two-stage route), stopped after {}: {}.",
+            ? Message(
+                  "SRIVC on the projection of the input on the reference (two-stage route), converged after {}: {}.",
+                  iteration_count(estimate), simulation_text(estimate))
+            : Message("SRIVC on the projection of the input on the reference (two-stage route), stopped after {}: {}.",
                       iteration_count(estimate), simulation_text(estimate));
     return estimate;
 }
@@ -117,7 +118,7 @@ Fit direct(const IdData& data, const TransferStructure& structure, const FitOpti
     estimate.warnings.clear();
     describe_models(estimate);
     estimate.warnings.push_back(
-        Message("This is the direct route: the input follows the noise through the controller, which biases the "
+        Message("This is the direct route: the controller makes the input depend on the noise, which biases the "
                 "estimate unless the noise is white."));
     return estimate;
 }
@@ -131,7 +132,7 @@ Fit clsrivc(const IdData& data, const TransferStructure& structure, const FitOpt
     check_loop_data("clsrivc", data, structure);
     if (route == LoopRoute::kDirect) return direct(data, structure, own);
     if (route == LoopRoute::kIndirect && !known.controller)
-        throw InvalidArgument("clsrivc: the indirect route takes the controller out of the loop, so it must be known");
+        throw InvalidArgument("clsrivc: the indirect route needs a known controller");
     const LoopSignals signals("clsrivc", data, known);
     if (route == LoopRoute::kTwoStage) return two_stage(data, structure, own, signals);
     Fit estimate = by_passes(data, structure, own, signals);

@@ -42,14 +42,14 @@ std::vector<Cut> cuts_of(const IdData& data, const BlaOptions& options, Index& r
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
         const Index N = data.sample_count(e), length = N / options.realisations;
         if (length * options.realisations != N)
-            throw InvalidArgument("bla: {} realisations do not divide the {} samples of the record",
+            throw InvalidArgument("bla: {} realizations do not divide the {} samples of the data evenly",
                                   options.realisations, N);
         const Index periods = length / options.period;
         if (periods < 1)
-            throw InvalidArgument("bla: a period of {} samples is longer than a realisation of {}", options.period,
+            throw InvalidArgument("bla: a period of {} samples is longer than a realization of {}", options.period,
                                   length);
         if (options.transient >= periods)
-            throw InvalidArgument("bla: leaving out {} of {} leaves nothing", options.transient,
+            throw InvalidArgument("bla: no data remain without {} of {}", options.transient,
                                   plural(periods, "{} period", "{} periods"));
         rest = length - periods * options.period;
         for (Index r = 0; r < options.realisations; ++r)
@@ -154,7 +154,7 @@ class Approximation {
             all_.push_back(realisation_of(transformed(data.experiments[cut.experiment], cut, options.period)));
             periods_ = std::min(periods_, cut.periods);
         }
-        if (all_.empty()) throw InvalidArgument("bla: stopped before the first realisation was looked at");
+        if (all_.empty()) throw InvalidArgument("bla: stopped before the first realization was processed");
         check_repetition();
         check_independence();
         lines_ = lines_of(all_, options.least_input);
@@ -260,7 +260,7 @@ class Approximation {
         if (part > kRepeatsRoughly)
             result_.warnings.push_back(
                 Message("The input repeats only roughly ({} % of its power changes from period to period): the period "
-                        "is not right or the input is noisy, and leakage may bias the response.",
+                        "is wrong or the input is noisy, and leakage may bias the response.",
                         significant(100 * part, 3)));
     }
 
@@ -270,9 +270,9 @@ class Approximation {
             for (const std::size_t other : {m - 1, std::size_t{0}})
                 if (shifted_correlation(all_[other].U, all_[m].U, options_.period) > kSameInput)
                     throw InvalidArgument(
-                        "bla: realisations {} and {} have the same input, and distortion shows only where inputs "
-                        "differ: draw other phases for each (multisine does), or take them as periods of one "
-                        "realisation",
+                        "bla: realizations {} and {} have the same input, but distortion shows only if the inputs "
+                        "differ: use different phases for each (as multisine does), or treat them as periods of one "
+                        "realization",
                         other + 1, m + 1);
     }
 
@@ -285,26 +285,26 @@ class Approximation {
         if (unsettled > kSeen * power && unsettled > (kMore + chance) * spread)
             result_.warnings.push_back(
                 Message("The first period differs from the others by more than noise explains: the system was not yet "
-                        "in steady state; leave it out with {} = {}.",
+                        "in steady state; omit this period with {} = {}.",
                         OptionName{"transient"}, options_.transient + 1));
     }
 
     void warn_of_record() {
         if (rest_ > 0)
-            result_.warnings.push_back(Message(
-                "The period does not divide the record: its first {} are left out, so that whole periods remain.",
-                plural(rest_, "{} sample", "{} samples")));
+            result_.warnings.push_back(
+                Message("The period does not divide the data: the first {} are omitted, so that whole periods remain.",
+                        plural(rest_, "{} sample", "{} samples")));
         if (lines_.some_differ)
             result_.warnings.push_back(
-                Message("The realisations excite different lines: those that all of them excite are used."));
+                Message("The realizations excite different lines; only the common lines are used."));
         if (periods_ < 2)
             result_.warnings.push_back(
-                Message("One period does not tell noise from nonlinear distortion, nor whether the system was in "
+                Message("One period cannot separate noise from nonlinear distortion, or show whether the system was in "
                         "steady state."));
         if (all_.size() < 2)
             result_.warnings.push_back(
-                Message("One realisation does not tell nonlinear distortion at the excited lines: the variance is that "
-                        "of noise alone."));
+                Message("One realization cannot reveal nonlinear distortion at the excited lines: the variance "
+                        "contains only noise."));
     }
 
     void describe() {
@@ -312,17 +312,17 @@ class Approximation {
         warn_of_record();
         std::vector<Message> all = {Message("Best linear approximation at {} from {} of {}.",
                                             plural(result_.w.size(), "{} frequency", "{} frequencies"),
-                                            plural(std::ssize(all_), "{} realisation", "{} realisations"),
+                                            plural(std::ssize(all_), "{} realization", "{} realizations"),
                                             plural(periods_, "{} period", "{} periods"))};
         const LevelSums sums = level_sums(result_);
         const auto decibels = [&](double part) {
             return significant(10 * std::log10(std::max(part, 0.0) / sums.power), 3);
         };
         if (std::isfinite(sums.noise))
-            all.push_back(Message("Noise lies at {} dB of the output in the mean over {}.", decibels(sums.noise),
+            all.push_back(Message("The noise is at {} dB of the output, averaged over {}.", decibels(sums.noise),
                                   plural(periods_, "{} period", "{} periods")));
         if (std::isfinite(sums.distortion))
-            all.push_back(Message("Nonlinear distortion lies at {} dB of the output.", decibels(sums.distortion)));
+            all.push_back(Message("The nonlinear distortion is at {} dB of the output.", decibels(sums.distortion)));
         result_.message = sentences(std::move(all));
     }
 
@@ -338,18 +338,16 @@ class Approximation {
 
 void BlaOptions::validate() const {
     if (period < kFewestSamples)
-        throw InvalidArgument("bla: the period must be given in samples, at least {} of them, and is {}",
-                              kFewestSamples, period);
+        throw InvalidArgument("bla: the period must be at least {} samples, but is {}", kFewestSamples, period);
     if (realisations < 1)
-        throw InvalidArgument("bla: the number of realisations must be at least 1, and is {}", realisations);
+        throw InvalidArgument("bla: the number of realizations must be at least 1, but is {}", realisations);
     if (transient < 0)
-        throw InvalidArgument("bla: the number of periods to leave out must not be negative, and is {}", transient);
+        throw InvalidArgument("bla: the number of omitted periods must not be negative, but is {}", transient);
     if (!(least_input > 0 && least_input < 1))
-        throw InvalidArgument("bla: the least part of the input's amplitude must lie between 0 and 1, but it is {}",
+        throw InvalidArgument("bla: the threshold for the input's amplitude must be between 0 and 1, but is {}",
                               least_input);
     if (smooth && *smooth < 0)
-        throw InvalidArgument("bla: the number of frequencies to smooth over must not be negative, but it is {}",
-                              *smooth);
+        throw InvalidArgument("bla: the number of frequencies to smooth over must not be negative, but is {}", *smooth);
 }
 
 FrequencyData bla(const IdData& data, const BlaOptions& options) {

@@ -59,25 +59,22 @@ void describe(SpectralEstimate& estimate, const EtfeOptions& options, Index line
             : Message("Empirical transfer function estimate at {} of {} frequencies.", estimate.w.size(), lines);
     if (estimate.w.size() < lines)
         estimate.message =
-            sentences({estimate.message, Message("At the others the input has less than {} % of its largest "
-                                                 "amplitude, and noise alone would be shown.",
+            sentences({estimate.message, Message("At the other frequencies the input has less than {} % of its largest "
+                                                 "amplitude, and the estimate would show only noise.",
                                                  significant(100 * options.least_input, 3))});
     if (estimate.w.size() < 3)
         estimate.warnings.push_back(plural(estimate.w.size(),
-                                           "The input excites {} frequency only: the response is known there and "
-                                           "nowhere else.",
-                                           "The input excites {} frequencies only: the response is known there and "
-                                           "nowhere else."));
+                                           "The input excites only {} frequency: the response is known only there.",
+                                           "The input excites only {} frequencies: the response is known only there."));
 }
 
 }  // namespace
 
 void EtfeOptions::validate() const {
     if (smooth < 0)
-        throw InvalidArgument("etfe: the number of frequencies to smooth over must not be negative, but it is {}",
-                              smooth);
+        throw InvalidArgument("etfe: the number of frequencies to smooth over must not be negative, but is {}", smooth);
     if (!(least_input >= 0 && least_input < 1))
-        throw InvalidArgument("etfe: the least part of the input's amplitude must lie between 0 and 1, but it is {}",
+        throw InvalidArgument("etfe: the threshold for the input's amplitude must be between 0 and 1, but is {}",
                               least_input);
 }
 
@@ -85,15 +82,15 @@ SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
     options.validate();
     if (data.experiments.size() != 1)
         throw InvalidArgument(
-            "etfe: the data must hold one experiment, but they hold {}; take one with data:experiment(k), or use spa, "
-            "which joins them",
+            "etfe: the data must have one experiment, but they have {}; select one with data:experiment(k), or use "
+            "spa, which combines experiments",
             data.experiments.size());
     const Experiment record =
         nonparametric_data("etfe", data, kFewestSamplesOfEtfe, options.remove_mean).experiments.front();
     const ComplexVector U = fourier_transform(record.u.col(0)), Y = fourier_transform(record.y.col(0));
     const Index N = U.size(), lines = N / 2;
     if (2 * options.smooth + 1 > lines)
-        throw InvalidArgument("etfe: smoothing over {} frequencies leaves nothing of the {} that the record has",
+        throw InvalidArgument("etfe: smoothing over {} frequencies leaves none of the {} frequencies of the data",
                               2 * options.smooth + 1, lines);
     const Vector amplitudes = U.segment(1, lines).cwiseAbs();
     const double least = options.least_input * amplitudes.maxCoeff();

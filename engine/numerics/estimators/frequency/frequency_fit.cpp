@@ -34,10 +34,10 @@ void check_fit(const std::string& method, const FrequencyData& data, const Trans
     structure.validate();
     check_frequency_data(method, data);
     if (!structure.single_channel())
-        throw InvalidArgument("{}: a frequency response has one input and one output, and the model has {} and {}",
+        throw InvalidArgument("{}: a frequency response has one input and one output, but the model has {} and {}",
                               method, structure.inputs, structure.outputs);
     if (data.w.size() < structure.parameter_count())
-        throw InvalidArgument("{}: {} parameters need as many frequencies, and the response has {}", method,
+        throw InvalidArgument("{}: {} parameters need at least as many frequencies, but the response has {}", method,
                               structure.parameter_count(), data.w.size());
 }
 
@@ -99,7 +99,7 @@ std::vector<Start> starts_of(const FrequencyData& data, const TransferStructure&
         if (stable || !stable_alone) starts.push_back({found, delay});
     }
     if (starts.empty())
-        throw InvalidArgument("the response does not determine a model of {}: its equations have no solution",
+        throw InvalidArgument("the response does not determine a model of {}: the equations have no solution",
                               plural(pole_count(structure), "{} pole", "{} poles"));
     return starts;
 }
@@ -207,10 +207,10 @@ void warn_of_misfit(Fit& fit, const FrequencyData& data, Index values) {
     if (data.variance.size() == 0 || data.neighbours_share_errors || degrees < 1) return;
     if (fit.noise_variance[0] < kWorthTelling) return;
     if (chi_squared_upper_tail(fit.noise_variance[0] * degrees, degrees) < kChance)
-        fit.warnings.push_back(Message(
-            "The model misses the response by more than its variance explains (mean square {}, where 1 is expected): "
-            "it wants more poles or zeros, or the variance is too small, and the standard errors are too.",
-            significant(fit.noise_variance[0], 3)));
+        fit.warnings.push_back(
+            Message("The model deviates from the response by more than the variance explains (mean square {}, expected "
+                    "1). The model needs more poles or zeros, or the variance and the standard errors are too small.",
+                    significant(fit.noise_variance[0], 3)));
 }
 
 void describe(Fit& fit, const FrequencyData& data) {
@@ -219,7 +219,7 @@ void describe(Fit& fit, const FrequencyData& data) {
     fit.offsets = Matrix::Zero(1, 1);
     if (data.neighbours_share_errors)
         fit.warnings.push_back(
-            Message("Neighbouring values of a smoothed response share their errors: the standard errors are too small, "
+            Message("Neighboring values of a smoothed response share their errors. The standard errors are too small, "
                     "and narrow peaks are lowered, which looks like damping."));
 }
 

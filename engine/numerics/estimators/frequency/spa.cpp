@@ -19,7 +19,7 @@ Index window_of(const SpaOptions& options, Index shortest) {
     if (options.window == 0) return std::max<Index>(2, std::min(shortest / 10, kDefaultWindow));
     if (options.window < 2 || options.window >= shortest)
         throw InvalidArgument(
-            "spa: the lag window must reach from 2 samples to less than the shortest experiment's {}, but it is {}",
+            "spa: the lag window must have at least 2 samples and fewer than the shortest experiment's {}, but has {}",
             shortest, options.window);
     return options.window;
 }
@@ -34,7 +34,7 @@ Vector frequencies_of(const SpaOptions& options, Index window, double Ts) {
     }
     for (const double value : options.w)
         if (!(value >= 0 && value <= end * (1 + 1e-12)))
-            throw InvalidArgument("spa: frequencies must lie between 0 and pi/Ts = {} rad per time unit, but one is {}",
+            throw InvalidArgument("spa: frequencies must be between 0 and pi/Ts = {} rad per time unit, but one is {}",
                                   end, value);
     return options.w;
 }
@@ -89,18 +89,17 @@ double real_share(double angle, Index M) {
 void describe(SpectralEstimate& estimate, Index M, double averages, double Ts) {
     estimate.message = Message(
         "Spectral analysis with a lag window of {} samples: details narrower than {} rad per time unit are smoothed "
-        "away, and every value averages about {} independent ones.",
+        "away, and every value averages about {} independent values.",
         M, significant(std::numbers::pi / (static_cast<double>(M) * Ts), 3), significant(averages, 2));
     if (averages < 4)
-        estimate.warnings.push_back(
-            Message("The window is long for so short a record: the errors are large and uncertain."));
+        estimate.warnings.push_back(Message("The window is long for so few data: the errors are large and uncertain."));
 }
 
 }  // namespace
 
 void SpaOptions::validate() const {
     if (window < 0)
-        throw InvalidArgument("spa: the lag window must be a positive number of samples, but it is {}", window);
+        throw InvalidArgument("spa: the lag window must be a positive number of samples, but is {}", window);
     if (!w.allFinite()) throw InvalidArgument("spa: a frequency is not a finite number");
 }
 
@@ -134,7 +133,7 @@ SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
     describe(estimate, M, averages, data.Ts);
     if (poor)
         estimate.warnings.push_back(
-            Message("At some frequencies the input has practically no power; the response there means nothing."));
+            Message("At some frequencies the input has practically no power; the response there is meaningless."));
     return estimate;
 }
 

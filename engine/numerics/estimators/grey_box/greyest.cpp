@@ -55,10 +55,10 @@ Vector named_start(const GreyModel& model, const std::map<std::string, double>& 
     for (const auto& [name, value] : values) {
         const auto found = std::ranges::find(model.parameters, name, &GreyParameter::name);
         if (found == model.parameters.end())
-            throw InvalidArgument("greyest: {} name a parameter {}, which the model has not", OptionName{"starts"},
-                                  name);
+            throw InvalidArgument("greyest: {} name a parameter {}, which the model does not have",
+                                  OptionName{"starts"}, name);
         if (!(value >= found->lower && value <= found->upper))
-            throw InvalidArgument("greyest: {} give {} = {}, outside its bounds {} and {}", OptionName{"starts"}, name,
+            throw InvalidArgument("greyest: {} set {} = {}, outside its bounds {} and {}", OptionName{"starts"}, name,
                                   value, found->lower, found->upper);
         start[found - model.parameters.begin()] = value;
     }
@@ -289,8 +289,8 @@ void warn_of_bounds(Fit& fit, const GreyModel& model, const std::vector<Index>& 
         if (!end.at_bound[q]) continue;
         const GreyParameter& p = model.parameters[static_cast<std::size_t>(free[q])];
         fit.warnings.push_back(
-            Message("The parameter {} lies at its bound {} and would leave through it: its standard error is not "
-                    "known, and the others take it as given.",
+            Message("The parameter {} is at its bound {}, which stopped its search. Its standard error is unknown, and "
+                    "the other standard errors treat it as known.",
                     p.name, end.theta[static_cast<Index>(q)]));
     }
 }
@@ -347,8 +347,8 @@ void set_measures(GreyFit& result, const GreyOutput& criterion, const Fit& end, 
     result.intervals << fit.theta - reach * fit.std, fit.theta + reach * fit.std;
     if (!rough.empty())
         fit.warnings.push_back(
-            Message("At t = {} no integration step was short enough: the equations jump there; tanh(v/small) in the "
-                    "place of sign(v) makes them smooth.",
+            Message("At t = {} no integration step was small enough: the equations are discontinuous there; use "
+                    "tanh(v/small) instead of sign(v) to make them smooth.",
                     rough.front()));
 }
 
@@ -379,12 +379,12 @@ GreyStart parse_grey_start(const std::string& text) {
 
 void GreyOptions::validate() const {
     if (max_iterations < 0)
-        throw InvalidArgument("{} must not be negative, and is {}", OptionName{"max_iterations"}, max_iterations);
-    if (!(tolerance > 0)) throw InvalidArgument("{} must be positive, and is {}", OptionName{"tolerance"}, tolerance);
+        throw InvalidArgument("{} must not be negative, but is {}", OptionName{"max_iterations"}, max_iterations);
+    if (!(tolerance > 0)) throw InvalidArgument("{} must be positive, but is {}", OptionName{"tolerance"}, tolerance);
     if (!(relative_tolerance >= 1e-13 && relative_tolerance <= 1e-2))
-        throw InvalidArgument("{} must lie between 1e-13 and 0.01, and is {}", OptionName{"relative_tolerance"},
+        throw InvalidArgument("{} must be between 1e-13 and 0.01, but is {}", OptionName{"relative_tolerance"},
                               relative_tolerance);
-    if (starts < 1) throw InvalidArgument("{} must be at least 1, and is {}", OptionName{"starts"}, starts);
+    if (starts < 1) throw InvalidArgument("{} must be at least 1, but is {}", OptionName{"starts"}, starts);
 }
 
 GreyFit greyest(const IdData& data, const GreyModel& model, const GreyOptions& options) {
@@ -433,14 +433,14 @@ GreyFit unfitted_grey_box(const GreyModel& model) {
 
 Matrix grey_response(const GreyFit& grey, const GreyInputs& inputs, const Vector& x0) {
     if (inputs.u.cols() != grey.model.inputs && !(grey.model.inputs == 0))
-        throw InvalidArgument("The model has {}, and {} were given", plural(grey.model.inputs, "{} input", "{} inputs"),
+        throw InvalidArgument("The model has {}, but {} were given", plural(grey.model.inputs, "{} input", "{} inputs"),
                               inputs.u.cols());
     if (inputs.u.rows() != inputs.t.size())
-        throw InvalidArgument("The inputs have {}, and the time has {}",
+        throw InvalidArgument("The inputs have {}, but the time has {}",
                               plural(inputs.u.rows(), "{} sample", "{} samples"),
                               plural(inputs.t.size(), "{} instant", "{} instants"));
     if (x0.size() != 0 && x0.size() != grey.model.order())
-        throw InvalidArgument("The initial state must hold {}, and holds {}",
+        throw InvalidArgument("The initial state must have {}, but has {}",
                               plural(grey.model.order(), "{} value", "{} values"), x0.size());
     const Vector from = x0.size() > 0 ? x0 : Vector(grey.initial_states.col(0));
     GreySimulator simulator(grey.model, grey.fit.fit_percent.size(), {}, grey.relative_tolerance);

@@ -47,8 +47,8 @@ std::optional<Message> missed_initial_state(const IdData& data, const GreyFit& f
     const double fitted = fit_percent_of_sums(now, variation), better = fit_percent_of_sums(then, variation);
     if (better - fitted < kWorthPoints) return std::nullopt;
     return Message(
-        "The record does not begin where the model's initial state says: with {} = \"estimate\" the fit is about {} % "
-        "instead of {} %.",
+        "The data do not start at the initial state of the model: with {} = \"estimate\" the fit is about {} % instead "
+        "of {} %.",
         OptionName{"initial_state"}, significant(better, 3), significant(fitted, 3));
 }
 

@@ -48,7 +48,7 @@ Snapshots neighbouring_snapshots(const IdData& data, const Scale& scale, Index d
     for (const Experiment& record : data.experiments) columns += std::max<Index>(0, record.y.rows() - d);
     if (columns <= rows + nu)
         throw InvalidArgument(
-            "dmdc: too few samples: {} unknowns in a row need more snapshots than that, and there are {}: take fewer "
+            "dmdc: too few samples: {} unknowns per row need more snapshots than that, but the data have {}: use fewer "
             "delays",
             rows + nu, columns);
     Snapshots pairs{Matrix(rows + nu, columns), Matrix(rows, columns)};
@@ -87,7 +87,7 @@ Reduced reduce(const Snapshots& pairs, const DmdcOptions& options) {
     const SingularValues of_next = jacobi_svd(next), of_now = jacobi_svd(now);
     const Index seen = told_apart(of_next.s), r = rank > 0 ? rank : seen;
     if (r > seen)
-        throw InvalidArgument("dmdc: {} is {}, and the data show only {}", OptionName{"rank"}, rank,
+        throw InvalidArgument("dmdc: {} is {}, but the data show only {}", OptionName{"rank"}, rank,
                               plural(seen, "{} direction", "{} directions"));
     const Index p = std::min(r + nu, told_apart(of_now.s));
     const Matrix U = of_next.U.leftCols(r);
@@ -116,7 +116,7 @@ void measure_fit(DmdcFit& found, const IdData& data, const Scale& scale, const M
 void describe(DmdcFit& found) {
     Fit& fit = found.fit;
     if (found.eigenvalues.cwiseAbs().maxCoeff() > 1)
-        fit.warnings.push_back(Message("The model is unstable: an eigenvalue lies outside the unit circle."));
+        fit.warnings.push_back(Message("The model is unstable: an eigenvalue is outside the unit circle."));
     fit.message = Message("Dynamic mode decomposition of snapshots of {}, rank {}: {}.",
                           plural(found.delays, "{} sample", "{} samples"), found.rank, simulation_text(fit));
 }
@@ -124,8 +124,8 @@ void describe(DmdcFit& found) {
 }  // namespace
 
 void DmdcOptions::validate() const {
-    if (rank < 0) throw InvalidArgument("dmdc: {} must not be negative, and is {}", OptionName{"rank"}, rank);
-    if (delays < 1) throw InvalidArgument("dmdc: {} must be at least 1, and is {}", OptionName{"delays"}, delays);
+    if (rank < 0) throw InvalidArgument("dmdc: {} must not be negative, but is {}", OptionName{"rank"}, rank);
+    if (delays < 1) throw InvalidArgument("dmdc: {} must be at least 1, but is {}", OptionName{"delays"}, delays);
 }
 
 DmdcFit dmdc(const IdData& data, const DmdcOptions& options) {
@@ -135,7 +135,7 @@ DmdcFit dmdc(const IdData& data, const DmdcOptions& options) {
     const Index ny = data.output_count();
     const Snapshots pairs = neighbouring_snapshots(data, scale, options.delays);
     if (options.rank > pairs.next.rows())
-        throw InvalidArgument("dmdc: {} is {}, and a snapshot holds only {}", OptionName{"rank"}, options.rank,
+        throw InvalidArgument("dmdc: {} is {}, but a snapshot has only {}", OptionName{"rank"}, options.rank,
                               plural(pairs.next.rows(), "{} value", "{} values"));
     const Reduced reduced = reduce(pairs, options);
     DmdcFit found;

@@ -87,7 +87,7 @@ Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::funct
 std::size_t number_of_terms(const Choice& choice, Index wanted) {
     if (wanted == 0) return static_cast<std::size_t>(std::ranges::min_element(choice.bic) - choice.bic.begin()) + 1;
     if (static_cast<Index>(choice.terms.size()) < wanted)
-        throw InvalidArgument("narx: {} terms are wanted, and in this record only {} can be found", wanted,
+        throw InvalidArgument("narx: {} terms are requested, but these data determine only {}", wanted,
                               plural(choice.terms.size(), "{} independent candidate", "{} independent candidates"));
     return static_cast<std::size_t>(wanted);
 }
@@ -136,18 +136,18 @@ std::string equation_text(const IdData& data, const NarxFit& found) {
 void check(const IdData& data, const NarxLags& lags, const NarxOptions& options, Index candidates) {
     check_sampled_data("narx", data);
     if (data.output_count() != 1)
-        throw InvalidArgument("narx needs one output, and the data hold {}: select one", data.output_count());
+        throw InvalidArgument("narx needs one output, but the data have {}: select one", data.output_count());
     const Index rows = equation_count(data, lags), least = std::max<Index>(options.terms, 1) + 1;
     if (options.terms > candidates)
-        throw InvalidArgument("narx: {} terms are wanted, and the lags and degree give only {}", options.terms,
+        throw InvalidArgument("narx: {} terms are requested, but the lags and the degree give only {}", options.terms,
                               plural(candidates, "{} candidate", "{} candidates"));
     if (rows > least && rows <= candidates)
         throw InvalidArgument(
-            "narx: {} samples have their whole past recorded, and there are {} candidate terms, among which as many "
-            "would explain any record: take a longer record, fewer lags or a lower degree",
+            "narx: only {} samples have a complete recorded past, but {} candidate terms could explain any data of "
+            "that length: use more data, fewer lags or a lower degree",
             rows, candidates);
     if (rows <= least)
-        throw InvalidArgument("narx: too few samples: {} have their whole past recorded, and more than {} are needed",
+        throw InvalidArgument("narx: too few samples: {} have a complete recorded past, but more than {} are needed",
                               std::max<Index>(rows, 0), least);
 }
 
@@ -155,13 +155,12 @@ void check(const IdData& data, const NarxLags& lags, const NarxOptions& options,
 
 void NarxLags::check(Index inputs) const {
     if (static_cast<Index>(nb.size()) != inputs || nb.size() != nk.size())
-        throw InvalidArgument("narx: the lags are of {}, and the data hold {}",
+        throw InvalidArgument("narx: the lags are for {}, but the data have {}",
                               plural(static_cast<Index>(nb.size()), "{} input", "{} inputs"), inputs);
     bool negative = na < 0;
     for (std::size_t j = 0; j < nb.size(); ++j) negative = negative || nb[j] < 0 || nk[j] < 0;
-    if (negative) throw InvalidArgument("narx: numbers of lags must not be negative");
-    if (variables() == 0)
-        throw InvalidArgument("narx: the model reads no past value at all: na or nb must be 1 or more");
+    if (negative) throw InvalidArgument("narx: the numbers of lags must not be negative");
+    if (variables() == 0) throw InvalidArgument("narx: the model uses no past value: na or nb must be at least 1");
 }
 
 Index NarxLags::variables() const {
@@ -212,19 +211,20 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
     check_channels("narx", *this, data);
     if (!data.regular() || std::abs(data.Ts - Ts_) > 1e-6 * Ts_)
         throw InvalidArgument(
-            data.regular() ? Message("narx: the model is sampled every {} s, and the data every {} s", Ts_, data.Ts)
-                           : Message("narx: the model is sampled every {} s, and the data irregularly", Ts_));
+            data.regular()
+                ? Message("narx: the model has the sampling time {} s, but the data have {} s", Ts_, data.Ts)
+                : Message("narx: the model has the sampling time {} s, but the data are irregularly sampled", Ts_));
     const Experiment& record = data.experiments[experiment];
     const Index N = record.u.rows() > 0 ? record.u.rows() : record.y.rows(), first = lags_.first();
     if (N <= first)
-        throw InvalidArgument("narx: the run begins after {}, and the record holds only {}",
+        throw InvalidArgument("narx: the simulation starts after {}, but the data have only {}",
                               plural(first, "{} sample", "{} samples"), N);
     if (x0.size() != 0 && x0.size() != first)
-        throw InvalidArgument("narx: x0 holds the first {} of the run, and has {}",
+        throw InvalidArgument("narx: x0 must have the first {} of the simulation, but has {}",
                               plural(first, "{} output", "{} outputs"), plural(x0.size(), "{} value", "{} values"));
     FreeRun run{Matrix::Constant(N, 1, kNaN),
                 {},
-                Message("from the recorded first {}", plural(first, "{} sample", "{} samples"))};
+                Message("from the first {} of the data", plural(first, "{} sample", "{} samples"))};
     auto y = run.output.col(0);
     if (x0.size() > 0) {
         y.head(first) = x0;
@@ -252,7 +252,7 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
 }
 
 void NarxOptions::validate() const {
-    if (terms < 0) throw InvalidArgument("narx: {} must not be negative, and is {}", OptionName{"terms"}, terms);
+    if (terms < 0) throw InvalidArgument("narx: {} must not be negative, but is {}", OptionName{"terms"}, terms);
 }
 
 NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& options) {
@@ -264,7 +264,7 @@ NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& option
     const Matrix R = candidates_and_output(data, lags, monomials, options.cancel);
     const Index most = options.terms > 0 ? options.terms : std::min({kMostTerms, monomials.count(), rows - 2});
     const Choice choice = choose_forwards(R, rows, most, options.cancel);
-    if (choice.terms.empty()) throw InvalidArgument("narx: no candidate explains anything of the output");
+    if (choice.terms.empty()) throw InvalidArgument("narx: no candidate explains any of the output");
     const std::vector<Index> terms(choice.terms.begin(), choice.terms.begin() + number_of_terms(choice, options.terms));
     NarxFit found;
     solve_chosen(found, R, terms, rows);

@@ -43,13 +43,12 @@ Rotated rotated_equations(const IdData& data, const FunctionLibrary& library, co
     }
     rotated.R = factor.R();
     if (rotated.rows > functions) return rotated;
-    throw InvalidArgument(
-        width ? Message("sindy: too few samples: {} functions need more equations than that, and there are {}: take a "
-                        "shorter {} or fewer functions",
-                        functions, rotated.rows, OptionName{"width"})
-              : Message("sindy: too few samples: {} functions need more equations than that, and there are {}: take "
-                        "fewer functions, or {} where the input jumps often",
-                        functions, rotated.rows, OptionName{"weak"}));
+    throw InvalidArgument(width ? Message("sindy: too few samples: {} functions need more equations than that, but the "
+                                          "data give {}: use a smaller {} or fewer functions",
+                                          functions, rotated.rows, OptionName{"width"})
+                                : Message("sindy: too few samples: {} functions need more equations than that, but the "
+                                          "data give {}: use fewer functions, or {} if the input jumps often",
+                                          functions, rotated.rows, OptionName{"weak"}));
 }
 
 /// The coefficients of one state, with those of small contributions at zero.
@@ -113,25 +112,25 @@ void judge(SindyFit& found, const IdData& data) {
     constexpr double kReproduces = 80;  // per cent of fit
     for (Index i = 0; i < fit.fit_percent.size(); ++i)
         if (fit.fit_percent[i] < kReproduces) {
-            fit.warnings.push_back(Message(
-                "These equations do not reproduce the record: the fit of {} in free run is only {} %. Offer other "
-                "functions, such as {} = 3.",
-                data.output_names[static_cast<std::size_t>(i)], significant(fit.fit_percent[i], 3),
-                OptionName{"degree"}));
+            fit.warnings.push_back(
+                Message("These equations do not reproduce the data: the fit of {} in simulation is only {} %. Offer "
+                        "other functions, such as {} = 3.",
+                        data.output_names[static_cast<std::size_t>(i)], significant(fit.fit_percent[i], 3),
+                        OptionName{"degree"}));
             break;
         }
 }
 
 void check(const IdData& data, const FunctionLibrary& library, const SindyOptions& options) {
     options.validate();
-    if (library.count() == 0) throw InvalidArgument("sindy: the library holds no function");
+    if (library.count() == 0) throw InvalidArgument("sindy: the library contains no function");
     if (data.output_count() < 1 || data.output_count() > kMostIntegratedStates)
-        throw InvalidArgument("sindy takes the outputs as states, 1 to {} of them, and the data hold {}",
+        throw InvalidArgument("sindy uses the outputs as states, 1 to {} of them, but the data have {}",
                               kMostIntegratedStates, data.output_count());
     const Vector variations = output_variations(data);
     for (Index i = 0; i < variations.size(); ++i)
         if (!(variations[i] > 0))
-            throw InvalidArgument("sindy: the state {} never changes, so nothing is to be found of it",
+            throw InvalidArgument("sindy: the state {} never changes, so its equation cannot be estimated",
                                   data.output_names[static_cast<std::size_t>(i)]);
 }
 
@@ -164,9 +163,10 @@ void describe(SindyFit& found, const IdData& data, const SindyOptions& options) 
     }
     fit.theta = Vector::Map(theta.data(), static_cast<Index>(theta.size()));
     if (fit.condition_number > kAmbiguousCondition)
-        fit.warnings.push_back(Message(
-            "The functions of the library are hardly told apart by this record (condition number {}): offer fewer.",
-            significant(fit.condition_number, 2)));
+        fit.warnings.push_back(
+            Message("These data do not clearly distinguish the functions of the library (condition number {}): offer "
+                    "fewer functions.",
+                    significant(fit.condition_number, 2)));
     judge(found, data);
     const Message equations = options.weak ? Message("in weak form") : Message("from derivatives");
     fit.message = Message("Sparse equations {}, {} of {} kept: {}.", equations, theta.size(),
@@ -191,9 +191,9 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
     const Vector t = data.time(experiment);
     const Index N = t.size(), n = output_count();
     if (x0.size() != 0 && x0.size() != n)
-        throw InvalidArgument("sindy: x0 holds {} at the first sample, and has {}", plural(n, "{} state", "{} states"),
-                              plural(x0.size(), "{} value", "{} values"));
-    FreeRun run{Matrix::Constant(N, n, kNaN), {}, Message("from the recorded first sample")};
+        throw InvalidArgument("sindy: x0 must have {} at the first sample, but has {}",
+                              plural(n, "{} state", "{} states"), plural(x0.size(), "{} value", "{} values"));
+    FreeRun run{Matrix::Constant(N, n, kNaN), {}, Message("from the first sample of the data")};
     OdeState x = OdeState::Zero(n);
     if (x0.size() > 0)
         x = x0;
@@ -237,13 +237,13 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
 
 void SindyOptions::validate() const {
     if (!(threshold >= 0 && threshold < 1))
-        throw InvalidArgument("sindy: {} is a share of the rate, from 0 to less than 1, and is {}",
+        throw InvalidArgument("sindy: {} is a share of the rate, from 0 to less than 1, but is {}",
                               OptionName{"threshold"}, threshold);
     if (window < 3 || window % 2 == 0)
-        throw InvalidArgument("sindy: {} must be an odd number of samples from 3 on, and is {}", OptionName{"window"},
+        throw InvalidArgument("sindy: {} must be an odd number of samples, at least 3, but is {}", OptionName{"window"},
                               window);
     if (width && !(*width > 0))
-        throw InvalidArgument("sindy: {} must be positive, and is {}", OptionName{"width"}, *width);
+        throw InvalidArgument("sindy: {} must be positive, but is {}", OptionName{"width"}, *width);
 }
 
 SindyFit sindy(const IdData& data, const FunctionLibrary& library, const SindyOptions& options) {

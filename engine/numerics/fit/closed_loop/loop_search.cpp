@@ -69,7 +69,7 @@ bool measure_in_loop(Fit& fit, const IdData& data, const LoopSignals& signals) {
     fit.noise_variance = Vector::Constant(1, errors.squaredNorm() / (N - d));
     fit.loss = errors.squaredNorm() / N;
     fit.warnings.push_back(
-        Message("Fit and noise variance are those of the model in its loop, simulated from the reference."));
+        Message("Fit and noise variance refer to the model in its loop, simulated from the reference."));
     return true;
 }
 
@@ -82,17 +82,17 @@ void describe_loop(Fit& fit, const IdData& data, const LoopSignals& signals, boo
     if (signals.warning()) fit.warnings.push_back(*signals.warning());
     if (signals.controller() && !in_loop)
         fit.warnings.push_back(
-            Message("The loop of this model and the controller given is unstable, though the record's was not: one of "
-                    "the two is wrong."));
+            Message("The loop of this model and the given controller is unstable, but the recorded loop was stable: "
+                    "one of the two is wrong."));
 }
 
 Message instruments_text(const LoopSignals& signals, bool in_loop) {
-    if (!in_loop) return Message("with instruments from the input's projection on the reference");
+    if (!in_loop) return Message("with instruments from the projection of the input on the reference");
     const auto& controller = *signals.controller();
     if (!controller.sampled()) return Message("with instruments from the reference through the loop");
     if (controller.computing_delay == 0)
-        return Message("with instruments from the reference through the loop, whose controller answers at once");
-    return Message("with instruments from the reference through the loop, whose controller answers {} late",
+        return Message("with instruments from the reference through the loop, with a controller without delay");
+    return Message("with instruments from the reference through the loop, with a controller delay of {}",
                    plural(controller.computing_delay, "{} sample", "{} samples"));
 }
 
@@ -103,8 +103,8 @@ Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const 
     Vector errors = model.errors(fit.theta);
     if (!errors.allFinite())
         throw InvalidArgument(
-            "clsrivc: the loop of the first model found and the controller given is unstable, so that the indirect "
-            "route cannot begin: look at the controller, or give lambda");
+            "clsrivc: the loop of the initial model and the given controller is unstable, so the indirect route cannot "
+            "start: check the controller, or give lambda");
     fit.termination = Termination::kIterationLimit;
     const double count = static_cast<double>(errors.size());
     for (int pass = 0; pass < options.max_iterations; ++pass) {

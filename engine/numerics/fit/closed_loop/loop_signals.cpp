@@ -107,28 +107,28 @@ double explained_by(const LoopController& controller, const IdData& data, Hold h
 void check_loop_data(const std::string& method, const IdData& data, const TransferStructure& structure) {
     if (data.reference_count() == 0)
         throw InvalidArgument(
-            "{} needs the reference of the loop, and the data have none: iddata(y, u, Ts, {Reference = r}) takes it "
-            "along",
+            "{} needs the reference of the loop, but the data have none: add it with iddata(y, u, Ts, {Reference = r})",
             method);
     if (data.reference_count() > 1 || data.input_count() != 1 || data.output_count() != 1)
         throw InvalidArgument(
-            "{} is for loops of one input, one output and one reference, and the data have {}, {} and {}", method,
+            "{} requires a loop with one input, one output and one reference, but the data have {}, {} and {}", method,
             data.input_count(), data.output_count(), data.reference_count());
     if (!data.regular())
         throw InvalidArgument(
-            "{} needs regularly sampled data, and these are not: interpolate them to even steps first (interp1)",
+            "{} needs regularly sampled data, but these data are irregular: interpolate them to equal steps first "
+            "(interp1)",
             method);
     if (structure.free_delays)
         throw InvalidArgument(
-            "{}: delays are fixed here, in samples; search them in an experiment without feedback, or by trying "
+            "{}: delays are fixed in this method, in samples; determine them in an open-loop experiment, or try "
             "several",
             method);
     const bool constant = std::all_of(data.experiments.begin(), data.experiments.end(),
                                       [](const Experiment& one) { return (one.r.array() == one.r(0, 0)).all(); });
     if (constant)
         throw InvalidArgument(
-            "{}: the reference never changes, so that nothing tells the plant's answer from the controller's: let it "
-            "move, for instance as a prbs",
+            "{}: the reference never changes, so the plant's response cannot be separated from the controller's: vary "
+            "the reference, for instance with prbs",
             method);
     check_transfer_data(method, data, structure);
 }
@@ -152,8 +152,8 @@ void LoopSignals::judge_controller(bool find_delay) {
     }
     if (!(explained > kBelievedController))
         warning_ = Message(
-            "The recorded input is not what this controller makes of reference minus output (it explains {} %): look "
-            "at its sign, its gain, its sampling and what was removed from the signals.",
+            "The recorded input does not agree with this controller and reference minus output (it explains {} %): "
+            "check its sign, gain and sampling, and what was removed from the signals.",
             significant(std::max(explained, 0.0), 2));
 }
 
@@ -181,8 +181,8 @@ const std::vector<Vector>& LoopSignals::projected_inputs() const {
         kTimesChance * static_cast<double>(projection.weights.size()) / static_cast<double>(data_.sample_count());
     if (!(projection.explained > std::max(kLeastExplained, chance)))
         throw InvalidArgument(
-            "{}: the reference explains no more than {} % of the input, so that nothing can be learnt from it: is it "
-            "this loop's reference?",
+            "{}: the reference explains no more than {} % of the input, so it is useless for estimation: check whether "
+            "it belongs to this loop",
             method_, significant(100 * std::max(projection.explained, 0.0), 2));
     for (const Experiment& experiment : data_.experiments)
         projected_.push_back(projected(experiment.r.col(0), projection.weights));

@@ -61,7 +61,8 @@ Fit fit_condition(const DiscreteOutput& model, const IdData& data, const FitOpti
     add_uncertainty(fit, model, solution.theta);
     warn_of_search(fit, options);
     if (solution.reflected)
-        fit.warnings.push_back(Message("Unstable poles turned up on the way and were mirrored into the unit circle."));
+        fit.warnings.push_back(
+            Message("Unstable poles occurred during the search and were mirrored into the unit circle."));
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);
     const Number percent = significant(fit.fit_percent[0], 4);
@@ -95,7 +96,7 @@ Fit fit_discrete_output(const std::string& method, const IdData& data, const Pol
     orders.validate();
     options.validate();
     if (orders.na + orders.nc + orders.nd > 0)
-        throw InvalidArgument("{} has the orders nb, nf and nk only: na, nc and nd must be zero", method);
+        throw InvalidArgument("{} has only the orders nb, nf and nk: na, nc and nd must be zero", method);
     check_polynomial_data(method, data, orders);
     const CentredData record = centred_for(data, options.offset);
     const std::vector<SampledExperiment> experiments = sampled_experiments(record.data);

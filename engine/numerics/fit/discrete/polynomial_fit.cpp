@@ -8,15 +8,15 @@ namespace dynlab::inline numerics {
 
 void check_polynomial_data(const std::string& method, const IdData& data, const PolynomialOrders& orders) {
     if (data.output_count() != 1)
-        throw InvalidArgument("{} needs one output, and the data hold {}: select one", method, data.output_count());
+        throw InvalidArgument("{} needs one output, but the data have {}: select one", method, data.output_count());
     if (data.input_count() > 0 && static_cast<std::size_t>(data.input_count()) != orders.inputs())
-        throw InvalidArgument("{}: the data have {}, so each of nb, nf and nk needs as many values, and {} were given",
+        throw InvalidArgument("{}: the data have {}, so each of nb, nf and nk needs as many values, but {} were given",
                               method, plural(data.input_count(), "{} input", "{} inputs"), orders.inputs());
     check_sampled_data(method, data);
     const int longest_delay = *std::max_element(orders.nk.begin(), orders.nk.end());
     for (std::size_t e = 0; e < data.experiments.size(); ++e)
         if (longest_delay >= data.sample_count(e))
-            throw InvalidArgument("{}: the delay nk = {} is not shorter than the record of {}", method,
+            throw InvalidArgument("{}: the delay nk = {} is not shorter than the data of {}", method,
                                   plural(longest_delay, "{} sample", "{} samples"),
                                   plural(data.sample_count(e), "{} sample", "{} samples"));
 }
@@ -45,9 +45,9 @@ void warn_of_unstable_polynomials(Fit& fit) {
     for (std::size_t input = 0; input < fit.orders->inputs(); ++input)
         if (!fit.polynomial->transfer_function(input).stable()) {
             fit.warnings.push_back(
-                Message("The model is unstable (a pole lies outside or on the unit circle), so its simulation grows "
-                        "without bound: unless the system is unstable, too, take fewer poles, or sriv, which keeps "
-                        "them inside the circle."));
+                Message("The model is unstable (a pole is outside or on the unit circle), so its simulation grows "
+                        "without bound. Unless the system is also unstable, use fewer poles, or sriv, which keeps the "
+                        "poles inside the circle."));
             return;
         }
 }

@@ -84,7 +84,7 @@ std::optional<UndeterminedRoot> undetermined_root(char letter, const Vector& p, 
     for (Index i = 1; i < p.size(); ++i)
         found.names.push_back(std::string(1, letter == 'C' ? 'c' : 'd') + std::to_string(i));
     found.warning = Message(
-        "A root of {} lies so near the unit circle ({}) that {} samples do not determine how near: {} have no "
+        "A root of {} is so close to the unit circle ({}) that {} samples do not determine the distance: {} have no "
         "standard errors.",
         std::string(1, letter), significant(largest, 4), samples, listed(found.names));
     return found;
@@ -95,8 +95,7 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
     const Vector y = model.target();
     if (y.size() <= model.parameter_count())
         throw InvalidArgument(
-            "{} needs more samples than the {} it estimates, and the record leaves {} after those without a recorded "
-            "past",
+            "{} needs more samples than the {} values it estimates, but only {} samples have a complete recorded past",
             method, plural(model.parameter_count(), "{} value", "{} values"), y.size());
     std::vector<Vector> complete;
     for (const Vector& values : starts) complete.push_back(model.completed(values));
@@ -120,7 +119,7 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
             fit.warnings.push_back(root->warning);
             if (letter == 'C' && model.orders().na > 0)  // the unknown errors before the record act on all of them
                 fit.warnings.push_back(
-                    Message("The standard errors of the other coefficients come out up to a fifth too small."));
+                    Message("The standard errors of the other coefficients are up to a fifth too small."));
         }
     }
     warn_of_doubtful_parameters(fit);
@@ -128,9 +127,9 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
     const Number predicting = significant(fit.prediction_fit_percent, 4),
                  simulating = significant(fit.fit_percent[0], 4);
     fit.message = has_settled(fit)
-                      ? Message("The search converged after {}: fit {} % predicting one step, {} % simulating.",
+                      ? Message("The search converged after {}: fit {} % for one-step prediction, {} % for simulation.",
                                 iteration_count(fit), predicting, simulating)
-                      : Message("The search stopped after {}: fit {} % predicting one step, {} % simulating.",
+                      : Message("The search stopped after {}: fit {} % for one-step prediction, {} % for simulation.",
                                 iteration_count(fit), predicting, simulating);
     return fit;
 }

@@ -288,9 +288,9 @@ class Pass final : public AnyPass {
 
 /// How the method meets change: half a sentence.
 Message memory_text(const RecursiveOptions& options) {
-    if (options.drift.size() > 0) return Message("with parameters that walk at random");
-    if (options.forgetting == 1) return Message("which forgets nothing");
-    return Message("which weighs the last {} samples most", std::round(1 / (1 - options.forgetting)));
+    if (options.drift.size() > 0) return Message("with parameters that follow a random walk");
+    if (options.forgetting == 1) return Message("without forgetting");
+    return Message("with most weight on the last {} samples", std::round(1 / (1 - options.forgetting)));
 }
 
 /// Which samples the history keeps.
@@ -338,10 +338,10 @@ Fit run_pass(AnyPass& pass, const RecursiveName& method, const IdData& data, con
     fit.history = std::move(history);
     if (pass.samples_not_followed() > N / 2)
         fit.warnings.push_back(
-            Message("The estimate was unstable, or too quick for the sampling, at most samples, where filters and "
-                    "instruments kept the last model that was neither."));
+            Message("At most samples, the estimate was unstable or too fast for the sampling. Filters and instruments "
+                    "then used the last suitable model."));
     describe_models(fit);
-    fit.message = Message("{}, sample by sample, {}.", method.title, memory_text(options));
+    fit.message = Message("{}, recursive, {}.", method.title, memory_text(options));
     return fit;
 }
 
@@ -370,16 +370,16 @@ std::unique_ptr<AnyPass> pass_of(RecursiveMethod kind, const Samples& samples, c
 
 void check_recursive_data(const RecursiveName& method, const IdData& data, const TransferStructure& structure) {
     if (structure.free_delays)
-        throw InvalidArgument("{}: delays are fixed here; srivc and coe estimate them", method.name);
+        throw InvalidArgument("{}: delays are fixed in this method; srivc and coe estimate them", method.name);
     if (data.experiments.size() != 1)
-        throw InvalidArgument("{}: time passes in one experiment, and the data hold {}", method.name,
+        throw InvalidArgument("{}: the data must have one experiment, but they have {}", method.name,
                               data.experiments.size());
     if (data.input_count() != 1 || data.output_count() != 1)
-        throw InvalidArgument("{} is for one input and one output, and the data have {} and {}", method.name,
+        throw InvalidArgument("{} requires one input and one output, but the data have {} and {}", method.name,
                               data.input_count(), data.output_count());
     check_transfer_data(method.name, data, structure);
     if (structure.poles.front() > kMostEvolvingPoles)
-        throw InvalidArgument("{} is for up to {} poles, and {} were asked for", method.name, kMostEvolvingPoles,
+        throw InvalidArgument("{} supports up to {} poles, but {} were requested", method.name, kMostEvolvingPoles,
                               structure.poles.front());
 }
 
@@ -390,7 +390,7 @@ void check_fixed_model(const RecursiveName& method, const TransferFunction& mode
                               method.name, plural(structure.poles.front(), "{} pole", "{} poles"),
                               plural(structure.channels.front().zeros, "{} zero", "{} zeros"));
     if (!model.stable())
-        throw InvalidArgument("{}: model must be stable, for its output makes the instruments", method.name);
+        throw InvalidArgument("{}: model must be stable, because its output gives the instruments", method.name);
 }
 
 }  // namespace
@@ -398,25 +398,24 @@ void check_fixed_model(const RecursiveName& method, const TransferFunction& mode
 void RecursiveOptions::validate(const std::string& method, Index parameters) const {
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, a bit above the "
-            "bandwidth of the system, and is {}",
+            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, slightly above the "
+            "bandwidth of the system, but is {}",
             lambda);
     if (!(forgetting > 0 && forgetting <= 1))
         throw InvalidArgument(
-            "{}: forgetting must lie above 0 and not above 1 (1 forgets nothing, 0.99 keeps some 100 samples), and is "
-            "{}",
+            "{}: forgetting must be above 0 and at most 1 (1: no forgetting; 0.99: about 100 samples), but is {}",
             method, forgetting);
     if (drift.size() > 0 && drift.size() != parameters)
         throw InvalidArgument(
-            "{}: drift must have a variance for each of the {} parameters, or one for all, and has {}", method,
+            "{}: drift must have one variance for each of the {} parameters, or one for all, but has {}", method,
             parameters, drift.size());
     if (!drift.allFinite() || (drift.array() < 0).any())
-        throw InvalidArgument("{}: drift holds variances, which must not be negative", method);
+        throw InvalidArgument("{}: drift consists of variances, which must not be negative", method);
     if (noise_variance && !(*noise_variance > 0 && std::isfinite(*noise_variance)))
-        throw InvalidArgument("{}: {} must be positive, and is {}", method, OptionName{"noise_variance"},
+        throw InvalidArgument("{}: {} must be positive, but is {}", method, OptionName{"noise_variance"},
                               *noise_variance);
     if (history_points < 1)
-        throw InvalidArgument("{}: {} must be at least 1, and is {}", method, OptionName{"history_points"},
+        throw InvalidArgument("{}: {} must be at least 1, but is {}", method, OptionName{"history_points"},
                               history_points);
 }
 

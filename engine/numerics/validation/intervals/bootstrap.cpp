@@ -150,7 +150,7 @@ Message summary_of(const BootstrapOptions& options, bool white) {
     if (options.kind == BootstrapKind::kResidual)
         return Message("Residual bootstrap of {}, intervals of {} %.", runs, percent);
     return white ? Message("Parametric bootstrap of {}, intervals of {} %.", runs, percent)
-                 : Message("Parametric bootstrap of {} with coloured errors, intervals of {} %.", runs, percent);
+                 : Message("Parametric bootstrap of {} with colored errors, intervals of {} %.", runs, percent);
 }
 
 bool are_white(const RefittedOutput& model, const Vector& errors) {
@@ -166,9 +166,9 @@ bool are_white(const RefittedOutput& model, const Vector& errors) {
 }  // namespace
 
 void BootstrapOptions::validate() const {
-    if (runs < 20) throw InvalidArgument("bootstrap: {} must be at least 20, and is {}", OptionName{"runs"}, runs);
+    if (runs < 20) throw InvalidArgument("bootstrap: {} must be at least 20, but is {}", OptionName{"runs"}, runs);
     if (!(confidence > 0 && confidence < 1))
-        throw InvalidArgument("bootstrap: {} must lie between 0 and 1, such as 0.95, and is {}",
+        throw InvalidArgument("bootstrap: {} must be between 0 and 1, such as 0.95, but is {}",
                               OptionName{"confidence"}, confidence);
 }
 
@@ -193,11 +193,11 @@ Bootstrap bootstrap(const RefittedOutput& model, const BootstrapOptions& options
     if (const auto moved = model.moved(base)) study.warnings.push_back(*moved);
     if (!white && options.kind == BootstrapKind::kResidual)
         study.warnings.push_back(
-            Message("The errors that the model leaves are not white, and drawing them one by one takes no account of "
-                    "it: the parametric bootstrap does."));
+            Message("The residuals are not white, and residual bootstrap ignores their correlation: use the parametric "
+                    "bootstrap."));
     if (study.failed > 0)
-        study.warnings.push_back(plural(study.failed, "{} run could not be fitted and is left out of all figures.",
-                                        "{} runs could not be fitted and are left out of all figures."));
+        study.warnings.push_back(plural(study.failed, "{} run could not be fitted and is excluded from all results.",
+                                        "{} runs could not be fitted and are excluded from all results."));
     std::vector<Message> all = study.warnings;
     all.insert(all.begin(), summary_of(options, white));
     study.message = sentences(std::move(all));

@@ -104,8 +104,8 @@ Ends first_ends(const RefittedOutput& model, Index place, const Fit& base, const
         const auto [low, high] = *options.range;
         if (!(lower <= low && low < value && value < high && high <= upper))
             throw InvalidArgument(
-                "profile: option {} must hold the estimate, {}, and lie between {} and {}, but it goes "
-                "from {} to {}",
+                "profile: option {} must contain the estimate, {}, and be between {} and {}, but it ranges from {} to "
+                "{}",
                 OptionName{"range"}, value, lower, upper, low, high);
         return {low, high};
     }
@@ -129,16 +129,15 @@ void read_interval(Profile& profile, ProfileSearch& search, const std::vector<He
     if (last != fits.rbegin()) profile.high = search.crossing(*last, (last - 1)->value, least, profile.level);
     if (std::any_of(first, last.base(), [&](const HeldFit& one) { return !inside(one); }))
         profile.warnings.push_back(
-            Message("The values that the record allows fall apart into several intervals, and the outermost ends are "
-                    "given."));
+            Message("The confidence region consists of several intervals; the result gives the outermost limits."));
 }
 
 Message interval_text(const Profile& profile) {
     const std::optional<double>&low = profile.low, &high = profile.high;
     if (low && high) return Message("between {} and {}", *low, *high);
-    if (low) return Message("from {} on, without an upper end on the grid", *low);
-    if (high) return Message("up to {}, without a lower end on the grid", *high);
-    return Message("without an end on the grid");
+    if (low) return Message("from {}, without an upper limit on the grid", *low);
+    if (high) return Message("up to {}, without a lower limit on the grid", *high);
+    return Message("without limits on the grid");
 }
 
 void warn_of_colour(Profile& profile, const RefittedOutput& model, const Fit& base) {
@@ -150,19 +149,18 @@ void warn_of_colour(Profile& profile, const RefittedOutput& model, const Fit& ba
         row += length;
     }
     if (!whiteness_test(records).white)
-        profile.warnings.push_back(
-            Message("The errors that the model leaves are not white, so the interval is not as wide as it should be."));
+        profile.warnings.push_back(Message("The residuals are not white, so the interval is too narrow."));
 }
 
 }  // namespace
 
 void ProfileOptions::validate() const {
     if (!(confidence > 0 && confidence < 1))
-        throw InvalidArgument("profile: {} must lie between 0 and 1, such as 0.95, and is {}", OptionName{"confidence"},
+        throw InvalidArgument("profile: {} must be between 0 and 1, such as 0.95, but is {}", OptionName{"confidence"},
                               confidence);
-    if (points < 5) throw InvalidArgument("profile: {} must be at least 5, and is {}", OptionName{"points"}, points);
+    if (points < 5) throw InvalidArgument("profile: {} must be at least 5, but is {}", OptionName{"points"}, points);
     if (range && !(range->first < range->second))
-        throw InvalidArgument("profile: {} must be two rising numbers, and is {} to {}", OptionName{"range"},
+        throw InvalidArgument("profile: {} must be two increasing numbers, but is {} to {}", OptionName{"range"},
                               range->first, range->second);
 }
 
@@ -176,7 +174,7 @@ Profile profile_likelihood(const RefittedOutput& model, const std::string& name,
     profile.estimate = base.theta[place];
     profile.std = base.std[place];
     profile.level = chi_squared_quantile(options.confidence, 1);
-    if (!(base.loss > 0)) throw InvalidArgument("profile: the fit is perfect, so every other value is ruled out");
+    if (!(base.loss > 0)) throw InvalidArgument("profile: the fit is perfect, so every other value is excluded");
     Ends ends = first_ends(model, place, base, options);
     const auto [lower, upper] = model.bounds(place);
     const IdData& data = model.data();
@@ -201,8 +199,7 @@ Profile profile_likelihood(const RefittedOutput& model, const std::string& name,
     }
     if (const auto moved = model.moved(base)) profile.warnings.push_back(*moved);
     if (search.rise(base.loss, least) > 0.01)
-        profile.warnings.push_back(
-            Message("A better fit than the model's was found at another value of the parameter."));
+        profile.warnings.push_back(Message("Another value of the parameter gave a better fit than the model."));
     read_interval(profile, search, fits, least);
     profile.cancelled = search.cancelled();
     warn_of_colour(profile, model, base);

@@ -71,16 +71,15 @@ int simulate_loop(Call& call) {
     options.read(controller);
     const VectorMap r = call.vector(3, "r");
     if (r.size() < 2)
-        throw InvalidArgument("r is the reference at every sample, such as prbs(7, 5) or ones(500), and has {}",
+        throw InvalidArgument("r is the reference at every sample, such as prbs(7, 5) or ones(500), but has {}",
                               plural(r.size(), "{} value", "{} values"));
     const Hold hold = hold_option(options, Hold::kZoh);
     const Vector noise = options.has("noise") ? Vector(options.vector("noise")) : Vector::Zero(r.size());
     if (!controller.sampled())
         call.print(
-            localized(call,
-                      Message("simloop: with a controller in continuous time u moves between the samples, and the "
-                              "record knows it at the samples only: models found from it are off by what that "
-                              "costs. A controller with the sampling time Ts holds u, which is exact.")) +
+            localized(call, Message("simloop: with a continuous-time controller, u changes between the samples, but "
+                                    "the data contain it only at the samples. This biases models estimated from them. "
+                                    "A controller with the sampling time Ts holds u, which is exact.")) +
             "\n");
     IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).record(r, noise);
     const Vector x = data.experiments.front().y.col(0) - noise;

@@ -99,9 +99,10 @@ ResponseForm form_of(const Call& call, int index, const Options& options) {
             "{}: the first vector is in dB, but the second has the unit \"{}\"; give the phase in degrees and option "
             "form = \"dB\"",
             argument_label(index, "H"), angle);
-    call.print(localized(call, decibels ? Message("idfrd: by their units the columns are decibels and degrees")
-                                        : Message("idfrd: by their units the columns are magnitude and degrees")) +
-               "\n");
+    call.print(
+        localized(call, decibels ? Message("idfrd: according to their units, the columns are decibels and degrees")
+                                 : Message("idfrd: according to their units, the columns are magnitude and degrees")) +
+        "\n");
     return decibels ? ResponseForm::kDecibels : ResponseForm::kPolar;
 }
 
@@ -110,7 +111,7 @@ ComplexVector complex_argument(const Call& call, int index, ArgumentName what, c
     if (const ComplexVector* values = to_object<ComplexVector>(call.state(), index)) return *values;
     if (call.type(index) != LUA_TTABLE && to_matrix(call.state(), index) == nullptr)
         wrong_argument(call.state(), index, what,
-                       Message("a complex vector, as freqresp gives it, or {re, im} of two vectors"));
+                       Message("a complex vector, as returned by freqresp, or {re, im} of two vectors"));
     const ResponseForm form = form_of(call, index, options);  // of the list, which becomes a matrix
     const MatrixMap parts = call.matrix(index, what);
     if (parts.cols() != 2)
@@ -149,8 +150,7 @@ Sampling sampling_options(const Options& options, const std::optional<TransferFu
     const Sampling wanted{options.number("Ts", own.Ts), inter_sample_option(options).value_or(own.inter_sample)};
     if (discrete && std::abs(wanted.Ts - own.Ts) > 1e-9 * own.Ts)
         throw InvalidArgument(
-            "option 'Ts' is {} s, but the model is sampled every {} s: leave the option out, or convert the model with "
-            "d2c and c2d",
+            "option 'Ts' is {} s, but the model has {} s: omit the option, or convert the model with d2c and c2d",
             wanted.Ts, own.Ts);
     return wanted;
 }

@@ -75,7 +75,7 @@ void check_fields(lua_State* L, const std::string& name) {
         const std::string key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : message_text(given_value(L, -2));
         if (key != "1" && key != "min" && key != "max" && key != "fixed")
             throw InvalidArgument(
-                "the parameter {} is written {start, min =, max =, fixed =}, and '{}' is none of these", name, key);
+                "the parameter {} must be written as {start, min =, max =, fixed =}; '{}' is not an option", name, key);
     }
 }
 
@@ -88,11 +88,11 @@ GreyParameter parameter_on_top(lua_State* L, const std::string& name) {
     }
     if (!lua_istable(L, -1))
         throw InvalidArgument(
-            "the parameter {} is written {start, min =, max =, fixed =} or as its start, but {} was given", name,
+            "the parameter {} must be {start, min =, max =, fixed =} or its start value, but {} was given", name,
             given_value(L, -1));
     check_fields(L, name);
     if (lua_rawgeti(L, -1, 1) != LUA_TNUMBER)
-        throw InvalidArgument("the parameter {} needs a start, a number: {1.5, min = 0}", name);
+        throw InvalidArgument("the parameter {} needs a start value, a number: {1.5, min = 0}", name);
     parameter.start = lua_tonumber(L, -1);
     lua_pop(L, 1);
     parameter.lower = number_field(L, name, "min", parameter.lower);
@@ -130,7 +130,7 @@ std::vector<std::string> states_option(const Options& options) {
     if (type != LUA_TNIL && type != LUA_TNUMBER) return options.texts("states");
     if (count < 1)
         throw InvalidArgument(
-            "option 'states' tells the names of the states, or how many there are: {states = {\"h1\", \"h2\"}}");
+            "option 'states' must be the names of the states, or their number: {states = {\"h1\", \"h2\"}}");
     std::vector<std::string> names;
     for (lua_Integer i = 1; i <= count; ++i) names.push_back(fmt::format("x{}", i));
     return names;
@@ -153,7 +153,7 @@ void read_entry(const Call& call, ScriptEquations& equations, GreyModel& model, 
     const auto found = std::find(names.begin(), names.end(), word);
     if (word.empty() || found == names.end())
         throw InvalidArgument(
-            "option 'x0' must hold a number, the name of a parameter or \"estimate\" for each state, but {} was given; "
+            "option 'x0' must have a number, the name of a parameter or \"estimate\" for each state, but {} was given; "
             "the parameters are {}",
             given_value(L, -1), listed(names));
     entry.parameter = found - names.begin();
@@ -226,16 +226,15 @@ int make_grey_model(Call& call) {
     CalledFunctions called = call_functions(equations, model.start());
     if (traced && !agree(*traced, called, model.start())) {
         reason = Message(
-            "it does not give the same when it is called again, or decides by its arguments (==, or values of its "
-            "own)");
+            "the function returns different results when called again, or branches on its arguments (==, or separate "
+            "values)");
         traced.reset();
     }
     model.inputs = traced ? traced->inputs : called.inputs;
     if (!traced)
-        call.print_lines(
-            localized(call, Message("idgrey calls the function for each evaluation, which takes some hundred "
-                                    "times as long as one that can be followed once.")) +
-            "\n(" + localized(call, reason) + ")\n");
+        call.print_lines(localized(call, Message("idgrey calls the function for each evaluation, which takes about a "
+                                                 "hundred times as long as a symbolic function.")) +
+                         "\n(" + localized(call, reason) + ")\n");
     model.equations = traced ? traced_equations(std::move(*traced)) : called_equations(std::move(called));
     push_object(call.state(), std::move(model));
     return 1;

@@ -63,9 +63,9 @@ Message with_remedy(const Message& message) {
     std::string name;
     if (!RE2::PartialMatch(message_text(message), kOfMath, &name)) return message;
     if (kFollowed.contains(name))
-        return Message("{}; math.{} takes numbers alone: write {}(...) without math, which can be followed", message,
-                       name, name);
-    return Message("{}; math.{} takes numbers alone: it has no derivatives and cannot be followed", message, name);
+        return Message("{}; math.{} accepts only numbers: write {}(...) without math, which supports symbolic values",
+                       message, name, name);
+    return Message("{}; math.{} accepts only numbers and does not support symbolic values", message, name);
 }
 
 class Tracer {
@@ -200,17 +200,17 @@ class Tracer {
 
 Message more_than_rates() {
     return Message(
-        "f returned several values, and must return the derivatives alone, in one table: return {dx1, dx2}; outputs "
-        "have a function of their own, the option outputs = function(t, x, u, p) return {y1} end");
+        "f must return only the derivatives, in one table: return {dx1, dx2}, but it returned several values. Outputs "
+        "need a separate function, the option outputs = function(t, x, u, p) return {y1} end");
 }
 Message more_than_outputs() {
-    return Message("h returned several values, and must return the outputs in one table: return {y1, y2}");
+    return Message("h must return the outputs in one table: return {y1, y2}, but it returned several values");
 }
 Message more_than_start() {
-    return Message("x0 returned several values, and must return the initial states in one table: return {x1, x2}");
+    return Message("x0 must return the initial states in one table: return {x1, x2}, but it returned several values");
 }
 Message more_than_matrices() {
-    return Message("f returned more than the matrices A, B, C, D");
+    return Message("f must return only the matrices A, B, C, D");
 }
 
 /// A function of (t, x, u, p), called with numbers.
@@ -306,7 +306,7 @@ CalledFunctions call_signals(const std::shared_ptr<ScriptEquations>& own, const 
     const Vector x = initial_values(*own, p), u = Vector::Zero(functions.inputs);
     functions.outputs_count = called_with(*own, *own->outputs, {"h", nullptr, -1}, 0, x, u, p).size();
     const Message as_at_first =
-        Message("{}, as it did at first", plural(functions.outputs_count, "{} output", "{} outputs"));
+        Message("{}, as in the first call", plural(functions.outputs_count, "{} output", "{} outputs"));
     functions.outputs = [own, what = as_at_first, count = functions.outputs_count](
                             double t, const Vector& at_x, const Vector& at_u, const Vector& at_p) {
         return called_with(*own, *own->outputs, {"h", &what, count}, t, at_x, at_u, at_p);

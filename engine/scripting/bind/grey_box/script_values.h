@@ -34,7 +34,7 @@ std::vector<Value> read_list(lua_State* L, const Wanted& wanted, const Read& rea
     const int top = lua_gettop(L);
     const auto refuse = [&](Index place) {
         if (place == 0)
-            throw InvalidArgument("{} must return a table of numbers, but what it returned is {}", wanted.function,
+            throw InvalidArgument("{} must return a table of numbers, but it returned {}", wanted.function,
                                   given_value(L, -1));
         throw InvalidArgument("{} must return a table of numbers, but its element {} is {}", wanted.function, place,
                               given_value(L, -1));

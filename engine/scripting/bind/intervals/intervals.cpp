@@ -54,16 +54,17 @@ const Model& output_error_argument(const Call& call, int index) {
     const char* const function = call.function_name();
     if (model == nullptr) wrong_argument(call.state(), index, "G", with_article("model"));
     const Message instead = Message(
-        "{} repeats fits of the smallest simulation error: estimate with procsrivc, tfsrivc, srivc or coe", function);
-    if (!model->estimate) throw InvalidArgument("this model was written down, not estimated; {}", instead);
+        "{} refits with the smallest simulation error: estimate the model with procsrivc, tfsrivc, srivc or coe",
+        function);
+    if (!model->estimate) throw InvalidArgument("the model was specified, not estimated; {}", instead);
     const Estimate& estimate = *model->estimate;
     if (!model->single_channel())
-        throw InvalidArgument("{} takes a model with one input and one output, but {}", function,
+        throw InvalidArgument("{} requires a model with one input and one output, but {}", function,
                               channels_hint(*model));
     const bool process = model->process.has_value();
     if (estimate.carx || model->polynomial || model->system || !model->G.continuous() ||
         (!process && !estimate.of_coefficients))
-        throw InvalidArgument("{} is no such method; {}", estimate.method, instead);
+        throw InvalidArgument("{} is not a suitable method; {}", estimate.method, instead);
     return *model;
 }
 

@@ -59,10 +59,10 @@ constexpr std::array kNarxArguments = {
     kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
                                   about("na past outputs, nb values of the input, delay of nk samples; with several "
                                         "inputs nb and nk can be tables, {2, {1, 2}, {1, 3}}")}};
-constexpr std::array kSindyArguments = {ArgumentEntry{
-    "data", ValueKind::kData,
-    about("data object whose outputs are all states, 1 to 8; any number of inputs and experiments, regularly "
-          "or irregularly sampled")}};
+constexpr std::array kSindyArguments = {
+    ArgumentEntry{"data", ValueKind::kData,
+                  about("data object with all states as outputs, 1 to 8; any number of inputs and experiments, "
+                        "regularly or irregularly sampled")}};
 constexpr std::array kDmdcArguments = {ArgumentEntry{
     "data", ValueKind::kData, about("data object, regularly sampled, any number of inputs, outputs and experiments")}};
 
@@ -104,8 +104,8 @@ int estimate_narx(Call& call) {
 FunctionLibrary library_option(const Call& call, const Options& options, const IdData& data) {
     const bool own = options.has("library");
     if (own && options.has("degree"))
-        throw InvalidArgument("options 'library' and 'degree' exclude each other: a degree asks for polynomials");
-    if (!own && options.has("names")) throw InvalidArgument("option 'names' is of the functions of a library");
+        throw InvalidArgument("options 'library' and 'degree' cannot be combined: degree is for polynomials");
+    if (!own && options.has("names")) throw InvalidArgument("option 'names' requires a library");
     if (!own)
         return polynomial_library(data.output_names, data.input_names, static_cast<int>(options.size("degree", 2)));
     const int index = options.push("library");

@@ -12,7 +12,7 @@ struct ChannelNames {
 };
 
 Message more_than_a_list() {
-    return Message("the library returned several values, and must return one list: return {x[1], x[1]*x[2]}");
+    return Message("the library must return one list: return {x[1], x[1]*x[2]}, but it returned several values");
 }
 
 /// A table of the columns as vectors, by place and by name.
@@ -29,10 +29,10 @@ void read_function(lua_State* L, lua_Integer place, Eigen::Ref<Vector> column) {
     }
     NumericBlock* block = to_vector(L, -1);
     if (block == nullptr)
-        throw InvalidArgument("function {} of the library must give a vector or a number, but gave {}", place,
+        throw InvalidArgument("function {} of the library must return a vector or a number, but returned {}", place,
                               given_value(L, -1));
     if (block->vector().size() != column.size())
-        throw InvalidArgument("function {} of the library gave {} for {}", place,
+        throw InvalidArgument("function {} of the library returned {} for {}", place,
                               plural(block->vector().size(), "{} value", "{} values"),
                               plural(column.size(), "{} sample", "{} samples"));
     column = block->vector();
@@ -74,7 +74,7 @@ FunctionLibrary lua_library(const Call& call, int index, const IdData& data, std
     const Experiment& first = data.experiments.front();
     const Index count = library.values(first.y, first.u).cols();
     if (!names.empty() && static_cast<Index>(names.size()) != count)
-        throw InvalidArgument("option 'names' has {}, and the library gives {}",
+        throw InvalidArgument("option 'names' has {}, but the library returns {}",
                               plural(names.size(), "{} text", "{} texts"),
                               plural(count, "{} function", "{} functions"));
     for (Index j = static_cast<Index>(names.size()); j < count; ++j) names.push_back(fmt::format("f{}", j + 1));

@@ -126,7 +126,7 @@ std::map<std::string, Vector> truth_of(const Options& options) {
         else if (NumericBlock* values = to_vector(L, -1))
             truth[name] = values->vector();
         else
-            throw InvalidArgument("option 'truth' must hold numbers or vectors, but {} is {}", name,
+            throw InvalidArgument("option 'truth' must contain numbers or vectors, but {} is {}", name,
                                   given_value(L, -1));
     }
     return truth;
@@ -137,7 +137,7 @@ int plot_parameters(Call& call) {
     const Model& model = object_argument<Model>(call, 1, "G");
     const Options options(call, 2, kHistory);
     if (!model.estimate || !model.estimate->history)
-        throw InvalidArgument("this model has no history: rlssvf, rivsvf and rsrivc give one");
+        throw InvalidArgument("this model has no history: use rlssvf, rivsvf or rsrivc");
     const double level = options.number("confidence", 0.95);
     if (!(level > 0 && level < 1))
         refuse_option("confidence", Message("a probability between 0 and 1"), Message("{}", significant(level, 10)));

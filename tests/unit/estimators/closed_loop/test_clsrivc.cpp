@@ -105,14 +105,14 @@ TEST(clsrivc, a_controller_in_continuous_time) {  // oracle: the truth, to what 
 TEST(clsrivc, refuses_what_it_cannot_use) {  // oracle: the sentence names method and fault
     const IdData data = loop_record(0.05, 3);
     EXPECT_THAT(thrown_message([&] { clsrivc(data, kPlant, {}, {}, LoopRoute::kIndirect); }),
-                HasSubstr("so it must be known"));
+                HasSubstr("needs a known controller"));
     IdData without = data;
     without.experiments.front().r.resize(0, 0);
     EXPECT_THAT(thrown_message([&] { clsrivc(without, kPlant); }),
                 HasSubstr("clsrivc needs the reference of the loop"));
     const LoopController unstable{TransferFunction(values({-400}), values({1}), kLoopTs), 1};
     EXPECT_THAT(thrown_message([&] { clsrivc(data, kPlant, {}, {unstable}, LoopRoute::kIndirect); }),
-                HasSubstr("is unstable, so that the indirect route cannot begin"));
+                HasSubstr("is unstable, so the indirect route cannot start"));
     EXPECT_THAT(message_text(clsrivc(data, kPlant, {}, {unstable}).full_message()),
                 HasSubstr("one of the two is wrong"));
 }

@@ -142,7 +142,8 @@ TEST(frequency_fit, tells_errors_that_the_variance_does_not_explain) {
     const Vector w = logarithmic(0.1, 10, 60);
     const Fit fit =
         frequency_fit("coe", noisy(noise_free(G, w), Vector::Constant(60, 1e-6), 3), TransferStructure::single(1, 0));
-    EXPECT_THAT(texts_of(fit.warnings), Contains(HasSubstr("misses the response by more than its variance explains")));
+    EXPECT_THAT(texts_of(fit.warnings),
+                Contains(HasSubstr("deviates from the response by more than the variance explains")));
 }
 
 TEST(frequency_fit, gives_stable_models_where_they_are_wanted) {
@@ -160,7 +161,7 @@ TEST(frequency_fit, refuses_what_it_cannot_use) {
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 4.0}});
     const FrequencyData data = noise_free(G, Vector{{1.0, 2.0}});
     EXPECT_THAT(thrown_message([&] { frequency_fit("coe", data, TransferStructure::single(2, 0)); }),
-                HasSubstr("coe: 3 parameters need as many frequencies, and the response has 2"));
+                HasSubstr("coe: 3 parameters need at least as many frequencies, but the response has 2"));
     FrequencyData zero = data;
     zero.w[0] = 0;
     EXPECT_THAT(thrown_message([&] { frequency_fit("coe", zero, TransferStructure::single(1, 0)); }),

@@ -123,13 +123,13 @@ TEST(spa, says_what_it_needs) {
     SpaOptions wide, high;
     wide.window = 100;
     high.w = Vector{{7.0}};
-    EXPECT_THAT(message(data, wide), HasSubstr("less than the shortest experiment's 100, but it is 100"));
+    EXPECT_THAT(message(data, wide), HasSubstr("fewer than the shortest experiment's 100, but has 100"));
     EXPECT_THAT(message(data, high), HasSubstr("between 0 and pi/Ts = 6.2832"));
     EXPECT_THAT(message(data.range(1, 7)), HasSubstr("at least 8 samples"));
     EXPECT_THAT(message(data.select({1}, {})), HasSubstr("no input"));
     EXPECT_THAT(message(IdData(Matrix(Vector::Random(50)), Matrix(Vector::Ones(50)), 1)), HasSubstr("never changes"));
     EXPECT_THAT(message(IdData(Matrix::Random(50, 2), Matrix(Vector::Random(50)), 1)),
-                HasSubstr("take a pair with data:select"));
+                HasSubstr("select a pair with data:select"));
 }
 
 TEST(spa, poor_excitation_is_told) {

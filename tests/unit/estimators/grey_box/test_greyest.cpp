@@ -141,7 +141,7 @@ TEST(greyest, keeps_to_bounds_and_fixed_values) {  // oracle: definition, and th
     EXPECT_EQ(bounded.fit.theta[2], 0.45);
     EXPECT_TRUE(bounded.fit.at_bound[2]);
     EXPECT_EQ(bounded.fit.std[2], 0);
-    EXPECT_THAT(message_text(bounded.fit.full_message()), HasSubstr("The parameter c lies at its bound 0.45"));
+    EXPECT_THAT(message_text(bounded.fit.full_message()), HasSubstr("The parameter c is at its bound 0.45"));
     model.parameters[2] = {"c", 0.45, -kInfinity, kInfinity, true};
     const GreyFit fixed = greyest(data, model, tight());
     EXPECT_LT((fixed.fit.theta - bounded.fit.theta).cwiseAbs().maxCoeff(), 1e-6);
@@ -157,7 +157,7 @@ TEST(greyest, tells_what_the_record_does_not_tell) {  // oracle: only the quotie
         lsim(TransferFunction(values({3}), values({1, 3})), u, 0.1) + 0.01 * RandomStream(1).normal(u.size());
     const GreyFit found = greyest(IdData(Matrix(y), Matrix(u), 0.1), model);
     EXPECT_NEAR(found.fit.theta[0] / found.fit.theta[1], 3, 0.1);
-    EXPECT_THAT(message_text(found.fit.full_message()), HasSubstr("does not tell k, m apart"));
+    EXPECT_THAT(message_text(found.fit.full_message()), HasSubstr("cannot separate k, m"));
     EXPECT_THAT(message_text(found.fit.full_message()), HasSubstr("k +1 %, m +1 %"));
     EXPECT_TRUE(std::isinf(found.fit.std[0]) && std::isinf(found.fit.std[1]));
 }
@@ -226,7 +226,7 @@ TEST(greyest, refuses_what_it_cannot_fit) {  // oracle: definitions
     model.parameters[0].lower = 2;
     EXPECT_THAT(refusal(model), HasSubstr("a starts from 1, outside its bounds 2 and Inf"));
     model.parameters[0].upper = 1;
-    EXPECT_THAT(refusal(model), HasSubstr("the first must not be above the second"));
+    EXPECT_THAT(refusal(model), HasSubstr("the first must not exceed the second"));
     model = pendulum(1, 1, 1);
     model.parameters[1].start = kNaN;
     EXPECT_THAT(refusal(model), HasSubstr("The parameter b starts from NaN"));
@@ -236,13 +236,13 @@ TEST(greyest, refuses_what_it_cannot_fit) {  // oracle: definitions
     options = {};
     options.output_weights = Vector::Ones(3);
     EXPECT_THAT(refusal(pendulum(1, 1, 1), options),
-                HasSubstr("holds a positive number for each of the 2 outputs, but has 3"));
+                HasSubstr("needs one positive number for each of the 2 outputs, but has 3"));
     const GreyModel growing = grey_model({{"k", 50}}, {"x", "z"}, [](const Variables& v) -> std::vector<Term> {
         return {v.p[0] * v.x[0] * v.x[0] * v.x[0] + v.u, -v.x[1]};
     });
     EXPECT_THAT(refusal(growing), HasSubstr("the state x becomes infinite"));
     EXPECT_THAT(thrown_message([&] { greyest(data.select({1}, {1}).range(10, 11), pendulum(1, 1, 1)); }),
-                HasSubstr("The record holds 2 samples, and more than 3 are needed"));
+                HasSubstr("The data have 2 samples, but more than 3 are needed"));
 }
 
 }  // namespace test_greyest

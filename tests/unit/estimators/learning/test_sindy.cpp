@@ -188,8 +188,9 @@ TEST(sindy, warns_of_a_state_without_terms) {
 TEST(sindy, refuses_what_cannot_be_fitted) {
     const IdData data = lotka_volterra_record(0.05, 30);
     EXPECT_THAT(thrown_message([&] { polynomials(data.range(1, 8), 3); }), HasSubstr("too few samples: 10 functions"));
-    EXPECT_THAT(thrown_message([&] { polynomials(data.range(1, 4), 1); }), HasSubstr("over 5 samples need as many"));
-    EXPECT_THAT(thrown_message([&] { sindy(data, {}); }), HasSubstr("holds no function"));
+    EXPECT_THAT(thrown_message([&] { polynomials(data.range(1, 4), 1); }),
+                HasSubstr("over 5 samples need at least as many"));
+    EXPECT_THAT(thrown_message([&] { sindy(data, {}); }), HasSubstr("contains no function"));
     SindyOptions options;
     options.threshold = 1;
     EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }), HasSubstr("`threshold` is a share"));
@@ -200,12 +201,12 @@ TEST(sindy, refuses_what_cannot_be_fitted) {
     options.width = -1;
     EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }), HasSubstr("`width` must be positive"));
     options.width = 10;
-    EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }), HasSubstr("take a shorter `width`"));
+    EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }), HasSubstr("use a smaller `width`"));
     const IdData still(Matrix::Ones(50, 1), Matrix::Random(50, 1), 1);
     EXPECT_THAT(thrown_message([&] { polynomials(still, 1); }), HasSubstr("never changes"));
     const SindyFit found = polynomials(data, 1);
     EXPECT_THAT(thrown_message([&] { found.model->free_run(data, 0, Vector::Ones(3)); }),
-                HasSubstr("x0 holds 2 states"));
+                HasSubstr("x0 must have 2 states"));
     EXPECT_THAT(thrown_message([&] { found.model->free_run(still, 0, Vector()); }), HasSubstr("select the channels"));
 }
 

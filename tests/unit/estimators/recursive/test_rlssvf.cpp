@@ -23,7 +23,7 @@ TEST(rlssvf, forgetting_nothing_gives_lssvf) {  // oracle: lssvf, on records of 
         const Fit pass = rlssvf(one.data, one.structure, recursive(one.lambda));
         EXPECT_LT(relative_difference(pass.theta, batch.theta), 1e-8) << one.name;
         EXPECT_LT(relative_difference(pass.std, batch.std), 1e-6) << one.name;
-        EXPECT_THAT(message_text(pass.full_message()), HasSubstr("which forgets nothing"));
+        EXPECT_THAT(message_text(pass.full_message()), HasSubstr("without forgetting"));
     }
 }
 
@@ -71,7 +71,7 @@ TEST(rlssvf, drift_is_a_kalman_filter) {
     }
     EXPECT_LT(relative_difference(pass.theta, theta), 1e-5);
     EXPECT_LT((pass.covariance * (0.02 / pass.noise_variance[0]) - P).norm(), 1e-5 * P.norm());
-    EXPECT_THAT(message_text(pass.full_message()), HasSubstr("walk at random"));
+    EXPECT_THAT(message_text(pass.full_message()), HasSubstr("follow a random"));
 }
 
 TEST(rlssvf, follows_a_parameter_that_jumps) {  // oracle: the truth on either side
@@ -95,7 +95,7 @@ TEST(rlssvf, refuses_what_it_cannot_use) {  // oracle: the sentence names method
     RecursiveOptions options = recursive(3);
     for (const double forgetting : {0.0, -0.5, 1.01, std::nan("")}) {
         options.forgetting = forgetting;
-        EXPECT_THAT(refused(data, structure, options), HasSubstr("rlssvf: forgetting must lie above 0"));
+        EXPECT_THAT(refused(data, structure, options), HasSubstr("rlssvf: forgetting must be above 0"));
     }
     options = recursive(3);
     options.drift = values({1, 2});
@@ -105,7 +105,7 @@ TEST(rlssvf, refuses_what_it_cannot_use) {  // oracle: the sentence names method
     EXPECT_THAT(refused(data, structure, recursive(-1)), HasSubstr("lambda"));
     EXPECT_THAT(refused(data.range(1, 5), structure, recursive(3)), HasSubstr("at least 9 samples"));
     EXPECT_THAT(refused(IdData::merge({data, data}), structure, recursive(3)),
-                HasSubstr("time passes in one experiment"));
+                HasSubstr("the data must have one experiment"));
     EXPECT_THAT(refused(data, TransferStructure::single(9, 0), recursive(3)), HasSubstr("up to 8 poles"));
     EXPECT_THAT(refused(data, TransferStructure::single(2, 0, 0.0137), recursive(3)),
                 HasSubstr("whole number of sampling times"));

@@ -49,7 +49,7 @@ TEST(arma_noise, models_stay_stable_and_invertible) {  // oracle: the definition
 }
 
 TEST(arma_noise, refuses_what_cannot_be) {
-    EXPECT_NE(thrown_message([] { estimate_arma({Vector::Ones(5)}, 2, 2, 1e-6); }).find("longer records"),
+    EXPECT_NE(thrown_message([] { estimate_arma({Vector::Ones(5)}, 2, 2, 1e-6); }).find("longer experiments"),
               std::string::npos);
     EXPECT_NE(thrown_message([] { estimate_arma({Vector::Ones(50)}, -1, 2, 1e-6); }).find("negative"),
               std::string::npos);

@@ -70,7 +70,7 @@ TEST(discrete_fit, the_operating_point_comes_off) {  // oracle: second route, th
     PolynomialOrders with_noise = kOrders;
     with_noise.nd = 1;
     EXPECT_THAT(thrown_message([&] { fit_discrete_output("oe", data, with_noise, {}, output_error_search({})); }),
-                HasSubstr("oe has the orders nb, nf and nk only"));
+                HasSubstr("oe has only the orders nb, nf and nk"));
 }
 
 }  // namespace test_discrete_fit

@@ -63,7 +63,8 @@ TEST(polynomial_fit, what_is_told_against_unstable_models_helps) {
         const Fit fit = oe(data, orders);
         if (fit.polynomial->transfer_function(0).stable()) continue;
         ++unstable;
-        EXPECT_THAT(texts_of(fit.warnings), Contains(HasSubstr("or sriv, which keeps them inside the circle"))) << seed;
+        EXPECT_THAT(texts_of(fit.warnings), Contains(HasSubstr("or sriv, which keeps the poles inside the circle")))
+            << seed;
         EXPECT_TRUE(sriv(data, orders).polynomial->transfer_function(0).stable()) << seed;
     }
     EXPECT_GE(unstable, 3);

@@ -27,7 +27,7 @@ TEST(recursive_pass, the_history_ends_with_the_estimate) {  // oracle: definitio
             EXPECT_EQ(fit.history->theta.row(count - 1).transpose(), fit.theta);
             EXPECT_LT(relative_difference(fit.history->std.row(count - 1).transpose(), fit.std), 1e-12);
             EXPECT_NEAR(fit.history->t[count - 1], 14.99, 1e-9);
-            EXPECT_THAT(message_text(fit.full_message()), HasSubstr("A pass, sample by sample"));
+            EXPECT_THAT(message_text(fit.full_message()), HasSubstr("A pass, recursive"));
         }
 }
 

@@ -65,7 +65,7 @@ TEST(profile_likelihood,
     const RefittedOutput model(IdData(Matrix(y), Matrix(u), 0.1), {{}, ProcessStructure::parse("P1"), Vector{{1, 50}}});
     const Profile found = profile_likelihood(model, "Tp1");
     EXPECT_FALSE(found.high.has_value());
-    EXPECT_THAT(message_text(found.message), HasSubstr("without an upper end"));
+    EXPECT_THAT(message_text(found.message), HasSubstr("without an upper limit"));
 }
 
 TEST(profile_likelihood, can_be_stopped) {
@@ -86,7 +86,8 @@ TEST(profile_likelihood, says_what_it_needs) {
     options.range = {{2, 1}};
     EXPECT_THAT(thrown_message([&] { profile_likelihood(model, "a1", options); }), HasSubstr("`range`"));
     options.range = {{50, 60}};
-    EXPECT_THAT(thrown_message([&] { profile_likelihood(model, "a1", options); }), HasSubstr("must hold the estimate"));
+    EXPECT_THAT(thrown_message([&] { profile_likelihood(model, "a1", options); }),
+                HasSubstr("must contain the estimate"));
     options = {};
     options.confidence = 0;
     EXPECT_THAT(thrown_message([&] { profile_likelihood(model, "a1", options); }), HasSubstr("`confidence`"));

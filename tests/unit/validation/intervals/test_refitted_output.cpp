@@ -44,7 +44,7 @@ TEST(refitted_output, tells_models_that_these_data_move) {  // oracle: coe of th
     EXPECT_FALSE(own.moved(own.fit()));
     const auto told = others.moved(others.fit());
     ASSERT_TRUE(told);
-    EXPECT_THAT(message_text(*told), HasSubstr("the intervals are about that"));
+    EXPECT_THAT(message_text(*told), HasSubstr("the intervals refer to that"));
 }
 
 TEST(refitted_output, fits_processes_with_start_and_offset) {  // oracle: procsrivc

@@ -11,13 +11,13 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct LookArguments {
+struct InspectArguments {
     std::string data, picture, delimiter;
     ImportOptions import;
     bool no_picture = false;
 };
 
-int look(const LookArguments& words) {
+int inspect(const InspectArguments& words) {
     const DataLook seen = look_at_data(words.data, words.import);
     std::fwrite(seen.text.data(), 1, seen.text.size(), stdout);
     std::fflush(stdout);
@@ -33,42 +33,41 @@ int look(const LookArguments& words) {
 
 }  // namespace
 
-void add_look(CLI::App& app, Action& action) {
-    auto words = std::make_shared<LookArguments>();
-    CLI::App* command = app.add_subcommand("look", "What a data file holds: columns, units, sampling, gaps, a picture");
+void add_inspect(CLI::App& app, Action& action) {
+    auto words = std::make_shared<InspectArguments>();
+    CLI::App* command = app.add_subcommand("inspect", "Inspect a data file: columns, units, sampling, gaps, a picture");
     command
         ->add_option("DATA", words->data,
-                     "A .mat file, a table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or a data set's name")
+                     ".mat file, table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or name of a data set")
         ->required();
     auto* picture = command->add_option("-o,--output-file", words->picture,
-                                        "The picture (.pdf, .svg or .png), DATA_look.pdf unless given");
+                                        "Picture to make (.pdf, .svg or .png). Default: DATA_look.pdf.");
     picture->type_name("FILE");
-    command->add_flag("--no-picture", words->no_picture, "Text only")->excludes(picture);
-    command->add_option("--skip", words->import.skip, "Lines at the beginning that do not belong to the table")
-        ->type_name("N");
-    command->add_option("--delimiter", words->delimiter, "What stands between cells; \" \" for blanks and tabs")
+    command->add_flag("--no-picture", words->no_picture, "Print the text without a picture")->excludes(picture);
+    command->add_option("--skip", words->import.skip, "Number of lines to skip before the table")->type_name("N");
+    command->add_option("--delimiter", words->delimiter, "Separator of the cells; \" \" for blanks and tabs")
         ->type_name("CHARACTER");
-    command->add_option("--time", words->import.time, "Name of the column that holds the time")->type_name("NAME");
+    command->add_option("--time", words->import.time, "Name of the time column")->type_name("NAME");
     command
         ->add_option("--time-unit", words->import.time_unit,
                      "Unit of the time: s, ms, us, min, h, days; dd/mm/yyyy or mm/dd/yyyy")
         ->type_name("UNIT");
-    command->add_option("--sheet", words->import.sheet, "Name of a workbook's sheet, its first one unless given")
+    command->add_option("--sheet", words->import.sheet, "Name of a workbook's sheet. Default: the first sheet.")
         ->type_name("NAME");
     command->footer(
-        "What had to be guessed is listed below the first line. load in a script reads the same; its options skip, "
-        "delimiter,\nsheet, time, names and units say what is guessed wrongly.\n"
-        "Example:  dynlab look record.csv -o record.png");
+        "Assumptions of dynlab are listed below the first line. load in a script reads the file in the same way; its "
+        "options\nskip, delimiter, sheet, time, names and units correct wrong assumptions.\nExample:  dynlab inspect "
+        "record.csv -o record.png");
     command->callback([words, &action] {
         if (words->delimiter.size() > 1)
-            throw CLI::ValidationError("--delimiter", "wanted one character, not '" + words->delimiter + "'");
+            throw CLI::ValidationError("--delimiter", "expected one character, not '" + words->delimiter + "'");
         if (!words->delimiter.empty()) words->import.delimiter = words->delimiter.front();
         try {
             if (!words->picture.empty()) figure_format(words->picture);
         } catch (const InvalidArgument& error) {
             throw CLI::ValidationError("--output-file", error.what());
         }
-        action = [words] { return look(*words); };
+        action = [words] { return inspect(*words); };
     });
 }
 
