@@ -42,7 +42,8 @@ TEST(late_penalties, half_the_points_or_more_wait_for_the_instructor) {
                             "\"c\": late by 5 d, 50 % of its points"));
     EXPECT_EQ(work.unconfirmed, 1);
     ASSERT_EQ(work.attention.size(), 1u);
-    EXPECT_THAT(texts(work.attention)[0], AllOf(HasSubstr("\"a\" came 264 d 2 h after"), HasSubstr("--accept-late")));
+    EXPECT_THAT(texts(work.attention)[0],
+                AllOf(HasSubstr("\"a\" arrived 264 d 2 h after"), HasSubstr("--accept-late")));
 }
 
 }  // namespace test_late_penalties

@@ -42,8 +42,7 @@ TEST(peer_review, allots_mends_and_takes_reviews) {
     const ChildResult assigned = bench.course({"review", "assign", "--at", "2026-03-01 13:00"});
     EXPECT_THAT(assigned.output, HasSubstr("6 groups, 12 reviews: 12 new, 0 withdrawn."));
     const std::string before = bench.dump();
-    EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-01 14:00"}).output,
-                HasSubstr("0 new, 0 withdrawn"));
+    EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-01 14:00"}).output, HasSubstr("0 new, 0 withdrawn"));
     EXPECT_EQ(bench.dump(), before);
     const ChildResult stray = bench.hand_in("stray.pdf", small_pdf("x"), "2026-03-02 10:00", {"--from", "group-01"});
     CourseBench::expect_done(stray);
@@ -172,7 +171,7 @@ TEST(peer_review, exports_and_imports_an_equal_store) {
     EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": []}})"),
                 HasSubstr("the table \"files\" is missing"));
     EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": [{"key": {}}], "files": []}})"),
-                HasSubstr("tables[\"course\"][1][\"key\"]: a text was wanted"));
+                HasSubstr("tables[\"course\"][1][\"key\"]: expected a text"));
     EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": [{"key": "name"}], "files": []}})"),
                 HasSubstr("a row lacks the text \"value\""));
     EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": [], "files": []}})"),

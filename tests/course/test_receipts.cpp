@@ -140,7 +140,7 @@ TEST_F(receipts, bad_keys_and_words_are_told) {
         write("bad.pub", bad);
         const ChildResult result = verify({"mine/r.txt", "--key", "bad.pub"});
         EXPECT_EQ(result.exit_code, 1) << bad;
-        EXPECT_THAT(result.error_output, HasSubstr("bad.pub: this is not the public key of a course")) << bad;
+        EXPECT_THAT(result.error_output, HasSubstr("bad.pub: the file is not the public key of a course")) << bad;
     }
     EXPECT_EQ(verify({}).exit_code, 2);
     EXPECT_EQ(verify({"nowhere.txt"}).exit_code, 2);

@@ -70,7 +70,7 @@ TEST(script_messages, run_report_and_check_tell_what_has_no_place) {
         checked,
         HasSubstr(
             "not-shown\n    report.md: In analysis.lua the value 'gain' is passed to the report but never shown."));
-    EXPECT_THAT(checked, HasSubstr("Write `gain`{.value} there."));
+    EXPECT_THAT(checked, HasSubstr("Write `gain`{.value} in the text."));
     bench.write("A/report.md", "---\ntitle: A\n---\n\nThe fit is `fit`{.value} %, the gain `gain`{.value}.\n");
     EXPECT_THAT(bench.dynlab({"run", "A"}).error_output, IsEmpty());
     EXPECT_THAT(bench.dynlab({"check", "A"}).output, Not(HasSubstr("not-shown")));

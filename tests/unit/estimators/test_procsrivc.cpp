@@ -388,13 +388,13 @@ TEST(procsrivc, delay_options_bound_the_answer) {  // oracle: the simulated syst
     options.largest_delay = 0.5;
     const auto low = fit(data, "P1D", options);
     EXPECT_NEAR(low.theta[2], 0.5, 1e-9);
-    EXPECT_TRUE(warned(low, "raise `largest_delay`")) << message_text(low.full_message());
+    EXPECT_TRUE(warned(low, "increase `largest_delay`")) << message_text(low.full_message());
     EXPECT_EQ(low.std[2], 0);
     options.largest_delay = 2;
     options.least_delay = 0.8;
     const auto high = fit(data, "P1D", options);
     EXPECT_NEAR(high.theta[2], 0.8, 1e-9);
-    EXPECT_TRUE(warned(high, "lower `least_delay`")) << message_text(high.full_message());
+    EXPECT_TRUE(warned(high, "decrease `least_delay`")) << message_text(high.full_message());
     options.least_delay = options.largest_delay.emplace(0.7);
     const auto known = fit(data, "P1D", options);
     EXPECT_NEAR(known.theta[1], 0.3, 1e-6);

@@ -214,12 +214,12 @@ TEST(transfer_refinement, doubts_are_told) {  // oracle: the simulated system
     options.largest_delay = 0.6;
     EXPECT_THAT(
         message_text(refine_output_error(late, delayed, kRest, Vector{{0.8, 2.0, 0.5}}, options).full_message()),
-        HasSubstr("raise `largest_delay`"));
+        HasSubstr("increase `largest_delay`"));
     options.least_delay = 1.3;
     options.largest_delay = 2;
     EXPECT_THAT(
         message_text(refine_output_error(late, delayed, kRest, Vector{{0.8, 2.0, 1.5}}, options).full_message()),
-        HasSubstr("lower `least_delay`"));
+        HasSubstr("decrease `least_delay`"));
     options.least_delay = 0;
     EXPECT_THAT(
         message_text(refine_output_error(data, delayed, kRest, Vector{{0.8, 2.0, 0.05}}, options).full_message()),

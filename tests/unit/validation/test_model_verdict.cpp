@@ -33,7 +33,8 @@ TEST(model_verdict, the_gravest_comes_first) {
     EXPECT_THAT(verdict_text({.fit_percent = 5, .white = false}), StartsWith("The model explains little"));
     EXPECT_THAT(verdict_text({.fit_percent = 5, .independent = false}),
                 testing::AllOf(StartsWith("The model explains little"), HasSubstr("Dynamics are missing")));
-    EXPECT_THAT(verdict_text({.white = false, .doubts = {.undetermined = {"b0"}}}), HasSubstr("hardly determine b0"));
+    EXPECT_THAT(verdict_text({.white = false, .doubts = {.undetermined = {"b0"}}}),
+                HasSubstr("do not reliably determine b0"));
     EXPECT_THAT(verdict_text({.white = false}), HasSubstr("the dynamics. The disturbance is colored:"));
     EXPECT_THAT(verdict_text({.white = false, .tested = false}), HasSubstr("cannot distinguish them"));
     EXPECT_THAT(verdict_text({.fit_percent = 38, .white = false}),
