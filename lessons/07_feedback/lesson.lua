@@ -335,8 +335,7 @@ report.value("true_b0", true_p[3], "%.0f")
 --
 -- ## First cure: instruments from the reference
 --
--- You choose the reference. It moves the voltage and the speed, and it is independent of the disturbance. These are the two requirements for an
--- instrument.
+-- You choose the reference. It moves the voltage and the speed, and it is independent of the disturbance. An instrument needs no more.
 --
 -- **Question 5.** Write the regression of lesson 4, $Z^T Y = Z^T \Phi\,\theta$, with the columns $p^2 r_f$, $p\,r_f$, $r_f$ of the filtered reference
 -- as the instruments (`svf`, `solve`; $\lambda = 10$ rad/s). Use a filter of fourth order, `svf(r, 4, lambda, ...)`, and its last three columns. A
