@@ -337,6 +337,14 @@ void add_time_option(CLI::App& command, std::string& text) {
         ->group("");  // the help of all commands says it once
 }
 
+void add_after_option(CLI::App& command, std::optional<std::int64_t>& entry) {
+    command
+        .add_option("--after", entry,
+                    "Only if the newest entry for this mark still is the one with this number; 0: only if there is "
+                    "none. dynlab course page gives it")
+        ->type_name("N");
+}
+
 Instant time_of(const Course& course, const std::string& text) {
     return text.empty() ? CourseClock::now() : course.clock().parse(text, "--at");
 }
@@ -362,6 +370,7 @@ void add_course(CLI::App& app, Action& action) {
     add_correction_commands(*course, where, action);
     add_status(*course, where, action);
     add_who(*course, where, action);
+    add_course_page(*course, where, action);
     course->footer(
         "Every command is all or nothing and may be repeated; nothing is ever deleted.\n"
         "  dynlab course init signals-2026 --timezone Europe/Paris    then, in that folder:\n"
@@ -371,6 +380,7 @@ void add_course(CLI::App& app, Action& action) {
         "  dynlab course status lab4                                  who is late, and what to do\n"
         "  dynlab course grade lab4                                   marks and feedback\n"
         "  dynlab course export -o term.csv                           all marks, and the total\n"
+        "  dynlab course page                                         marking, what is to do, and marks in a browser\n"
         "A term in 20 commands: dynlab help guide-instructor\n"
         "Commands that depend on the date take --at TIME, too: they work as if it were that time.\n"
         "More: dynlab help review_marks (how marks come out of scores), dynlab help names (what is searched for)\n"

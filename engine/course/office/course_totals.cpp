@@ -12,6 +12,9 @@
 #include "course/store/marks.h"
 #include "course/store/newest_versions.h"
 #include "data_io/text_table.h"
+#include "platform/atomic_file.h"
+#include "platform/temporary_folder.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -56,6 +59,8 @@ class AssignmentMarks {
     Marks marks_;
 };
 
+constexpr char kExported[] = "exported totals";
+
 std::string mark_text(const std::optional<double>& percent) {
     return percent ? fmt::format("{:.4g}", *percent) : "";
 }
@@ -84,6 +89,45 @@ std::optional<double> weighted_total(const std::vector<Assignment>& assignments,
         if (marks[i].percent) sum += assignments[i].weight * *marks[i].percent, weight += assignments[i].weight;
     if (weight <= 0) return {};
     return sum / weight;
+}
+
+void note_export(Course& course, const std::string& assignment, const std::string& file, const std::string& totals,
+                 Instant now) {
+    const std::string hash = totals.empty() ? "" : course.keep(totals);
+    if (!hash.empty()) course.settle({hash});
+    Transaction transaction(course.database());
+    if (!hash.empty()) {
+        course.record_file(hash, std::ssize(totals), now);
+        course.remember(kExported, fmt::format("{} {}", hash, now));
+    }
+    course.note(assignment.empty() ? fmt::format("marks of the course written into {}", file)
+                                   : fmt::format("{}: marks written into {}", assignment, file),
+                now);
+    transaction.commit();
+}
+
+ExportChanges changed_since_export(Course& course, const std::string& totals) {
+    ExportChanges changes;
+    const std::string remembered = course.remembered(kExported);
+    const std::size_t blank = remembered.find(' ');
+    if (blank == remembered.npos) return changes;
+    changes.exported = read_number<Instant>(remembered.substr(blank + 1));
+    const TextTable before = read_text_table(course.file(remembered.substr(0, blank)));
+    const TemporaryFolder folder;
+    write_file_atomically(folder.path() / "totals.csv", totals);
+    const TextTable now = read_text_table(folder.path() / "totals.csv");
+    const auto id = now.column("id"), name = now.column("name"), id_before = before.column("id");
+    if (!id || !name || !id_before) return changes;
+    std::map<std::string, const std::vector<std::string>*> rows;
+    for (const auto& row : before.rows) rows[row[*id_before]] = &row;
+    for (const auto& row : now.rows)
+        for (std::size_t i = 0; i < now.names.size(); ++i) {
+            const auto known = rows.find(row[*id]);
+            const auto column = before.column(now.names[i]);
+            const std::string old = known != rows.end() && column ? (*known->second)[*column] : "";
+            if (old != row[i]) changes.cells.push_back({row[*id], row[*name], now.names[i], old, row[i]});
+        }
+    return changes;
 }
 
 std::string totals_csv(Course& course, Instant now) {

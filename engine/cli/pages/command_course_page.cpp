@@ -1,0 +1,53 @@
+#include <iostream>
+
+#include "app/office/office_page.h"
+#include "cli/course/course_commands.h"
+#include "cli/pages/browser.h"
+#include "platform/interrupt.h"
+
+namespace dynlab::inline cli {
+namespace {
+
+struct OfficeWords {
+    OfficeOptions options;
+    bool no_browser = false;
+};
+
+int show_office(OfficeWords words) {
+    DesktopBrowser browser;
+    words.options.opened = [&](const std::string& address, Visit visit) {
+        std::cout << address << "\n(Ctrl-C ends it)" << std::endl;
+        if (visit != Visit::kLate && !words.no_browser) browser.open(address);
+    };
+    try {
+        const SlowEnding commands_are_finished;
+        serve_office(words.options);
+    } catch (const Interrupted&) {
+        std::cout << std::endl;
+    }
+    return kDone;
+}
+
+}  // namespace
+
+void add_course_page(CLI::App& course, CourseArguments& where, Action& action) {
+    auto words = std::make_shared<OfficeWords>();
+    CLI::App* command = course.add_subcommand("page", "Mark answers and run the course on a page in the browser");
+    command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")
+        ->check(CLI::Range(1, 65535));
+    command->add_flag("--no-browser", words->no_browser, "Only print the address");
+    command->footer(
+        "Five views: Marking (all answers to one question, without names, by keyboard), Today (what is missing, late,\n"
+        "unreadable or blocked), Student, Reviews, Marks. Every action is a dynlab course command, which the page\n"
+        "shows; the history records it. Commands in a terminal and several windows work at the same time.\n"
+        "Files for Moodle and Canvas are in exports in the course's folder.\n"
+        "Example:  dynlab course page");
+    command->callback([&where, words, &action] {
+        action = [&where, words] {
+            words->options.course = where.folder;
+            return show_office(*words);
+        };
+    });
+}
+
+}  // namespace dynlab::inline cli
