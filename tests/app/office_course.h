@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ class OfficeCourse {
         bench_.write("roster.csv", roster);
         course_ = std::make_unique<Course>(folder());
         import_roster(*course_, bench_.path("roster.csv"));
+        for (int i = 1; i <= groups; ++i) group_ids_.push_back(group_named(*course_, group(i)).id);
     }
 
     std::filesystem::path folder() const { return bench_.path("k"); }
@@ -45,7 +47,7 @@ class OfficeCourse {
         static const std::vector<std::string> given = {"Élise", "Wei", "Nguyễn", "Дмитрий", "Ada", "Björn"};
         return given[static_cast<std::size_t>(i) % given.size()] + " Family" + digits(i);
     }
-    std::int64_t group_id(int i) { return group_named(*course_, group(i)).id; }
+    std::int64_t group_id(int i) const { return group_ids_[static_cast<std::size_t>(i)]; }
     Instant at(const std::string& time) const { return course_->clock().parse(time, "time"); }
 
     Assignment add(const std::string& assignment, const std::string& kind, const std::string& lesson = "") {
@@ -61,59 +63,55 @@ class OfficeCourse {
 
     /// A file of a group as the store has it once it was received.
     std::int64_t submit(const Assignment& a, int i, const std::string& part, const std::string& text,
-                        const std::string& time = "2026-03-01 11:00", std::optional<std::int64_t> pair = {}) {
-        const std::string hash = course_->keep(text);
-        course_->settle({hash});
-        NewVersion version;
-        version.group = group_id(i), version.group_name = group(i), version.part = part, version.hash = hash;
-        version.stage = pair ? "review" : "first", version.pair = pair;
-        version.name = part == "script" ? "analysis.lua" : part + ".pdf";
-        version.bytes = std::ssize(text), version.at = at(time);
+                        const std::string& time = "2026-03-01 11:00") {
         Transaction transaction(course_->database());
-        course_->record_file(hash, version.bytes, version.at);
-        const std::int64_t added = add_version(*course_, a, version, version.at).id;
+        const std::int64_t version = enter_file(a, i, part, text, time);
         transaction.commit();
-        return added;
-    }
-    void grade(std::int64_t version, double possible = 4) {
-        Transaction transaction(course_->database());
-        record_result(*course_, {version, {{"q3", possible, 0, false}, {"gain", 6, 5, true}}, "f"},
-                      at("2026-03-02 12:00"));
-        transaction.commit();
+        return version;
     }
 
-    /// A lab of lesson 04 that every group submitted, with this answer to question 3.
-    Assignment add_lab(const std::string& name, const std::function<std::string(int)>& answer, bool graded = true) {
+    /// A lab of lesson 04 that every group submitted, with this answer to question 3, and was graded.
+    Assignment add_lab(const std::string& name, const std::function<std::string(int)>& answer) {
         const Assignment lab = add(name, "lab", "04");
+        Transaction transaction(course_->database());
         for (int i = 1; i <= groups_; ++i) {
-            const std::int64_t version =
-                submit(lab, i, "script",
-                       "-- ---\n-- title: Mine\n-- ---\n\n-- %% [markdown]\n-- **Question 3.**\n"
-                       "--\n" +
-                           answer(i) + "\n\n-- %% id=q3\nprint(" + std::to_string(i) + ")\n");
-            if (graded) grade(version);
+            const std::int64_t version = enter_file(
+                lab, i, "script",
+                "-- ---\n-- title: Mine\n-- ---\n\n-- %% [markdown]\n-- **Question 3.** Write the model for the "
+                "$N$ samples as a linear regression in matrix form, with the sizes of the matrices. What is "
+                "its\n-- least-squares solution?\n--\n" +
+                    answer(i) + "\n\n-- %% id=q4\nprint(" + std::to_string(i) + ")\n",
+                "2026-03-01 11:00");
+            record_result(*course_, {version, {{"q3", 4, 0, false}, {"gain", 6, 5, true}}, "f"},
+                          at("2026-03-02 12:00"));
         }
+        transaction.commit();
         return lab;
     }
     /// A report with two reviews of each, scored by their reviewers but for group-001, who gave zeros.
     Assignment add_report(const std::string& name) {
         const Assignment report = add(name, "report");
-        for (int i = 1; i <= groups_; ++i) submit(report, i, "report", name + " of " + group(i));
+        {
+            Transaction transaction(course_->database());
+            for (int i = 1; i <= groups_; ++i)
+                enter_file(report, i, "report", name + " of " + group(i), "2026-03-01 11:00");
+            transaction.commit();
+        }
         assign_reviews(*course_, report, at("2026-03-02 12:00"), false);
+        Transaction transaction(course_->database());
         std::vector<GivenMark> scores;
         for (const ReviewPair& pair : review_pairs(*course_, report)) {
             const int reviewer = std::stoi(pair.reviewer_name.substr(6));
-            const std::int64_t version =
-                submit(report, reviewer, "review", "review of " + pair.report_pseudonym() + " by " + pair.reviewer_name,
-                       "2026-03-05 12:00", pair.id);
+            const std::int64_t version = enter_file(
+                report, reviewer, "review", "review of " + pair.report_pseudonym() + " by " + pair.reviewer_name,
+                "2026-03-05 12:00", pair.id);
             for (const Criterion& criterion : report.criteria) {
                 GivenMark score;
                 score.group = pair.author, score.pair = pair.id, score.version = version, score.item = criterion.name;
-                score.points = reviewer == 1 ? 0 : 3 + (reviewer + pair.author) % 3;
+                score.points = reviewer == 1 ? 0 : static_cast<double>(3 + (reviewer + pair.author) % 3);
                 scores.push_back(score);
             }
         }
-        Transaction transaction(course_->database());
         enter_marks(*course_, report, scores, at("2026-03-06 12:00"));
         transaction.commit();
         return report;
@@ -124,9 +122,24 @@ class OfficeCourse {
     }
 
   private:
+    /// Within a transaction.
+    std::int64_t enter_file(const Assignment& a, int i, const std::string& part, const std::string& text,
+                            const std::string& time, std::optional<std::int64_t> pair = {}) {
+        NewVersion version;
+        version.hash = course_->keep(text);
+        version.group = group_ids_[static_cast<std::size_t>(i)];
+        version.group_name = group(i), version.part = part;
+        version.stage = pair ? "review" : "first", version.pair = pair;
+        version.name = part == "script" ? "analysis.lua" : part + ".pdf";
+        version.bytes = std::ssize(text), version.at = at(time);
+        course_->record_file(version.hash, version.bytes, version.at);
+        return add_version(*course_, a, version, version.at).id;
+    }
+
     int groups_;
     Workbench bench_;
     std::unique_ptr<Course> course_;
+    std::vector<std::int64_t> group_ids_ = {0};  ///< by number
 };
 
 }  // namespace dynlab::test

@@ -54,7 +54,7 @@ TEST(office_views, marks_are_those_that_export_writes) {
             given += !percent.is_null();
             cells += "," + (percent.is_null() ? std::string() : fmt::format("{:.4g}", percent.get<double>()));
         }
-        cells += "," + (row["total"].is_null() ? std::string() : fmt::format("{:.4g}", row["total"].get<double>()));
+        cells += "," + (!row.contains("total") ? std::string() : fmt::format("{:.4g}", row["total"].get<double>()));
         EXPECT_THAT(csv[i + 1], HasSubstr("," + row["group"].get<std::string>() + cells)) << i;
     }
     EXPECT_GE(given, 7);
@@ -98,15 +98,19 @@ TEST(office_views, a_student_is_shown_as_who_shows_them) {
             for (const json& extension : work["extensions"])
                 EXPECT_THAT(who, HasSubstr(extension["due"].get<std::string>() + " (illness)"));
             for (const json& mark : work["marks"])
-                if (!mark["percent"].is_null())
+                if (mark.contains("percent")) {
                     EXPECT_THAT(who,
                                 HasSubstr(fmt::format("mark of {}: {:.4g} percent", mark["name"].get<std::string>(),
                                                       mark["percent"].get<double>())));
+                }
         }
         EXPECT_GE(versions, 4) << name;
         for (const json& line : facts["history"]) EXPECT_THAT(who, HasSubstr(line["what"].get<std::string>()));
     }
-    EXPECT_EQ(json::parse(views.student("group-002", "en"))["work"][1]["extensions"].size(), 1u);
+    const json facts = json::parse(views.student("group-002", "en"));
+    std::size_t extensions = 0;
+    for (const json& work : facts["work"]) extensions += work["extensions"].size();
+    EXPECT_EQ(extensions, 1u);
     EXPECT_ANY_THROW(views.student("Mallory", "en"));
 }
 
@@ -236,7 +240,8 @@ TEST(office_views, answers_are_shown_without_names_and_in_an_order_that_tells_no
     EXPECT_EQ(of(11)["same"], 1);
     std::vector<std::string> order, other;
     for (const json& one : marking["answers"]) order.push_back(one["name"]);
-    for (const json& one : json::parse(views.marking("lab4", "4", "", "en"))["answers"]) other.push_back(one["name"]);
+    const json of_next = json::parse(views.marking("lab4", "4", "", "en"));
+    for (const json& one : of_next["answers"]) other.push_back(one["name"]);
     EXPECT_NE(order, other) << "another order for each question";
     EXPECT_THAT(other, testing::UnorderedElementsAreArray(order));
 }
@@ -267,7 +272,7 @@ TEST(office_views, a_mark_that_was_not_seen_is_not_replaced) {
         course.run({"withdraw", "lab4", name, "--mark", "q3", "--after", std::to_string(second), "--reason", "undo"})
             .exit_code,
         0);
-    EXPECT_TRUE(entry()["points"].is_null());
+    EXPECT_FALSE(entry().contains("points"));
     EXPECT_EQ(course.run({"mark", "lab4", "group-002", "5"}).exit_code, 1) << "the whole needs a reason";
 }
 

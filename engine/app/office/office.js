@@ -21,7 +21,7 @@ function drawViews() {
     button(text, () => show(name), { data: { view: name }, ariaCurrent: name === shownView ? "page" : null })));
 }
 
-export async function show(name) {
+async function show(name) {
   shownView = name;
   history.replaceState(null, "", `#${name}`);
   drawViews();

@@ -70,17 +70,17 @@ void refuse_foreign_file(const std::string& word) {
 }  // namespace
 
 OfficeCommand office_command(const Words& words) {
-    constexpr std::size_t kMostWords = 20, kLongest = 4000;
+    constexpr std::size_t kMaxWords = 20, kMaxBytes = 4000;
     const AllowedCommand* const allowed = command_of(words);
-    if (allowed == nullptr || words.size() > kMostWords)
+    if (allowed == nullptr || words.size() > kMaxWords)
         throw EnvironmentError("this page does not have the command \"{}\"; type it in a terminal",
                                words.size() > 1 ? words[1] : "");
     OfficeCommand command{{}, kProgram};
     Names given;
     for (const std::string& word : words) {
-        if (word.size() > kLongest || word.empty() || terminal_text(word) != word ||
+        if (word.size() > kMaxBytes || word.empty() || terminal_text(word) != word ||
             word.find_first_of("\n\t") != word.npos)
-            throw EnvironmentError("a word of a command has 1 to {} bytes and no control characters", kLongest);
+            throw EnvironmentError("a word of a command has 1 to {} bytes and no control characters", kMaxBytes);
         if (word.starts_with('-')) {
             const std::string name = name_of_option(word);
             if (!allowed->options.contains(name))

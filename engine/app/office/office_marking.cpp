@@ -91,15 +91,22 @@ std::string check_of_question(const std::vector<OfficeCheck>& checks, const std:
     return by_hand.size() == 1 ? by_hand.front() : "";
 }
 
+/// The first one with a check of its own, where there is one.
+std::string first_question(const std::vector<std::string>& questions, const std::vector<OfficeCheck>& checks) {
+    for (const std::string& question : questions)
+        if (std::ranges::find(checks, "q" + question, &OfficeCheck::id) != checks.end()) return question;
+    return questions.front();
+}
+
 /// Reasons of marks of this item, the most used ones first.
 std::vector<OfficeComment> comments_on_item(Course& course, const Assignment& lab, const std::string& item) {
-    constexpr std::size_t kMost = 26;  // the page has a letter for each
+    constexpr std::size_t kMaxComments = 26;  // the page has a letter for each
     std::vector<OfficeComment> comments;
     for (Rows rows = course.database().query(
              "SELECT reason, count(DISTINCT group_id) FROM marks WHERE assignment = ? AND item = ? AND reason <> '' "
              "AND points IS NOT NULL AND pair IS NULL GROUP BY reason ORDER BY 2 DESC, max(id) DESC",
              lab.id, item);
-         rows.next() && comments.size() < kMost;)
+         rows.next() && comments.size() < kMaxComments;)
         comments.push_back({rows.text(0), rows.integer(1)});
     return comments;
 }
@@ -159,8 +166,10 @@ std::string OfficeViews::marking(const std::string& assignment, const std::strin
     const LessonQuestions& lesson = questions_of(lab->lesson);
     for (const int number : lesson.given().questions()) all.questions.push_back(std::to_string(number));
     if (all.questions.empty()) return json_of(all);
-    all.question = std::ranges::find(all.questions, question) != all.questions.end() ? question : all.questions.front();
     all.checks = checks_of_lab(course_, *lab);
+    all.question = std::ranges::find(all.questions, question) != all.questions.end()
+                       ? question
+                       : first_question(all.questions, all.checks);
     all.graded = !all.checks.empty();
     const bool known = std::ranges::find(all.checks, check, &OfficeCheck::id) != all.checks.end();
     all.check = known ? check : check_of_question(all.checks, all.question);

@@ -1,12 +1,12 @@
 // Marking: all answers to one question side by side, without names, by the keyboard alone. A mark is stored by a command that
 // refuses where somebody else has changed it since it was shown here; what was shown is this page's word for "seen".
 import { Lost, ask, command, connected, session } from "./office_session.js";
-import { button, choice, make, shown } from "./office_parts.js";
+import { button, choice, make, shown, textBlocks } from "./office_parts.js";
 import { say } from "./office_words.js";
 
 const kCommentKeys = "abdefghil";
-const kMostDigits = 9;
-const kUsualMost = 5;  // points, where nobody knows the most
+const kMaxDigit = 9;
+const kUsualMax = 5;  // points, where nobody knows the most
 const $ = (id) => document.getElementById(id);
 
 let data = null, at = 0, chosen = {}, cards = [], undone = [], waiting = 0, root = null;
@@ -14,14 +14,15 @@ let data = null, at = 0, chosen = {}, cards = [], undone = [], waiting = 0, root
 let marks = {};
 
 export const unsaved = () => waiting;
+const entryOf = ({ id, points = null, reason = "" }) => ({ id, points, reason });
 const markOf = (name) => marks[name];
 const most = () => data.checks.find((one) => one.id === data.check)?.points ?? null;
 const mayMark = () => data.check !== "" && (!data.graded || data.checks.some((one) => one.id === data.check));
 
 /// [points] of the digits 0, 1, ...
 function rubric() {
-  const full = most() ?? kUsualMost;
-  if (full <= kMostDigits && Number.isInteger(full)) return Array.from({ length: full + 1 }, (_, i) => i);
+  const full = most() ?? kUsualMax;
+  if (full <= kMaxDigit && Number.isInteger(full)) return Array.from({ length: full + 1 }, (_, i) => i);
   const steps = 5;
   return Array.from({ length: steps + 1 }, (_, i) => Math.round(2 * full * i / steps) / 2);
 }
@@ -30,8 +31,8 @@ export async function show(view) {
   root = view;
   data = await ask("marking", chosen);
   chosen = { assignment: data.assignment, question: data.question, check: data.check };
-  marks = Object.fromEntries(data.answers.map((answer) => [answer.name, { ...answer.entry, order: null, trouble: "" }]));
-  at = Math.max(data.answers.findIndex((answer) => answer.entry.points === null), 0);
+  marks = Object.fromEntries(data.answers.map((answer) => [answer.name, { ...entryOf(answer.entry), order: null, trouble: "" }]));
+  at = Math.max(data.answers.findIndex((answer) => markOf(answer.name).points === null), 0);
   draw();
 }
 
@@ -44,9 +45,9 @@ export async function refresh() {
   const current = data.answers[at]?.name, sameChecks = JSON.stringify(fresh.checks) === JSON.stringify(data.checks) && fresh.check === data.check;
   data = fresh;
   for (const { name, entry } of data.answers) {
-    const mark = (marks[name] ??= { ...entry, order: null, trouble: "" });
+    const mark = (marks[name] ??= { ...entryOf(entry), order: null, trouble: "" });
     if (mark.order || mark.id === entry.id) continue;
-    Object.assign(mark, entry, { trouble: say("changed") });
+    Object.assign(mark, entryOf(entry), { trouble: say("changed") });
   }
   if (!sameAnswers || !sameChecks) {
     at = Math.max(data.answers.findIndex((answer) => answer.name === current), 0);
@@ -104,7 +105,7 @@ function drawTools() {
     give(value);
   });
   const comment = make("input", { id: "comment", type: "text", ariaLabel: say("comment"), autocomplete: "off", dir: "auto" });
-  comment.placeholder = `${say("comment")}: ${say("commentAbout")}`;
+  comment.placeholder = say("commentAbout");
   comment.onkeydown = (event) => leaveField(event, () => {});
   return make("div", { id: "tools" }, points, make("div", { className: "field" }, make("kbd", { textContent: "p" }), other),
     make("div", { className: "field long" }, make("kbd", { textContent: "c" }), comment), make("div", { id: "comments" }));
@@ -135,7 +136,7 @@ async function showWhole(i) {
   const { assignment, question } = data, { name, bytes } = data.answers[i], card = cards[i];
   if (new TextEncoder().encode(data.answers[i].text).length >= bytes) return;
   const text = await ask("answer", { assignment, question, name });
-  card.querySelector("pre").textContent = text;
+  card.querySelector("pre").replaceChildren(...textBlocks(text));
   card.querySelector(".whole-text")?.remove();
 }
 
@@ -240,17 +241,18 @@ function drawNow(name) {
 
 const isSame = (entry, { points, reason }) => entry.points === points && entry.reason === (points === null ? "" : reason);
 
+const readEntry = async (assignment, check, name) => entryOf(await ask("entry", { assignment, check, name }));
 /// Runs the command until somebody answers. One whose answer was lost may have run: its entry tells.
 async function ordered(assignment, check, name, wanted, seen) {
   for (let sure = true; ; sure = false) {
     try {
-      const now = sure ? null : await ask("entry", { assignment, check, name });
+      const now = sure ? null : await readEntry(assignment, check, name);
       if (now && now.id !== seen && isSame(now, wanted)) return { ...now, trouble: "" };
       const done = await command(wordsOf(assignment, check, name, wanted, seen));
-      const entry = await ask("entry", { assignment, check, name });
+      const entry = await readEntry(assignment, check, name);
       return { ...entry, trouble: done.code === 0 ? "" : done.words.trim() };
     } catch (error) {
-      if (!(error instanceof Lost)) return { ...await ask("entry", { assignment, check, name }), trouble: error.message };
+      if (!(error instanceof Lost)) return { ...await readEntry(assignment, check, name), trouble: error.message };
       if (session.over) await new Promise(() => {});  // it stays among those that are not stored
       await new Promise((yes) => setTimeout(yes, 300));
       await connected();

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr const char* kOfficeJson = "application/json";
-constexpr std::size_t kLargestTable = std::size_t{64} << 20;
+constexpr std::size_t kMaxUpload = std::size_t{64} << 20;
 constexpr auto kLookAtStore = 150ms;
 
 /// What the page asks to be done.
@@ -95,7 +95,7 @@ void serve_office(const OfficeOptions& options) {
     std::atomic<std::int64_t> answers_read = 0;
     OfficeViews views(options.course, [&] { ++answers_read; });
     const fs::path folder = views.folder();
-    WebServer server({.port = options.port, .largest_body = kLargestTable});
+    WebServer server({.port = options.port, .largest_body = kMaxUpload});
     serve_page_files(server, "office.html");
     serve_views(server, views);
     serve_exchange(server, folder);

@@ -34,9 +34,9 @@ export function shown(value) {
   return typeof value === "number" ? number(String(Number(value.toPrecision(4)))) : "";
 }
 
-/// "2 d 3 h" in the units that all languages of the page have.
+/// "2 d 3 h"
 export function duration(seconds) {
-  const units = [[86400, "d"], [3600, "h"], [60, "min"], [1, "s"]], parts = [];
+  const units = [[86400, say("unitDay")], [3600, "h"], [60, "min"], [1, "s"]], parts = [];
   let rest = Math.abs(seconds);
   for (const [size, unit] of units) {
     if (rest >= size && parts.length < 2) parts.push(`${Math.floor(rest / size)} ${unit}`);
@@ -63,5 +63,19 @@ export function askAndRun(title, fields, words, done = () => {}) {
   return null;
 }
 export const reasonField = (value = "") => ({ name: "reason", label: say("reason"), value });
+const kMaxBlock = 4096;  // letters
+/// A long text in blocks: a browser takes minutes for one word of a million letters.
+export function textBlocks(text) {
+  const blocks = [];
+  for (let from = 0; from < text.length;) {
+    const line = text.lastIndexOf("\n", from + kMaxBlock);
+    let to = from + kMaxBlock >= text.length ? text.length : line > from ? line + 1 : from + kMaxBlock;
+    if (to < text.length && /[\uD800-\uDBFF]/.test(text[to - 1])) --to;  // not within a letter
+    blocks.push(make("span", { className: "block", textContent: text.slice(from, to) }));
+    from = to;
+  }
+  return blocks;
+}
+
 /// A file name of a word.
 export const inFile = (word) => word.replace(/[^\p{L}\p{N}_.-]/gu, "_");

@@ -51,7 +51,7 @@ function drawReview({ criteria }, one) {
   const title = one.points.map((value, i) => `${criteria[i].name}: ${value ?? "–"}`).join("\n");
   const look = { className: `review${one.outlier ? " outlier" : ""}`, ariaPressed: String(keyOf(one) === chosen), title };
   return make("button", { type: "button", onclick: () => { chosen = keyOf(one); refresh(); }, ...look },
-    make("b", { textContent: one.percent === null ? "–" : `${shown(one.percent)} %` }), ` ${one.reviewer}`, make("small", { textContent: stateOf(one) }));
+    make("b", { textContent: one.percent === undefined ? "–" : `${shown(one.percent)} %` }), ` ${one.reviewer}`, make("small", { textContent: stateOf(one) }));
 }
 
 function drawReport(data, report, most) {
@@ -68,7 +68,7 @@ function drawPanel({ criteria, over }, one) {
   const buttons = [
     one.held ? act("free", ({ reason }) => ["withhold", assignment, one.reviewer, ...which, "--end", `--reason=${reason}`])
       : act("hold", ({ reason }) => ["withhold", assignment, one.reviewer, ...which, `--reason=${reason}`]),
-    one.percent !== null && act("dropScore", ({ reason }) => ["scores", assignment, "--drop", one.reviewer, one.report, `--reason=${reason}`]),
+    one.percent !== undefined && act("dropScore", ({ reason }) => ["scores", assignment, "--drop", one.reviewer, one.report, `--reason=${reason}`]),
     over && one.state === "written" && !one.held && act("release", () => ["review", "release", assignment], []),
     one.stopped && act("accept", ({ reason }) => ["review", "release", assignment, `--accept=${one.reviewer}`, `--reason=${reason}`]),
     ["written", "released", "voluntary"].includes(one.state) && act("withdraw", ({ reason }) => ["withdraw", assignment, one.reviewer, ...which, `--reason=${reason}`]),

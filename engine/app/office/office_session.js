@@ -5,7 +5,7 @@ import { language, say } from "./office_words.js";
 
 export class Lost extends Error {}
 export const session = { over: false, lost: false, log: [] };
-const kMostLines = 500;
+const kMaxLines = 500;
 
 async function reached(ask) {
   try {
@@ -54,7 +54,7 @@ let turn = Promise.resolve();
 export function command(words) {
   const entry = { line: `dynlab course ${words.join(" ")}`, code: null, words: "", file: words.find((word) => word.startsWith("--out=exports/"))?.slice(14) };
   session.log.push(entry);
-  session.log.splice(0, session.log.length - kMostLines);
+  session.log.splice(0, session.log.length - kMaxLines);
   tell("log");
   const run = turn.then(async () => {
     try {

@@ -3,7 +3,7 @@ import { ask } from "./office_session.js";
 import { askAndRun, button, duration, make, reasonField, row, shown, table } from "./office_parts.js";
 import { say } from "./office_words.js";
 
-const kMostFound = 12;
+const kMaxFound = 12;
 
 let root = null, people = [], name = "";
 
@@ -22,7 +22,7 @@ export async function show(view) {
   root = view;
   const field = make("input", { id: "search", type: "search", value: name, ariaLabel: say("search"), placeholder: say("search"), autocomplete: "off" });
   const list = make("div", { id: "found" });
-  field.oninput = () => list.replaceChildren(...found(field.value).slice(0, kMostFound).map((one) =>
+  field.oninput = () => list.replaceChildren(...found(field.value).slice(0, kMaxFound).map((one) =>
     button(one.id ? `${one.name || one.id} (${one.id})` : one.name, () => take(one.id || one.name), { className: "link" })));
   field.onkeydown = (event) => {
     if (event.key !== "Enter" || field.value.trim() === "") return;
@@ -68,7 +68,7 @@ function drawWork({ name: assignment, kind, versions, extensions, marks }) {
   const rows = versions.map((one) => row([one.group, `${one.stage} ${one.part} v${one.number}`, one.name, one.received,
     one.withdrawn ? say("withdrawn") : one.trouble || (one.late > 0 ? say("lateBy", duration(one.late)) : say("inTime")),
     String(one.receipt).padStart(5, "0"), make("span", {}, ...actions(assignment, one))]));
-  const told = marks.map((one) => `${one.name}: ${one.missing ? say("nothingMissing") : one.percent !== null ? `${shown(one.percent)} %` : one.open ? say("notMarked") : "–"}`);
+  const told = marks.map((one) => `${one.name}: ${one.missing ? say("nothingMissing") : one.percent !== undefined ? `${shown(one.percent)} %` : one.open ? say("notMarked") : "–"}`);
   return make("section", { className: "panel" }, make("h3", { textContent: `${assignment} (${kind})` }),
     rows.length > 0 ? table([say("group"), say("file"), say("name"), say("received"), say("state"), say("receipt"), ""], rows)
       : make("p", { className: "faint", textContent: say("nothingSubmitted") }),

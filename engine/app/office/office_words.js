@@ -3,7 +3,7 @@ import { addWords, tr, trIn, trPlural } from "./words.js";
 
 addWords({
   views: tr("Views"), language: tr("Language"), commands: tr("Commands"), keys: tr("Keys"), close: tr("Close"), cancel: tr("Cancel"),
-  ended: tr("dynlab has ended. Start dynlab course page again."), reason: tr("Reason"),
+  ended: tr("dynlab has ended. Start dynlab course page again."), reason: tr("Reason"), unitDay: trIn("unit of time", "d"),
   time: tr("Time"), group: tr("Group"), assignment: tr("Assignment"), 
   download: tr("Download {}"), name: tr("Name"), unsaved: trPlural("{} mark is not stored yet", "{} marks are not stored yet"),
 
@@ -13,7 +13,7 @@ addWords({
   noCheck: tr("No check takes marks for this question. Choose one, or add a check with by_hand = true."),
   noWork: tr("Nobody has submitted this lab yet."), beingRead: trPlural("{} submission is being read", "{} submissions are being read"),
   noAnswer_: tr("no answer"), unreadable_: tr("cannot be read: {}"), sameAs: trPlural("the same text in {} other", "the same text in {} others"),
-  whole: tr("Show all ({} kB)"), comment: tr("Comment"), commentAbout: tr("The student reads it"), otherPoints: tr("Other points"),
+  whole: tr("Show all ({} kB)"), comment: tr("Comment"), commentAbout: tr("Comment: the student reads it"), otherPoints: tr("Other points"),
   pointsOf: tr("{} of {}"), noMark: tr("not marked"), changed: tr("was changed elsewhere"), undo: tr("Undo"), showKeys: tr("Keys: ?"),
   rubric: tr("Points"), notGradedYet: tr("The lab is not graded yet: the most points of this check are not known."),
   keyDigits: tr("give these points and go to the next answer"), keyEnter: tr("give all points and go to the next answer"),

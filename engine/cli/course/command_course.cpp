@@ -380,7 +380,7 @@ void add_course(CLI::App& app, Action& action) {
         "  dynlab course status lab4                                  who is late, and what to do\n"
         "  dynlab course grade lab4                                   marks and feedback\n"
         "  dynlab course export -o term.csv                           all marks, and the total\n"
-        "  dynlab course page                                         marking, what is to do, and marks in a browser\n"
+        "  dynlab course page                                         the course in the browser\n"
         "A term in 20 commands: dynlab help guide-instructor\n"
         "Commands that depend on the date take --at TIME, too: they work as if it were that time.\n"
         "More: dynlab help review_marks (how marks come out of scores), dynlab help names (what is searched for)\n"

@@ -269,6 +269,7 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
     given.app->add_option("ASSIGNMENT", given.words->assignment, "Default: all of them, and the weighted total");
     add_time_option(*given.app, given.words->at);
     given.app->add_option("-o,--out", given.words->out, "Printed unless given")->type_name("FILE");
+    given.app->add_flag("--json", given.words->json, "The whole store, for import");
     given.app
         ->add_option("--worksheet", given.words->worksheet,
                      "Moodle's grading worksheet or Canvas's gradebook as downloaded: fill in the marks there")
@@ -278,7 +279,6 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
     given.app->add_option("--column", given.words->column, "The column to fill in, in Canvas, such as \"Lab 4 (1234)\"")
         ->type_name("NAME")
         ->needs("--worksheet");
-    given.app->add_flag("--json", given.words->json, "The whole store, for import");
     given.app->footer(
         "Without an assignment: the percent of each one by student, and the total by the weights of the assignments. "
         "What\n"

@@ -32,15 +32,15 @@ int show_office(OfficeWords words) {
 
 void add_course_page(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<OfficeWords>();
-    CLI::App* command = course.add_subcommand("page", "Mark answers and run the course on a page in the browser");
-    command->add_option("--port", words->options.port, "The port of the page's address (default: any free one)")
+    CLI::App* command = course.add_subcommand("page", "Mark answers and manage the course in the browser");
+    command->add_option("--port", words->options.port, "Port of the page. Default: any free port.")
         ->check(CLI::Range(1, 65535));
-    command->add_flag("--no-browser", words->no_browser, "Only print the address");
+    command->add_flag("--no-browser", words->no_browser, "Print the address and open no browser");
     command->footer(
         "Five views: Marking (all answers to one question, without names, by keyboard), Today (what is missing, late,\n"
-        "unreadable or blocked), Student, Reviews, Marks. Every action is a dynlab course command, which the page\n"
-        "shows; the history records it. Commands in a terminal and several windows work at the same time.\n"
-        "Files for Moodle and Canvas are in exports in the course's folder.\n"
+        "unreadable or blocked), Student, Reviews, Marks. Each action is a dynlab course command: the page shows it and\n"
+        "the history records it. You can use commands in a terminal and several windows at the same time.\n"
+        "The page writes files for Moodle and Canvas into exports in the course's folder.\n"
         "Example:  dynlab course page");
     command->callback([&where, words, &action] {
         action = [&where, words] {
