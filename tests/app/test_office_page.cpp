@@ -318,8 +318,6 @@ TEST_F(office_page, views_of_300_students_come_fast) {
     for (const char* lab : {"lab1", "lab2", "lab3"}) course.add_lab(lab, lined);
     for (const char* report : {"crane", "heat"}) course.add_report(report);
     course.add("talk", "talk");
-    if (const char* keep = std::getenv("OFFICE_KEEP"))
-        std::filesystem::copy(course.folder(), keep, std::filesystem::copy_options::recursive);  // TEMPORARY
     const auto program = course.page();
     Browser browser;
     browser.open(program->address());
@@ -359,46 +357,6 @@ TEST_F(office_page, views_of_300_students_come_fast) {
         std::printf("%-8s %4.0f ms by the server, %4.0f ms from the click to the picture\n", view.c_str(), server,
                     shown);
         EXPECT_LT(shown, 1500) << view << ": 300 ms on a machine that does nothing else";
-    }
-}
-
-TEST_F(office_page, pictures) {  // TEMPORARY
-    const char* keep = std::getenv("OFFICE_KEEP");
-    if (keep == nullptr) GTEST_SKIP();
-    const PageProgram program({"course", "--course", std::string(keep), "page"});
-    std::string address = program.address();
-    int number = 0;
-    for (const int width : {1280, 390}) {
-        for (const bool dark : {false, true}) {
-            Browser browser(width, 900);
-            if (dark) browser.prefer_dark();
-            browser.open(address);
-            for (const std::string language : {"en", "fr"}) {
-                if (dark == (language == "en")) continue;
-                browser.evaluate("const list = document.getElementById('language'); list.value = '" + language +
-                                 "'; list.dispatchEvent(new Event('change'))");
-                for (const char* view : {"marking", "today", "student", "reviews", "marks"}) {
-                    browser.evaluate("document.querySelector('[data-view=" + std::string(view) + "]').click()");
-                    browser.comes("document.querySelector('main').children.length > 0", 5);
-                    if (view == std::string("student"))
-                        browser.evaluate(
-                            "const field = document.getElementById('search'); field.value = 'group-002'; "
-                            "field.dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter'}))");
-                    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-                    browser.photograph("/tmp/shots/" + std::to_string(width) + (dark ? "-dark-" : "-light-") + language +
-                                       "-" + view + ".png");
-                }
-            }
-            PageClient::client_of(PageClient::host_of(address)).Get(address.substr(address.find("/?")));
-            for (int i = 0; i < 500 && number >= 0; ++i) {
-                std::ifstream file(program.out.path() / "address");
-                std::vector<std::string> all;
-                for (std::string line; std::getline(file, line);)
-                    if (line.starts_with("http://")) all.push_back(line);
-                if (all.back() != address) { address = all.back(); break; }
-                std::this_thread::sleep_for(std::chrono::milliseconds(20));
-            }
-        }
     }
 }
 

@@ -135,25 +135,20 @@ std::string OfficeViews::reviews(const std::string& assignment) {
 std::string OfficeViews::marks() {
     const std::lock_guard lock(mutex_);
     const Instant now = CourseClock::now();
-    const std::vector<Assignment> assignments = assignments_of(course_);
+    const CourseTotals totals = course_totals(course_, now);
     OfficeMarks all;
-    std::vector<std::map<std::string, AssignmentMark>> marks;
-    for (const Assignment& a : assignments) {
-        all.assignments.push_back({a.name, a.weight});
-        marks.push_back(marks_of_students(course_, a, now));
-    }
-    for (const Student& student : students_of(course_)) {
+    for (const Assignment& a : totals.assignments) all.assignments.push_back({a.name, a.weight});
+    for (std::size_t i = 0; i < totals.students.size(); ++i) {
+        const Student& student = totals.students[i];
         OfficeMarksRow row{student.id, student.name, student.group, {}, {}, {}};
-        std::vector<AssignmentMark> own;
-        for (auto& of_assignment : marks) {
-            own.push_back(of_assignment[student.id]);
-            row.percent.push_back(own.back().percent);
-            row.state.emplace_back(own.back().missing ? "missing" : own.back().open ? "open" : "");
+        for (const AssignmentMark& own : totals.marks[i]) {
+            row.percent.push_back(own.percent);
+            row.state.emplace_back(own.missing ? "missing" : own.open ? "open" : "");
         }
-        row.total = weighted_total(assignments, own);
+        row.total = weighted_total(totals.assignments, totals.marks[i]);
         all.rows.push_back(std::move(row));
     }
-    const ExportChanges changes = changed_since_export(course_, totals_csv(course_, now));
+    const ExportChanges changes = changed_since_export(course_, totals_csv(totals));
     if (changes.exported) all.exported = shown(*changes.exported);
     for (const ChangedCell& cell : changes.cells)
         all.changes.push_back({cell.name.empty() ? cell.student : cell.name, cell.column, cell.before, cell.now});

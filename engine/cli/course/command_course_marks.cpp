@@ -198,7 +198,7 @@ int export_course(const CourseArguments& where, const MarkArguments& words) {
     std::optional<Assignment> a;
     if (!words.assignment.empty()) a = assignment_named(course, words.assignment);
     if (!words.worksheet.empty()) return fill_in(course, a, words, now);
-    const std::string csv = a ? marks_csv(course, *a, now) : totals_csv(course, now);
+    const std::string csv = a ? marks_csv(course, *a, now) : totals_csv(course_totals(course, now));
     const int code = give_out(csv, words.out);
     if (!words.out.empty()) note_export(course, words.assignment, words.out, a ? "" : csv, now);
     return code;

@@ -130,29 +130,36 @@ ExportChanges changed_since_export(Course& course, const std::string& totals) {
     return changes;
 }
 
-std::string totals_csv(Course& course, Instant now) {
-    const std::vector<Assignment> assignments = assignments_of(course);
+CourseTotals course_totals(Course& course, Instant now) {
+    CourseTotals totals{assignments_of(course), students_of(course), {}};
+    totals.marks.resize(totals.students.size());
+    for (const Assignment& a : totals.assignments) {
+        auto marks = marks_of_students(course, a, now);
+        for (std::size_t i = 0; i < totals.students.size(); ++i)
+            totals.marks[i].push_back(marks[totals.students[i].id]);
+    }
+    return totals;
+}
+
+std::string totals_csv(const CourseTotals& totals) {
     TextTable table;
     table.names = {"id", "name", "mail", "moodle", "canvas", "group"};
-    std::vector<std::map<std::string, AssignmentMark>> marks;
-    for (const Assignment& a : assignments) {
+    for (const Assignment& a : totals.assignments)
         table.names.push_back(fmt::format("{} percent (weight {:g})", a.name, a.weight));
-        marks.push_back(marks_of_students(course, a, now));
-    }
     table.names.insert(table.names.end(), {"total percent", "missing", "not marked yet"});
-    for (const Student& student : students_of(course)) {
+    for (std::size_t k = 0; k < totals.students.size(); ++k) {
+        const Student& student = totals.students[k];
         std::vector<std::string> row = {student.id,     student.name,   student.mail,
                                         student.moodle, student.canvas, student.group};
-        std::vector<AssignmentMark> own;
         std::vector<std::string> missing, open;
-        for (std::size_t i = 0; i < assignments.size(); ++i) {
-            own.push_back(marks[i][student.id]);
-            row.push_back(mark_text(own.back().percent));
-            if (own.back().missing) missing.push_back(assignments[i].name);
-            if (own.back().open) open.push_back(assignments[i].name);
+        for (std::size_t i = 0; i < totals.assignments.size(); ++i) {
+            const AssignmentMark& own = totals.marks[k][i];
+            row.push_back(mark_text(own.percent));
+            if (own.missing) missing.push_back(totals.assignments[i].name);
+            if (own.open) open.push_back(totals.assignments[i].name);
         }
-        row.insert(row.end(), {mark_text(weighted_total(assignments, own)), fmt::format("{}", fmt::join(missing, ", ")),
-                               fmt::format("{}", fmt::join(open, ", "))});
+        row.insert(row.end(), {mark_text(weighted_total(totals.assignments, totals.marks[k])),
+                               fmt::format("{}", fmt::join(missing, ", ")), fmt::format("{}", fmt::join(open, ", "))});
         table.rows.push_back(std::move(row));
     }
     return csv_text(table);

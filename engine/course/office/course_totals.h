@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "course/store/assignments.h"
+#include "course/store/groups.h"
 
 namespace dynlab::inline course {
 
@@ -39,8 +40,16 @@ struct ExportChanges {
 };
 ExportChanges changed_since_export(Course& course, const std::string& totals);
 
+/// The marks of all students for all assignments.
+struct CourseTotals {
+    std::vector<Assignment> assignments;
+    std::vector<Student> students;
+    std::vector<std::vector<AssignmentMark>> marks;  ///< by student, then by assignment
+};
+CourseTotals course_totals(Course& course, Instant now);
+
 /// A row a student: identifiers, group, the percent of each assignment, the total, and what is not marked yet. CSV with
 /// formulas neutralised.
-std::string totals_csv(Course& course, Instant now);
+std::string totals_csv(const CourseTotals& totals);
 
 }  // namespace dynlab::inline course
