@@ -62,13 +62,17 @@ function draw({ people: persons, former, groups, work, history }) {
   return parts;
 }
 
+function percentOf({ missing, percent, open }) {
+  if (missing) return say("nothingMissing");
+  return percent !== undefined ? `${shown(percent)} %` : open ? say("notMarked") : "–";
+}
 const lineOf = ({ at, what }) => make("li", {}, make("time", { textContent: at }), ` ${what}`);
 
 function drawWork({ name: assignment, kind, versions, extensions, marks }) {
   const rows = versions.map((one) => row([one.group, `${one.stage} ${one.part} v${one.number}`, one.name, one.received,
     one.withdrawn ? say("withdrawn") : one.trouble || (one.late > 0 ? say("lateBy", duration(one.late)) : say("inTime")),
     String(one.receipt).padStart(5, "0"), make("span", {}, ...actions(assignment, one))]));
-  const told = marks.map((one) => `${one.name}: ${one.missing ? say("nothingMissing") : one.percent !== undefined ? `${shown(one.percent)} %` : one.open ? say("notMarked") : "–"}`);
+  const told = marks.map((one) => `${one.name}: ${percentOf(one)}`);
   return make("section", { className: "panel" }, make("h3", { textContent: `${assignment} (${kind})` }),
     rows.length > 0 ? table([say("group"), say("file"), say("name"), say("received"), say("state"), say("receipt"), ""], rows)
       : make("p", { className: "faint", textContent: say("nothingSubmitted") }),
