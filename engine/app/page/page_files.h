@@ -4,7 +4,8 @@
 
 namespace dynlab::inline app {
 
-/// A file of our pages as it lies in engine/app/page, or a Lua file of engine/app/workbench: part of the program.
+/// A file of our pages as it lies in engine/app/page or engine/app/office, or a Lua file of engine/app/workbench: part
+/// of the program.
 struct PageFile {
     std::string_view name, text;
 };
