@@ -108,7 +108,7 @@ class OfficeCourse {
             for (const Criterion& criterion : report.criteria) {
                 GivenMark score;
                 score.group = pair.author, score.pair = pair.id, score.version = version, score.item = criterion.name;
-                score.points = reviewer == 1 ? 0 : static_cast<double>(3 + (reviewer + pair.author) % 3);
+                score.points = reviewer == 1 ? 0 : static_cast<double>(4 + (reviewer + pair.author) % 2);
                 scores.push_back(score);
             }
         }

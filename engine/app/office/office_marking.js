@@ -4,7 +4,7 @@ import { Lost, ask, command, connected, session } from "./office_session.js";
 import { button, choice, make, shown, textBlocks } from "./office_parts.js";
 import { say } from "./office_words.js";
 
-const kCommentKeys = "abdefghil";
+const kCommentKeys = "abdefghil", kPointsKey = "p", kWriteKey = "c";
 const kMaxDigit = 9;
 const kUsualMax = 5;  // points, where nobody knows the most
 const $ = (id) => document.getElementById(id);
@@ -107,8 +107,8 @@ function drawTools() {
   const comment = make("input", { id: "comment", type: "text", ariaLabel: say("comment"), autocomplete: "off", dir: "auto" });
   comment.placeholder = say("commentAbout");
   comment.onkeydown = (event) => leaveField(event, () => {});
-  return make("div", { id: "tools" }, points, make("div", { className: "field" }, make("kbd", { textContent: "p" }), other),
-    make("div", { className: "field long" }, make("kbd", { textContent: "c" }), comment), make("div", { id: "comments" }));
+  return make("div", { id: "tools" }, points, make("div", { className: "field" }, make("kbd", { textContent: kPointsKey }), other),
+    make("div", { className: "field long" }, make("kbd", { textContent: kWriteKey }), comment), make("div", { id: "comments" }));
 }
 
 /// Enter and Escape lead from a field back to the answers, whose keys then count again.
@@ -268,8 +268,8 @@ export function key(event) {
   else if (event.key === "Enter" && most() !== null) give(most());
   else if (event.key === "j" || event.key === "ArrowDown" || event.key === "ArrowRight") goTo(at + 1);
   else if (event.key === "k" || event.key === "ArrowUp" || event.key === "ArrowLeft") goTo(at - 1);
-  else if (event.key === "c") $("comment").focus();
-  else if (event.key === "p") $("other-points").focus();
+  else if (event.key === kWriteKey) $("comment").focus();
+  else if (event.key === kPointsKey) $("other-points").focus();
   else if (event.key === "u") undo();
   else if (event.key === "w") showWhole(at);
   else if (event.key === "?") $("keys").showModal();
@@ -279,7 +279,7 @@ export function key(event) {
 }
 
 export function keyList() {
-  const keys = [["0 … 9", "keyDigits"], [say("enter"), "keyEnter"], ["j k ↓ ↑", "keyMove"], ["c", "keyComment"],
-    [[...kCommentKeys].join(" "), "keyLetters"], ["p", "keyPoints"], ["u", "keyUndo"], ["w", "keyWhole"], ["?", "keyHelp"]];
+  const keys = [["0 … 9", "keyDigits"], [say("enter"), "keyEnter"], ["j k ↓ ↑", "keyMove"], [kWriteKey, "keyComment"],
+    [[...kCommentKeys].join(" "), "keyLetters"], [kPointsKey, "keyPoints"], ["u", "keyUndo"], ["w", "keyWhole"], ["?", "keyHelp"]];
   return keys.flatMap(([name, about]) => [make("dt", {}, make("kbd", { textContent: name })), make("dd", { textContent: say(about) })]);
 }
