@@ -16,7 +16,7 @@ struct Alias {
     Words before, now;
 };
 
-/// The one place where old names are known.
+/// Old names of the commands of `dynlab course`.
 const std::vector<Alias>& aliases() {
     static const std::vector<Alias> all = {
         {{"roster", "import"}, {"import"}},
@@ -66,13 +66,20 @@ std::size_t course_command(const Words& words) {
 }  // namespace
 
 std::vector<std::string> with_new_names(std::vector<std::string> words, std::string& note) {
+    const auto tell = [&note](const std::string& before, const std::string& now) {
+        note = message_text(Message("note: dynlab {} is now dynlab {}; the old name works until 2027", before, now));
+    };
+    if (!words.empty() && words.front() == "manual") {
+        words.front() = "site";
+        tell("manual", "site");
+        return words;
+    }
     const auto begin = words.begin() + static_cast<std::ptrdiff_t>(course_command(words));
     for (const auto& [before, now] : aliases()) {
         if (static_cast<std::size_t>(words.end() - begin) < before.size() ||
             !std::equal(before.begin(), before.end(), begin) || is_new_form(before, begin, words.end()))
             continue;
-        note = message_text(Message("note: dynlab course {} is now dynlab course {}; the old name works until 2027",
-                                    fmt::format("{}", fmt::join(before, " ")), fmt::format("{}", fmt::join(now, " "))));
+        tell(fmt::format("course {}", fmt::join(before, " ")), fmt::format("course {}", fmt::join(now, " ")));
         const auto rest = words.erase(begin, begin + static_cast<std::ptrdiff_t>(before.size()));
         words.insert(rest, now.begin(), now.end());
         break;

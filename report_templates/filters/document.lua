@@ -412,14 +412,19 @@ local function division(element)
   return layout:box(element, class)
 end
 
+-- On pages whose script can run again: which value this is.
+local function named_value(name, printed)
+  return slots.names_values and pandoc.Span({ printed }, { class = "value", ["data-name"] = name }) or printed
+end
+
 -- Code in a line, and values: filled where they are checked, so that captions, headings and cells of tables have them.
 local function code(element)
   local attribute = safety.unknown_attribute(element.attributes, {})
   if attribute then report("attribute", attribute, attribute, "code") end
   if element.classes:includes("value") then
     local found = entry("value", element.text, "`" .. element.text .. "`")
-    return found and values.printed(found, layout) or slots.stopped and layout:missing_word(element.text) or
-      shows_gaps and layout:gap() or {}
+    return found and named_value(element.text, values.printed(found, layout)) or
+      slots.stopped and layout:missing_word(element.text) or shows_gaps and layout:gap() or {}
   end
   local bad = safety.unknown_code_class(element.classes, false)
   if bad then report("code-class", "." .. bad, bad, element.text) end
@@ -699,6 +704,7 @@ local function is_unit(word)
 end
 
 local function ends_in_number(element)
+  if element.t == "Span" and element.classes:includes("value") then element = element.content[1] end
   return (element.t == "Str" or element.t == "Math" and element.mathtype == "InlineMath") and element.text:match("%d$") ~= nil
 end
 

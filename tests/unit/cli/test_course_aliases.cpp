@@ -30,13 +30,17 @@ TEST(course_aliases, old_names_become_new_ones_with_a_note) {
     std::string note;
     with_new_names({"course", "override", "crane", "g1", "work", "60"}, note);
     EXPECT_THAT(note, HasSubstr("dynlab course override is now dynlab course mark"));
+    EXPECT_THAT(renamed({"manual", "folder", "--timings"}), ElementsAre("site", "folder", "--timings"));
+    with_new_names({"manual", "folder"}, note);
+    EXPECT_THAT(note, HasSubstr("dynlab manual is now dynlab site"));
 }
 
 // oracle: only the command itself is a name, no file and no group of the same name
 TEST(course_aliases, other_words_stay) {
-    for (const Words& words : {Words{"course", "submit", "receive"}, Words{"course", "extend", "time", "return"},
-                               Words{"grade", "receive"}, Words{"course"}, Words{"course", "peer"}, Words{},
-                               Words{"course", "review", "assign", "crane"}, Words{"run", "course", "release"}})
+    for (const Words& words :
+         {Words{"course", "submit", "receive"}, Words{"course", "extend", "time", "return"}, Words{"grade", "receive"},
+          Words{"course"}, Words{"course", "peer"}, Words{}, Words{"course", "review", "assign", "crane"},
+          Words{"run", "course", "release"}, Words{"help", "manual"}})
         EXPECT_EQ(renamed(words), words);
 }
 
