@@ -46,7 +46,7 @@ void add_site(CLI::App& app, Action& action) {
                 if (words->timings) std::cout << fmt::format("{:6.2f} s  {}\n", seconds, message_text(step, user()));
             const auto first = std::filesystem::absolute(request.folder / "index.html").lexically_normal();
             std::cout << first.string() << '\n';
-            say(Message("{} made", plural(made.pages, "{} page", "{} pages")));
+            say(plural(made.pages, "{} page", "{} pages"));
             if (!request.engine)
                 say(
                     Message("The cells of the lessons do not run: there is no engine for browsers. In the source tree, "

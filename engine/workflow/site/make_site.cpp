@@ -178,7 +178,7 @@ class SiteMaker {
         page.body = "<main>\n" + html + "</main>\n";
         if (const FunctionEntry* const entry = find_function(name)) {
             page.kind = "function", page.area = entry->area, page.about = entry->summary;
-            page.body = with_run_example(page.body);
+            if (runs()) page.body = with_run_example(page.body);
             add_page_code(page, "help_page");
         }
         if (page.kind == "guide") {

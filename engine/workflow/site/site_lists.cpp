@@ -35,7 +35,9 @@ std::string list_of_lessons(const std::vector<SitePage>& pages, const std::strin
     std::string list = "<ol class=\"pages\">\n";
     for (const SitePage& page : pages) {
         if (page.kind != "lesson" || (page.language != language && !page.translation.empty())) continue;
-        const Message remark = page.language == language ? Message() : Message(" (in English)");
+        const Message remark = page.language == language ? Message()
+                               : page.language == "fr"   ? Message(" (in French)")
+                                                         : Message(" (in English)");
         list += item_of(page, root, message_text(remark, {catalog_of(language)}));
     }
     return list + "</ol>\n";
