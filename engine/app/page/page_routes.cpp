@@ -1,5 +1,6 @@
 #include "app/page/page_routes.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <span>
 
@@ -59,6 +60,12 @@ std::string style_of_documents() {
     return read_text(shared_folder() / "report_templates/html/document.css");
 }
 
+/// Whether the workbench can run without a server: engine/web/page has a session for it.
+bool has_session_of_workbench() {
+    return std::ranges::any_of(web_page_files(),
+                               [](const PageFile& file) { return file.name.find("bench") != std::string_view::npos; });
+}
+
 /// The page beside the folder whose files it names.
 std::string with_base(std::string html, const std::string& folder) {
     const std::string head = "<head>\n";
@@ -102,7 +109,7 @@ std::map<std::string, std::string> page_files_of_site() {
             const std::string name(file.name), text(file.text);
             if (name == "sw.js")
                 files[name] = text;
-            else if (name == "workbench.html")
+            else if (name == "workbench.html" && has_session_of_workbench())
                 files["workbench/index.html"] = with_base(text, "../page/");
             else if (!name.ends_with(".lua") && !name.ends_with(".html"))
                 files["page/" + name] = text;

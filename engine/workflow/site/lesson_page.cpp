@@ -175,7 +175,7 @@ std::map<std::string, std::string> numbers_of(const std::vector<Lesson>& lessons
 }
 
 LessonPage LessonPages::make(const Lesson& lesson, const std::string& language, const std::string& number) {
-    ReportRequest request = sheet_of(lesson.slug, {}, language);
+    ReportRequest request = sheet_of(lasting_name(lesson), {}, language);
     const RunRecord record = run_for_page(request, work_folder_ / language / lesson.slug, cache_);
     const PercentScript script = request.script;
     request.script = without_code(std::move(request.script));
