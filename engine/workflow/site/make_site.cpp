@@ -45,7 +45,14 @@ std::string between(const std::string& text, const std::string& begin, const std
 
 class SiteMaker {
   public:
-    explicit SiteMaker(const SiteRequest& request) : request_(request) {}
+    explicit SiteMaker(const SiteRequest& request) : request_(request) {
+        const fs::path shared = shared_folder() / "report_templates/html";
+        const auto has = [&](const char* file) { return request_.engine && request_.page_files.count(file) > 0; };
+        frame_.style = read_file(shared / "document.css") + read_file(shared / "site.css");
+        frame_.runs = request_.engine.has_value();
+        frame_.workbench = has("workbench/index.html");
+        frame_.offline = has("sw.js");
+    }
 
     SiteResult make() {
         check_site_folder(request_.folder);
@@ -114,7 +121,7 @@ class SiteMaker {
             });
     }
 
-    bool runs() const { return request_.engine.has_value(); }
+    bool runs() const { return frame_.runs; }
 
     /// Style and script that let a page run code.
     void add_page_code(SitePage& page, const std::string& name) const {
@@ -207,7 +214,7 @@ class SiteMaker {
         std::vector<SitePage> first;
         std::set<std::string> spoken = {"en"};
         for (const SitePage& page : pages_) spoken.insert(page.language);
-        for (const std::string& language : spoken) first.push_back(course_page(pages_, language, runs()));
+        for (const std::string& language : spoken) first.push_back(course_page(pages_, language, frame_));
         if (first.size() == 2) {
             first[0].translation = first[1].file;
             first[1].translation = first[0].file;
@@ -221,21 +228,26 @@ class SiteMaker {
         const fs::path shared = shared_folder() / "report_templates/html";
         for (const auto& [name, content] : request_.page_files)
             if (runs() || name.starts_with("page/")) files_[name] = content;
-        SiteFrame frame;
-        frame.style = read_file(shared / "document.css") + read_file(shared / "site.css");
-        frame.runs = files_.count("workbench/index.html") > 0;
-        frame.offline = files_.count("sw.js") > 0;
-        for (const SitePage& page : pages_) files_[page.file] = framed_page(page, frame);
+        for (const SitePage& page : pages_) files_[page.file] = framed_page(page, frame_);
         files_["page/search.js"] = search_index(pages_);
         files_["icon.svg"] = read_file(shared / "dynlab.svg");
-        for (const char* file : {"dynlab.js", "dynlab.wasm"})
-            if (runs()) files_[std::string("engine/") + file] = read_file(*request_.engine / file);
+        if (runs()) add_engine();
         files_["manifest.webmanifest"] = web_manifest();
         files_["files.json"] = list_of_files(files_);
         write_site_folder(request_.folder, files_);
     }
 
+    /// The engine with the texts that it fetches, all in one folder. CMake has files of its own there.
+    void add_engine() {
+        for (const auto& entry : fs::directory_iterator(*request_.engine)) {
+            const std::string name = entry.path().filename();
+            if (entry.is_regular_file() && !name.starts_with("CMake") && !name.starts_with("cmake"))
+                files_["engine/" + name] = read_file(entry.path());
+        }
+    }
+
     const SiteRequest& request_;
+    SiteFrame frame_;
     Cache cache_;
     TemporaryFolder work_;
     HelpExamples examples_;

@@ -13,8 +13,9 @@ namespace dynlab::inline workflow {
 
 struct SiteRequest {
     std::filesystem::path folder;
-    std::optional<std::filesystem::path> engine;    ///< folder of dynlab.js and dynlab.wasm; none: no cell runs
-    SiteFiles page_files;                           ///< scripts and styles of the pages, by their place in the site
+    std::optional<std::filesystem::path>
+        engine;            ///< folder of dynlab.js, dynlab.wasm and what they fetch; none: no cell runs
+    SiteFiles page_files;  ///< scripts and styles of the pages, by their place in the site
     std::function<void(const Message&)> step = {};  ///< called with each step as it begins; may be empty
 };
 

@@ -99,7 +99,7 @@ std::vector<ShownFigure> figures_of(const SitePage& page) {
 
 }  // namespace
 
-SitePage course_page(const std::vector<SitePage>& pages, const std::string& language, bool runs) {
+SitePage course_page(const std::vector<SitePage>& pages, const std::string& language, const SiteFrame& site) {
     const Reader reader{catalog_of(language)};
     const auto words = [&](const Message& message) { return html_text(message_text(message, reader)); };
     SitePage frame;
@@ -113,12 +113,13 @@ SitePage course_page(const std::vector<SitePage>& pages, const std::string& lang
     };
     std::string main = fmt::format(
         "<p>{}</p>\n",
-        words(runs ? Message("Open a lesson and run its cells. Everything runs in your browser: there is nothing to "
-                             "install, and your work stays on this device.")
-                   : Message("This site was made without the engine for browsers: lessons show the results of a run, "
-                             "and their cells cannot be run here.")));
+        words(site.runs
+                  ? Message("Open a lesson and run its cells. Everything runs in your browser: there is nothing to "
+                            "install, and your work stays on this device.")
+                  : Message("This site was made without the engine for browsers: lessons show the results of a run, "
+                            "and their cells cannot be run here.")));
     main += part("course", Message("Lessons"), list_of_lessons(pages, language, root));
-    if (runs)
+    if (site.workbench)
         main += part("workbench", Message("Workbench"),
                      "<ul class=\"pages\">\n" +
                          entry("workbench/index.html", Message("Workbench"),

@@ -6,9 +6,8 @@
 namespace dynlab::inline workflow {
 
 /// The first page in a language, index.html or LANGUAGE/index.html: lessons, workbench, demonstrations, guides,
-/// reference. Lessons without a version in the language are listed with the one they have. `runs`: the site has the
-/// engine.
-SitePage course_page(const std::vector<SitePage>& pages, const std::string& language, bool runs);
+/// reference. Lessons without a version in the language are listed with the one they have.
+SitePage course_page(const std::vector<SitePage>& pages, const std::string& language, const SiteFrame& site);
 
 /// All functions by area, with their summaries.
 SitePage functions_page(const std::vector<SitePage>& pages);

@@ -20,10 +20,10 @@ struct BarLink {
     std::string kind;  ///< of the pages below it
 };
 
-std::vector<BarLink> links_of(const std::string& language, bool runs) {
+std::vector<BarLink> links_of(const std::string& language, bool workbench) {
     const std::string own = language == "en" ? "" : language + "/";
     std::vector<BarLink> links = {{own + "index.html", Message("Course"), "lesson"}};
-    if (runs) links.push_back({"workbench/index.html", Message("Workbench"), ""});
+    if (workbench) links.push_back({"workbench/index.html", Message("Workbench"), ""});
     links.insert(links.end(), {{"functions/index.html", Message("Functions"), "function"},
                                {"guides/methods.html", Message("Methods"), ""},
                                {"gallery/index.html", Message("Gallery"), ""}});
@@ -61,13 +61,13 @@ std::string name_of_language(const std::string& code) {
     return code == "fr" ? "Français" : "English";
 }
 
-std::string bar_of(const SitePage& page, bool runs) {
+std::string bar_of(const SitePage& page, bool workbench) {
     const Reader reader{catalog_of(page.language)};
     const auto in_html = [&](const Message& message) { return html_text(message_text(message, reader)); };
     std::string bar = fmt::format("<a class=\"skip\" href=\"#{}\">{}</a>\n<nav class=\"site\" aria-label=\"{}\">\n",
                                   page.kind == "lesson" ? "lesson" : "text", in_html(Message("Skip to the text")),
                                   in_html(Message("Site")));
-    for (const BarLink& link : links_of(page.language, runs)) {
+    for (const BarLink& link : links_of(page.language, workbench)) {
         const bool here = page.file == link.file;
         const bool above = !here && !link.kind.empty() && page.kind == link.kind;
         bar += fmt::format("<a href=\"{}{}\"{}>{}</a>\n", page.root(), link.file,
@@ -215,7 +215,7 @@ std::string framed_page(const SitePage& page, const SiteFrame& frame) {
         "<link rel=\"icon\" href=\"{}icon.svg\">\n<style>\n{}</style>\n{}</head>\n"
         "<body class=\"site {}\">\n{}{}\n{}</body>\n</html>\n",
         page.language, root, frame.offline ? " data-offline" : "", html_text(page.title), root, frame.style, links,
-        page.kind, bar_of(page, frame.runs), body, scripts);
+        page.kind, bar_of(page, frame.workbench), body, scripts);
 }
 
 }  // namespace dynlab::inline workflow

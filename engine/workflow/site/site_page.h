@@ -26,9 +26,10 @@ struct SitePage {
 
 /// What all pages of a site share.
 struct SiteFrame {
-    std::string style;     ///< CSS
-    bool runs = false;     ///< the site has the engine: workbench and running cells
-    bool offline = false;  ///< it has a service worker, sw.js
+    std::string style;       ///< CSS
+    bool runs = false;       ///< the site has the engine: cells run
+    bool workbench = false;  ///< it has workbench/index.html
+    bool offline = false;    ///< it has a service worker, sw.js
 };
 
 /// The files of a folder, by name.
