@@ -11,5 +11,7 @@ struct PageFile {
 };
 
 std::span<const PageFile> page_files();
+/// Those of engine/web/page: what pages need that run the engine in the browser.
+std::span<const PageFile> web_page_files();
 
 }  // namespace dynlab::inline app

@@ -1,4 +1,4 @@
-#include "workflow/manual/manual_folder.h"
+#include "workflow/site/site_folder.h"
 
 #include <algorithm>
 #include <set>
@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kList = "manual-files.txt";
+constexpr const char* kList = "site-files.txt";
 
-/// Names and the hashes that a manual's files may have: two while one is written over another.
+/// Names and the hashes that a site's files may have: two while one is written over another.
 using WrittenBefore = std::map<std::string, std::set<std::string>>;
 
-/// What an older manual wrote. Names that lead out of the folder are none of a manual's.
+/// The files of an older site. Names that lead out of the folder are left out.
 WrittenBefore written_before(const fs::path& folder) {
     WrittenBefore written;
     if (!fs::is_regular_file(folder / kList)) return written;
@@ -37,19 +37,19 @@ WrittenBefore written_before(const fs::path& folder) {
     throw EnvironmentError("{}: {}; give a new or an empty folder; nothing was changed", folder.string(), why);
 }
 
-/// A file in the way that is not as the manual of before wrote it.
+/// Refuses a file of that name that the older site did not write, or that was changed since.
 void check_file(const fs::path& folder, const std::string& name, const WrittenBefore& before) {
     const fs::path file = folder / name;
     if (!fs::exists(fs::symlink_status(file))) return;
     const auto known = before.find(name);
-    if (known == before.end()) refuse(folder, Message("it contains a file {} that is not part of a manual", name));
+    if (known == before.end()) refuse(folder, Message("it contains a file {} that is not part of a site", name));
     if (!fs::is_regular_file(fs::symlink_status(file)) || !known->second.count(sha256_of_file(file)))
-        refuse(folder, Message("{} was changed after the manual was made", name));
+        refuse(folder, Message("{} was changed after the site was made", name));
 }
 
 }  // namespace
 
-void check_manual_folder(const fs::path& folder) {
+void check_site_folder(const fs::path& folder) {
     if (!fs::exists(fs::symlink_status(folder))) return;
     if (!fs::is_directory(folder)) refuse(folder, Message("it is a file"));
     remove_leftover_files(folder);
@@ -58,26 +58,30 @@ void check_manual_folder(const fs::path& folder) {
                     [](const auto& entry) { return entry.is_directory() && !entry.is_symlink(); }))
         return;
     const auto before = written_before(folder);
-    if (before.empty()) refuse(folder, Message("it contains other files than a manual"));
+    if (before.empty()) refuse(folder, Message("it contains other files than a site"));
     for (const auto& [name, hashes] : before) check_file(folder, name, before);
 }
 
-void write_manual_folder(const fs::path& folder, const ManualFiles& files) {
-    check_manual_folder(folder);
+void write_site_folder(const fs::path& folder, const SiteFiles& files) {
+    check_site_folder(folder);
     const WrittenBefore before = written_before(folder);
     std::string list;
     for (const auto& [name, content] : files) {
         check_file(folder, name, before);
         list += sha256_of(content) + "  " + name + "\n";
     }
-    // The list first holds both, so that a run that is ended half way leaves a manual, too.
+    // The list first holds both, so that a run that is ended half way leaves a site, too.
     std::string both = list;
     for (const auto& [name, hashes] : before)
         for (const std::string& hash : hashes) both += hash + "  " + name + "\n";
     fs::create_directories(folder);
     write_file_atomically(folder / kList, both);
-    for (const auto& [name, content] : files) fs::create_directories((folder / name).parent_path());
-    for (const auto& [name, content] : files) write_file_atomically(folder / name, content);
+    std::vector<NewFile> written;
+    for (const auto& [name, content] : files) {
+        fs::create_directories((folder / name).parent_path());
+        written.push_back({folder / name, content});
+    }
+    write_files_atomically(written);
     for (const auto& [name, hashes] : before)
         if (!files.count(name)) fs::remove(folder / name);
     write_file_atomically(folder / kList, list);

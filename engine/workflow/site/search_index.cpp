@@ -1,4 +1,4 @@
-#include "workflow/manual/search_index.h"
+#include "workflow/site/search_index.h"
 
 #include <nlohmann/json.hpp>
 
@@ -40,9 +40,9 @@ std::vector<std::string> words_in_text(const std::string& text) {
     return {words.begin(), words.end()};
 }
 
-std::string search_index(const std::vector<ManualPage>& pages) {
+std::string search_index(const std::vector<SitePage>& pages) {
     nlohmann::json index = nlohmann::json::array();
-    for (const ManualPage& page : pages) {
+    for (const SitePage& page : pages) {
         nlohmann::json headings = nlohmann::json::array();
         for (const auto& [id, text] : headings_in(page.body)) headings.push_back({text, id});
         std::string words = " ";
@@ -51,6 +51,8 @@ std::string search_index(const std::vector<ManualPage>& pages) {
         index.push_back({{"file", page.file},
                          {"title", page.title},
                          {"kind", page.kind},
+                         {"language", page.language},
+                         {"translated", !page.translation.empty()},
                          {"about", page.about},
                          {"headings", headings},
                          {"words", words}});

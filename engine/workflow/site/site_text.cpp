@@ -1,4 +1,4 @@
-#include "workflow/manual/manual_text.h"
+#include "workflow/site/site_text.h"
 
 #include <fmt/format.h>
 #include <re2/re2.h>
@@ -15,7 +15,7 @@
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
 #include "workflow/lesson_catalogue.h"
-#include "workflow/manual/table_columns.h"
+#include "workflow/site/table_columns.h"
 
 namespace dynlab::inline workflow {
 namespace {
@@ -43,7 +43,7 @@ std::string domain_of(TimeDomain domain) {
 }
 
 /// The page behind the others, its headings (of which one is the first) rewritten.
-void append_page(const ManualText& page, MarkdownText& all,
+void append_page(const SiteText& page, MarkdownText& all,
                  const std::function<std::string(const std::string&, bool)>& rewritten) {
     FencedCode code;
     int number = 0;
@@ -115,8 +115,8 @@ MarkdownText headed_guide(const HelpPage& page, const MarkdownText& text) {
 
 }  // namespace
 
-std::vector<ManualText> help_texts(const HelpExamples& examples) {
-    std::vector<ManualText> guides, functions;
+std::vector<SiteText> help_texts(const HelpExamples& examples) {
+    std::vector<SiteText> guides, functions;
     for (const HelpPage& page : help_pages()) {
         const std::string name(page.name);
         const PercentScript& script = examples.pages.at(name);
@@ -129,10 +129,9 @@ std::vector<ManualText> help_texts(const HelpExamples& examples) {
             guides.push_back({name, "Guides", headed_guide(page, text)});
     }
     std::stable_partition(guides.begin(), guides.end(),
-                          [](const ManualText& guide) { return guide.name == "guide-first-hour"; });
-    std::ranges::stable_sort(functions, [](const ManualText& a, const ManualText& b) {
-        return place_of_area(a.part) < place_of_area(b.part);
-    });
+                          [](const SiteText& guide) { return guide.name == "guide-first-hour"; });
+    std::ranges::stable_sort(
+        functions, [](const SiteText& a, const SiteText& b) { return place_of_area(a.part) < place_of_area(b.part); });
     guides.insert(guides.end(), functions.begin(), functions.end());
     return guides;
 }
@@ -149,8 +148,8 @@ std::string beginning_of(std::string_view help_page) {
     return trimmed(text.substr(begin, text.find("\n## ", begin) - begin));
 }
 
-ManualText methods_text() {
-    ManualText methods{"methods", "", {}};
+SiteText methods_text() {
+    SiteText methods{"methods", "", {}};
     std::string text =
         "# Methods\n\nEvery method of dynlab: the model, the assumption about the noise, and the source. The pages of "
         "the functions describe options, results and errors.\n\n";
@@ -170,32 +169,16 @@ ManualText methods_text() {
     return methods;
 }
 
-MarkdownText joined_pages(const std::vector<ManualText>& texts) {
+MarkdownText joined_pages(const std::vector<SiteText>& texts) {
     MarkdownText all;
     std::set<std::string> ids;
-    for (const ManualText& page : texts) {
+    for (const SiteText& page : texts) {
         const std::string page_id = id_of(page.name);
         append_page(page, all, [&](const std::string& heading, bool first) {
             std::string id = first ? page_id : page_id + "-" + id_of(heading);
             for (int further = 2; !ids.insert(id).second; ++further)
                 id = fmt::format("{}-{}-{}", page_id, id_of(heading), further);
             return heading + " {#" + id + "}";
-        });
-    }
-    return all;
-}
-
-MarkdownText joined_chapters(const std::vector<ManualText>& texts) {
-    MarkdownText all;
-    std::string part;
-    for (const ManualText& page : texts) {
-        if (page.part != part && !page.part.empty())
-            all.append(fmt::format("# {}\n\n", with_capital(page.part)), "manual", 1);
-        part = page.part;
-        append_page(page, all, [&](const std::string& heading, bool first) {
-            if (page.part.empty()) return heading;
-            return first ? fmt::format("#{} {{#page-{}}}", heading, id_of(page.name))
-                         : "**" + trimmed(heading.substr(heading.find(' '))) + "**";
         });
     }
     return all;

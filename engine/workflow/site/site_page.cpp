@@ -1,23 +1,34 @@
-#include "workflow/manual/manual_page.h"
+#include "workflow/site/site_page.h"
 
 #include <fmt/format.h>
 #include <sodium.h>
 
 #include <set>
 
+#include "base/languages.h"
+#include "base/reader.h"
 #include "documents/text_lines.h"
 #include "platform/hash.h"
 
 namespace dynlab::inline workflow {
 namespace {
 
-struct Room {
-    const char *file, *name, *kind;
+/// A link of the bar.
+struct BarLink {
+    std::string file;
+    Message name;
+    std::string kind;  ///< of the pages below it
 };
-constexpr Room kRooms[] = {{"index.html", "Contents", ""},
-                           {"functions.html", "Functions", "function"},
-                           {"methods.html", "Methods", ""},
-                           {"gallery.html", "Gallery", ""}};
+
+std::vector<BarLink> links_of(const std::string& language, bool workbench) {
+    const std::string own = language == "en" ? "" : language + "/";
+    std::vector<BarLink> links = {{own + "index.html", Message("Course"), "lesson"}};
+    if (workbench) links.push_back({"workbench/index.html", Message("Workbench"), ""});
+    links.insert(links.end(), {{"functions/index.html", Message("Functions"), "function"},
+                               {"guides/methods.html", Message("Methods"), ""},
+                               {"gallery/index.html", Message("Gallery"), ""}});
+    return links;
+}
 
 std::string bytes_of_base64(std::string_view text) {
     std::string bytes(text.size(), '\0');
@@ -45,19 +56,42 @@ bool stands_in_a_line(const std::string& html, std::size_t open) {
     return kInLines.count(html.substr(name, html.find_first_of(" />", name) - name)) > 0;
 }
 
-std::string bar_of(const ManualPage& page) {
-    std::string bar = "<a class=\"skip\" href=\"#text\">To the text</a>\n<nav class=\"site\" aria-label=\"Manual\">\n";
-    for (const Room& room : kRooms) {
-        const bool here = page.file == room.file;
-        const bool above = !here && *room.kind && page.kind == room.kind;
-        bar += fmt::format("<a href=\"{}\"{}>{}</a>\n", room.file, here || above ? " class=\"here\"" : "", room.name);
+/// The name of a language, in that language.
+std::string name_of_language(const std::string& code) {
+    return code == "fr" ? "Français" : "English";
+}
+
+std::string bar_of(const SitePage& page, bool workbench) {
+    const Reader reader{catalog_of(page.language)};
+    const auto in_html = [&](const Message& message) { return html_text(message_text(message, reader)); };
+    std::string bar = fmt::format("<a class=\"skip\" href=\"#{}\">{}</a>\n<nav class=\"site\" aria-label=\"{}\">\n",
+                                  page.kind == "lesson" ? "lesson" : "text", in_html(Message("Skip to the text")),
+                                  in_html(Message("Site")));
+    for (const BarLink& link : links_of(page.language, workbench)) {
+        const bool here = page.file == link.file;
+        const bool above = !here && !link.kind.empty() && page.kind == link.kind;
+        bar += fmt::format("<a href=\"{}{}\"{}>{}</a>\n", page.root(), link.file,
+                           here || above ? " class=\"here\"" : "", in_html(link.name));
     }
-    return bar +
-           "<form role=\"search\"><input id=\"search\" type=\"search\" placeholder=\"Search ( / )\" "
-           "aria-label=\"Search the manual\" autocomplete=\"off\"><ol id=\"found\" hidden></ol></form>\n</nav>\n";
+    if (!page.translation.empty()) {
+        const std::string other = page.language == "en" ? "fr" : "en";
+        bar += fmt::format("<a href=\"{}{}\" lang=\"{}\" hreflang=\"{}\">{}</a>\n", page.root(), page.translation,
+                           other, other, name_of_language(other));
+    }
+    return bar + fmt::format(
+                     "<form role=\"search\"><input id=\"search\" type=\"search\" placeholder=\"{}\" "
+                     "aria-label=\"{}\" autocomplete=\"off\"><ol id=\"found\" hidden></ol></form>\n</nav>\n",
+                     in_html(Message("Search ( / )")), in_html(Message("Search the site")));
 }
 
 }  // namespace
+
+std::string SitePage::root() const {
+    std::string way;
+    for (const char c : file)
+        if (c == '/') way += "../";
+    return way;
+}
 
 std::string html_text(std::string_view text) {
     std::string html;
@@ -113,7 +147,7 @@ std::vector<std::pair<std::string, std::string>> headings_in(const std::string& 
     return headings;
 }
 
-std::string with_pictures_apart(const std::string& html, ManualFiles& files) {
+std::string with_pictures_apart(const std::string& html, const std::string& root, SiteFiles& files) {
     static const std::map<std::string, std::string> endings = {
         {"image/svg+xml", ".svg"}, {"image/png", ".png"}, {"image/jpeg", ".jpg"}};
     const std::string sign = "src=\"data:";
@@ -131,27 +165,27 @@ std::string with_pictures_apart(const std::string& html, ManualFiles& files) {
         const std::string bytes = bytes_of_base64(std::string_view(html).substr(comma + 8, end - comma - 8));
         const std::string file = "pictures/" + digest_of(bytes).hex() + ending->second;
         files.emplace(file, bytes);
-        result += "src=\"" + file;
+        result += "loading=\"lazy\" src=\"" + root + file;
     }
     return result.append(html, at);
 }
 
-std::string with_links_to_pages(const std::string& html, const std::map<std::string, std::string>& pages,
-                                const std::string& own) {
+std::string with_links_to_pages(const SitePage& page, const std::map<std::string, std::string>& pages) {
+    const std::string& html = page.body;
     const std::size_t choices = html.find("class=\"choice");
     const std::string open = "<code>", close = "</code>";
     std::string result;
     std::size_t at = 0;
     for (std::size_t next; (next = html.find(open, at)) < choices;) {
         const std::size_t begin = next + open.size(), end = html.find(close, begin);
-        const auto page = pages.find(subject_of_code(html.substr(begin, end - begin)));
+        const auto other = pages.find(subject_of_code(html.substr(begin, end - begin)));
         const std::string before = html.substr(next < 64 ? 0 : next - 64, std::min<std::size_t>(next, 64));
         const bool within = before.ends_with("<pre>") || before.ends_with("class=\"output\">") ||
                             before.ends_with("class=\"error\">") || before.rfind("<a ") != std::string::npos;
-        const bool leads = page != pages.end() && page->second != own && !within;
+        const bool leads = other != pages.end() && other->second != page.file && !within;
         const std::size_t after = end + close.size();
         result.append(html, at, next - at);
-        if (leads) result += "<a href=\"" + page->second + "\">";
+        if (leads) result += "<a href=\"" + page.root() + other->second + "\">";
         result.append(html, next, after - next);
         if (leads) result += "</a>";
         at = after;
@@ -159,19 +193,29 @@ std::string with_links_to_pages(const std::string& html, const std::map<std::str
     return result.append(html, at);
 }
 
-std::string framed_page(const ManualPage& page, const std::string& style) {
-    std::string body = page.body;
+std::string framed_page(const SitePage& page, const SiteFrame& frame) {
+    std::string body = page.body, links, scripts;
     const std::size_t main = body.find("<main>");
     if (main != std::string::npos) body.replace(main, 6, "<main id=\"text\">");
+    const std::string root = page.root();
+    for (const std::string& style : page.styles)
+        links += fmt::format("<link rel=\"stylesheet\" href=\"{}{}\">\n", root, style);
+    if (frame.offline) links += fmt::format("<link rel=\"manifest\" href=\"{}manifest.webmanifest\">\n", root);
+    for (const char* script : {"catalogs", "plot", "document", "site"})
+        scripts += fmt::format("<script src=\"{}page/{}.js\"></script>\n", root, script);
+    for (const std::string& module : page.modules)
+        scripts += fmt::format("<script src=\"{}{}\" type=\"module\"></script>\n", root, module);
     return fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' file:; img-src "
-        "'self' file: data:; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
+        "<!DOCTYPE html>\n<html lang=\"{}\" data-root=\"{}\"{}>\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'self' file: "
+        "'wasm-unsafe-eval'; connect-src 'self'; worker-src 'self'; manifest-src 'self'; img-src 'self' file: data: "
+        "blob:; style-src 'self' file: 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<meta name=\"generator\" content=\"dynlab\">\n<title>{} – dynlab</title>\n<style>\n{}</style>\n</head>\n"
-        "<body class=\"manual\">\n{}{}\n<script src=\"document.js\"></script>\n<script "
-        "src=\"manual.js\"></script>\n</body>\n</html>\n",
-        html_text(page.title), style, bar_of(page), body);
+        "<meta name=\"generator\" content=\"dynlab\">\n<title>{} – dynlab</title>\n"
+        "<link rel=\"icon\" href=\"{}icon.svg\">\n<style>\n{}</style>\n{}</head>\n"
+        "<body class=\"site {}\">\n{}{}\n{}</body>\n</html>\n",
+        page.language, root, frame.offline ? " data-offline" : "", html_text(page.title), root, frame.style, links,
+        page.kind, bar_of(page, frame.workbench), body, scripts);
 }
 
 }  // namespace dynlab::inline workflow

@@ -4,24 +4,24 @@
 
 #include "documents/weave.h"
 #include "scripting/runtime/help.h"
-#include "workflow/manual/help_examples.h"
+#include "workflow/site/help_examples.h"
 
 namespace dynlab::inline workflow {
 
 /// A page of Markdown that is set together with others: it begins with a heading of the first level.
-struct ManualText {
+struct SiteText {
     std::string name;  ///< "srivc", "guide-first-hour", "methods"
-    std::string part;  ///< of a document of all pages: "Guides", the area of a function; empty: a part by itself
+    std::string part;  ///< "Guides", the area of a function; else empty
     MarkdownText markdown;
 };
 
 /// The help pages woven with what their examples gave: guides (the first hour first), headed by what they
 /// are about, then functions by area.
-std::vector<ManualText> help_texts(const HelpExamples& examples);
+std::vector<SiteText> help_texts(const HelpExamples& examples);
 
 /// Every method with what it fits, its assumptions and its literature, from the catalogue of methods, and with what its
 /// help page says of it before the arguments.
-ManualText methods_text();
+SiteText methods_text();
 
 /// What a page that is no function's is about, as a title: "The first hour" for "guide: the first hour"; its name where
 /// it says nothing of the kind.
@@ -32,9 +32,6 @@ std::string beginning_of(std::string_view help_page);
 
 /// All pages as one text, in which every heading has an id that begins with its page's name ("srivc",
 /// "srivc-returns").
-MarkdownText joined_pages(const std::vector<ManualText>& texts);
-/// The same for paper: a heading for each part, below it those of the pages; their own become bold
-/// lines.
-MarkdownText joined_chapters(const std::vector<ManualText>& texts);
+MarkdownText joined_pages(const std::vector<SiteText>& texts);
 
 }  // namespace dynlab::inline workflow

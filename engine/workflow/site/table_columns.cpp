@@ -1,4 +1,4 @@
-#include "workflow/manual/table_columns.h"
+#include "workflow/site/table_columns.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-// The manual as it lies in a folder: made once by the program, then read as files, by tidy and in a browser. Oracles:
-// the sources of lessons, help pages and the catalogue of methods, HTML's rules (tidy), runs of the examples by hand.
+// The pages of a site: made once by the program, then read as files, by tidy and in a browser. Oracles: help pages, the
+// catalogue of methods, HTML's rules (tidy), runs of the examples by hand.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,33 +8,26 @@
 #include <regex>
 #include <set>
 
+#include "app/made_site.h"
 #include "numerics/estimators/catalogue.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "support/browser.h"
 #include "support/program.h"
-#include "workflow/manual/manual_folder.h"
-#include "workflow/manual/manual_page.h"
-#include "workflow/manual/search_index.h"
-#include "workflow/manual/table_columns.h"
+#include "workflow/site/search_index.h"
+#include "workflow/site/site_folder.h"
+#include "workflow/site/site_page.h"
+#include "workflow/site/table_columns.h"
 
 namespace dynlab::test {
-namespace test_manual {
+namespace test_site {
 using nlohmann::json;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
-namespace fs = std::filesystem;
 
 const fs::path kSource = DYNLAB_SOURCE_DIR;
-
-std::map<std::string, std::string> pages_in(const fs::path& folder) {
-    std::map<std::string, std::string> pages;
-    for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.path().extension() == ".html") pages[entry.path().filename()] = read_file(entry.path());
-    return pages;
-}
 
 /// Without what is between `begin` and `end`; pages are too long for regular expressions.
 std::string without(const std::string& html, const std::string& begin, const std::string& end) {
@@ -43,16 +36,6 @@ std::string without(const std::string& html, const std::string& begin, const std
     for (std::size_t open; (open = html.find(begin, at)) != std::string::npos; at = html.find(end, open) + end.size())
         rest.append(html, at, open - at);
     return rest.append(html, at);
-}
-
-std::vector<std::string> attributes(const std::string& html, const std::string& name) {
-    std::vector<std::string> values;
-    const std::string sign = " " + name + "=\"";
-    for (std::size_t at = 0; (at = html.find(sign, at)) != std::string::npos;) {
-        at += sign.size();
-        values.push_back(html.substr(at, html.find('"', at) - at));
-    }
-    return values;
 }
 
 /// Letters and digits alone, so that marks of Markdown and HTML make no difference.
@@ -77,56 +60,13 @@ std::string bare_text_of(std::string html) {
     return bare(text);
 }
 
-void check_links(const fs::path& site, const std::map<std::string, std::string>& pages) {
-    std::map<std::string, std::set<std::string>> ids;
-    for (const auto& [file, html] : pages)
-        for (const std::string& id : attributes(html, "id"))
-            EXPECT_TRUE(ids[file].insert(id).second) << file << " has " << id << " twice";
-    std::size_t links = 0;
-    for (const auto& [file, html] : pages) {
-        for (const std::string& source : attributes(html, "src")) {
-            EXPECT_TRUE(fs::exists(site / source)) << file << ": " << source;
-        }
-        for (const std::string& link : attributes(html, "href")) {
-            if (link.starts_with("http") || link.starts_with("mailto:")) continue;
-            const std::string target = link.substr(0, link.find('#'));
-            EXPECT_TRUE(target.empty() || fs::exists(site / target)) << file << ": " << link;
-            if (link.find('#') == std::string::npos) continue;
-            EXPECT_TRUE(ids[target.empty() ? file : target].count(link.substr(link.find('#') + 1)))
-                << file << ": " << link;
-            ++links;
-        }
-    }
-    EXPECT_GT(links, 50u);
-}
-
 /// tidy does not know foreignObject, in which SVG holds HTML and formulas.
 void check_validity(const Workbench& bench, const std::map<std::string, std::string>& pages) {
     for (const auto& [file, html] : pages)
-        bench.write("tidy/" + file, without(html, "<foreignObject", "</foreignObject>"));
+        bench.write("tidy/" + std::regex_replace(file, std::regex("/"), "+"),
+                    without(html, "<foreignObject", "</foreignObject>"));
     EXPECT_EQ(bench.shell("cd tidy && for f in *.html; do tidy -e -q \"$f\" 2>&1 | sed \"s/^/$f: /\"; done").output,
               "");
-}
-
-/// A lesson's lines, those of its worked solution apart.
-struct LessonLines {
-    std::vector<std::string> solution;
-    std::string open;
-};
-
-LessonLines lines_of_lesson(const std::string& script) {
-    LessonLines lines;
-    bool solution = false;
-    std::istringstream stream(script);
-    for (std::string line; std::getline(stream, line);) {
-        if (line.find("-- BEGIN SOLUTION") != std::string::npos) solution = true;
-        if (!solution || line.find("STARTER:") != std::string::npos)
-            lines.open += bare(line);
-        else
-            lines.solution.push_back(bare(line));
-        if (line.find("-- END SOLUTION") != std::string::npos) solution = false;
-    }
-    return lines;
 }
 
 /// Captions are typeset.
@@ -143,47 +83,10 @@ std::string without_captions(std::string html) {
 // Help pages are read in terminals, too: a power is written x^2. Two of them in a line would be Pandoc's raised text.
 void check_powers_stay(const std::map<std::string, std::string>& pages) {
     for (const auto& [file, page] : pages) {
-        if (!file.starts_with("help-")) continue;
+        if (!file.starts_with("functions/") || file == "functions/index.html") continue;
         const std::string html = without_captions(page);
         EXPECT_THAT(html, testing::AllOf(Not(HasSubstr("<sup>")), Not(HasSubstr("<sub>")))) << file;
     }
-}
-
-void check_no_solutions(const std::map<std::string, std::string>& pages) {
-    std::string all;
-    for (const auto& [file, html] : pages)
-        if (file.starts_with("lesson-") || file == "gallery.html") all += bare_text_of(html) + " ";
-    std::size_t searched = 0;
-    std::map<fs::path, LessonLines> lessons;
-    std::string open;  // to all readers of any lesson or demonstration
-    for (const auto& entry : fs::recursive_directory_iterator(kSource / "lessons")) {
-        const std::string name = entry.path().filename();
-        if (name == "lesson.lua") lessons[entry.path().parent_path()] = lines_of_lesson(read_file(entry.path()));
-        if (name == "lesson.lua") open += lessons[entry.path().parent_path()].open;
-        if (entry.path().parent_path().filename() == "demos") open += bare(read_file(entry.path()));
-    }
-    for (const auto& [folder, lines] : lessons) {
-        const std::string name = folder.filename();
-        ASSERT_TRUE(pages.count("lesson-" + name + ".html")) << name;
-        for (const std::string& line : lines.solution) {
-            if (line.size() < 30 || open.find(line) != std::string::npos) continue;
-            EXPECT_EQ(all.find(line), std::string::npos) << name << ": " << line;
-            ++searched;
-        }
-        // What is not for readers of the lesson: its hints, checks, mistakes, model answers.
-        for (const auto& other : fs::directory_iterator(folder)) {
-            const std::string file = other.path().filename();
-            if (file != "hints.md" && file != "talk.md" && file != "checks.lua" && file != "report.en.md") continue;
-            std::istringstream stream(read_file(other.path()));
-            const std::string lesson = bare(read_file(folder / "lesson.lua"));
-            for (std::string line; std::getline(stream, line);) {
-                const std::string words = bare(line);
-                if (words.size() <= 50 || lesson.find(words) != std::string::npos) continue;
-                EXPECT_EQ(all.find(words), std::string::npos) << name << "/" << file << ": " << line;
-            }
-        }
-    }
-    EXPECT_GT(searched, 300u);
 }
 
 /// The text of the only <pre class="output"> of a page.
@@ -197,7 +100,7 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     int shown = 0;
     for (const auto& entry : fs::directory_iterator(kSource / "engine/scripting/reference")) {
         if (entry.path().extension() != ".md") continue;
-        const auto page = pages.find("help-" + entry.path().stem().string() + ".html");
+        const auto page = pages.find("functions/" + entry.path().stem().string() + ".html");
         ASSERT_NE(page, pages.end()) << entry.path();
         shown += page->second.find("<pre class=\"output\">") != std::string::npos ||
                  page->second.find("<figure") != std::string::npos;
@@ -205,22 +108,22 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     EXPECT_GT(shown, 155);
     for (const auto& entry : fs::directory_iterator(kSource / "engine/scripting/reference/guides")) {
         const std::string name = entry.path().stem();
-        EXPECT_TRUE(pages.count((name.starts_with("guide-") ? name : "help-" + name) + ".html")) << name;
+        EXPECT_TRUE(pages.count("guides/" + name + ".html")) << name;
     }
     const std::string page = read_file(kSource / "engine/scripting/reference/load.md");
     const std::size_t code = page.find("```lua\n") + 7;
     bench.write("example.lua", page.substr(code, page.find("\n```", code) - code) + "\n");
     const std::string printed = bench.dynlab({"run", "example.lua"}).output;
     EXPECT_THAT(printed, HasSubstr("1896"));
-    EXPECT_EQ(bare(output_on(pages.at("help-load.html"))), bare(printed));
+    EXPECT_EQ(bare(output_on(pages.at("functions/load.html"))), bare(printed));
     for (const MethodEntry& method : method_catalogue())
-        EXPECT_THAT(bare_text_of(pages.at("methods.html")), HasSubstr(bare(method.reference))) << method.file;
-    EXPECT_THAT(bare_text_of(pages.at("methods.html")), HasSubstr(bare("taught in: 06_physics")));
-    EXPECT_GT(attributes(pages.at("gallery.html"), "src").size(), 60u);
+        EXPECT_THAT(bare_text_of(pages.at("guides/methods.html")), HasSubstr(bare(method.reference))) << method.file;
+    EXPECT_THAT(bare_text_of(pages.at("guides/methods.html")), HasSubstr(bare("taught in: 06_physics")));
+    EXPECT_GT(attributes(pages.at("gallery/index.html"), "src").size(), 60u);
     // Formulas in captions stay formulas.
-    EXPECT_THAT(pages.at("gallery.html"), HasSubstr("<math"));
+    EXPECT_THAT(pages.at("gallery/index.html"), HasSubstr("<math"));
     const std::string& contents = pages.at("index.html");
-    EXPECT_LT(contents.find("lesson-03_workflow.html"), contents.find("lesson-03_crane.html"));
+    EXPECT_LT(contents.find("lessons/03_workflow/"), contents.find("lessons/03_crane/"));
 }
 
 class Reader {
@@ -249,13 +152,13 @@ class Reader {
 void check_search(Reader& reader) {
     reader.open("index.html");
     reader.begin_search();
-    EXPECT_EQ(reader.found("srivc").at(0), "help-srivc.html");
-    EXPECT_EQ(reader.found("tfsr").at(0), "help-tfsrivc.html");
-    EXPECT_EQ(reader.found("report.value").at(0), "help-report.value.html");
-    EXPECT_EQ(reader.found("Peer REVIEW").at(0), "guide-peer-review.html");
-    EXPECT_THAT(reader.found("olympic games"), Contains(HasSubstr("lesson-02_least_squares.html")));
-    EXPECT_THAT(reader.found("trolley crane").at(0), HasSubstr("lesson-03_crane.html"));
-    EXPECT_THAT(reader.found("isolation sandbox"), Contains(HasSubstr("guide-instructor.html")));
+    EXPECT_EQ(reader.found("srivc").at(0), "functions/srivc.html");
+    EXPECT_EQ(reader.found("tfsr").at(0), "functions/tfsrivc.html");
+    EXPECT_EQ(reader.found("report.value").at(0), "functions/report.value.html");
+    EXPECT_EQ(reader.found("Peer REVIEW").at(0), "guides/guide-peer-review.html");
+    EXPECT_THAT(reader.found("olympic games"), Contains(HasSubstr("lessons/02/index.html")));
+    EXPECT_THAT(reader.found("trolley crane").at(0), HasSubstr("lessons/03_crane/index.html"));
+    EXPECT_THAT(reader.found("isolation sandbox"), Contains(HasSubstr("guides/guide-instructor.html")));
     EXPECT_THAT(reader.found("zzyzx"), testing::IsEmpty());
     EXPECT_THAT(reader.found("..."), testing::IsEmpty());
     // By hand: the key that leads to the field, the list, the way to the page.
@@ -267,7 +170,7 @@ void check_search(Reader& reader) {
     ASSERT_TRUE(reader.browser().comes("document.querySelectorAll('#found a').length > 2"));
     EXPECT_THAT(reader.value("document.querySelector('#found a').innerText").get<std::string>(), HasSubstr("Function"));
     reader.browser().evaluate("document.getElementById('search').form.requestSubmit()");
-    EXPECT_TRUE(reader.browser().comes("location.href.endsWith('help-bode.html')"));
+    EXPECT_TRUE(reader.browser().comes("location.href.endsWith('functions/bode.html')"));
 }
 
 void check_pages_in_browser(Reader& reader) {
@@ -277,9 +180,9 @@ void check_pages_in_browser(Reader& reader) {
     reader.browser().click("nav.site .theme");
     EXPECT_NE(reader.value("getComputedStyle(document.body).backgroundColor"), "rgb(255, 255, 255)");
     reader.browser().click("nav.site .theme");
-    for (const char* file :
-         {"index.html", "functions.html", "methods.html", "gallery.html", "lesson-04_estimators.html",
-          "demo-delays.html", "guide-commands.html", "help-srivc.html"}) {
+    for (const char* file : {"index.html", "functions/index.html", "guides/methods.html", "gallery/index.html",
+                             "lessons/04/index.html", "fr/index.html", "fr/lessons/06/index.html",
+                             "demonstrations/delays.html", "guides/guide-commands.html", "functions/srivc.html"}) {
         for (const int width : {400, 800, 1280}) {
             reader.browser().devtools("Emulation.setDeviceMetricsOverride",
                                       fmt::format("{{\"width\": {}, \"height\": 900, \"deviceScaleFactor\": 1, "
@@ -292,77 +195,83 @@ void check_pages_in_browser(Reader& reader) {
     }
 }
 
-TEST(manual, is_whole_valid_and_found_by_words) {
-    const Workbench bench(Workbench::Memory::kShared);
-    const ChildResult made = bench.dynlab({"manual", "site"});
-    ASSERT_EQ(made.exit_code, 0) << made.error_output;
-    EXPECT_THAT(made.output, HasSubstr(bench.path("site/index.html").string()));
-    const fs::path site = bench.path("site");
-    const auto pages = pages_in(site);
-    EXPECT_GT(pages.size(), 190u);
-    check_links(site, pages);
-    check_validity(bench, pages);
-    check_no_solutions(pages);
-    check_powers_stay(pages);
-    check_examples(bench, pages);
-    Reader reader(site);
+TEST(site, pages_are_valid_and_found_by_words) {
+    const MadeSite& site = made_site();
+    ASSERT_EQ(site.made.exit_code, 0) << site.made.error_output;
+    EXPECT_THAT(site.made.output, HasSubstr(site.bench.path("site/index.html").string()));
+    EXPECT_GT(site.pages.size(), 190u);
+    check_validity(site.bench, site.pages);
+    check_powers_stay(site.pages);
+    check_examples(site.bench, site.pages);
+    Reader reader(site.folder);
     check_search(reader);
     check_pages_in_browser(reader);
-    const std::string paper = bench.shell("pdftotext -raw site/manual.pdf -").output;
-    for (const char* words : {"The first hour", "simplified refined instrumental-variable", "Young and Jakeman (1980)"})
-        EXPECT_THAT(paper, HasSubstr(words));
 }
 
-TEST(manual, refuses_folders_with_other_things_at_once) {
+TEST(site, refuses_wrong_folders_at_once) {
     const Workbench bench;
     bench.write("thesis/chapter.tex", "years of work");
     bench.write("file", "text");
     for (const char* folder : {"thesis", "file"}) {
-        const ChildResult refused = bench.dynlab({"manual", folder});
+        const ChildResult refused = bench.dynlab({"site", folder});
         EXPECT_EQ(refused.exit_code, 1);
         EXPECT_THAT(refused.error_output, HasSubstr("give a new or an empty folder; nothing was changed"));
     }
     EXPECT_EQ(bench.read("thesis/chapter.tex"), "years of work");
-    EXPECT_EQ(bench.dynlab({"manual"}).exit_code, 2);
+    const ChildResult lacks = bench.dynlab({"site", "new", "--engine", "thesis"});
+    EXPECT_EQ(lacks.exit_code, 1);
+    EXPECT_THAT(lacks.error_output, HasSubstr("thesis has no dynlab.js"));
+    EXPECT_FALSE(fs::exists(bench.path("new")));
+    EXPECT_EQ(bench.dynlab({"site"}).exit_code, 2);
+    const ChildResult old_name = bench.dynlab({"manual", "thesis"});
+    EXPECT_EQ(old_name.exit_code, 1);
+    EXPECT_THAT(old_name.error_output, HasSubstr("dynlab manual is now dynlab site"));
 }
 
-TEST(manual, replaces_its_own_files_alone) {
+TEST(site, replaces_its_own_files_alone) {
     const TemporaryFolder folder;
     const fs::path site = folder.path() / "site";
     fs::create_directories(site / "pictures");  // as a run leaves it that was killed before it wrote a file
-    write_manual_folder(site, {{"index.html", "one"}, {"old.html", "old"}, {"pictures/a.svg", "picture"}});
+    write_site_folder(site, {{"index.html", "one"}, {"old.html", "old"}, {"pictures/a.svg", "picture"}});
     write_file_atomically(site / "notes.txt", "mine");
-    write_manual_folder(site, {{"index.html", "two"}, {"new.html", "new"}});
+    write_site_folder(site, {{"index.html", "two"}, {"new.html", "new"}});
     EXPECT_EQ(read_file(site / "index.html"), "two");
     EXPECT_FALSE(fs::exists(site / "old.html"));
     EXPECT_EQ(read_file(site / "notes.txt"), "mine");
     // Neither what somebody changed nor what somebody put there is lost.
-    EXPECT_THROW(write_manual_folder(site, {{"index.html", "three"}, {"notes.txt", "manual's"}}), EnvironmentError);
+    EXPECT_THROW(write_site_folder(site, {{"index.html", "three"}, {"notes.txt", "manual's"}}), EnvironmentError);
     EXPECT_EQ(read_file(site / "index.html"), "two");
     write_file_atomically(site / "index.html", "with my remarks");
-    EXPECT_THROW(write_manual_folder(site, {{"index.html", "three"}}), EnvironmentError);
+    EXPECT_THROW(write_site_folder(site, {{"index.html", "three"}}), EnvironmentError);
     EXPECT_EQ(read_file(site / "index.html"), "with my remarks");
     // A list that leads out of the folder.
     write_file_atomically(folder.path() / "outside.txt", "outside");
-    write_file_atomically(site / "manual-files.txt", std::string(64, '0') + "  ../outside.txt\n");
-    EXPECT_THROW(write_manual_folder(site, {{"x.html", "x"}}), EnvironmentError);
+    write_file_atomically(site / "site-files.txt", std::string(64, '0') + "  ../outside.txt\n");
+    EXPECT_THROW(write_site_folder(site, {{"x.html", "x"}}), EnvironmentError);
     EXPECT_TRUE(fs::exists(folder.path() / "outside.txt"));
 }
 
-TEST(manual, pages_lead_to_what_their_code_names) {
-    const std::map<std::string, std::string> pages = {{"srivc", "help-srivc.html"}, {"lua", "help-lua.html"}};
-    const auto linked = [&](const std::string& html) { return with_links_to_pages(html, pages, "own.html"); };
+TEST(site, pages_lead_to_what_their_code_names) {
+    const std::map<std::string, std::string> pages = {{"srivc", "functions/srivc.html"}, {"lua", "guides/lua.html"}};
+    SitePage page;
+    page.file = "lessons/02/index.html";
+    const auto linked = [&](const std::string& html) {
+        page.body = html;
+        return with_links_to_pages(page, pages);
+    };
     EXPECT_EQ(linked("<p><code>srivc(data)</code></p>"),
-              "<p><a href=\"help-srivc.html\"><code>srivc(data)</code></a></p>");
-    EXPECT_EQ(linked("<code>dynlab help lua</code>"), "<a href=\"help-lua.html\"><code>dynlab help lua</code></a>");
+              "<p><a href=\"../../functions/srivc.html\"><code>srivc(data)</code></a></p>");
+    EXPECT_EQ(linked("<code>dynlab help lua</code>"),
+              "<a href=\"../../guides/lua.html\"><code>dynlab help lua</code></a>");
     for (const char* same : {"<pre><code>srivc</code></pre>", "<code>srivcs</code>", "<code>y = srivc</code>",
                              "<div class=\"choice\"><code>srivc</code></div>"})
         EXPECT_EQ(linked(same), same);
-    EXPECT_EQ(with_links_to_pages("<code>lua</code>", pages, "help-lua.html"), "<code>lua</code>");
+    page.file = "guides/lua.html";
+    EXPECT_EQ(linked("<code>lua</code>"), "<code>lua</code>");
 }
 
 // Oracle: 90 characters a line, shared by hand.
-TEST(manual, columns_of_wide_tables_are_as_wide_as_what_stands_in_them) {
+TEST(site, columns_of_wide_tables_are_as_wide_as_what_stands_in_them) {
     const std::string words(60, 'w'), more(120, 'm');
     const auto rule = [](const std::string& table) {
         return table.substr(table.find("\n|-"), table.rfind("\n| ") - table.find("\n|-"));
@@ -386,12 +295,12 @@ TEST(manual, columns_of_wide_tables_are_as_wide_as_what_stands_in_them) {
         EXPECT_EQ(with_fitted_columns(as_it_is), as_it_is);
 }
 
-TEST(manual, words_are_what_readers_type) {
+TEST(site, words_are_what_readers_type) {
     EXPECT_THAT(words_in_text("The “Bode” plot – bode_values(G), R², 3.5\u00a0rad/s, Broïda"),
                 ElementsAre("3", "5", "bode", "broïda", "g", "plot", "rad", "r²", "s", "the", "values"));
     EXPECT_EQ(text_in_html("<p>a&lt;b</p><script>x</script><span class=\"k\">c</span>d"), " a<b  cd");
     EXPECT_EQ(text_in_html("to <math><mi>K</mi></math>, <em>then</em><br>on"), "to K, then on");
 }
 
-}  // namespace test_manual
+}  // namespace test_site
 }  // namespace dynlab::test

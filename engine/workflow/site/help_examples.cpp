@@ -1,4 +1,4 @@
-#include "workflow/manual/help_examples.h"
+#include "workflow/site/help_examples.h"
 
 #include "documents/error.h"
 #include "documents/text_lines.h"

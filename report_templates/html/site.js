@@ -1,9 +1,13 @@
-// The manual's bar: search in all pages, by words and their beginnings. The index (search.js) comes with the first use.
+// The bar of a site: search in all pages, by words and their beginnings. The index (search.js) is loaded with the first use.
+// Pages of a site with a service worker register it.
 (() => {
   "use strict";
   const bar = document.querySelector("nav.site"), field = document.getElementById("search"), list = document.getElementById("found");
+  const { tr, text } = dynlabWords;
+  const { root, offline } = document.documentElement.dataset, language = dynlabWords.language();
   const MOST = 12;
-  const KINDS = { lesson: "Lesson", demonstration: "Demonstration", guide: "Guide", function: "Function", overview: "Overview" };
+  const KINDS = { lesson: tr("Lesson"), demonstration: tr("Demonstration"), guide: tr("Guide"), function: tr("Function"), overview: tr("Overview") };
+  if (offline !== undefined && location.protocol.startsWith("http")) navigator.serviceWorker?.register(root + "sw.js").catch(() => {});
   const theme = document.querySelector(".tools .theme"), tools = document.querySelector(".tools");
   if (theme) bar.append(theme);
   if (tools) bar.after(tools);
@@ -12,7 +16,8 @@
   const wordsOf = (text) => text.toLowerCase().split(/[^\p{L}\p{N}]+/u).filter(Boolean);
   let pages = null;
   function prepare() {
-    pages = window.dynlabPages.map((page) => ({
+    const readable = window.dynlabPages.filter((page) => page.language === language || !page.translated);
+    pages = readable.map((page) => ({
       ...page,
       titleWords: wordsOf(page.title),
       aboutWords: wordsOf(page.about),
@@ -23,7 +28,7 @@
     const begin = () => {
       if (window.dynlabPages) return resolve();
       const script = document.createElement("script");
-      script.src = "search.js";
+      script.src = root + "page/search.js";
       script.onload = () => resolve();
       document.head.append(script);
     };
@@ -53,7 +58,7 @@
       .map(({ page, points }) => {
         // A page that is found by its text leads to the part whose heading says it.
         const part = points < 50 && page.parts.find(({ words }) => asked.every((word) => begins(words, word)));
-        return { page, part, href: page.file + (part ? "#" + part.id : "") };
+        return { page, part, href: root + page.file + (part ? "#" + part.id : "") };
       });
   }
   window.dynlabSearch = search;
@@ -62,7 +67,7 @@
     const entry = document.createElement("li"), link = document.createElement("a");
     const title = document.createElement("strong"), about = document.createElement("small");
     title.textContent = page.title + (part ? ": " + part.text : "");
-    about.textContent = [KINDS[page.kind], page.about].filter(Boolean).join(" – ");
+    about.textContent = [text(KINDS[page.kind]), page.about].filter(Boolean).join(" – ");
     link.href = href;
     link.append(title, about);
     entry.append(link);
@@ -74,7 +79,7 @@
     list.replaceChildren(...found.map(item));
     if (!found.length) {
       const none = document.createElement("li");
-      none.textContent = "No page has all of these words.";
+      none.textContent = text(tr("No page has all of these words."));
       list.append(none);
     }
     list.hidden = !wordsOf(field.value).length;

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "workflow/manual/manual_page.h"
+#include "workflow/site/site_page.h"
 
 namespace dynlab::inline workflow {
 
@@ -10,8 +10,8 @@ namespace dynlab::inline workflow {
 /// (U+2000 to U+206F, U+00A0) part words as those of ASCII do.
 std::vector<std::string> words_in_text(const std::string& text);
 
-/// What manual.js searches: a script that gives `dynlabPages` a list with file, title, kind, about, headings (text and
-/// id) and words of each page.
-std::string search_index(const std::vector<ManualPage>& pages);
+/// The data that site.js searches: a script that gives `dynlabPages` a list with file, title, kind, language, whether
+/// the page has a translation, about, headings (text and id) and words of each page.
+std::string search_index(const std::vector<SitePage>& pages);
 
 }  // namespace dynlab::inline workflow
