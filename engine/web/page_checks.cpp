@@ -1,6 +1,5 @@
 #include "web/page_checks.h"
 
-#include <cstdlib>
 #include <set>
 
 #include "base/languages.h"
@@ -40,16 +39,25 @@ struct CheckedNews {
 };
 DYNLAB_DESCRIBE(CheckedNews, kind, checks, trouble)
 
-/// DYNLAB_HOME is another while it lives.
-class OtherHome {
+/// While it lives, a data set is another one.
+class OtherRecord {
   public:
-    explicit OtherHome(const fs::path& home) : before_(shared_folder()) { ::setenv("DYNLAB_HOME", home.c_str(), 1); }
-    ~OtherHome() { ::setenv("DYNLAB_HOME", before_.c_str(), 1); }
-    OtherHome(const OtherHome&) = delete;
-    OtherHome& operator=(const OtherHome&) = delete;
+    OtherRecord(const std::string& data_set, const fs::path& record)
+        : place_(shared_folder() / "data" / data_set), record_(record), aside_(kRecords / "aside" / data_set) {
+        fs::create_directories(aside_.parent_path());
+        if (fs::exists(place_)) fs::rename(place_, aside_);
+        fs::rename(record_, place_);
+    }
+    ~OtherRecord() {
+        std::error_code error;
+        fs::rename(place_, record_, error);
+        if (fs::exists(aside_)) fs::rename(aside_, place_, error);
+    }
+    OtherRecord(const OtherRecord&) = delete;
+    OtherRecord& operator=(const OtherRecord&) = delete;
 
   private:
-    fs::path before_;
+    fs::path place_, record_, aside_;
 };
 
 /// The work and the records that its checks look at.
@@ -88,19 +96,9 @@ class CheckedWork {
         return message_text(message, {catalog_of(script_.header.language), &option_name, &authors_});
     }
 
-    /// The folder of the record that a data set has in a run.
+    /// The folder of a hidden record, or of that of a rerun.
     fs::path place_of(const std::string& data_set, const std::string& run) const {
-        return run == kHiddenRecords ? job_.hidden_folder : kRecords / run / "data" / data_set;
-    }
-
-    /// The data sets of all, with another in the place of one.
-    void begin_home(const std::string& data_set) {
-        const fs::path data = kRecords / data_set / "data";
-        fs::create_directories(data / data_set);
-        for (const auto& entry : fs::directory_iterator(shared_folder() / "data"))
-            if (entry.is_directory() && entry.path().filename() != data_set)
-                fs::create_directory_symlink(entry.path(), data / entry.path().filename());
-        write_file_atomically(data / data_set / "SOURCE.md", "A record.\n");
+        return run == kHiddenRecords ? job_.hidden_folder : kRecords / data_set;
     }
 
     /// Hidden records of what the checks speak of, and those of reruns.
@@ -108,7 +106,10 @@ class CheckedWork {
         std::set<std::string> reruns;
         for (const TriedCheck& one : listed.checks)
             if (!one.check.rerun.empty() && one.check.rerun != kOtherSeedRun) reruns.insert(one.check.rerun);
-        for (const std::string& rerun : reruns) begin_home(rerun);
+        for (const std::string& rerun : reruns) {
+            fs::create_directories(kRecords / rerun);
+            write_file_atomically(kRecords / rerun / "SOURCE.md", "A record.\n");
+        }
         for (const Rig& rig : rig_catalogue()) {
             if (order_.checks.find(rig.name) == std::string::npos) continue;
             for (const std::string& run : {std::string(kHiddenRecords), rig.name}) {
@@ -135,8 +136,8 @@ class CheckedWork {
     }
 
     GradedRun run_on(const std::string& name) {
-        std::optional<OtherHome> home;
-        if (name != kMainRun && name != kOtherSeedRun) home.emplace(kRecords / name);
+        std::optional<OtherRecord> record;
+        if (name != kMainRun && name != kOtherSeedRun) record.emplace(name, kRecords / name);
         ReportLanguage language{script_.header.language};
         RunOptions options;
         options.seed = name == kOtherSeedRun ? drawn("seed") : script_.header.seed;

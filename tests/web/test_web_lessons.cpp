@@ -81,8 +81,8 @@ TEST(web_lessons, refuse_more_memory_than_there_is_in_a_sentence) {
     open_lesson(browser);
     write_code(browser, "times", "local x = zeros(2^28)");
     browser.click("[data-cell=times] .run-cell");
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-cell=times] pre.error')"));
-    EXPECT_THAT(text_of(browser, "[data-cell=times] pre.error"), testing::HasSubstr("memory"));
+    EXPECT_TRUE(browser.comes("document.querySelector('[data-cell=times] .failure')"));
+    EXPECT_THAT(text_of(browser, "[data-cell=times] .failure"), testing::HasSubstr("memory"));
 }
 
 /// What the page makes of the folder as it stands, as base64.

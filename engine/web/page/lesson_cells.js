@@ -25,6 +25,7 @@ class CodeCell {
   get source() { return this.page.textOf(this.place); }
   begin() {
     const bar = make("div", "cell-bar"), holder = make("div", "cell-code"), hidden = this.code.hidden;
+    this.isHidden = hidden;
     this.runButton = make("button", "run-cell", "▶");
     this.runButton.type = "button";
     this.runButton.title = say("runOne");

@@ -82,7 +82,7 @@ const heard = {
     if (cell) {
       const known = ids.filter((id) => !cellOf(id) || cellOf(id) === cell);
       cell.shownIds = [...new Set([...(cell.ids.filter((id) => ids.includes(id) || cell.shownIds?.includes(id))), ...known])];
-      cell.show(results, failure?.text);
+      cell.show(results, failure && (cell.isHidden || cellWithLine(failure.line) !== cell) ? failure.text : "");
       cell.setState(failure ? "failed" : "done");
       for (const id of ids) if (cellOf(id) && cellOf(id) !== cell) { cellOf(id).show(results); cellOf(id).setState(failure ? "failed" : "done"); }
       ran.set(cell.id, seconds);
@@ -101,19 +101,22 @@ const heard = {
   checked(news) {
     showChecks(panel, news);
     panel.hidden = false;
-    panel.focus({ preventScroll: true });
+    panel.focus();
   },
 };
 
+/// The cell in whose code a line of the script is.
+function cellWithLine(number) {
+  const place = number > 0 ? work.composed.first.findLastIndex((line) => line <= number) : -1;
+  return cells.code.find((one) => one.place === place) ?? null;
+}
 function setError(failure) {
   error = failure;
   const told = failure && { file: scriptName, line: failure.line, text: failure.text };
   for (const cell of cells.code) cell.editor.setFailure(null);
   if (!failure) return;
   state.textContent = say("runFailed");
-  const { first } = work.composed, place = failure.line > 0 ? first.findLastIndex((line) => line <= failure.line) : -1;
-  const cell = cells.code.find((one) => one.place === place);
-  cell?.editor.setFailure(told);
+  cellWithLine(failure.line)?.editor.setFailure(told);
   if (failure.line === 0 && !lastShown) notice("error", failure.text);
 }
 
@@ -189,7 +192,7 @@ async function makePack() {
   } catch (failure) {
     tell(make("p", "trouble", failure.message));
   }
-  panel.focus({ preventScroll: true });
+  panel.focus();
 }
 
 // ----- the work
