@@ -15,12 +15,13 @@ addWords({
   lostPlaces: tr("The lesson has changed since you worked on it, and some of your cells have no place in it now. Your work as it was can be exported."),
   sharedScript: tr("This link brings somebody else's script. It is shown below and has not been run. Use it only if you know where it comes from."),
   useShared: tr("Use it"), keepOwn: tr("Keep my own"), badLink: tr("The script in this link cannot be read."), linkCopied: tr("The link is copied."),
-  linkShown: tr("Link to this script:"), imported: tr("The script was taken over."), otherScript: tr("This is no script of this lesson: its cells are others. Open it with dynlab preview."),
+  linkShown: tr("Link to this script:"),
+  imported: tr("The script was taken over."), otherScript: tr("This is no script of this lesson: its cells are others. Open it with dynlab preview."),
   tooLarge: tr("This file is too large: a script has at most {} MB."), resetSure: tr("Your changes will be deleted. Continue?"),
   changeText: tr("Edit the text"), endText: tr("Done"), codeOf: tr("Code of cell {}"), textOf: tr("Text in Markdown"), hiddenCode: tr("Code that the report does not show"),
   checksRun: tr("The script runs for the checks …"), pointsOf: tr("{} of {} points"), hintOf: tr("Hint"), moreHint: tr("Next hint"),
   checkedLater: tr("This is checked when the work is graded."), scriptStopped: tr("The script stopped: {}"), noChecks: tr("This lesson has no checks that can be tried here."),
   questionHints: tr("Hints for question {}"), packReady: tr("{} is in your downloads: submit this file."), packSays: tr("SHA-256 {}"),
-  packMissing: tr("It holds no PDF of the report: dynlab makes it from the same files."), runExample: tr("Run"), resultsStale: tr("Results of the run before the last change"),
+  packMissing: tr("It holds no PDF of the report: dynlab makes it from the same files."), runExample: tr("Run"),
 });
 export * from "./words.js";
