@@ -16,7 +16,7 @@ file(WRITE ${OUTPUT} "#include \"${HEADER}\"
 namespace dynlab::inline ${LAYER} {
 
 std::span<const ${TYPE}> ${FUNCTION}() {
-    static const ${TYPE} kPages[] = {  // longer texts than a compiler counts for a constant
+    static const std::vector<${TYPE}> kPages = {  // longer texts than a compiler counts for a constant
 ${entries}    };
     return kPages;
 }

@@ -139,7 +139,7 @@ debian_sources() {
 # build_web: the engine as WebAssembly, in build/web/engine.
 build_web() {
   local folder=$project/build/web
-  debian_sources "$folder/sources" lua5.4 re2 libsodium
+  debian_sources "$folder/sources" lua5.4 re2 libsodium zlib
   # Emscripten's own libraries are built once into a copy of its cache that may be written to.
   export EM_CACHE=$folder/cache EM_FROZEN_CACHE=0 NODE_PATH=/usr/share/nodejs
   [ -d "$EM_CACHE" ] || cp -a /usr/share/emscripten/cache "$EM_CACHE"

@@ -64,7 +64,7 @@ void add_study(CLI::App& app, Action& action);
 void add_boxed_version(CLI::App& app, Action& action);
 
 // pages/
-void add_manual(CLI::App& app, Action& action);
+void add_site(CLI::App& app, Action& action);
 void add_preview(CLI::App& app, Action& action);
 void add_app(CLI::App& app, Action& action);
 void add_kernel(CLI::App& app, Action& action);

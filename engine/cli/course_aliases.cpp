@@ -18,7 +18,8 @@ struct Alias {
 
 /// Old names of commands of `dynlab`.
 const std::vector<Alias>& program_aliases() {
-    static const std::vector<Alias> all = {{{"look"}, {"inspect"}}, {{"hand-back"}, {"export-grades"}}};
+    static const std::vector<Alias> all = {
+        {{"look"}, {"inspect"}}, {{"hand-back"}, {"export-grades"}}, {{"manual"}, {"site"}}};
     return all;
 }
 

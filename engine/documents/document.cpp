@@ -147,6 +147,7 @@ class DocumentBuilder {
         job.work_folder = work_.path();
         job.bibliography = bibliography;
         job.measures = source_.measures;
+        job.names_values = source_.names_values;
         job.draft = options_.gaps != nullptr;
         return job;
     }

@@ -27,7 +27,8 @@ struct DocumentSource {
     const RunRecord* record = nullptr;
     std::filesystem::path bibliography = {};           ///< of the script; that of the template, beside it, goes before
     std::map<std::string, std::string> measures = {};  ///< Markdown of each, for `::: measures` blocks that name it
-    MarkdownText cells;                                ///< put in place of `::: {.cells}` ... `:::`
+    bool names_values = false;  ///< in a page: each value in a sentence is a span of the class value with data-name
+    MarkdownText cells;         ///< put in place of `::: {.cells}` ... `:::`
 };
 
 /// The text of a document with everything in its place but the slots.

@@ -121,7 +121,8 @@ std::string slots_file(const PandocJob& job) {
     return "return {\nformat=" + lua_text(format_name(job.format)) + ",language=" + lua_text(job.language) +
            ",reader=" + lua_text(kReader) + ",numbersections=" + (numbered ? "true" : "false") +
            ",stopped=" + (record.error || job.unfinished ? "true" : "false") +
-           ",draft=" + (job.draft ? "true" : "false") + ",\npicture_prefix=" + lua_text(job.picture_prefix) +
+           ",draft=" + (job.draft ? "true" : "false") + ",names_values=" + (job.names_values ? "true" : "false") +
+           ",\npicture_prefix=" + lua_text(job.picture_prefix) +
            ",figure_extension=" + lua_text(figure_extension(job.format)) +
            ",bibliography=" + lua_text(job.bibliography) + ",escaped=" + lua_set(escaped_words(job)) +
            ",slides=" + (sets_slides(job) ? "true" : "false") + ",\nvariables=" + variables +

@@ -37,6 +37,7 @@ struct PandocJob {
     std::map<std::string, std::string> measures;             ///< Markdown of each
     std::optional<ChunkSurroundings> chunks = std::nullopt;  ///< then what can be set is set, whatever is wrong
     bool unfinished = false;                                 ///< a slot without an entry says so
+    bool names_values = false;                               ///< pages say of each value in a sentence which one it is
     bool draft = false;               ///< what points to nothing is shown as ?? and is no complaint
     ChildProcess* started = nullptr;  ///< by start_pandoc, for a job of the same format in the same folder
 };

@@ -189,6 +189,20 @@ local function inline_image(image)
   return layout:inline_image(picture_file("image", image.src), alternative, checked_width(image))
 end
 
+-- On pages whose script can run again: which value or table this is, so that the page can renew it.
+local function named_value(name, printed)
+  return slots.names_values and pandoc.Span({ printed }, { class = "value", ["data-name"] = name }) or printed
+end
+
+local function named_table(name, blocks)
+  if not slots.names_values then return blocks end
+  if #blocks == 1 and blocks[1].t == "Div" then
+    blocks[1].attributes["data-table"] = name
+    return blocks
+  end
+  return { pandoc.Div(blocks, { class = "table", ["data-table"] = name }) }
+end
+
 local function table_slot(division)
   local name = division.attributes.name or ""
   local label = label_of(division.identifier, "tbl")
@@ -200,7 +214,10 @@ local function table_slot(division)
     label = take_label(caption, "tbl") or label
   end
   local found = entry("table", name, "name=" .. name)
-  if not found then return missing_block(name) end
+  if not found then
+    local missing = missing_block(name)
+    return missing.t and named_table(name, { missing }) or missing, false
+  end
   if is_numbered(caption, label) then caption = layout:numbered_caption("tbl", number("tbl", label), caption) end
   local function filled(row)
     for c, cell in ipairs(row) do row[c] = values.in_cell(cell, layout, value_text, "??") end
@@ -213,7 +230,7 @@ local function table_slot(division)
     return {}
   end
   element = element:walk { Str = function(text) return pandoc.Str((text.text:gsub(values.dollar, "$"))) end }
-  return tables:place(element, label, size, lines), false
+  return named_table(name, tables:place(element, label, size, lines)), false
 end
 
 local function written_table(element)
@@ -418,8 +435,9 @@ local function code(element)
   if attribute then report("attribute", attribute, attribute, "code") end
   if element.classes:includes("value") then
     local found = entry("value", element.text, "`" .. element.text .. "`")
-    return found and values.printed(found, layout) or slots.stopped and layout:missing_word(element.text) or
-      shows_gaps and layout:gap() or {}
+    local shown = found and values.printed(found, layout) or slots.stopped and layout:missing_word(element.text) or
+      shows_gaps and layout:gap()
+    return shown and named_value(element.text, shown) or {}
   end
   local bad = safety.unknown_code_class(element.classes, false)
   if bad then report("code-class", "." .. bad, bad, element.text) end
@@ -699,6 +717,7 @@ local function is_unit(word)
 end
 
 local function ends_in_number(element)
+  if element.t == "Span" and element.classes:includes("value") then element = element.content[1] end
   return (element.t == "Str" or element.t == "Math" and element.mathtype == "InlineMath") and element.text:match("%d$") ~= nil
 end
 

@@ -65,7 +65,7 @@
   if (list) tools.append(list);
   tools.append(theme);
   document.body.prepend(tools);
-  for (const code of main.querySelectorAll("pre:not(.output):not(.error)")) addCopyButton(code);
+  for (const code of main.querySelectorAll("pre:not(.output, .error, .code, [data-run])")) addCopyButton(code);
   applyTheme();
   dynlabPlots.enliven(document);
   dynlabChoices.enliven(document);

@@ -21,7 +21,7 @@ install(FILES ${files}/completions/dynlab.bash DESTINATION share/bash-completion
 install(FILES ${files}/completions/dynlab.zsh DESTINATION share/zsh/vendor-completions RENAME _dynlab)
 install(FILES ${files}/completions/dynlab.fish DESTINATION share/fish/vendor_completions.d)
 install(FILES ${files}/dynlab.desktop DESTINATION share/applications)
-install(FILES ${files}/dynlab.svg DESTINATION share/icons/hicolor/scalable/apps)
+install(FILES ${PROJECT_SOURCE_DIR}/report_templates/html/dynlab.svg DESTINATION share/icons/hicolor/scalable/apps)
 
 # What runs it, as scripts/packages.txt lists it; the libraries are found in the programs. libmatio is loaded by name.
 # Without a processor of x86-64-v2 it would end with "illegal instruction": sse4.2-support refuses those.

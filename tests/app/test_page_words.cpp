@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 using Rows = std::map<std::string, std::string>;  // English by key
 
 std::string source_of(const std::string& file) {
-    return read_text(fs::path(DYNLAB_SOURCE_DIR) / "engine/app/page" / file);
+    const char* const folder = file.starts_with("office") ? "engine/app/office" : "engine/app/page";
+    return read_text(fs::path(DYNLAB_SOURCE_DIR) / folder / file);
 }
 
 /// Without its remarks; addresses have no blank before their //.
@@ -90,6 +91,15 @@ std::vector<std::string> workbench_files() {
     return files;
 }
 
+std::vector<std::string> office_files() {
+    std::vector<std::string> files = {"office.html"};
+    for (const auto& entry : fs::directory_iterator(fs::path(DYNLAB_SOURCE_DIR) / "engine/app/office")) {
+        const std::string name = entry.path().filename();
+        if (name.ends_with(".js") && name != "office_words.js") files.push_back(name);
+    }
+    return files;
+}
+
 std::string code_of(const std::vector<std::string>& files) {
     std::string all;
     for (const std::string& file : files) all += code_of(file) + "\n";
@@ -132,10 +142,28 @@ TEST(page_words, of_the_workbench_have_rows_and_no_row_is_unused) {
     }
 }
 
+/// The keys of states, and of the kinds of things to do, are put together of a name and an ending, or stand in tables.
+TEST(page_words, of_the_instructor_s_page_have_rows_and_no_row_is_unused) {
+    const Rows rows = rows_of("office_words.js");
+    const std::string code = code_of(office_files());
+    expect_rows(code, rows);
+    static const std::regex put_together("(.*?)(State)?");
+    Rows of_all_pages;
+    add_rows("words.js", of_all_pages);
+    for (const auto& [key, row] : rows) {
+        std::smatch parts;
+        ASSERT_TRUE(std::regex_match(key, parts, put_together));
+        const bool put = parts[2].matched && code.find("State`") != std::string::npos;
+        EXPECT_TRUE(names(code, key) || put || of_all_pages.contains(key)) << key;
+    }
+}
+
 TEST(page_words, are_written_in_the_tables_alone) {
     static const std::regex quoted(R"re("([^"\n]*)"|`([^`\n]*)`)re"), words("[A-Za-z']{2,} [a-z']{2,} [a-z']{2,}"),
         given(R"re((textContent|title|ariaLabel|innerText)(:|\s=)\s*["`][A-Za-z])re");
-    for (const std::string& file : kPreview) {
+    std::vector<std::string> files = kPreview;
+    for (const std::string& file : office_files()) files.push_back(file);
+    for (const std::string& file : files) {
         if (!file.ends_with(".js")) continue;
         for (const std::string& line : lines_of(code_of(file))) {
             EXPECT_FALSE(std::regex_search(line, given)) << file << ": " << line;
@@ -143,7 +171,7 @@ TEST(page_words, are_written_in_the_tables_alone) {
                 EXPECT_FALSE(std::regex_search(found->str(), words)) << file << ": " << found->str();
         }
     }
-    for (const char* file : {"index.html", "workbench.html", "view.html"}) {
+    for (const char* file : {"index.html", "workbench.html", "view.html", "office.html"}) {
         const std::string body = std::regex_replace(source_of(file), std::regex("<title>[^<]*</title>"), "");
         std::smatch text;
         EXPECT_FALSE(std::regex_search(body, text, std::regex(R"(>\s*[A-Za-z][^<>]*<)"))) << file << text.str();
@@ -165,11 +193,12 @@ TEST(page_words, one_file_of_the_document_s_page_speaks_to_the_server) {
     static const std::regex asks(R"(\b(fetch|EventSource|XMLHttpRequest|WebSocket|order)\()");
     for (const PageFile& file : page_files()) {
         const bool of_workbench = file.name.starts_with("bench_") || file.name == "workbench.js";
-        if (!file.name.ends_with(".js") || of_workbench || file.name == "orders.js" || file.name == "session.js")
-            continue;
+        const bool speaks = file.name == "orders.js" || file.name == "session.js" || file.name == "office_session.js";
+        if (!file.name.ends_with(".js") || of_workbench || speaks) continue;
         EXPECT_FALSE(std::regex_search(code_of(std::string(file.name)), asks)) << file.name;
     }
-    EXPECT_TRUE(std::regex_search(code_of("session.js"), asks));
+    for (const char* file : {"session.js", "office_session.js"})
+        EXPECT_TRUE(std::regex_search(code_of(file), asks)) << file;
 }
 
 /// The editor's own words are looked up by their English. Oracle: the sources of CodeMirror that our pages load.

@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
     const std::vector<std::pair<std::string, void (*)(Report&)>> groups{
         {"program", measure_program},     {"grading", measure_grading},   {"course", measure_course},
         {"cluster", measure_cluster},     {"live", measure_live},         {"workbench", measure_workbench},
-        {"manual", measure_manual},       {"numerics", measure_numerics}, {"estimators", measure_estimators},
+        {"site", measure_site},           {"numerics", measure_numerics}, {"estimators", measure_estimators},
         {"irregular", measure_irregular}, {"lua", measure_lua},           {"searches", measure_searches},
         {"advice", measure_advice},       {"grey_box", measure_grey_box}};
     const std::vector<std::string> named(argv + 1, argv + argc);

@@ -167,7 +167,7 @@ TEST(course_labs, total_weighs_the_assignments) {
     EXPECT_EQ(weighted_total(all, {{80, false, false}, {40, false, false}}), 70);  // (3 * 80 + 1 * 40) / 4
     EXPECT_EQ(weighted_total(all, {{80, false, false}, {{}, false, true}}), 80);
     EXPECT_EQ(weighted_total(all, {{{}, false, true}, {{}, false, true}}), std::nullopt);
-    const std::string csv = totals_csv(course.course(), course.at("2026-02-20 12:00"));
+    const std::string csv = totals_csv(course_totals(course.course(), course.at("2026-02-20 12:00")));
     EXPECT_THAT(csv, AllOf(HasSubstr("lab4 percent (weight 3)"), HasSubstr("total percent"),
                            HasSubstr("s1,Student 1,,,,group-01,"), HasSubstr(",80,,\r\n"), HasSubstr(",,,lab4\r\n")));
 }

@@ -6,7 +6,7 @@
 #include <regex>
 #include <set>
 
-#include "course/boxes/zip_file.h"
+#include "platform/files/zip_file.h"
 #include "course/grading_bench.h"
 #include "course/similarity/similarity.h"
 

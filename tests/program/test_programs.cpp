@@ -56,7 +56,7 @@ TEST(programs, lesson_program_alone_runs_lessons_and_tells_how_to_build_other_co
     EXPECT_EQ(work.shell("echo 'print(93)' | bin/dynlab").output, "93\n");
     work.write("checks.lua", "check { id = 'a' }\n");
     for (const std::string command : {"grade --help", "check --help", "course --help", "study --help", "preview x",
-                                      "manual x", "kernel --help", "--help", "--view", "nonsense", "lint checks.lua"}) {
+                                      "site x", "kernel --help", "--help", "--view", "nonsense", "lint checks.lua"}) {
         const ChildResult missing = work.shell("bin/dynlab " + command);
         EXPECT_EQ(missing.exit_code, 3) << command;
         EXPECT_EQ(missing.error_output,

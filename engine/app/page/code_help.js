@@ -113,17 +113,8 @@ function overName(cm, event) {
 
 // ----- what is wrong
 const kGutter = "mistakes";
-let marks = [], failure = null;  // failure: {file, line, text} of the last run
-/// Under the line at which the run stopped.
-function showFailure(cm, name, lineNow) {
-  if (failure.file !== name) return;
-  const node = make("p", "failure", failure.text), line = lineNow(failure.line) - 1;
-  if (line < 0 || line >= cm.lineCount()) return;
-  const handle = cm.addLineClass(line, "wrap", "failed"), widget = cm.addLineWidget(line, node, { handleMouseEvents: true });
-  marks.push({ clear() { cm.removeLineClass(handle, "wrap", "failed"); widget.clear(); } });
-}
-function markMistake(cm, { line, column, kind, text }) {
-  if (line > cm.lineCount()) return;
+function markMistake(cm, { line, column, kind, text }, marks) {
+  if (line < 1 || line > cm.lineCount()) return;
   const content = cm.getLine(line - 1), begin = [...content].slice(0, column - 1).join("").length;
   const end = begin + Math.max(1, /^\w*/.exec(content.slice(begin))[0].length);
   const open = kind === "unused-answer" ? " open" : "";  // an answer that is not given yet is no mistake
@@ -132,36 +123,45 @@ function markMistake(cm, { line, column, kind, text }) {
   const range = end > content.length ? [Math.max(0, content.length - 1), content.length] : [begin, end];
   marks.push(cm.markText({ line: line - 1, ch: range[0] }, { line: line - 1, ch: range[1] }, { className: "mistake" + open, title: text }));
 }
-let mistakes = [], linting = 0;
-function tellMistake(cm) {
-  const found = mistakes.find(({ line }) => line === cm.getCursor().line + 1)?.text ?? "";
-  const text = found === failure?.text ? "" : found;  // that stands under its line
-  if ($("mistake").textContent === text) return;
-  $("mistake").textContent = text;
-  if (cm.hasFocus()) cm.scrollIntoView(null, 24);  // the message takes a line of the editor
-}
-function clearMarks(cm) {
-  for (const mark of marks) mark.clear();
-  marks = [];
-  cm.clearGutter(kGutter);
-}
-function drawMarks(cm, name, lineNow) {
-  cm.operation(() => {
-    clearMarks(cm);
-    for (const mistake of mistakes) markMistake(cm, mistake);
-    if (failure) showFailure(cm, name, lineNow);
-  });
-  tellMistake(cm);
-}
 
-/// `open()` gives the name of the file that is shown, and the line of its text now that was a line of the run's.
+/// `open()` gives the name of the file that is shown, and the line of its text now that was a line of the run's. Where an editor
+/// shows a part of a file alone: the file's whole text, and how many of its lines stand before.
 export function helpWithCode(cm, open) {
+  let marks = [], mistakes = [], linting = 0, failure = null;  // failure: {file, line, text} of the last run
+  /// Under the line at which the run stopped.
+  function showFailure({ name, lineNow, before = 0 }) {
+    if (failure.file !== name) return;
+    const node = make("p", "failure", failure.text), line = lineNow(failure.line) - before - 1;
+    if (line < 0 || line >= cm.lineCount()) return;
+    const handle = cm.addLineClass(line, "wrap", "failed"), widget = cm.addLineWidget(line, node, { handleMouseEvents: true });
+    marks.push({ clear() { cm.removeLineClass(handle, "wrap", "failed"); widget.clear(); } });
+  }
+  function tellMistake() {
+    const found = mistakes.find(({ line }) => line === cm.getCursor().line + 1)?.text ?? "";
+    const text = found === failure?.text ? "" : found;  // that stands under its line
+    if ($("mistake").textContent === text) return;
+    $("mistake").textContent = text;
+    if (cm.hasFocus()) cm.scrollIntoView(null, 24);  // the message takes a line of the editor
+  }
+  function clearMarks() {
+    for (const mark of marks) mark.clear();
+    marks = [];
+    cm.clearGutter(kGutter);
+  }
+  function drawMarks(shown) {
+    cm.operation(() => {
+      clearMarks();
+      for (const mistake of mistakes) markMistake(cm, mistake, marks);
+      if (failure) showFailure(shown);
+    });
+    tellMistake();
+  }
   const lint = async () => {
-    const { name, lineNow } = open(), text = cm.getValue();
+    const shown = open(), { name, text = cm.getValue(), before = 0 } = shown, own = cm.getValue();
     const found = name.endsWith(".lua") ? await session.lint(name, text).catch(() => []) : [];
-    if (cm.getValue() !== text) return;
-    mistakes = found;
-    drawMarks(cm, name, lineNow);
+    if (cm.getValue() !== own) return;
+    mistakes = found.map((one) => ({ ...one, line: one.line - before }));
+    drawMarks(shown);
   };
   const lintSoon = (delay = kLint) => { clearTimeout(linting); linting = setTimeout(lint, delay); };
   cm.on("changes", () => { hideHelp(); lintSoon(); });
@@ -169,7 +169,7 @@ export function helpWithCode(cm, open) {
   cm.on("inputRead", (_, { text: [typed], origin }) => {
     if (origin === "+input" && /^[\w.:"'{]$/.test(typed)) showNames(cm);
   });
-  cm.on("cursorActivity", () => { hideHelp(); showCall(cm); tellMistake(cm); });
+  cm.on("cursorActivity", () => { hideHelp(); showCall(cm); tellMistake(); });
   cm.on("blur", () => { ++turn; $("signature").hidden = true; });
   cm.on("scroll", () => { hideHelp(); $("signature").hidden = true; });
   const code = cm.getWrapperElement();
@@ -187,14 +187,13 @@ export function helpWithCode(cm, open) {
     /// Before another file is shown.
     leave() {
       mistakes = [];
-      clearMarks(cm);
+      clearMarks();
       hideHelp();
     },
     /// Of the last run; null where it went well.
     setFailure(error) {
       failure = error ?? null;
-      const { name, lineNow } = open();
-      drawMarks(cm, name, lineNow);
+      drawMarks(open());
     },
   };
 }

@@ -1,6 +1,7 @@
 // The document's files beside the page, where it may change them. What is saved says what it was made from: a file that
 // was changed elsewhere meanwhile is not written over, both texts are shown.
 import { forgetAnswers, helpWithCode } from "./code_help.js";
+import { loadCodeMirror } from "./code_mirror.js";
 import { draftsOf, forget, keepDraft, keepDraftSoon, setAside, wordsOf } from "./drafts.js";
 import { noteOf, readNotes, setNote } from "./notes.js";
 import { inEnglish, say } from "./page_words.js";
@@ -17,18 +18,6 @@ let mirror = null;          // CodeMirror, where it is installed
 let code = null;            // its help (code_help.js)
 let refreshCells = () => {};
 let followCursor = () => {}, piecesOf = () => [];
-
-function loaded(file) {
-  return new Promise((yes, no) => {
-    const css = file.endsWith(".css");
-    const node = document.createElement(css ? "link" : "script");
-    if (css) Object.assign(node, { rel: "stylesheet", href: file });
-    else Object.assign(node, { src: file, async: false });
-    node.onload = yes;
-    node.onerror = no;
-    document.head.append(node);
-  });
-}
 
 /// A plain field of text with what is used of CodeMirror, for machines without it.
 class PlainDoc {
@@ -293,16 +282,7 @@ export async function saveAll() {
 }
 
 async function begin() {
-  try {
-    await loaded("codemirror.css");
-    await loaded("codemirror.js");
-    await Promise.all(["codemirror-lua.js", "codemirror-markdown.js", "codemirror-searchcursor.js", "codemirror-dialog.js",
-      "codemirror-dialog.css", "codemirror-search.js", "codemirror-continue.js", "codemirror-comment.js", "codemirror-brackets.js",
-      "codemirror-hint.js", "codemirror-hint.css", "codemirror-fold.js", "codemirror-gutter.js"].map(loaded));
-    defineScriptMode();
-  } catch {
-    window.CodeMirror = undefined;
-  }
+  if (await loadCodeMirror()) defineScriptMode();
   await readNotes();
   document.body.classList.add("editing");
   if (window.CodeMirror) {

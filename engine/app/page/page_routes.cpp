@@ -1,6 +1,8 @@
 #include "app/page/page_routes.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "app/page/page_files.h"
 #include "base/languages.h"
@@ -41,6 +43,36 @@ constexpr std::pair<const char*, const char*> kEditorFiles[] = {
     {"/codemirror-fold.js", "addon/fold/foldcode.js"},
     {"/codemirror-gutter.js", "addon/fold/foldgutter.js"}};
 
+std::string scripts_in(std::span<const PageFile> files) {
+    std::string scripts;
+    for (const PageFile& file : files)
+        if (file.name.ends_with(".js")) scripts += file.text;
+    return scripts;
+}
+
+/// What the scripts of our pages say in each language.
+std::string catalogs_of_pages(const std::string& further = {}) {
+    return script_catalogs(shown_scripts(shared_folder() / "report_templates") + scripts_in(page_files()) + further,
+                           languages());
+}
+
+std::string style_of_documents() {
+    return read_text(shared_folder() / "report_templates/html/document.css");
+}
+
+/// Whether the workbench can run without a server: engine/web/page has a session for it.
+bool has_session_of_workbench() {
+    return std::ranges::any_of(web_page_files(),
+                               [](const PageFile& file) { return file.name.find("bench") != std::string_view::npos; });
+}
+
+/// The page beside the folder whose files it names.
+std::string with_base(std::string html, const std::string& folder) {
+    const std::string head = "<head>\n";
+    html.insert(html.find(head) + head.size(), "<base href=\"" + folder + "\">\n");
+    return html;
+}
+
 }  // namespace
 
 bool has_editor() {
@@ -54,17 +86,12 @@ void serve_page_files(WebServer& server, const std::string& first) {
         server.on_get("/" + std::string(file.name == first ? "" : file.name),
                       [reply](const PageRequest&) { return reply; });
     }
-    server.on_get("/catalogs.js", [](const PageRequest&) {
-        std::string scripts = shown_scripts(shared_folder() / "report_templates");
-        for (const PageFile& file : page_files())
-            if (file.name.ends_with(".js")) scripts += file.text;
-        return PageReply{script_catalogs(scripts, languages()), kJavaScript};
-    });
+    server.on_get("/catalogs.js", [](const PageRequest&) { return PageReply{catalogs_of_pages(), kJavaScript}; });
     server.on_get("/plot.js", [](const PageRequest&) {
         return PageReply{shown_scripts(shared_folder() / "report_templates"), kJavaScript};
     });
     server.on_get("/document.css", [](const PageRequest&) {
-        return PageReply{read_text(shared_folder() / "report_templates/html/document.css"), "text/css; charset=utf-8"};
+        return PageReply{style_of_documents(), "text/css; charset=utf-8"};
     });
     for (const auto& [name, file] : kEditorFiles) {
         server.on_get(name, [place = kCodeMirror / file](const PageRequest&) {
@@ -72,6 +99,30 @@ void serve_page_files(WebServer& server, const std::string& first) {
             return PageReply{read_file(place), type_of_page_file(place)};
         });
     }
+}
+
+std::map<std::string, std::string> page_files_of_site() {
+    const fs::path shared = shared_folder() / "report_templates", html = shared / "html";
+    std::map<std::string, std::string> files;
+    for (const std::span<const PageFile> some : {page_files(), web_page_files()})
+        for (const PageFile& file : some) {
+            const std::string name(file.name), text(file.text);
+            if (name == "sw.js")
+                files[name] = text;
+            else if (name == "workbench.html" && has_session_of_workbench())
+                files["workbench/index.html"] = with_base(text, "../page/");
+            else if (!name.ends_with(".lua") && !name.ends_with(".html"))
+                files["page/" + name] = text;
+        }
+    for (const auto& [name, file] : kEditorFiles)
+        if (fs::exists(kCodeMirror / file)) files[std::string("page") + name] = read_file(kCodeMirror / file);
+    const std::string document = read_file(html / "sliders.js") + read_file(html / "document.js");
+    files["page/document.js"] = document;
+    files["page/site.js"] = read_file(html / "site.js");
+    files["page/document.css"] = style_of_documents();
+    files["page/plot.js"] = shown_scripts(shared);
+    files["page/catalogs.js"] = catalogs_of_pages(scripts_in(web_page_files()) + document + files["page/site.js"]);
+    return files;
 }
 
 }  // namespace dynlab::inline app

@@ -1,6 +1,6 @@
-// What the page of a document asks of the engine, and the news it gets. This file alone speaks to the server; another of the
-// same shape can ask a worker that runs the engine in the browser. Every method throws `Lost` where nobody answers, and Error
-// with the engine's sentence where it refuses.
+// What the page of a document asks of the engine, and the news it gets. This file alone speaks to the server; in a page without one
+// a session of the same shape takes its place, whose engine runs in a worker of the browser (engine/web/page/worker_session.js). Every
+// method throws `Lost` where nobody answers, and Error with the engine's sentence where it refuses.
 import { order } from "./orders.js";
 
 export class Lost extends Error {}
@@ -85,3 +85,6 @@ export const session = {
     return reply.ok ? reply.text() : null;
   },
 };
+
+/// Another implementation takes this one's place, method by method.
+export const useSession = (other) => Object.assign(session, other);

@@ -14,7 +14,6 @@ namespace {
 /// Long enough for a browser that starts on a busy machine.
 constexpr std::int64_t kTokenMilliseconds = 60'000;
 constexpr std::size_t kTimeDigits = 12, kNonceDigits = 16, kCodeDigits = 32, kNameDigits = 20;
-constexpr int kForbidden = 403;
 
 const char* const kNoEntrance =
     "<!DOCTYPE html><title>dynlab</title><p>This page belongs to a dynlab that runs in a terminal. Open the address "
@@ -44,6 +43,7 @@ bool has_cookie(std::string_view cookies, std::string_view wanted) {
 }
 
 LastReply forbidden(const char* text) {
+    constexpr int kForbidden = 403;
     return {{kForbidden, "text/html; charset=utf-8", text}};
 }
 

@@ -329,6 +329,14 @@ void add_time_option(CLI::App& command, std::string& text) {
         ->group("");  // the help of all commands says it once
 }
 
+void add_after_option(CLI::App& command, std::optional<std::int64_t>& entry) {
+    command
+        .add_option("--after", entry,
+                    "Only if the newest entry for this mark still is the one with this number; 0: only if there is "
+                    "none. dynlab course page gives it")
+        ->type_name("N");
+}
+
 Instant time_of(const Course& course, const std::string& text) {
     return text.empty() ? CourseClock::now() : course.clock().parse(text, "--at");
 }
@@ -355,6 +363,7 @@ void add_course(CLI::App& app, Action& action) {
     add_correction_commands(*course, where, action);
     add_status(*course, where, action);
     add_who(*course, where, action);
+    add_course_page(*course, where, action);
     course->footer(
         "Each command changes either everything or nothing, and can be repeated. dynlab deletes nothing.\n  dynlab "
         "course init signals-2026 --timezone Europe/Paris    then, in that folder:\n  dynlab course import "
@@ -362,7 +371,8 @@ void add_course(CLI::App& app, Action& action) {
         "lab4.zip --assignment lab4            an export of Moodle or Canvas, or files\n  dynlab course status lab4    "
         "                              late submissions, and what to do next\n  dynlab course grade lab4               "
         "                    marks and feedback\n  dynlab course export -o term.csv                           all "
-        "marks, and the total\nA term in 20 commands: dynlab help guide-instructor\nCommands that depend on the date "
+        "marks, and the total\n  dynlab course page                                         the course in the "
+        "browser\nA term in 20 commands: dynlab help guide-instructor\nCommands that depend on the date "
         "have the option --at TIME, which replaces the current time.\nMore: dynlab help review_marks (how marks follow "
         "from scores), dynlab help names (which names are searched for)\nExit codes: 0 done, 1 something failed or was "
         "not accepted, 2 wrong usage.");

@@ -5,6 +5,7 @@
 #include "cli/course/course_commands.h"
 #include "course/corrections/corrections.h"
 #include "course/office/receive.h"
+#include "course/store/answer_names.h"
 #include "course/store/marks.h"
 #include "course/store/receipts.h"
 #include "numerics/error.h"
@@ -16,6 +17,7 @@ namespace {
 struct CorrectionArguments {
     std::string assignment, time, reason, at, mark;
     HandedInWanted wanted;
+    std::optional<std::int64_t> seen;
     bool end = false, alone = false;
 };
 using Correct = int (*)(Course&, const Assignment&, const CorrectionArguments&);
@@ -30,8 +32,12 @@ int correct_time(Course& course, const Assignment& a, const CorrectionArguments&
 
 int withdraw_mark(Course& course, const Assignment& a, const CorrectionArguments& words) {
     const std::string item = item_called(a, words.mark);
+    const auto answers = group_of_answers(course, a, words.wanted.group);
+    const std::string who = answers ? answers->name : words.wanted.group;
     Transaction transaction(course.database());
-    take_back_mark(course, a, words.wanted.group, words.alone, item, words.reason, time_of(course, words.at));
+    if (words.seen && !words.alone)
+        refuse_unseen_entry(course, a, group_named(course, who).id, words.wanted.group, item, *words.seen);
+    take_back_mark(course, a, who, words.alone, item, words.reason, time_of(course, words.at));
     transaction.commit();
     std::cout << terminal_text(
         fmt::format("{}: your mark of {} ({}) is withdrawn.\n", a.name, words.wanted.group, words.mark));
@@ -135,6 +141,8 @@ void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
     away.app
         ->add_flag("--alone", away.words->alone, "Withdraw the mark of this student only, set by course mark --alone")
         ->needs("--mark");
+    add_after_option(*away.app, away.words->seen);
+    away.app->get_option("--after")->needs("--mark");
     add_reason(away);
     away.app->footer(
         "Afterwards the previous version counts, if there is one. The file, its receipt and this entry are "

@@ -9,6 +9,7 @@
 #include "cli/course/grading_report.h"
 #include "course/office/course_grading.h"
 #include "course/review/review_marks.h"
+#include "course/store/answer_names.h"
 #include "course/store/assignments.h"
 #include "course/store/groups.h"
 #include "course/store/marks.h"
@@ -46,6 +47,7 @@ int grade(const CourseArguments& where, const GradeWords& words) {
 struct MarkWords {
     std::string assignment, who, reason, at;
     std::vector<std::string> mark;  ///< the item, which may miss, and the points
+    std::optional<std::int64_t> seen;
     bool alone = false, force = false;
 };
 
@@ -71,9 +73,14 @@ int set_mark(const CourseArguments& where, const MarkWords& words) {
     Course course(where.folder);
     const Assignment a = assignment_named(course, words.assignment);
     GivenMark mark;
-    const std::string student = words.alone ? student_named(course, words.who).id : student_called(course, words.who);
-    mark.group = group_of_work(course, a, student, words.who);
-    if (words.alone) mark.student = student;
+    if (const auto answers = group_of_answers(course, a, words.who); answers && !words.alone) {
+        mark.group = answers->id;
+    } else {
+        const std::string student =
+            words.alone ? student_named(course, words.who).id : student_called(course, words.who);
+        mark.group = group_of_work(course, a, student, words.who);
+        if (words.alone) mark.student = student;
+    }
     mark.item = words.mark.size() > 1 ? item_called(a, words.mark.front()) : kWholeItem;
     mark.points = number_in_cell(words.mark.back());
     mark.reason = words.reason;
@@ -86,8 +93,9 @@ int set_mark(const CourseArguments& where, const MarkWords& words) {
     if (!a.is_lab() && *mark.points > kMaxPercent)
         throw InvalidArgument("a mark must be a number from 0 to {} percent, but {} was given", kMaxPercent,
                               *mark.points);
-    refuse_without_reason(words.reason);
+    if (!a.is_lab() || mark.item == kWholeItem) refuse_without_reason(words.reason);
     Transaction transaction(course.database());
+    if (words.seen) refuse_unseen_entry(course, a, mark.group, words.who, mark.item, *words.seen);
     give_mark(course, a, mark, time_of(course, words.at));
     transaction.commit();
     std::cout << terminal_text(
@@ -102,16 +110,17 @@ void add_mark(CLI::App& course, CourseArguments& where, Action& action) {
     auto words = std::make_shared<MarkWords>();
     CLI::App* command = course.add_subcommand("mark", "Set a manual mark, which takes precedence");
     command->add_option("ASSIGNMENT", words->assignment)->required();
-    command->add_option("WHO", words->who, "Group, or a student by name or id")->required();
+    command->add_option("WHO", words->who, "Group, a student by name or id, or answer-NAME of course page")->required();
     command
         ->add_option("MARK", words->mark,
                      "For a lab [CHECK] POINTS, without CHECK for the complete lab; otherwise [work|reviews] PERCENT")
         ->required()
         ->expected(1, 2);
-    command->add_option("--reason", words->reason, "Reason; recorded in the history and shown to the student")
-        ->required();
+    command->add_option("--reason", words->reason,
+                        "Reason; recorded in the history and shown to the student. Optional for one check of a lab.");
     command->add_flag("--alone", words->alone, "Set the mark of this student only, not of the group");
     command->add_flag("--force", words->force, "Accept a mark above the maximum");
+    add_after_option(*command, words->seen);
     add_time_option(*command, words->at);
     command->footer(
         "dynlab course withdraw withdraws a mark. For a lab, you can also enter marks in marks.csv in the folder of "

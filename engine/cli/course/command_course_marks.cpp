@@ -7,6 +7,7 @@
 
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
+#include "course/export/course_worksheet.h"
 #include "course/office/course_export.h"
 #include "course/office/course_totals.h"
 #include "course/review/review_marks.h"
@@ -22,7 +23,8 @@ namespace dynlab::inline cli {
 namespace {
 
 struct MarkArguments {
-    std::string assignment, file, at, out, stage = "first";
+    std::string assignment, file, at, out, stage = "first", worksheet, column, reason;
+    std::vector<std::string> dropped;  ///< reviewer and report
     bool json = false, make_sheet = false;
     OralSheetOptions sheet;
 };
@@ -44,8 +46,18 @@ int sheet(const CourseArguments& where, const MarkArguments& words) {
     return give_out(oral_sheet(course, assignment_named(course, words.assignment), words.sheet), words.out);
 }
 
+int drop(const CourseArguments& where, const MarkArguments& words) {
+    Course course(where.folder);
+    const Assignment a = assignment_named(course, words.assignment);
+    drop_scores(course, a, words.dropped[0], words.dropped[1], words.reason, time_of(course, words.at));
+    std::cout << terminal_text(
+        fmt::format("{}: the scores of {} for {} are taken back.\n", a.name, words.dropped[0], words.dropped[1]));
+    return kDone;
+}
+
 int scores(const CourseArguments& where, const MarkArguments& words) {
     if (words.make_sheet) return sheet(where, words);
+    if (!words.dropped.empty()) return drop(where, words);
     if (words.file.empty())
         throw InvalidArgument("give the CSV file with the scores, or --sheet to create a score sheet");
     Course course(where.folder);
@@ -168,13 +180,30 @@ int marks(const CourseArguments& where, const MarkArguments& words) {
     return kDone;
 }
 
+/// Fills in the platform's own table.
+int fill_in(Course& course, const std::optional<Assignment>& a, const MarkArguments& words, Instant now) {
+    const FilledWorksheet filled = fill_worksheet(course, a, words.worksheet, words.column, now);
+    for (const Message& complaint : filled.complaints)
+        std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
+    const int code = give_out(filled.text, words.out);
+    if (!words.out.empty()) {
+        note_export(course, a ? a->name : "", words.out, "", now);
+        std::cout << message_text(plural(static_cast<std::int64_t>(filled.marks), "{} mark", "{} marks")) << '\n';
+    }
+    return filled.complaints.empty() ? code : kFailed;
+}
+
 int export_course(const CourseArguments& where, const MarkArguments& words) {
     Course course(where.folder);
     const Instant now = time_of(course, words.at);
-    return give_out(words.json                 ? course_json(course)
-                    : words.assignment.empty() ? totals_csv(course, now)
-                                               : marks_csv(course, assignment_named(course, words.assignment), now),
-                    words.out);
+    if (words.json) return give_out(course_json(course), words.out);
+    std::optional<Assignment> a;
+    if (!words.assignment.empty()) a = assignment_named(course, words.assignment);
+    if (!words.worksheet.empty()) return fill_in(course, a, words, now);
+    const std::string csv = a ? marks_csv(course, *a, now) : totals_csv(course_totals(course, now));
+    const int code = give_out(csv, words.out);
+    if (!words.out.empty()) note_export(course, words.assignment, words.out, a ? "" : csv, now);
+    return code;
 }
 
 struct MarkCommand {
@@ -198,6 +227,11 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
     scored.app->add_option("ASSIGNMENT", scored.words->assignment)->required();
     scored.app->add_option("CSV", scored.words->file,
                            "Columns reviewer, report (for a talk group, student, comment), and criteria");
+    scored.app->add_option("--drop", scored.words->dropped, "Withdraw the scores of this review; needs --reason")
+        ->type_name("REVIEWER REPORT")
+        ->expected(2)
+        ->excludes("CSV");
+    scored.app->add_option("--reason", scored.words->reason, "Reason; recorded in the history")->needs("--drop");
     scored.app->add_flag("--sheet", scored.words->make_sheet, "For a talk: make an empty score sheet");
     scored.app->add_option("-o,--out", scored.words->out, "File of the sheet. Default: standard output.")
         ->type_name("CSV");
@@ -216,7 +250,8 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         "scores in the pack of a\nreview (dynlab new review) when it receives the review.\nFor a talk, points in a "
         "student's row are only for that student; empty cells get the points of the group.\nExamples:\n  dynlab course "
         "scores final-talk --sheet --students -o sheet.csv\n  dynlab course scores crane scores.csv\n  dynlab course "
-        "scores crane finals.csv --stage final");
+        "scores crane finals.csv --stage final\n  dynlab course scores crane --drop group-24 report-12 --reason "
+        "\"zeros everywhere\"");
 
     const auto shown = add_one(course, "marks", "Show medians, marks of reports and reviewers, and unusual reviews",
                                where, action, marks);
@@ -236,10 +271,21 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
     add_time_option(*given.app, given.words->at);
     given.app->add_option("-o,--out", given.words->out, "Output file. Default: standard output.")->type_name("FILE");
     given.app->add_flag("--json", given.words->json, "Export the complete store, for import");
+    given.app
+        ->add_option("--worksheet", given.words->worksheet,
+                     "Moodle's grading worksheet or Canvas's gradebook, as downloaded: fill in the marks there")
+        ->type_name("CSV")
+        ->check(CLI::ExistingFile)
+        ->excludes("--json");
+    given.app->add_option("--column", given.words->column, "Column to fill in, in Canvas, such as \"Lab 4 (1234)\"")
+        ->type_name("NAME")
+        ->needs("--worksheet");
     given.app->footer(
         "Without an assignment, the CSV contains the percentages of each student and the total, weighted by "
         "assignment. Work\nthat is missing after its deadline counts 0. Unmarked work does not count; dynlab lists "
-        "it.\nExamples:\n  dynlab course export -o term.csv\n  dynlab course export crane -o marks.csv\n  dynlab "
+        "it.\nWith --worksheet, dynlab writes the percentage, scaled to the maximum points of the column, into the "
+        "platform's table.\nExamples:\n  dynlab course export -o term.csv\n  dynlab course export crane -o marks.csv\n "
+        " dynlab course export crane --worksheet Grades-crane.csv -o moodle.csv\n  dynlab "
         "course export --json -o course.json");
 }
 

@@ -9,10 +9,13 @@
 #include "course/export/returned_files.h"
 #include "course/intake/arrival_times.h"
 #include "course/office/receive.h"
+#include "course/store/newest_versions.h"
 #include "course/store/receipts.h"
 #include "course/store/store_check.h"
+#include "numerics/error.h"
 #include "platform/atomic_file.h"
 #include "platform/program_lookup.h"
+#include "platform/temporary_folder.h"
 #include "platform/terminal/aligned_table.h"
 #include "platform/terminal/terminal_text.h"
 
@@ -25,7 +28,7 @@ struct ReceiveArguments {
     std::vector<std::string> files;
     std::vector<std::string> of;
     std::string assignment, from, at, times, isolation = "full", stage = "first";
-    bool no_checks = false, first = false, accept_late = false;
+    bool no_checks = false, first = false, accept_late = false, kept = false;
 };
 
 Message remark(const Received& r) {
@@ -109,12 +112,42 @@ bool confirm_penalties(Course& course, const ReceiveOutcome& outcome, bool accep
     return false;
 }
 
+/// A file that was not taken, by its name or the beginning of its SHA-256, as a file again.
+fs::path file_not_taken(Course& course, const Assignment& assignment, const std::string& name, const fs::path& folder,
+                        Instant& at) {
+    constexpr std::size_t kShortest = 8;  // digits
+    std::vector<FileNotTaken> found = files_not_taken(course, assignment);
+    std::erase_if(found, [&](const FileNotTaken& one) {
+        return one.name != name && (name.size() < kShortest || !one.hash.starts_with(name));
+    });
+    if (found.size() != 1)
+        throw found.empty() ? InvalidArgument("{} has no file \"{}\" that was not taken", assignment.name, name)
+                            : InvalidArgument(
+                                  "{} has {} files \"{}\" that were not taken; give the first digits of "
+                                  "its SHA-256 instead of the name",
+                                  assignment.name, found.size(), name);
+    at = found.front().received_at;
+    fs::path file = folder / fs::path(found.front().name).filename();
+    fs::copy_file(course.file(found.front().hash), file, fs::copy_options::overwrite_existing);
+    return file;
+}
+
 int receive_files(const CourseArguments& where, const ReceiveArguments& words, const std::string& stage) {
     Course course(where.folder);
     ReceiveRequest request;
-    for (const std::string& file : words.files) request.files.emplace_back(file);
     request.assignment = words.assignment, request.from = words.from, request.of = words.of, request.stage = stage;
     request.at = time_of(course, words.at);
+    const TemporaryFolder kept;
+    for (const std::string& file : words.files) {
+        if (!words.kept) {
+            request.files.emplace_back(file);
+            continue;
+        }
+        Instant came = 0;
+        request.files.push_back(
+            file_not_taken(course, assignment_named(course, words.assignment), file, kept.path(), came));
+        if (words.at.empty()) request.at = came;
+    }
     if (words.times == "archive") {
         request.time_of = [](const IncomingFile& file) { return time_in_archive(file.file); };
     } else if (!words.times.empty()) {
@@ -156,6 +189,8 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
             ->capture_default_str()
             ->check(CLI::IsMember({"first", "final"}));
         command->add_flag("--accept-late", words->accept_late, "Apply penalties of half the points or more");
+        command->add_flag("--kept", words->kept,
+                          "FILE is a file that was not accepted before, by name or SHA-256; the course has kept it");
         command->add_flag("--first", words->first,
                           "Submit a first version, even if the reviews of the report are released");
     }

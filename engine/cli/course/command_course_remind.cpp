@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iostream>
+#include <set>
 
 #include "base/reader.h"
 #include "cli/course/course_commands.h"
@@ -13,19 +15,28 @@ namespace {
 
 struct RemindArguments {
     std::string assignment, out = "mail.csv", at;
+    std::vector<std::string> only;
     bool early = false;
 };
 
 int remind(const CourseArguments& where, const RemindArguments& words) {
     Course course(where.folder);
     const Assignment assignment = assignment_named(course, words.assignment);
-    const std::vector<Reminder> reminders = reminders_of(course, assignment, time_of(course, words.at), words.early);
+    std::set<std::int64_t> only;
+    for (const std::string& name : words.only) only.insert(group_named(course, name).id);
+    const Instant now = time_of(course, words.at);
+    const std::vector<Reminder> reminders = reminders_of(course, assignment, now, words.early, only);
     if (reminders.empty()) {
         std::cout << message_text(Message("Nothing is missing.")) << '\n';
         return kDone;
     }
     const TextTable mails = reminder_mails(course, assignment, reminders);
     write_file_atomically(words.out, csv_text(mails));
+    std::vector<std::string> reminded;
+    for (const Reminder& reminder : reminders) reminded.push_back(reminder.group.name);
+    Transaction transaction(course.database());
+    course.note(fmt::format("{}: reminders written for {}", assignment.name, fmt::join(reminded, ", ")), now);
+    transaction.commit();
     for (const Reminder& reminder : reminders)
         std::cout << terminal_text(message_text(
                          Message("{}: {}", reminder.group.name, MessageList{reminder.missing, Join::kSemicolon})))
@@ -51,6 +62,7 @@ void add_remind_command(CLI::App& course, CourseArguments& where, Action& action
     CLI::App* command = course.add_subcommand("remind", "Write reminders for missing or unreadable work");
     command->add_option("ASSIGNMENT", words->assignment, "Assignment. Default: the only one");
     command->add_option("-o,--out", words->out, "File to write")->type_name("CSV")->capture_default_str();
+    command->add_option("--only", words->only, "Group or student; may be repeated")->type_name("NAME");
     command->add_flag("--early", words->early, "Include work that is not due yet");
     add_time_option(*command, words->at);
     command->footer(

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "cli/commands.h"
@@ -14,7 +15,9 @@ struct CourseArguments {
     std::string folder = ".";
 };
 
-void add_time_option(CLI::App& command, std::string& text);      ///< --at TIME
+void add_time_option(CLI::App& command, std::string& text);  ///< --at TIME
+/// --after N
+void add_after_option(CLI::App& command, std::optional<std::int64_t>& entry);
 Instant time_of(const Course& course, const std::string& text);  ///< of --at; now when that is empty
 
 /// Shows how far work is that says only when it begins how much there is.
@@ -57,6 +60,9 @@ void add_findings_command(CLI::App& course, CourseArguments& where, Action& acti
 
 /// grade, mark.
 void add_grade_commands(CLI::App& course, CourseArguments& where, Action& action);
+
+/// page; in cli/pages.
+void add_course_page(CLI::App& course, CourseArguments& where, Action& action);
 
 /// scores, marks, export.
 void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action);

@@ -7,6 +7,7 @@
 
 #include "cli/program.h"
 #include "platform/program_lookup.h"
+#include "scripting/runtime/help.h"
 
 namespace {
 
@@ -20,6 +21,18 @@ std::string_view first_argument(int count, char** args) {
     return i < count ? args[i] : "";
 }
 
+/// `help` of a command that the other program has, "help course page": no page is called so.
+bool asks_for_other_command(int count, char** args, const Program& program) {
+    if (first_argument(count, args) != "help") return false;
+    std::string name;
+    for (int i = 1; i < count; ++i)
+        if (const std::string_view word = args[i]; word != "help" || !name.empty())
+            name += (name.empty() ? "" : " ") + std::string(word);
+    const std::string first = name.substr(0, name.find(' '));
+    return !name.empty() && name.find_first_of("-.") == name.npos && !find_help_page(name) &&
+           !program.has_command(first);
+}
+
 }  // namespace
 
 int main(int count, char** args) {
@@ -29,6 +42,6 @@ int main(int count, char** args) {
     const std::string_view first = first_argument(count, args);
     const bool is_here =
         first.empty() || first == "--view" || first == "--version" || program.has_command(std::string(first));
-    if (is_here) return program.run(count, args);
+    if (is_here && !asks_for_other_command(count, args, program)) return program.run(count, args);
     go_on_as(kCourseProgram, args);
 }

@@ -9,57 +9,29 @@
 #include "base/reader.h"
 #include "course/answers/formulas.h"
 #include "course/answers/hidden_names.h"
+#include "course/answers/lesson_questions.h"
 #include "course/answers/written_answers.h"
 #include "course/intake/class_submissions.h"
 #include "course/intake/owners.h"
 #include "course/intake/staging.h"
 #include "data_io/text_table.h"
-#include "documents/document_rules.h"
+#include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/temporary_folder.h"
 #include "platform/text/read_number.h"
-#include "workflow/student_copy.h"
 
 namespace dynlab::inline course {
 namespace {
 
 namespace fs = std::filesystem;
 
-QuestionName question_named(const std::string& text, const Lesson& lesson) {
-    QuestionName question;
-    std::string number = text;
-    if (number.starts_with("q") || number.starts_with("Q")) number.erase(0, 1);
-    if (const auto given = read_number<int>(number); given && *given > 0) {
-        question.number = *given;
-        return question;
-    }
-    question.titles = {folded_title(text)};
-    for (const char* language : {"en", "fr"})
-        if (fs::exists(lesson.report(language)))
-            for (const SectionRule& section : document_rules(read_template(lesson.report(language))).sections)
-                if (question.titles.contains(folded_title(section.english)) ||
-                    question.titles.contains(folded_title(section.french)))
-                    question.titles.insert({folded_title(section.english), folded_title(section.french)});
-    return question;
-}
-
 /// "q3", "conclusion": in names of files.
 std::string slug_of(const QuestionName& question) {
     if (question.number > 0) return fmt::format("q{}", question.number);
     return replaced(*question.titles.begin(), " ", "-");
-}
-
-std::vector<TextPart> text_parts_in(const fs::path& folder) {
-    std::vector<TextPart> parts;
-    if (fs::is_regular_file(folder / "analysis.lua"))
-        parts = text_parts_of_script(text_of_source(folder / "analysis.lua"));
-    if (fs::is_regular_file(folder / "report.md"))
-        for (TextPart& part : text_parts_of_report(text_of_source(folder / "report.md")))
-            parts.push_back(std::move(part));
-    return parts;
 }
 
 /// One submission's answer.
@@ -68,31 +40,14 @@ struct Answer {
     int number = 0;
 };
 
-/// The lesson's side of a question.
-struct AskedQuestion {
-    std::string text, solution;  ///< Markdown; may be empty
-};
-
 /// Reads the answers of a class.
 class AnswerCollection {
   public:
     explicit AnswerCollection(const AnswersRequest& request)
-        : request_(request), question_(question_named(request.question, request.lesson)) {
-        const TemporaryFolder work;
-        std::vector<TextPart> starter;
-        for (const std::string language : {"", "fr"}) {
-            if (!language.empty() && !fs::exists(request.lesson.tasks(language))) continue;
-            const fs::path copy = work.path() / ("copy" + language);
-            make_student_copy(request.lesson, copy, {}, language);
-            const std::vector<TextPart> parts = text_parts_in(copy);
-            given_.add(parts);
-            if (starter.empty()) starter = parts;
-        }
-        refuse_unknown_question();
-        asked_.text = written_answer(starter, question_, GivenText());
-        asked_.solution =
-            written_answer(text_parts_of_script(text_of_source(request.lesson.script())), question_, given_);
-    }
+        : request_(request),
+          lesson_(request.lesson),
+          question_(lesson_.question(request.question)),
+          asked_(lesson_.asked(question_)) {}
 
     void read(AnswersOutcome& outcome) {
         const ClassSubmissions submissions(request_.submissions, request_.isolation, request_.program, request_.out);
@@ -107,7 +62,7 @@ class AnswerCollection {
                 if (!submission.person.empty()) authors.emplace_back().name = submission.person;
                 for (const std::size_t student : owners.find(submission).students)
                     authors.push_back(request_.roster[student]);
-                const std::string text = written_answer(text_parts_in(staged.folder), question_, given_);
+                const std::string text = written_answer(text_parts_in(staged.folder), question_, lesson_.given());
                 answers_.push_back({submission.name, names.hidden_in(text, authors)});
             } catch (const SubmissionError& error) {
                 outcome.complaints.push_back(Message("\"{}\": {}", submission.name, error.message()));
@@ -144,25 +99,9 @@ class AnswerCollection {
     }
 
   private:
-    void refuse_unknown_question() const {
-        if (question_.number > 0 ? given_.questions().contains(question_.number)
-                                 : std::ranges::any_of(question_.titles, [&](const std::string& title) {
-                                       return given_.has_heading(title);
-                                   }))
-            return;
-        std::vector<std::string> known;
-        for (const int number : given_.questions()) known.push_back(std::to_string(number));
-        if (question_.number == 0 || known.empty()) {
-            known.clear();
-            for (const std::string& heading : given_.headings()) known.push_back("\"" + folded_title(heading) + "\"");
-        }
-        throw EnvironmentError("{} has no question \"{}\"; the questions are {}", request_.lesson.slug,
-                               request_.question, listed(known));
-    }
-
     const AnswersRequest& request_;
+    LessonQuestions lesson_;
     QuestionName question_;
-    GivenText given_;
     AskedQuestion asked_;
     std::vector<Answer> answers_;
 };

@@ -22,6 +22,9 @@ struct GradedRun {
     bool began = true;                         ///< false for a script that cannot be read
 };
 
+/// What they may see of this run of the script.
+GradedRun graded_run(RunRecord&& record, const PercentScript& script);
+
 /// One run of a student's script for grading.
 struct RunJob {
     static constexpr char kWork[] = "run";

@@ -7,7 +7,7 @@
 
 #include "base/languages.h"
 #include "base/reader.h"
-#include "course/boxes/zip_file.h"
+#include "platform/files/zip_file.h"
 #include "course/intake/folder_copy.h"
 #include "data_io/dataset_index.h"
 #include "data_io/text_table.h"

@@ -8,7 +8,7 @@
 
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/graded_run.h"
-#include "course/boxes/zip_file.h"
+#include "platform/files/zip_file.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"

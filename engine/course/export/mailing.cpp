@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "course/boxes/zip_file.h"
+#include "platform/files/zip_file.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline course {

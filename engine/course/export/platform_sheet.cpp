@@ -165,6 +165,7 @@ void PlatformSheet::recognise_moodle() {
         return named ? named : maximum_column();
     }();
     grade_ = first_column(names_, [](const std::string& name) { return is_known_header(name, kGradeHeaders); });
+    maximum_ = maximum;
     if (!grade_ && maximum && *maximum > 0) grade_ = *maximum - 1;
     if (!grade_ || grade_ == number_)
         throw EnvironmentError("{}: the column of grades is not recognized; the columns are {}", file_.string(),
@@ -212,6 +213,14 @@ void PlatformSheet::find_people() {
 void PlatformSheet::put(std::size_t row, std::size_t column, const std::string& text) {
     const bool separated = text.find(separator_) != std::string::npos;
     lines_[row].cells[column] = number_in_cell(text) && !separated ? text : csv_cell(text);
+}
+
+std::optional<double> PlatformSheet::maximum() const {
+    for (const std::size_t row : rows()) {
+        const bool has_it = platform_ == Platform::kMoodle ? maximum_.has_value() : value(row, number_).empty();
+        if (has_it) return number_in_cell(value(row, platform_ == Platform::kMoodle ? maximum_ : grade_));
+    }
+    return {};
 }
 
 void PlatformSheet::set_grade(const Person& person, const std::string& points) {

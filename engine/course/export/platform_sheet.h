@@ -34,6 +34,7 @@ class PlatformSheet {
     Platform platform() const { return platform_; }
     const std::vector<Person>& people() const { return people_; }
     const std::vector<Message>& unrecognised() const { return unrecognised_; }  ///< sentences
+    std::optional<double> maximum() const;  ///< the most points in the column of grades, where the table has it
     void set_grade(const Person& person, const std::string& points);
     void set_comment(const Person& person, const std::string& comment);  ///< where the table has such a column
     std::string text() const;
@@ -60,7 +61,7 @@ class PlatformSheet {
     bool decimal_comma_ = false;
     std::vector<Line> lines_;
     std::vector<std::string> names_;  ///< of the columns, as words without accents
-    std::optional<std::size_t> number_, id_, mail_, name_, grade_, comment_;
+    std::optional<std::size_t> number_, id_, mail_, name_, grade_, comment_, maximum_;
     std::vector<Person> people_;
     std::vector<Message> unrecognised_;
 };

@@ -67,13 +67,14 @@ class Gaps {
 
 }  // namespace
 
-std::vector<Reminder> reminders_of(Course& course, const Assignment& assignment, Instant now, bool early) {
+std::vector<Reminder> reminders_of(Course& course, const Assignment& assignment, Instant now, bool early,
+                                   const std::set<std::int64_t>& only) {
     auto versions = newest_versions(course, assignment);
     std::vector<ReviewPair> pairs;
     if (assignment.is_report()) pairs = review_pairs(course, assignment);
     std::vector<Reminder> reminders;
     for (const Group& group : groups_of(course)) {
-        if (group.dropped_out) continue;
+        if (group.dropped_out || (!only.empty() && !only.contains(group.id))) continue;
         auto& stages = versions[group.id];
         Gaps gaps(course, assignment, group, now, early);
         if (assignment.is_report()) {

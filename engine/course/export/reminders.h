@@ -1,4 +1,5 @@
 #pragma once
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@ struct Reminder {
 
 /// Of an assignment: what is missing though its deadline is over, or with `early` whatever its deadline, and files that
 /// cannot be read. Groups that dropped out need no reminder.
-std::vector<Reminder> reminders_of(Course& course, const Assignment& assignment, Instant now, bool early = false);
+/// `only`: ids of groups; all where there are none.
+std::vector<Reminder> reminders_of(Course& course, const Assignment& assignment, Instant now, bool early = false,
+                                   const std::set<std::int64_t>& only = {});
 
 /// Subject and text of a message to one student, in their language (Student::language, else English).
 struct Mail {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "course/boxes/boxed_work.h"
+#include "course/checks/read_checks.h"
 #include "course/grading/grading_rules.h"
 #include "data_io/mat_file.h"
 #include "platform/atomic_file.h"
@@ -16,8 +17,7 @@ namespace dynlab::inline course {
 namespace fs = std::filesystem;
 
 std::uint32_t GradingRules::drawn(const std::string& what) const {
-    const std::string hash = sha256_of(setup_.secret + "\n" + setup_.lesson.slug + "\n" + what);
-    return static_cast<std::uint32_t>(std::stoul(hash.substr(0, 8), nullptr, 16)) | 1u;
+    return drawn_number(setup_.secret, setup_.lesson.slug, what);
 }
 
 /// A hidden record of every rig: which ones the checks ask for shows only while they run, and all take a tenth of a
@@ -73,7 +73,7 @@ void GradingRules::make_records_of_declared_rigs() {
             const bool hidden = run == kHiddenRecords;
             if (!hidden && !reruns_.contains(rig)) continue;
             const std::uint32_t specimen = drawn(rig);
-            wanted.push_back({rig, specimen, drawn((hidden ? "noise:" : "noise:rerun:") + rig)});
+            wanted.push_back({rig, specimen, drawn(noise_of(rig, run))});
             files.push_back((hidden ? records_.path() / kHiddenRecords : records_.path() / rig / "data" / rig) /
                             (rig + ".mat"));
             specimens_[run][rig] = specimen;
@@ -92,8 +92,7 @@ void GradingRules::make_records_of_declared_rigs() {
 
 void GradingRules::make_record(const std::string& data_set, const std::string& run, const fs::path& folder) {
     // Without the run: hidden records are further experiments with the apparatus of the rerun.
-    const RigChoice choice{.specimen = drawn(data_set),
-                           .seed = drawn((run == kHiddenRecords ? "noise:" : "noise:rerun:") + data_set)};
+    const RigChoice choice{.specimen = drawn(data_set), .seed = drawn(noise_of(data_set, run))};
     specimens_[run][data_set] = choice.specimen;
     write_specimen_record(data_set, choice, folder);
 }

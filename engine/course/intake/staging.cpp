@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "course/boxes/zip_file.h"
+#include "platform/files/zip_file.h"
 #include "course/intake/folder_copy.h"
 #include "course/intake/notebooks.h"
 #include "course/intake/owners.h"

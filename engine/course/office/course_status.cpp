@@ -81,6 +81,11 @@ class Status {
         for (const auto& pair : kindred_groups(course)) kindred_.insert(pair);
     }
 
+    AssignmentState state() {
+        for (const Group& group : groups_of(course_)) add(group);
+        return {std::move(states_), present_, late_, unreadable_, missing_, next_step()};
+    }
+
     std::string text() {
         for (const Group& group : groups_of(course_)) add(group);
         std::string text = heading() + '\n' + aligned_table(header(), rows_) + '\n' + sums();
@@ -144,13 +149,15 @@ class Status {
         const HandedInParts first = parts("first"), last = parts("final");
         if (group.dropped_out && first.empty() && last.empty()) return;
         ++groups_;
+        const std::vector<ToDo> things = to_do(group, first, last);
+        states_.push_back({group, first, last, things});
         const std::string members = fmt::format("{}", group.members.size());
         if (assignment_.is_lab()) {
             const auto mark = std::ranges::find(labs_, group.id, &LabMark::group);
             const bool known = mark != labs_.end() && mark->earned;
             rows_.push_back({group.name, members, cell_of(first, main_),
                              known ? fmt::format("{:.4g} of {:.4g}", *mark->earned, mark->possible) : "-",
-                             to_do(group, first, last)});
+                             text_of(things)});
             count(group, first, last);
             return;
         }
@@ -158,8 +165,7 @@ class Status {
             const std::string script =
                 first.contains("pack") ? cell_of(first, "pack") + " (pack)" : cell_of(first, "script");
             rows_.push_back({group.name, members, first.contains("slides") ? cell_of(first, "slides") : "-",
-                             first.contains("script") || first.contains("pack") ? script : "-",
-                             to_do(group, first, last)});
+                             first.contains("script") || first.contains("pack") ? script : "-", text_of(things)});
             count(group, first, last);
             return;
         }
@@ -177,7 +183,7 @@ class Status {
         rows_.push_back({group.name, members, cell_of(first, main_),
                          share(written, to_write) + (late > 0 ? fmt::format(", {} late", late) : "") +
                              (voluntary > 0 ? fmt::format(", {} voluntary", voluntary) : ""),
-                         share(got, to_get), cell_of(last, main_), to_do(group, first, last)});
+                         share(got, to_get), cell_of(last, main_), text_of(things)});
         count(group, first, last);
     }
 
@@ -205,92 +211,104 @@ class Status {
     }
 
     /// What the instructor may want to do about this group.
-    std::string to_do(const Group& group, const HandedInParts& first, const HandedInParts& last) const {
-        if (group.dropped_out) return "dropped out";
-        std::vector<std::string> things;
+    std::vector<ToDo> to_do(const Group& group, const HandedInParts& first, const HandedInParts& last) const {
+        if (group.dropped_out) return {{"dropped", "", "", "dropped out"}};
+        std::vector<ToDo> things;
         const auto due_over = [&](const char* stage) {
             const bool given = assignment_.is_report() || std::string_view(stage) == "first";
             return given && now_ > due_for(course_, assignment_, group.id, stage) + assignment_.grace;
         };
         const auto found = first.find(main_);
-        const auto only_pack = [&](const HandedInParts& parts, const char* of) {
+        const auto only_pack = [&](const HandedInParts& parts, const char* stage, const char* of) {
             if (parts.contains("pack") && !parts.contains(main_))
-                things.push_back(fmt::format("the pack contains no PDF{}: ask for this file", of));
+                things.push_back(
+                    {"no-pdf", stage, "", fmt::format("the pack contains no PDF{}: ask for this file", of)});
         };
-        const auto unread = [&](const HandedInParts& parts, const char* what) {
+        const auto ask_for_readable = [&](const char* stage, const std::string& trouble) {
+            const char* const what = std::string_view(stage) == "final" ? "final version"
+                                     : assignment_.is_report()          ? "first version"
+                                                                        : "file";
+            things.push_back({"unreadable", stage, trouble, fmt::format("ask for a readable {} ({})", what, trouble)});
+        };
+        const auto unread = [&](const HandedInParts& parts, const char* stage) {
             const auto there = parts.find(kUnreadable), readable = parts.find(main_);
             if (there != parts.end() &&
                 (readable == parts.end() || readable->second.received_at < there->second.received_at))
-                things.push_back(fmt::format("ask for a readable {} ({})", what, there->second.trouble));
+                ask_for_readable(stage, there->second.trouble);
         };
-        unread(first, assignment_.is_report() ? "first version" : "file");
-        unread(last, "final version");
+        unread(first, "first");
+        unread(last, "final");
         if (found == first.end()) {
-            only_pack(first, "");
+            only_pack(first, "first", "");
             if (things.empty() && due_over("first"))
-                things.push_back(assignment_.is_lab()      ? "ask for the submission, or drop"
-                                 : assignment_.is_report() ? "ask for the first version, or drop"
-                                                           : "ask for the slides, or drop");
-            return join(things);
+                things.push_back({"missing", "first", "",
+                                  assignment_.is_lab()      ? "ask for the submission, or drop"
+                                  : assignment_.is_report() ? "ask for the first version, or drop"
+                                                            : "ask for the slides, or drop"});
+            return things;
         }
         if (assignment_.is_talk()) {
             if (!first.contains("script") && !first.contains("pack") && due_over("first"))
-                things.push_back("ask for the script");
+                things.push_back({"missing-script", "first", "", "ask for the script"});
         }
-        const auto readable = [&](const HandedInParts& parts, const char* what) {
+        const auto readable = [&](const HandedInParts& parts, const char* stage) {
             const auto there = parts.find(main_);
-            if (there != parts.end() && !there->second.trouble.empty())
-                things.push_back(fmt::format("ask for a readable {} ({})", what, there->second.trouble));
+            if (there != parts.end() && !there->second.trouble.empty()) ask_for_readable(stage, there->second.trouble);
         };
-        readable(first, assignment_.is_report() ? "first version" : "file");
-        readable(last, "final version");
+        readable(first, "first");
+        readable(last, "final");
         const auto id = group.id;
         if (const auto twin = twins_.find(id); twin != twins_.end())
-            things.push_back(fmt::format("submitted the same file as {}", shortened(twin->second)));
+            things.push_back({"same-file", "first", shortened(twin->second),
+                              fmt::format("submitted the same file as {}", shortened(twin->second))});
         if (any_pair([&](const ReviewPair& p) {
                 return p.reviewer == id &&
                        kindred_.contains(std::pair(std::min(p.reviewer, p.author), std::max(p.reviewer, p.author)));
             }))
-            things.push_back("reviews a report of a present or former member: review assign");
-        if (is_held(course_, assignment_, id, {})) things.push_back("its report is withheld");
+            things.push_back({"kin", "review", "", "reviews a report of a present or former member: review assign"});
+        if (is_held(course_, assignment_, id, {})) things.push_back({"held", "first", "", "its report is withheld"});
         if (any_pair([id](const ReviewPair& p) { return p.author == id && p.newer_report; }) &&
             !is_held(course_, assignment_, id, {}))
-            things.push_back("a newer version than was sent: review send");
+            things.push_back({"newer-report", "first", "", "a newer version than was sent: review send"});
         if (any_pair([&](const ReviewPair& p) {
                 return p.reviewer == id && p.newer_review && !is_held(course_, assignment_, id, p.id);
             }))
-            things.push_back("a newer review than was released: review release");
+            things.push_back({"newer-review", "review", "", "a newer review than was released: review release"});
         if (any_pair([&](const ReviewPair& p) { return p.reviewer == id && is_held(course_, assignment_, id, p.id); }))
-            things.push_back("a review by it is withheld");
+            things.push_back({"held", "review", "", "a review by it is withheld"});
         if (any_pair([](const ReviewPair& p) { return p.sent; }) &&
             any_pair([id](const ReviewPair& p) { return p.author == id && !p.sent && !p.written; }) &&
             !is_held(course_, assignment_, id, {}))
-            things.push_back("its copy was not sent: see review send");
+            things.push_back({"stopped", "first", "", "its copy was not sent: see review send"});
         if (any_pair([](const ReviewPair& p) { return p.released; }) && any_pair([&](const ReviewPair& p) {
                 return p.reviewer == id && p.written && !p.released && !is_held(course_, assignment_, id, p.id);
             }))
-            things.push_back("a review by it was not released: see review release");
+            things.push_back({"stopped", "review", "", "a review by it was not released: see review release"});
         if (!pairs_.empty() && !in_allocation(group.id))
-            things.push_back("arrived after the allocation: review assign");
+            things.push_back({"unassigned", "first", "", "arrived after the allocation: review assign"});
         int open = 0;
         for (const ReviewPair& pair : pairs_) {
             if (pair.reviewer != group.id || pair.ended || pair.written) continue;
             if (pair.only_pack)
-                things.push_back(fmt::format("the pack contains no PDF with its review of {}: ask for this file",
-                                             pair.report_pseudonym()));
+                things.push_back({"no-pdf", "review", pair.report_pseudonym(),
+                                  fmt::format("the pack contains no PDF with its review of {}: ask for this file",
+                                              pair.report_pseudonym())});
             else
                 ++open;
         }
         if (open > 0 && due_over("review"))
             things.push_back(
-                message_text(plural(open, "send a reminder about {} review", "send a reminder about {} reviews")));
-        only_pack(last, " of the final version");
-        if (last.empty() && due_over("final")) things.push_back("ask for the final version");
-        return join(things);
+                {"missing", "review", std::to_string(open),
+                 message_text(plural(open, "send a reminder about {} review", "send a reminder about {} reviews"))});
+        only_pack(last, "final", " of the final version");
+        if (last.empty() && due_over("final")) things.push_back({"missing", "final", "", "ask for the final version"});
+        return things;
     }
 
-    static std::string join(const std::vector<std::string>& things) {
-        return fmt::format("{}", fmt::join(things, "; "));
+    static std::string text_of(const std::vector<ToDo>& things) {
+        std::vector<std::string> texts;
+        for (const ToDo& thing : things) texts.push_back(thing.text);
+        return fmt::format("{}", fmt::join(texts, "; "));
     }
 
     std::string sums() const {
@@ -345,11 +363,16 @@ class Status {
     std::vector<LabMark> labs_;
     std::set<std::pair<std::int64_t, std::int64_t>> kindred_;  ///< groups with a common member, now or before
     std::vector<std::vector<std::string>> rows_;
+    std::vector<GroupState> states_;
     int groups_ = 0, present_ = 0, late_ = 0, unreadable_ = 0, missing_ = 0, unassigned_ = 0, open_reviews_ = 0,
         finals_ = 0;
 };
 
 }  // namespace
+
+AssignmentState assignment_state(Course& course, const Assignment& assignment, Instant now) {
+    return Status(course, assignment, now).state();
+}
 
 std::string assignment_status(Course& course, const Assignment& assignment, Instant now) {
     return Status(course, assignment, now).text();

@@ -1,9 +1,36 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "course/store/assignments.h"
+#include "course/store/groups.h"
+#include "course/store/newest_versions.h"
 
 namespace dynlab::inline course {
+
+/// What the instructor may want to do about a group.
+struct ToDo {
+    std::string kind;   ///< "missing", "missing-script", "unreadable", "no-pdf", "same-file", "kin", "held", "stopped",
+                        ///< "newer-report", "newer-review", "unassigned" or "dropped"
+    std::string stage;  ///< "first", "review" or "final"
+    std::string about;  ///< why a file cannot be read, a report's pseudonym, a number of reviews; may be empty
+    std::string text;   ///< as the terminal shows it
+};
+
+/// What a group submitted for an assignment, and what is to be done about it.
+struct GroupState {
+    Group group;
+    HandedInParts first, last;
+    std::vector<ToDo> to_do;
+};
+
+/// The state of an assignment. Groups that dropped out and submitted nothing are left out.
+struct AssignmentState {
+    std::vector<GroupState> groups;
+    int present = 0, late = 0, unreadable = 0, missing = 0;  ///< groups with a first version, ...
+    std::string next;                                        ///< the next command; may be empty
+};
+AssignmentState assignment_state(Course& course, const Assignment& assignment, Instant now);
 
 /// The state of an assignment as a table an instructor can act on: deadlines, a row for each group with what was handed
 /// in, what is late, what cannot be read and what is to be done about it, sums, and the next command.

@@ -12,6 +12,9 @@
 #include "course/store/marks.h"
 #include "course/store/newest_versions.h"
 #include "data_io/text_table.h"
+#include "platform/atomic_file.h"
+#include "platform/temporary_folder.h"
+#include "platform/text/read_number.h"
 
 namespace dynlab::inline course {
 namespace {
@@ -56,6 +59,8 @@ class AssignmentMarks {
     Marks marks_;
 };
 
+constexpr char kExported[] = "exported totals";
+
 std::string mark_text(const std::optional<double>& percent) {
     return percent ? fmt::format("{:.4g}", *percent) : "";
 }
@@ -86,29 +91,75 @@ std::optional<double> weighted_total(const std::vector<Assignment>& assignments,
     return sum / weight;
 }
 
-std::string totals_csv(Course& course, Instant now) {
-    const std::vector<Assignment> assignments = assignments_of(course);
+void note_export(Course& course, const std::string& assignment, const std::string& file, const std::string& totals,
+                 Instant now) {
+    const std::string hash = totals.empty() ? "" : course.keep(totals);
+    if (!hash.empty()) course.settle({hash});
+    Transaction transaction(course.database());
+    if (!hash.empty()) {
+        course.record_file(hash, std::ssize(totals), now);
+        course.remember(kExported, fmt::format("{} {}", hash, now));
+    }
+    course.note(assignment.empty() ? fmt::format("marks of the course written into {}", file)
+                                   : fmt::format("{}: marks written into {}", assignment, file),
+                now);
+    transaction.commit();
+}
+
+ExportChanges changed_since_export(Course& course, const std::string& totals) {
+    ExportChanges changes;
+    const std::string remembered = course.remembered(kExported);
+    const std::size_t blank = remembered.find(' ');
+    if (blank == remembered.npos) return changes;
+    changes.exported = read_number<Instant>(remembered.substr(blank + 1));
+    const TextTable before = read_text_table(course.file(remembered.substr(0, blank)));
+    const TemporaryFolder folder;
+    write_file_atomically(folder.path() / "totals.csv", totals);
+    const TextTable now = read_text_table(folder.path() / "totals.csv");
+    const auto id = now.column("id"), name = now.column("name"), id_before = before.column("id");
+    if (!id || !name || !id_before) return changes;
+    std::map<std::string, const std::vector<std::string>*> rows;
+    for (const auto& row : before.rows) rows[row[*id_before]] = &row;
+    for (const auto& row : now.rows)
+        for (std::size_t i = 0; i < now.names.size(); ++i) {
+            const auto known = rows.find(row[*id]);
+            const auto column = before.column(now.names[i]);
+            const std::string old = known != rows.end() && column ? (*known->second)[*column] : "";
+            if (old != row[i]) changes.cells.push_back({row[*id], row[*name], now.names[i], old, row[i]});
+        }
+    return changes;
+}
+
+CourseTotals course_totals(Course& course, Instant now) {
+    CourseTotals totals{assignments_of(course), students_of(course), {}};
+    totals.marks.resize(totals.students.size());
+    for (const Assignment& a : totals.assignments) {
+        auto marks = marks_of_students(course, a, now);
+        for (std::size_t i = 0; i < totals.students.size(); ++i)
+            totals.marks[i].push_back(marks[totals.students[i].id]);
+    }
+    return totals;
+}
+
+std::string totals_csv(const CourseTotals& totals) {
     TextTable table;
     table.names = {"id", "name", "mail", "moodle", "canvas", "group"};
-    std::vector<std::map<std::string, AssignmentMark>> marks;
-    for (const Assignment& a : assignments) {
+    for (const Assignment& a : totals.assignments)
         table.names.push_back(fmt::format("{} percent (weight {:g})", a.name, a.weight));
-        marks.push_back(marks_of_students(course, a, now));
-    }
     table.names.insert(table.names.end(), {"total percent", "missing", "not marked yet"});
-    for (const Student& student : students_of(course)) {
+    for (std::size_t k = 0; k < totals.students.size(); ++k) {
+        const Student& student = totals.students[k];
         std::vector<std::string> row = {student.id,     student.name,   student.mail,
                                         student.moodle, student.canvas, student.group};
-        std::vector<AssignmentMark> own;
         std::vector<std::string> missing, open;
-        for (std::size_t i = 0; i < assignments.size(); ++i) {
-            own.push_back(marks[i][student.id]);
-            row.push_back(mark_text(own.back().percent));
-            if (own.back().missing) missing.push_back(assignments[i].name);
-            if (own.back().open) open.push_back(assignments[i].name);
+        for (std::size_t i = 0; i < totals.assignments.size(); ++i) {
+            const AssignmentMark& own = totals.marks[k][i];
+            row.push_back(mark_text(own.percent));
+            if (own.missing) missing.push_back(totals.assignments[i].name);
+            if (own.open) open.push_back(totals.assignments[i].name);
         }
-        row.insert(row.end(), {mark_text(weighted_total(assignments, own)), fmt::format("{}", fmt::join(missing, ", ")),
-                               fmt::format("{}", fmt::join(open, ", "))});
+        row.insert(row.end(), {mark_text(weighted_total(totals.assignments, totals.marks[k])),
+                               fmt::format("{}", fmt::join(missing, ", ")), fmt::format("{}", fmt::join(open, ", "))});
         table.rows.push_back(std::move(row));
     }
     return csv_text(table);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "course/store/assignments.h"
+#include "course/store/groups.h"
 
 namespace dynlab::inline course {
 
@@ -24,8 +25,31 @@ std::map<std::string, AssignmentMark> marks_of_students(Course& course, const As
 std::optional<double> weighted_total(const std::vector<Assignment>& assignments,
                                      const std::vector<AssignmentMark>& marks);
 
+/// Records in the history that marks were written into `file`: of the course where `assignment` is empty. The totals
+/// are kept where there are some, so that changed_since_export can tell what is new.
+void note_export(Course& course, const std::string& assignment, const std::string& file, const std::string& totals,
+                 Instant now);
+
+/// A cell of totals_csv that is not as it was exported last.
+struct ChangedCell {
+    std::string student, name, column, before, now;
+};
+struct ExportChanges {
+    std::optional<Instant> exported;  ///< nothing: the totals have never been exported
+    std::vector<ChangedCell> cells;
+};
+ExportChanges changed_since_export(Course& course, const std::string& totals);
+
+/// The marks of all students for all assignments.
+struct CourseTotals {
+    std::vector<Assignment> assignments;
+    std::vector<Student> students;
+    std::vector<std::vector<AssignmentMark>> marks;  ///< by student, then by assignment
+};
+CourseTotals course_totals(Course& course, Instant now);
+
 /// A row a student: identifiers, group, the percent of each assignment, the total, and what is not marked yet. CSV with
 /// formulas neutralised.
-std::string totals_csv(Course& course, Instant now);
+std::string totals_csv(const CourseTotals& totals);
 
 }  // namespace dynlab::inline course

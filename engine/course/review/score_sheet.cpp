@@ -203,6 +203,35 @@ int import_scores(Course& course, const Assignment& a, const std::string& stage,
     return ScoreReader(course, a, stage, file).read(now);
 }
 
+void drop_scores(Course& course, const Assignment& a, const std::string& reviewer, const std::string& report,
+                 const std::string& reason, Instant now) {
+    refuse_without_reason(reason);
+    refuse_without_reviews(a);
+    Transaction transaction(course.database());
+    const std::vector<ReviewPair> pairs = review_pairs(course, a);
+    GivenMark owner;
+    if (reviewer == kInstructor) {
+        const auto known = std::ranges::find(pairs, report, &ReviewPair::report_pseudonym);
+        owner.group = group_named(course, known == pairs.end() ? report : known->author_name).id;
+    } else {
+        const ReviewPair pair = reviewed_pair(pairs, group_named(course, reviewer), report);
+        owner.group = pair.author, owner.pair = pair.id;
+    }
+    std::vector<GivenMark> dropped;
+    for (const GivenMark& mark : marks_in_force(course, a))
+        if (mark.pair == owner.pair && mark.group == owner.group && mark.stage == "first" && mark.student.empty() &&
+            std::ranges::find(a.criteria, mark.item, &Criterion::name) != a.criteria.end()) {
+            dropped.push_back(mark);
+            dropped.back().points.reset();
+            dropped.back().reason = reason;
+        }
+    if (enter_marks(course, a, dropped, now) == 0)
+        throw InvalidArgument("{} has given no scores for {}", reviewer, report);
+    course.note(fmt::format("{}: the scores of {} for {} are taken back; reason: {}", a.name, reviewer, report, reason),
+                now);
+    transaction.commit();
+}
+
 OralComments oral_comments(Course& course, const Assignment& a) {
     OralComments said;
     for (Rows rows = course.database().query(

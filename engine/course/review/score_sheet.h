@@ -17,6 +17,11 @@ namespace dynlab::inline course {
 int import_scores(Course& course, const Assignment& assignment, const std::string& stage,
                   const std::filesystem::path& file, Instant now);
 
+/// Takes back all scores of one review, or with the reviewer "instructor" the instructor's own of the report. Throws
+/// InvalidArgument for an empty reason, and where there are none.
+void drop_scores(Course& course, const Assignment& assignment, const std::string& reviewer, const std::string& report,
+                 const std::string& reason, Instant now);
+
 struct OralSheetOptions {
     bool students = false;  ///< a row a student as well, below the group's
     bool drawn = false;  ///< in a random order, the same one each time, that only the course's key gives; else by name

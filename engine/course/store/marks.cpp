@@ -158,21 +158,55 @@ void take_back_mark(Course& course, const Assignment& assignment, const std::str
     if (!any) throw InvalidArgument("{} has no manual mark for {}", alone ? student : group.name, item);
 }
 
+std::map<std::int64_t, MarkEntry> newest_entries(Course& course, const Assignment& assignment,
+                                                 const std::string& item) {
+    std::map<std::int64_t, MarkEntry> newest;
+    for (Rows rows = course.database().query(
+             "SELECT group_id, id, points, reason, made_at FROM marks WHERE assignment = ? AND item = ? AND student IS "
+             "NULL AND pair IS NULL AND stage = 'first' ORDER BY id",
+             assignment.id, item);
+         rows.next();) {
+        MarkEntry& entry = newest[rows.integer(0)] = {rows.integer(1), {}, rows.text(3), rows.integer(4)};
+        if (!rows.isColumnNull(2)) entry.points = rows.number(2);
+    }
+    return newest;
+}
+
+void refuse_unseen_entry(Course& course, const Assignment& assignment, std::int64_t group, const std::string& who,
+                         const std::string& item, std::int64_t seen) {
+    const MarkEntry newest = newest_entries(course, assignment, item)[group];
+    if (newest.id == seen) return;
+    const std::string at = course.clock().show_exactly(newest.at);
+    if (newest.points)
+        throw InvalidArgument("nothing was changed: {} has {} for {} since {} (\"{}\")", who, *newest.points, item, at,
+                              newest.reason);
+    throw InvalidArgument("nothing was changed: the mark of {} for {} was taken back at {} (\"{}\")", who, item, at,
+                          newest.reason);
+}
+
 std::optional<double> most_points(Course& course, const Assignment& assignment, const std::string& item) {
     if (!assignment.is_lab()) {
         if (item == kReviewsItem) refuse_without_reviews(assignment);
         if (item == kReviewsItem || item == kWholeItem) return 100;
         throw InvalidArgument("{} has marks of work and reviews, but \"{}\" was given", assignment.name, item);
     }
-    Rows rows = course.database().query(
-        "SELECT r.checks, r.possible FROM results r JOIN versions v ON v.id = r.version WHERE v.assignment = ? AND "
-        "r.possible > 0 ORDER BY r.id DESC LIMIT 1",
-        assignment.id);
-    if (!rows.next()) return {};
-    if (item == kWholeItem) return rows.number(1);
-    for (const CheckPoints& check : checks_in(rows.text(0)))
+    const std::vector<CheckPoints> checks = newest_checks(course, assignment);
+    if (checks.empty()) return {};
+    double whole = 0;
+    for (const CheckPoints& check : checks) {
         if (check.id == item) return check.points;
+        whole += check.points;
+    }
+    if (item == kWholeItem) return whole;
     throw InvalidArgument("{} has no check \"{}\"; * means the complete submission", assignment.name, item);
+}
+
+std::vector<CheckPoints> newest_checks(Course& course, const Assignment& assignment) {
+    Rows rows = course.database().query(
+        "SELECT r.checks FROM results r JOIN versions v ON v.id = r.version WHERE v.assignment = ? AND r.possible > 0 "
+        "ORDER BY r.id DESC LIMIT 1",
+        assignment.id);
+    return rows.next() ? checks_in(rows.text(0)) : std::vector<CheckPoints>();
 }
 
 bool record_result(Course& course, const VersionResult& result, Instant now) {

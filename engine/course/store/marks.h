@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,21 @@ bool give_mark(Course& course, const Assignment& assignment, const GivenMark& ma
 void take_back_mark(Course& course, const Assignment& assignment, const std::string& who, bool alone,
                     const std::string& item, const std::string& reason, Instant now);
 
+/// The instructor's newest entry for an item of a group, one that took a mark back among them.
+struct MarkEntry {
+    std::int64_t id = 0;           ///< 0: there is none
+    std::optional<double> points;  ///< nothing: taken back
+    std::string reason;
+    Instant at = 0;
+};
+/// By group.
+std::map<std::int64_t, MarkEntry> newest_entries(Course& course, const Assignment& assignment, const std::string& item);
+
+/// Within a transaction: throws InvalidArgument where the newest entry is another one than `seen` (0: none), so that a
+/// mark that somebody has not seen is not replaced. `who`: the group as the user called it.
+void refuse_unseen_entry(Course& course, const Assignment& assignment, std::int64_t group, const std::string& who,
+                         const std::string& item, std::int64_t seen);
+
 /// The most that may be given for an item of a lab, once it was graded. Throws InvalidArgument for an item that the
 /// assignment does not have.
 std::optional<double> most_points(Course& course, const Assignment& assignment, const std::string& item);
@@ -60,6 +76,9 @@ struct VersionResult {
     std::vector<CheckPoints> checks;
     std::string fingerprint;  ///< of all that it depends on
 };
+
+/// The checks of the newest result of any version of a lab; none before it is graded.
+std::vector<CheckPoints> newest_checks(Course& course, const Assignment& assignment);
 
 /// Within a transaction: the newest result of a version counts; the same one again is not entered. Returns whether it
 /// is new.

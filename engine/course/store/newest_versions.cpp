@@ -38,13 +38,14 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
 std::vector<FileNotTaken> files_not_taken(Course& course, const Assignment& assignment) {
     std::vector<FileNotTaken> files;
     for (Rows rows = course.database().query(
-             "SELECT name, findings, received_at FROM standing r WHERE assignment = ?1 AND part = ?2 AND NOT EXISTS "
+             "SELECT name, findings, received_at, hash FROM standing r WHERE assignment = ?1 AND part = ?2 AND NOT "
+             "EXISTS "
              "(SELECT 1 FROM standing s WHERE s.assignment = ?1 AND s.part <> ?2 AND (s.hash = r.hash OR (s.group_id = "
              "r.group_id AND s.stage = r.stage AND s.received_at >= r.received_at))) ORDER BY id",
              assignment.id, kUnreadable);
          rows.next();)
         if (const Inspection seen = inspection_from(rows.text(1)); seen.trouble == kNotTaken)
-            files.push_back({rows.text(0), seen.reason, rows.integer(2)});
+            files.push_back({rows.text(0), seen.reason, rows.integer(2), rows.text(3)});
     return files;
 }
 

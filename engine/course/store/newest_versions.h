@@ -33,6 +33,7 @@ struct FileNotTaken {
     std::string name;
     Message reason;  ///< a sentence or a clause
     Instant received_at = 0;
+    std::string hash;
 };
 std::vector<FileNotTaken> files_not_taken(Course& course, const Assignment& assignment);
 

@@ -240,6 +240,7 @@ class ChunkJob {
         job.work_folder = memory_.folder.path();
         job.bibliography = bibliography_;
         job.measures = source_.measures;
+        job.names_values = source_.names_values;
         job.unfinished = unfinished_ || record_.error;
         job.draft = draft_;
         job.chunks.emplace();

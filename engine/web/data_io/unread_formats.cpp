@@ -1,4 +1,3 @@
-#include "data_io/mat_file.h"
 #include "data_io/packaged_record.h"
 #include "data_io/workbook.h"
 #include "platform/error.h"
@@ -12,14 +11,6 @@ namespace {
 }
 
 }  // namespace
-
-VariableTable read_mat_file(const std::filesystem::path& file, bool, std::vector<Message>*) {
-    refuse(file, "MAT");
-}
-
-void write_mat_file(const std::filesystem::path& file, const VariableTable&, int) {
-    throw EnvironmentError("{}: dynlab in a browser cannot write MAT files; save the data as CSV", file.string());
-}
 
 SheetText read_sheet(const std::filesystem::path& file, const std::string&) {
     refuse(file, ".xlsx");

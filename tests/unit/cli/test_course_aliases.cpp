@@ -35,6 +35,7 @@ TEST(course_aliases, old_names_become_new_ones_with_a_note) {
                 ElementsAre("--course", "x", "export-grades", "marks"));
     with_new_names({"look", "look"}, note);
     EXPECT_THAT(note, HasSubstr("dynlab look is now dynlab inspect"));
+    EXPECT_THAT(renamed({"manual", "folder", "--timings"}), ElementsAre("site", "folder", "--timings"));
 }
 
 // oracle: only the command itself is a name, no file and no group of the same name
@@ -42,7 +43,7 @@ TEST(course_aliases, other_words_stay) {
     for (const Words& words :
          {Words{"course", "submit", "receive"}, Words{"course", "extend", "time", "return"}, Words{"grade", "receive"},
           Words{"run", "look"}, Words{"course"}, Words{"course", "peer"}, Words{},
-          Words{"course", "review", "assign", "crane"}, Words{"run", "course", "release"}})
+          Words{"course", "review", "assign", "crane"}, Words{"run", "course", "release"}, Words{"help", "manual"}})
         EXPECT_EQ(renamed(words), words);
 }
 

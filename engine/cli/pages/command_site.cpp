@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "app/page/page_routes.h"
+#include "base/reader.h"
+#include "cli/commands.h"
+#include "cli/say.h"
+#include "platform/terminal/activity_line.h"
+#include "workflow/site/make_site.h"
+
+namespace dynlab::inline cli {
+
+void add_site(CLI::App& app, Action& action) {
+    struct SiteArguments {
+        SiteRequest request;
+        std::string engine;
+        bool timings = false;
+    };
+    auto words = std::make_shared<SiteArguments>();
+    CLI::App* command = app.add_subcommand(
+        "site", "Make a static site of the course: lessons whose cells run in the browser, workbench, data and help");
+    command->add_option("FOLDER", words->request.folder, "New or empty folder, or an older site, which is replaced")
+        ->required();
+    command->add_option("--engine", words->engine,
+                        "Folder with dynlab.js and dynlab.wasm. Default: the installed engine, or that of "
+                        "scripts/build web");
+    command->add_flag("--timings", words->timings, "Print the time of each step");
+    command->footer(
+        "Copy FOLDER to any web server (dynlab help guide-site). Without an engine the pages show results, but no "
+        "cell\n"
+        "runs.\n\n"
+        "Examples:  dynlab site site     python3 -m http.server --directory site");
+    command->callback([words, &action] {
+        action = [words]() -> int {
+            SiteRequest& request = words->request;
+            request.engine = words->engine.empty() ? web_engine() : words->engine;
+            request.page_files = page_files_of_site();
+            SiteResult made;
+            {
+                ActivityLine activity;
+                request.step = [&activity](const Message& step) { activity.begin_step(message_text(step, user())); };
+                made = make_site(request);
+            }
+            for (const auto& [step, seconds] : made.timings)
+                if (words->timings) std::cout << fmt::format("{:6.2f} s  {}\n", seconds, message_text(step, user()));
+            const auto first = std::filesystem::absolute(request.folder / "index.html").lexically_normal();
+            std::cout << first.string() << '\n';
+            say(plural(made.pages, "{} page", "{} pages"));
+            if (!request.engine)
+                say(
+                    Message("The cells of the lessons do not run: there is no engine for browsers. In the source tree, "
+                            "scripts/build web makes it."));
+            return kDone;
+        };
+    });
+}
+
+}  // namespace dynlab::inline cli

@@ -1,0 +1,114 @@
+#include "web/page_world.h"
+
+#include <emscripten.h>
+
+#include <algorithm>
+
+#include "data_io/values/json_values.h"
+#include "documents/html/plot_data.h"
+#include "platform/stopwatch.h"
+#include "platform/terminal/progress.h"
+#include "scripting/interpreter/catalogue.h"
+
+EM_JS(void, dynlab_send_news, (const char* json), { Module.news(UTF8ToString(json)); });
+
+namespace dynlab::inline web {
+namespace {
+
+constexpr std::size_t kMostMemory = std::size_t{512} << 20;
+
+/// What a change of which makes every part run again.
+std::string settings_of(const PercentScript& script, const RunOrder& order) {
+    return script.file.string() + "\n" + std::to_string(order.seed.value_or(script.header.seed)) + "\n" +
+           script.header.language + "\n" + json_of(order.slider_values);
+}
+
+RunOptions options_of(const CallCache& calls, const PercentScript& script, const RunOrder& order) {
+    RunOptions options;
+    options.seed = order.seed.value_or(script.header.seed);
+    options.script_folder = script.file.parent_path();
+    options.out_folder = options.script_folder / "out";
+    options.call_cache = const_cast<CallCache*>(&calls);
+    options.stay_in_folder = true;
+    options.memory_limit_bytes = kMostMemory;
+    return options;
+}
+
+/// The number of the part that has this cell; of all where there is none.
+std::size_t part_with(const std::vector<ScriptPart>& parts, const std::string& cell) {
+    const auto has_cell = [&](const ScriptPart& part) {
+        return std::find(part.cells.begin(), part.cells.end(), cell) != part.cells.end();
+    };
+    return static_cast<std::size_t>(std::find_if(parts.begin(), parts.end(), has_cell) - parts.begin());
+}
+
+}  // namespace
+
+void send(const News& news) {
+    send_json(json_of(news));
+}
+
+void send_json(const std::string& news) {
+    dynlab_send_news(news.c_str());
+}
+
+void tell_progress(std::size_t part, const std::vector<std::string>& cells) {
+    ProgressBar::tell_instead([part, cells](std::size_t done, std::size_t total) {
+        const double share = total == 0 ? 0 : double(std::min(done, total)) / double(total);
+        send({.kind = "progress", .part = part, .cells = cells, .progress = share});
+    });
+}
+
+World::World(const CallCache& calls, const PercentScript& script, const RunOrder& order)
+    : language_{script.header.language},
+      reader_{catalog_of(script.header.language), &option_name},
+      sliders_{order.slider_values, true},
+      runtime_(options_of(calls, script, order), renderer_),
+      settings_(settings_of(script, order)) {
+    runtime_.services() = {.language = &language_, .sliders = &sliders_};
+    runtime_.begin_parts(script);
+}
+
+bool World::goes_on(const PercentScript& script, const RunOrder& order) const {
+    const std::vector<ScriptPart> parts = script_parts(script);
+    const std::size_t first = order.again.empty() ? parts.size() : part_with(parts, order.again);
+    if (failed_ || order.anew || settings_ != settings_of(script, order) || done_.size() > first) return false;
+    for (std::size_t i = 0; i < done_.size(); ++i)
+        if (done_[i].code != parts[i].code || done_[i].cells != parts[i].cells) return false;
+    return true;
+}
+
+void World::run(const PercentScript& script, const RunOrder& order) {
+    const std::vector<ScriptPart> parts = script_parts(script);
+    const std::size_t until =
+        order.until.empty() ? parts.size() : std::min(part_with(parts, order.until) + 1, parts.size());
+    for (std::size_t i = done_.size(); i < until; ++i) {
+        send({.kind = "begun", .part = i, .cells = parts[i].cells});
+        tell_progress(i, parts[i].cells);
+        const auto start = std::chrono::steady_clock::now();
+        RunRecord results = runtime_.run_part(script, parts[i]);
+        News news{.kind = "done", .part = i, .cells = parts[i].cells, .seconds = seconds_since(start)};
+        if (results.error)
+            news.error = {results.error->text(reader_), results.error->line_in(script.file.filename().string())};
+        news.figures = new_figures(results);
+        news.results = std::move(results);
+        send(news);
+        failed_ = news.error.has_value();
+        if (failed_) break;
+        done_.push_back(parts[i]);
+    }
+    send({.kind = "ended", .part = done_.size()});
+}
+
+std::map<std::string, PageFigure> World::new_figures(const RunRecord& results) {
+    std::map<std::string, PageFigure> figures;
+    for (const auto& [name, recorded] : results.figures) {
+        auto& [drawn, caption] = drawn_[name];
+        if (drawn == recorded.figure && caption == recorded.caption) continue;
+        drawn = recorded.figure, caption = recorded.caption;
+        figures[name] = {recorded.caption, plot_data(*recorded.figure, reader_), recorded.order};
+    }
+    return figures;
+}
+
+}  // namespace dynlab::inline web
