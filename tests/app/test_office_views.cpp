@@ -1,5 +1,6 @@
 // The views of the instructor's page, and the commands that it needs besides those of before. Oracle: what other
 // commands print of the same course.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

@@ -41,7 +41,9 @@ void expect_alike(const json& native, const json& web, const std::string& place,
         for (const json& one : native)
             if (one.is_number()) largest = std::max(largest, std::abs(one.get<double>()));
     for (auto one = native.begin(), other = web.begin(); one != native.end(); ++one, ++other) {
-        if (native.is_object()) ASSERT_EQ(one.key(), other.key()) << place;
+        if (native.is_object()) {
+            ASSERT_EQ(one.key(), other.key()) << place;
+        }
         expect_alike(*one, *other, place + (native.is_object() ? "." + one.key() : "[]"),
                      native.is_array() ? largest : 0);
     }

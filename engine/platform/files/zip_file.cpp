@@ -10,7 +10,7 @@
 namespace dynlab::inline platform {
 namespace {
 
-constexpr std::uint64_t kMostBytes = 0xfffffffeu;
+constexpr std::uint64_t kMostZipBytes = 0xfffffffeu;
 constexpr std::size_t kMostEntries = 0xfffe;
 constexpr std::uint16_t kVersion = 10, kMadeOnUnix = 3 << 8 | 20;
 constexpr std::uint16_t kTime = 0, kDate = 1 << 5 | 1;  // 1 January 1980, midnight: the first that zip knows
@@ -43,7 +43,7 @@ std::string common_header(const std::string& name, const std::string& content) {
 }
 
 [[noreturn]] void refuse_size() {
-    throw EnvironmentError("a zip can contain at most {} files and {} MB", kMostEntries, kMostBytes >> 20);
+    throw EnvironmentError("a zip can contain at most {} files and {} MB", kMostEntries, kMostZipBytes >> 20);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ std::string zip_of(const std::map<std::string, std::string>& contents) {
     if (contents.size() > kMostEntries) refuse_size();
     std::string zip, list;
     for (const auto& [name, content] : contents) {
-        if (zip.size() + list.size() + content.size() > kMostBytes) refuse_size();
+        if (zip.size() + list.size() + content.size() > kMostZipBytes) refuse_size();
         const std::string header = common_header(name, content);
         put(list, std::uint32_t{0x02014b50}, kMadeOnUnix);
         list += header;
@@ -62,7 +62,7 @@ std::string zip_of(const std::map<std::string, std::string>& contents) {
         put(zip, std::uint32_t{0x04034b50});
         zip += header + name + content;
     }
-    if (zip.size() + list.size() > kMostBytes) refuse_size();
+    if (zip.size() + list.size() > kMostZipBytes) refuse_size();
     const auto count = static_cast<std::uint16_t>(contents.size());
     const auto begin = static_cast<std::uint32_t>(zip.size());
     zip += list;

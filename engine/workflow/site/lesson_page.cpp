@@ -84,11 +84,6 @@ bool is_printed(const Cell& cell) {
     return echo == cell.options.end() || echo->second != "false";
 }
 
-/// A text begins behind an empty line in <pre>: browsers leave the first one out.
-std::string preformatted(const std::string& text) {
-    return (text.starts_with('\n') ? "\n" : "") + html_text(text);
-}
-
 std::string cell_element(const PercentScript& script, const Cell& cell, const std::string& html) {
     const std::string place = fmt::format("data-first=\"{}\" data-last=\"{}\"", cell.first_line, cell.last_line());
     if (cell.kind == Cell::Kind::kText) return fmt::format("<div class=\"text\" {}>\n{}</div>\n", place, html);
@@ -97,7 +92,7 @@ std::string cell_element(const PercentScript& script, const Cell& cell, const st
         "class=\"results\">\n{}</div>\n"
         "</section>\n",
         html_text(cell.id), place, is_printed(cell) ? "" : " hidden",
-        preformatted(lines_between(script, cell.first_line, cell.last_line())), html);
+        html_text(lines_between(script, cell.first_line, cell.last_line())), html);
 }
 
 /// The document cell by cell; text that belongs to no cell, such as questions to check oneself by, comes last.

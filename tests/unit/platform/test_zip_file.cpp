@@ -12,7 +12,9 @@ namespace test_zip_file {
 
 std::string unzip(std::vector<std::string> words) {
     words.insert(words.begin(), "unzip");
-    const ChildResult result = run_child({.command = words}, "unzip");
+    ChildOptions options;
+    options.command = std::move(words);
+    const ChildResult result = run_child(options, "unzip");
     EXPECT_EQ(result.exit_code, 0) << result.output << result.error_output;
     return result.output;
 }
