@@ -1,8 +1,8 @@
 -- expects: exchanger_reading: K is inverted
 -- expects: exchanger_model: Input and output are interchanged
--- expects: exchanger_follows: On a record that you have not seen
+-- expects: exchanger_follows: On a data set that you have not seen
 -- expects: suspension_model: wrong sign
--- expects: suspension_follows: On a record that you have not seen
+-- expects: suspension_follows: On a data set that you have not seen
 -- iddata takes the output first; here the input stands there. The suspension's output is turned upside down.
 local h, s = load("heat_exchanger"), load("suspension")
 local heat, spring = iddata(h.y, h.u, h.t[2] - h.t[1]), iddata(s.y, s.u, s.t[2] - s.t[1])

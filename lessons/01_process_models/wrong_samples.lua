@@ -1,7 +1,7 @@
 -- expects: settling_time: counted in samples
 -- expects: exchanger_reading: counted in samples
 -- expects: exchanger_model: counted in samples
--- expects: exchanger_follows: On a record that you have not seen
+-- expects: exchanger_follows: On a data set that you have not seen
 -- The heat exchanger's record is taken as if it had one sample per second.
 local h, s = load("heat_exchanger"), load("suspension")
 local heat = iddata(h.y, h.u, 1)

@@ -1,6 +1,6 @@
 -- expects: exchanger_reading: the ratio of two levels
 -- expects: exchanger_model: The model treats the operating point as a part of the response
--- expects: exchanger_follows: On a record that you have not seen
+-- expects: exchanger_follows: On a data set that you have not seen
 -- The levels before the step are left in the signals.
 local h, s = load("heat_exchanger"), load("suspension")
 local heat, spring = iddata(h.y, h.u, h.t[2] - h.t[1]), iddata(s.y, s.u, s.t[2] - s.t[1])

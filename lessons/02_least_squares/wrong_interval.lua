@@ -2,7 +2,7 @@
 -- expects: rmse: You divided by N - 2, which estimates the noise
 -- expects: paris: The interval is too narrow
 -- expects: monte_carlo: The mean equals the truth
--- expects: follows_study: On a record that you have not seen
+-- expects: follows_study: On a data set that you have not seen
 -- Years as they are, the standard error of the line for the interval, and a study in which the noise is left out of the regressors.
 local games, four = load("winning_times"), load("step_response")
 local last = #games.year - 1

@@ -3,7 +3,7 @@
 -- expects: continuous: The order is a, b
 -- expects: discrete: The order is a1, b1
 -- expects: noisy: exact samples
--- expects: follows_samples: On a record that you have not seen
+-- expects: follows_samples: On a data set that you have not seen
 -- The columns of Phi and the three numbers of the forecast stand in another order, and the exact samples are taken twice.
 local games, four = load("winning_times"), load("step_response")
 local last = #games.year - 1

@@ -1,7 +1,7 @@
 -- expects: continuous: a has the wrong sign
 -- expects: discrete: a1 has the wrong sign
--- expects: noisy: away from what was expected
--- expects: follows_samples: On a record that you have not seen
+-- expects: noisy: the largest allowed error
+-- expects: follows_samples: On a data set that you have not seen
 -- The output stands in the regressors without its minus, so that a and a1 come out with the other sign.
 local games, four = load("winning_times"), load("step_response")
 local last = #games.year - 1

@@ -1,5 +1,5 @@
 -- expects: follows_samples: The parameters do not change with the samples
--- expects: follows_study: It is the same on another record
+-- expects: follows_study: The answer is the same for another data set
 -- All the right numbers, none of them computed.
 local games = load("winning_times")
 local picture = plot(games.year, games.time)

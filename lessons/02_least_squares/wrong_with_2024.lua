@@ -1,5 +1,5 @@
 -- expects: line: The fit includes 2024
--- expects: rmse: away from what was expected
+-- expects: rmse: the largest allowed error
 -- expects: paris: This is the actual result of Paris, not the forecast of the line
 -- The line is fitted to all Games, that of 2024 included, and then "foretells" 2024.
 local games, four = load("winning_times"), load("step_response")

@@ -1,6 +1,6 @@
 -- expects: position_model: The integrator is missing
--- expects: fits: away from what was expected
--- expects: crane_follows: On a record that you have not seen
+-- expects: fits: the largest allowed error
+-- expects: crane_follows: On a data set that you have not seen
 -- expects: discarded: After the last saturated voltage, the trolley is still at a buffer while voltage is applied
 -- The position's model is left without its integrator, and only the saturated voltage is discarded.
 local c = load("crane")

@@ -1,6 +1,6 @@
 -- expects: position_model: This model was estimated from the validation data
 -- expects: angle_model: The sign is wrong
--- expects: crane_follows: On a record that you have not seen
+-- expects: crane_follows: On a data set that you have not seen
 -- expects: discarded: You discarded more than necessary
 -- The position is estimated on the validation record, the angle counted backwards, and nearly all of limits thrown away.
 local c = load("crane")

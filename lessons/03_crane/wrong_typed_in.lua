@@ -1,5 +1,5 @@
 -- expects: crane_follows: The models do not change with the data
--- expects: swing_follows: It is the same on another record
+-- expects: swing_follows: The answer is the same for another data set
 -- Everything read off a fellow student's report.
 local c = load("crane")
 local Gx, Gt = tf({1.052, 0.1408, 27.44}, {1, 17.55, 31.1, 453.5, 0}), tf({-2.82, 0}, {1, 17.55, 31.1, 453.5})

@@ -1,7 +1,7 @@
 -- expects: discarded: counted in samples
 -- expects: rest_angle: in degrees
 -- expects: free_swing: in Hz
--- expects: swing_follows: On a record that you have not seen
+-- expects: swing_follows: On a data set that you have not seen
 -- Samples, degrees and hertz where seconds, radians and rad/s are wanted.
 local c = load("crane")
 local from_rest = {InitialState = "zero", Offset = "none", TdMax = 0}

@@ -1,5 +1,5 @@
 -- expects: final_model: biased by the noise
--- expects: scatter: at most 0.2 was wanted
+-- expects: scatter: the largest allowed error is 0.2
 -- LSSVF scatters least, so it is recommended, bias and all.
 local u = prbs(4, 100)
 local G = tf({2}, {1, 4, 3})

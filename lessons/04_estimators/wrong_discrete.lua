@@ -1,7 +1,7 @@
 -- expects: record: This is the record without noise
 -- expects: final_model: this one is in discrete time
--- expects: final_is_estimated: away from what was expected
--- expects: follows_data: the same on another record
+-- expects: final_is_estimated: the largest allowed error
+-- expects: follows_data: The answer is the same for another data set
 -- A difference equation is recommended, and the noise was never added.
 local u, Ts = prbs(4, 100), 0.01
 local y = lsim(tf({2}, {1, 4, 3}), u, Ts)

@@ -1,8 +1,8 @@
 -- expects: own_without_noise: Your filter holds the output constant between the samples
--- expects: own_is_lssvf: away from what was expected
+-- expects: own_is_lssvf: the largest allowed error
 -- expects: lssvf: The model was estimated with a lambda other than 3
--- expects: ivsvf: away from what was expected
--- expects: follows_data: away from what was expected
+-- expects: ivsvf: the largest allowed error
+-- expects: follows_data: the largest allowed error
 -- The filter holds the measured output like the input, and the library gets another cut-off frequency.
 local u, Ts = prbs(4, 100), 0.01
 local Go = tf({2}, {1, 4, 3})

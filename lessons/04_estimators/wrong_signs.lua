@@ -1,9 +1,9 @@
 -- expects: own_without_noise: a1 and a2 have the wrong sign
--- expects: own_is_lssvf: away from what was expected
+-- expects: own_is_lssvf: the largest allowed error
 -- expects: ivsvf: the instruments are missing
 -- expects: final_model: The gain has the wrong sign
 -- expects: final_is_estimated: no standard errors
--- expects: follows_data: away from what was expected
+-- expects: follows_data: the largest allowed error
 -- The regressors of the output have lost their minus, the instruments are forgotten, and the final gain is turned round by hand.
 local input, T = prbs(4, 100), 0.01
 local plant = tf({2}, {1, 4, 3})

@@ -1,4 +1,4 @@
--- expects: own_is_lssvf: away from what was expected
+-- expects: own_is_lssvf: the largest allowed error
 -- expects: final_is_estimated: no standard errors
 -- expects: follows_data: must be computed from the data
 -- The truth of the lesson is handed in as if it had been found.

@@ -2,8 +2,8 @@
 -- expects: delay: Too short
 -- expects: thrust_300: Forward and reverse are the same
 -- expects: model: This model is linear
--- expects: statics_follow: On a record that you have not seen
--- expects: model_follows: On a record that you have not seen
+-- expects: statics_follow: On a data set that you have not seen
+-- expects: model_follows: On a data set that you have not seen
 -- One linear model for everything.
 local T = load("thruster")
 local parts, squares = {}, {}

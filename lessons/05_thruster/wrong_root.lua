@@ -1,9 +1,9 @@
--- expects: delay: away from what was expected
+-- expects: delay: the largest allowed error
 -- expects: thrust_300: These are the roots of the thrust
 -- expects: model: The field root contradicts the output of this model
 -- expects: fit: the fit to the sine chirps
--- expects: statics_follow: On a record that you have not seen
--- expects: model_follows: On a record that you have not seen
+-- expects: statics_follow: On a data set that you have not seen
+-- expects: model_follows: On a data set that you have not seen
 -- The root of the thrust is modelled and never squared again; the fit is that of the records it was learnt from.
 local T = load("thruster")
 local Ts = 0.002

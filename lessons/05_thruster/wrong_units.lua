@@ -2,9 +2,9 @@
 -- expects: dead_band: The neutral width is not subtracted
 -- expects: delay: in ms
 -- expects: model: The neutral width is not subtracted
--- expects: fit: away from what was expected
--- expects: statics_follow: On a record that you have not seen
--- expects: model_follows: On a record that you have not seen
+-- expects: fit: the largest allowed error
+-- expects: statics_follow: On a data set that you have not seen
+-- expects: model_follows: On a data set that you have not seen
 -- Rad/s, milliseconds, and pulse widths that count from zero.
 local T = load("thruster")
 local Ts = 0.002

@@ -2,9 +2,9 @@
 -- expects: crane_fit: A linear model reaches this fit
 -- expects: tanks: without its rim at 20 cm
 -- expects: free_run: lsim starts from rest
--- expects: simulated: It comes to
--- expects: crane_follows: On a record that you have not seen
--- expects: tanks_follow: On a record that you have not seen
+-- expects: simulated: Score
+-- expects: crane_follows: On a data set that you have not seen
+-- expects: tanks_follow: On a data set that you have not seen
 -- Swings are taken for small, nothing is dry, the tanks have no rims, and the linear model runs without its offset.
 local record = load("crane")
 local function settled(r) return detrend(iddata(matrix{r.x, r.theta}, r.u, 0.02), "start", {samples = 50}) end

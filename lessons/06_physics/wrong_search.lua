@@ -1,9 +1,9 @@
--- expects: tanks: was not handed in
--- expects: free_run: was not handed in
--- expects: simulated: was not handed in
+-- expects: tanks: was not submitted
+-- expects: free_run: was not submitted
+-- expects: simulated: was not submitted
 -- expects: figures: There is no figure
 -- expects: crane_follows: For the other crane the search failed
--- expects: tanks_follow: was not handed in
+-- expects: tanks_follow: was not submitted
 -- The crane only, by a search without bounds that finds its end on the records it was tried on, and nowhere else.
 local tried, now = rig("crane").estimation, load("crane").estimation
 local astray = norm(now.theta - tried.theta)

@@ -1,5 +1,5 @@
 -- expects: simulated: This is the measured reading itself
--- expects: free_run: away from what was expected
+-- expects: free_run: the largest allowed error
 -- expects: crane_follows: The results do not change with the data
 -- expects: tanks_follow: The results do not change with the data
 -- What SOURCE.md says, and a measured record in place of a simulated one.

@@ -3,7 +3,7 @@
 -- expects: free_run: NARX is so good only one sample ahead
 -- expects: simulated: These are levels
 -- expects: figures: There is no figure
--- expects: crane_follows: On a record that you have not seen
+-- expects: crane_follows: On a data set that you have not seen
 -- Two numbers are interchanged, a fit is a fraction, levels stand for readings, and NARX is judged one sample ahead.
 local R = load("crane")
 local function quiet(r) return detrend(iddata(matrix{r.x, r.theta}, r.u, 0.02), "start", {samples = 50}) end

@@ -1,6 +1,6 @@
 -- expects: two_stage: This is the direct method
 -- expects: final_model: The loop biases the direct method
--- expects: final_is_estimated: away from what was expected
+-- expects: final_is_estimated: the largest allowed error
 -- expects: drive_follows: This is the direct method again
 -- The loop is ignored throughout.
 local r, T = load("drive").tracking, 0.01

@@ -2,7 +2,7 @@
 -- expects: own_instruments: a1 and a2 have the wrong sign
 -- expects: before_cleaning: This is the single model of all data, which does not track the changes
 -- expects: after_cleaning: The order is gain, time constant
--- expects: heater_follows: On a record that you have not seen
+-- expects: heater_follows: On a data set that you have not seen
 -- expects: figures: There is no figure
 -- The heater stands still in time, two numbers are interchanged, a minus is forgotten, and the wrong record was taken.
 local d, S = load("drive"), 0.01

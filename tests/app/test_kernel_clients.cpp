@@ -61,7 +61,7 @@ TEST_F(kernel_clients, doctor_tells_whether_the_kernel_is_there) {
     EXPECT_THAT(told(), HasSubstr("not installed (dynlab kernel install"));
     EXPECT_EQ(jupyter("$DYNLAB kernel remove").exit_code, 1);
     bench.write("jupyter/kernels/dynlab/kernel.json", R"({"argv": ["/nowhere/dynlab"]})");
-    EXPECT_THAT(told(), AllOf(HasSubstr("--"), HasSubstr("/nowhere/dynlab is gone")));
+    EXPECT_THAT(told(), AllOf(HasSubstr("--"), HasSubstr("/nowhere/dynlab does not exist")));
     bench.write("jupyter/kernels/dynlab/kernel.json", "[");
     EXPECT_THAT(told(), HasSubstr("not installed"));
     bench.write("c.json", "{\"ip\": 3}");

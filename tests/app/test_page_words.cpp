@@ -168,7 +168,9 @@ TEST(page_words, are_written_in_the_tables_alone) {
         for (const std::string& line : lines_of(code_of(file))) {
             EXPECT_FALSE(std::regex_search(line, given)) << file << ": " << line;
             for (std::sregex_iterator found(line.begin(), line.end(), quoted), end; found != end; ++found)
-                EXPECT_FALSE(std::regex_search(found->str(), words)) << file << ": " << found->str();
+                EXPECT_FALSE(std::regex_search(found->str(), words) &&
+                             !found->str().starts_with("`dynlab "))  // a command
+                    << file << ": " << found->str();
         }
     }
     for (const char* file : {"index.html", "workbench.html", "view.html", "office.html"}) {

@@ -123,8 +123,7 @@ TEST_F(preview_page, tells_what_is_wrong_with_the_text) {
     std::string wrong = kHead + kFirst + kPlot;
     wrong.replace(wrong.find("Words at the end"), 5, "See @fig:none. Words");
     write(wrong);
-    EXPECT_TRUE(
-        browser.comes("document.getElementById('complaints').innerText.includes('@fig:none points to nothing')"));
+    EXPECT_TRUE(browser.comes("document.getElementById('complaints').innerText.includes('@fig:none has no target')"));
     EXPECT_TRUE(shows(browser, "Words at the end"));
     write("-- ---\n-- titel: x\n-- ---\n" + kFirst);
     EXPECT_TRUE(browser.comes("document.getElementById('complaints').innerText.includes('titel')"));

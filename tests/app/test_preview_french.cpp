@@ -70,7 +70,7 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
     wrong.replace(wrong.find("print("), 6, "pritn(");
     write(wrong);
     EXPECT_TRUE(says(browser, "state", "^arrêté par une erreur$"));
-    EXPECT_TRUE(says(browser, "to-mistake", "^aller à l.erreur$"));
+    EXPECT_TRUE(says(browser, "to-mistake", "^Aller à l.erreur$"));
     EXPECT_TRUE(shows(browser, "ni fonction ni variable"));
 
     write(kHead + kFirst);  // English from here on
@@ -159,7 +159,7 @@ TEST_F(preview_french, findings_and_what_is_handed_in_are_told_in_french) {
     expect_no_english(all_words(browser, "#findings"));
 
     browser.click("#show-hand-in");
-    EXPECT_TRUE(says(browser, "made", "Le rapport est fait à partir du script"));
+    EXPECT_TRUE(says(browser, "made", "dynlab fait le rapport à partir du script enregistré"));
     browser.click("#make-report");
     EXPECT_TRUE(says(browser, "made", "mine\\/report.pdf", 60));
     EXPECT_TRUE(browser.comes("!document.getElementById('make-pack').disabled"));

@@ -109,7 +109,7 @@ TEST_F(preview_hand_in, each_thing_is_counted_once_and_points_are_shown) {
     Browser browser;
     browser.open(preview.address());
     const std::string told = "document.getElementById('show-findings').innerText";
-    EXPECT_TRUE(browser.comes("/1 answer open, 2 rules broken.*0 of 3 points/.test(" + told + ")", 120))
+    EXPECT_TRUE(browser.comes("/1 answer open, 2 rules violated.*0 of 3 points/.test(" + told + ")", 120))
         << browser.evaluate("return " + told);
     browser.click("#show-findings");
     const std::string panel = browser.evaluate("return document.getElementById('findings').innerText");

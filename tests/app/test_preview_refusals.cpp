@@ -54,7 +54,7 @@ TEST_F(preview_refusals, ports) {
     ASSERT_EQ(::getsockname(taken.get(), reinterpret_cast<sockaddr*>(&address), &length), 0);
     const std::string port = std::to_string(ntohs(address.sin_port));
     EXPECT_EQ(refusal({"a.lua", "--port", port}),
-              "dynlab: the port " + port + " is in use or not permitted; omit --port to use a free port\n");
+              "dynlab: port " + port + " is in use or not permitted; omit --port to use a free port\n");
     EXPECT_THAT(refusal({"a.lua", "--port", "99999"}, 2), testing::HasSubstr("99999 not in range 1 to 65535"));
 }
 

@@ -102,7 +102,7 @@ TEST_F(try_pages, more_samples_leave_the_bias_and_less_noise_does_not) {
 }
 
 TEST_F(try_pages, lambda_moves_the_filter_and_the_estimates) {
-    open("04_estimators", "colours the equation error; right");
+    open("04_estimators", "colors the equation error; right");
     const auto cloud = [&](int curve) {  // standard deviation of its abscissas
         const std::vector<double> x = value("box.plot.panels[1].curves[" + std::to_string(curve) + "].x");
         double mean = 0, square = 0;

@@ -119,7 +119,7 @@ TEST_F(workbench_page_parts, a_misspelt_method_keeps_table_controls_and_pictures
         << "all that show the model, and the record not";
     EXPECT_TRUE(
         browser.comes("document.querySelector('.tile[data-view=bode] .told').textContent.includes('before the "
-                      "mistake')"));
+                      "error')"));
     browser.evaluate(
         "const field = document.querySelector('.chosen input[type=text]'); field.value = "
         "'tfsrivc(estimation, 1, 0)'; field.dispatchEvent(new Event('change'))");
@@ -274,7 +274,7 @@ TEST_F(workbench_page_parts, a_second_record_is_prepared_alike_and_shown) {
     ASSERT_TRUE(script_has(browser, "validation = second1\nvalidation = detrend(validation, \"mean\")\n"));
     EXPECT_TRUE(view_comes(browser, "second"));
     ASSERT_TRUE(is_ready(browser));
-    EXPECT_FALSE(browser.comes("document.body.innerText.includes('judged on the samples')", 0.2));
+    EXPECT_FALSE(browser.comes("document.body.innerText.includes('evaluated on its estimation data')", 0.2));
     EXPECT_EQ(browser.evaluate("return document.querySelector('.brush.validation').hidden"), "true")
         << "no part of the first record";
     press_all(browser, {"+ Resample"});

@@ -31,8 +31,8 @@ class workbench_reports : public workbench_page {
     }
     static void open_crane(Browser& browser) {
         browser.evaluate(
-            "[...document.querySelectorAll('#steps summary')].filter((one) => one.textContent.startsWith('Open a "
-            "record') && !one.parentNode.open).forEach((one) => one.click())");
+            "[...document.querySelectorAll('#steps summary')].filter((one) => one.textContent.startsWith('Open data') "
+            "&& !one.parentNode.open).forEach((one) => one.click())");
         choose(browser, "course data and files here", "crane");
         ASSERT_TRUE(browser.comes("document.querySelectorAll('#steps .chip').length > 3"));
     }
@@ -197,7 +197,7 @@ TEST_F(workbench_reports, traps_are_shown_and_not_forbidden) {
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(script_has(browser, "G2 = tfsrivc("));
     EXPECT_TRUE(says(browser, "shifted the input by 3 samples"));
-    EXPECT_FALSE(browser.comes("document.body.innerText.includes('prediction one step ahead small')", 0.1));
+    EXPECT_FALSE(browser.comes("document.body.innerText.includes('minimizes the one-step prediction error')", 0.1));
 }
 
 TEST_F(workbench_reports, a_script_that_is_not_there_or_stops_is_told) {

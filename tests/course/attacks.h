@@ -25,7 +25,7 @@ inline const Attack kAttacks[] = {
     {"huge_concat", "table.concat({}, 'x', 1, 1e15)\nanswer('x', 42)", 0, ""},
     {"memory_bomb", "local t = {}\nwhile true do t[#t + 1] = string.rep('x', 1e6) .. #t end", 0, ""},
     {"table_bomb", "local t = {}\nwhile true do t = {t, t, {t}} t[#t + 1] = {} end", 0, ""},
-    {"vector_bomb", "local v = {}\nwhile true do v[#v + 1] = zeros(7e7) end", 0, "1.07 GB in all"},
+    {"vector_bomb", "local v = {}\nwhile true do v[#v + 1] = zeros(7e7) end", 0, "the limit of the script is 1.07 GB"},
     {"huge_vector", "answer('x', #zeros(1e15))", 0, ""},
     {"huge_matrix", "eye(1e9)", 0, ""},
     {"deep_recursion", "local function f() return 1 + f() end\nf()", 0, ""},

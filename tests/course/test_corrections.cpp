@@ -283,7 +283,7 @@ TEST_F(corrections_of_reviews, a_newer_review_goes_out_again_and_a_withdrawn_one
 TEST_F(corrections_of_reviews, pairs_are_set_and_forbidden_by_hand) {
     const auto reads = [&](const std::string& who, const std::string& whose) {
         return shell("$DYNLAB course --course k review pairs crane | awk '$1 == \"" + who + "\" && $3 == \"" + whose +
-                     "\" && $NF != \"back\"' | wc -l") == "1\n";
+                     "\" && $NF != \"withdrawn\"' | wc -l") == "1\n";
     };
     const std::string partner = reads("group-01", "group-02") ? "group-02" : "group-03";
     ASSERT_TRUE(reads("group-01", partner));
@@ -305,7 +305,7 @@ TEST_F(corrections_of_reviews, who_joins_the_authors_reviews_them_no_more) {
     done({"import", "roster.csv"});
     EXPECT_THAT(done({"review", "assign", "--at", "2026-03-02 12:00"}), Not(HasSubstr("0 withdrawn")));
     EXPECT_THAT(shell("sqlite3 k/course.db \"SELECT ended_reason FROM pairs WHERE ended_at IS NOT NULL\""),
-                HasSubstr("the groups share a member"));
+                HasSubstr("they share a member"));
 }
 
 TEST_F(corrections, the_same_bytes_of_two_groups_are_told_and_a_team_s_copies_are_one) {

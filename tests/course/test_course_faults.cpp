@@ -60,11 +60,11 @@ class course_faults : public ::testing::Test {
 };
 
 constexpr const char* kAllThere =
-    "course verify | grep -q \"4 files, 4 versions: all there\" && "
+    "course verify | grep -q \"4 files, 4 versions: complete\" && "
     "[ $(ls try/receipts/crane | wc -l) = 4 ]";
 // Whatever the store speaks of is there and unaltered.
 constexpr const char* kSound =
-    "course verify >verified 2>&1 && grep -q \"all there and unaltered\" verified && "
+    "course verify >verified 2>&1 && grep -q \"complete and unaltered\" verified && "
     "[ \"$(sqlite3 try/course.db \"PRAGMA integrity_check\")\" = ok ]";
 
 // oracle: the store's own check and SQLite's, after a kill before every single change of a file
@@ -167,7 +167,7 @@ TEST_F(course_faults, leftovers_of_killed_runs_are_removed_and_reported) {
     ASSERT_EQ(killed.exit_code, 0) << "no kill left a file";
     const std::string other = "k/files/.0123.dynlab-" + machine_in_names() + "x-1-0";  // of another machine
     bench_.bench().write(other, "half");
-    bench_.bench().write("k/receipts/.00001-group-01-first-report.txt.4711-0", "of an earlier dynlab");
+    bench_.bench().write("k/receipts/.00001-group-01-first-report.txt.4711-0", "of an earlier, interrupted dynlab");
     const ChildResult told = bench_.course({"verify"});
     EXPECT_EQ(told.exit_code, 0) << told.error_output;
     EXPECT_THAT(told.output,

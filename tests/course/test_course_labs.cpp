@@ -180,10 +180,11 @@ TEST(course_labs, who_tells_all_of_a_student_by_any_name) {
     course.take({{"group-01.rar", "Rar!\x1A\x07"}}, "2026-02-28 12:00");
     const Instant now = course.at("2026-03-05 12:00");
     for (const char* name : {"Student 1", "s1", "Group 1"})
-        EXPECT_THAT(who_text(course.course(), name, now),
-                    AllOf(HasSubstr("Student 1 (s1)"), HasSubstr("first script v1"), HasSubstr("late by 1 h"),
-                          HasSubstr("group-01.rar: It is a RAR archive"), HasSubstr("mark of Student 1: 63 percent"),
-                          HasSubstr("group-01 has 1 points for x; reason: see me")))
+        EXPECT_THAT(
+            who_text(course.course(), name, now),
+            AllOf(HasSubstr("Student 1 (s1)"), HasSubstr("first script v1"), HasSubstr("late by 1 h"),
+                  HasSubstr("group-01.rar: The file is a RAR archive"), HasSubstr("mark of Student 1: 63 percent"),
+                  HasSubstr("group-01 has 1 points for x; reason: see me")))
             << name;
     EXPECT_THAT(who_text(course.course(), "s2", now), Not(HasSubstr("see me")));
     EXPECT_THROW(who_text(course.course(), "Mallory", now), InvalidArgument);
@@ -205,7 +206,7 @@ TEST(course_labs, table_of_deadlines_becomes_extensions_and_times_of_receipt) {
     EXPECT_EQ(done.extended, 1);
     EXPECT_EQ(done.corrected, 1);
     ASSERT_EQ(done.complaints.size(), 1u);
-    EXPECT_THAT(message_text(done.complaints.front()), HasSubstr("the row of \"group-9\": unknown group"));
+    EXPECT_THAT(message_text(done.complaints.front()), HasSubstr("the row of \"group-9\": this course has no group"));
     EXPECT_EQ(course.lab().costs.late_day, 20);
     EXPECT_EQ(course.earned(1), 6);  // two days begun
     EXPECT_EQ(course.earned(2), 10);

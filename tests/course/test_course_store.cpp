@@ -137,11 +137,11 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
     bench.bench().write("gruop-02.pdf", small_pdf("x"));
     refused({"submit", "gruop-02.pdf"},
             "no group or student of the course is named \"gruop-02\" (the closest is group-02)");
-    refused({"submit", "gruop-02.pdf", "--from", "group-9"}, "unknown group \"group-9\"");
+    refused({"submit", "gruop-02.pdf", "--from", "group-9"}, "this course has no group \"group-9\"");
     refused({"submit", "gruop-02.pdf", "--assignment", "crame"}, "did you mean crane?");
     refused({"assignment", "b", "--first", "2026-03-09 12:00", "--review", "2026-03-08 12:00", "--final",
              "2026-03-15 12:00"},
-            "the deadline of the reviews (Sun 2026-03-08 12:00) must come after that of the first version");
+            "the deadline of the reviews (Sun 2026-03-08 12:00) must be after the deadline of the first version");
     refused({"assignment", "b", "--first", "2026-03-09"}, "--first must be a time such as");
     refused({"assignment", "../b", "--first", "2026-03-09 12:00"}, "must be a short word");
     refused({"assignment", "talk", "--kind", "talk", "--first", "2026-03-09 12:00", "--final", "2026-03-12 12:00"},
@@ -149,9 +149,9 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
     refused({"assignment", "crane", "--first", "2026-02-01 12:00", "--review", "2026-03-08 12:00", "--final",
              "2026-03-15 12:00"},
             "you can only postpone deadlines and increase");
-    refused({"drop", "group-77"}, "unknown group");
-    for (const char* group : {"../../up", "a/b", "..", "in\ntwo", ".hidden", "\u202Eback", "CON", "com1.txt", "a:b",
-                              "a*b?", "trail.", "moodle.zip", "Mail.csv", "lab\uFEFF", "\u3164"}) {
+    refused({"drop", "group-77"}, "this course has no group");
+    for (const char* group : {"../../up", "a/b", "..", "in\ntwo", ".hidden", "\u202Eback", "CON", "com1.txt", "trail.",
+                              "moodle.zip", "Mail.csv", "lab\uFEFF", "\u3164"}) {
         bench.bench().write("odd.csv", fmt::format("id,name,group\ns77,Zoe,\"{}\"\n", group));
         refused({"import", "odd.csv"}, "cannot ");
     }
@@ -198,7 +198,7 @@ TEST(course_store, a_roster_changes_what_it_has_columns_for) {
     EXPECT_EQ(bench.dump(), before);
     const ChildResult alone = import("id,name,grp\ns1,Ada King,1\ns3,Cy Ost,2\n", {"--no-groups"});
     CourseBench::expect_done(alone);
-    EXPECT_THAT(alone.error_output, HasSubstr("unknown columns grp"));
+    EXPECT_THAT(alone.error_output, HasSubstr("unknown columns were ignored: grp"));
     EXPECT_EQ(
         rows("SELECT m.student, g.name FROM memberships m JOIN groups g ON g.id = m.group_id WHERE until IS NULL"),
         "s1|group-02\ns2|group-02\ns3|s3\n");

@@ -230,7 +230,7 @@ TEST(gradebook_memory, nobodys_work_is_told_and_a_list_gives_it_to_somebody) {
     const ChildResult graded = bench.grade({"--roster", "roster.csv"});
     EXPECT_EQ(graded.exit_code, 1);
     EXPECT_THAT(graded.error_output, HasSubstr("roster.csv is not UTF-8; dynlab read it as Latin-1"));
-    EXPECT_THAT(graded.output, AllOf(HasSubstr("\"my work\" matches no student in the roster: it fits no group"),
+    EXPECT_THAT(graded.output, AllOf(HasSubstr("\"my work\" matches no student in the roster: it matches no group"),
                                      HasSubstr("\"Ben Lee\" and \"group-2\" are identical byte for byte")));
     EXPECT_THAT(work.read("out/gradebook.csv"),
                 AllOf(HasSubstr("1,José García,,nothing submitted"), HasSubstr("2,Zoë Ade,group-2,graded,0,")));
@@ -270,7 +270,8 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
     EXPECT_THAT(book, HasSubstr("4,Uma Kepler,Uma Kepler,graded,1.8,2,0.2,0.26,2,"));
     EXPECT_THAT(work.read("out/results/group-1/feedback.md"),
                 HasSubstr("and loses 0.2 points: received 2026-03-01 18:20 CET, 20 min after"));
-    EXPECT_THAT(bench.result("group-1").at("output").get<std::string>(), HasSubstr("costs 0.20 points: " + reason));
+    EXPECT_THAT(bench.result("group-1").at("output").get<std::string>(),
+                HasSubstr("Late, minus 0.20 points: " + reason));
     EXPECT_THAT(bench.grade({"--timezone", "Nowhere/Land", "--again"}).error_output, HasSubstr("Nowhere/Land"));
 }
 
@@ -335,7 +336,8 @@ TEST(gradebook_memory, the_better_or_the_newest_hand_in_counts) {
         EXPECT_THAT(book, HasSubstr(fmt::format("1,Anna Müller,{},graded,{},2,",
                                                 points[0] == '2' ? "Anna Müller" : "Zoë Ade", points)));
         EXPECT_THAT(work.read("out/summary.md"),
-                    HasSubstr(fmt::format("of which the {} one counts", points[0] == '2' ? "better" : "newest")));
+                    HasSubstr(fmt::format("group-1 has several submissions; the {} one counts",
+                                          points[0] == '2' ? "better" : "newest")));
     }
 }
 

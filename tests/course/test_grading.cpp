@@ -49,7 +49,7 @@ TEST(grading, gives_points_partial_credit_and_messages) {
     EXPECT_EQ(points(bench.result("near")), (std::vector<double>{1, 3}));
     EXPECT_EQ(points(bench.result("sign")), (std::vector<double>{0, 0}));
     EXPECT_EQ(message(bench.result("sign"), 0), "The sign is wrong.\nSix times seven.");
-    EXPECT_THAT(message(bench.result("sign"), 1), HasSubstr("25 % away"));
+    EXPECT_THAT(message(bench.result("sign"), 1), HasSubstr("The error is 25 %"));
     EXPECT_EQ(points(bench.result("starter")), (std::vector<double>{0, 0}));
     EXPECT_EQ(message(bench.result("starter"), 1), "The answer \"G\" was not submitted.");
     EXPECT_EQ(points(bench.result("stops")), (std::vector<double>{2, 0}));
@@ -270,7 +270,7 @@ TEST(grading, hidden_checks_show_points_and_hint_only) {
     ASSERT_EQ(bench.grade({"--checks", "more"}).exit_code, 0);
     EXPECT_EQ(message(bench.result("a"), 2), "Think of poles.");
     EXPECT_THAT(bench.bench().read("out/results/a/feedback.md"), HasSubstr("Think of poles"));
-    EXPECT_THAT(message(bench.result("a"), 0), HasSubstr("100 % away"));
+    EXPECT_THAT(message(bench.result("a"), 0), HasSubstr("The error is 100 %"));
 }
 
 TEST(grading, a_row_for_each_student_lateness_and_neutral_formulas) {

@@ -62,7 +62,7 @@ TEST_F(lesson_translation, sentences_that_are_not_translated_are_counted) {
                  "-- ---\n-- title: Un gain\n-- language: fr\n-- ---\n\n-- %% [markdown]\n-- A\n\n"
                  "-- %% [markdown]\n-- B\n");
     bench_.shell("rm 80_gain/checks.fr.po");
-    EXPECT_THAT(faults(), HasSubstr("checks.fr.po: it is missing"));
+    EXPECT_THAT(faults(), HasSubstr("checks.fr.po: the file is missing"));
 }
 
 TEST_F(lesson_translation, the_skeleton_holds_every_cell_and_every_sentence) {

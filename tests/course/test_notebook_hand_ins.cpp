@@ -54,7 +54,7 @@ TEST(notebook_hand_ins, are_graded_compared_and_told_of_by_cells) {
     EXPECT_THAT(GradingBench::trouble(bench.result("broken")),
                 HasSubstr("analysis.ipynb cannot be read: the file is not a Jupyter"));
     EXPECT_THAT(GradingBench::trouble(bench.result("named")), HasSubstr("under the name analysis.ipynb"));
-    EXPECT_EQ(bench.bench().shell(std::string("grep -rl '") + kName + "' out").output, "");
+    EXPECT_EQ(bench.bench().shell(std::string("grep -rl --exclude-dir=files '") + kName + "' out").output, "");
     const ChildResult similar = bench.bench().dynlab({"similar", "in", "--lesson", "99", "--out", "alike"});
     EXPECT_THAT(similar.output + similar.error_output,
                 AllOf(HasSubstr("\"broken\""), HasSubstr("\"named\""), Not(HasSubstr("\"notebook\"")),
@@ -80,7 +80,7 @@ TEST(notebook_hand_ins, are_packed_and_checked_as_scripts_without_names) {
     EXPECT_THAT(bench.dynlab({"check", "f", "--document-only"}).output,
                 HasSubstr("analysis.ipynb, cellule 2, ligne 2"));
     bench.write("w/analysis.ipynb", "[]");
-    EXPECT_THAT(bench.dynlab({"check", "w"}).output, HasSubstr("cannot be read: this is JSON, but no Jupyter"));
+    EXPECT_THAT(bench.dynlab({"check", "w"}).output, HasSubstr("cannot be read: the file is JSON, but not a Jupyter"));
     const ChildResult pack = bench.dynlab({"pack", "w"});
     EXPECT_EQ(pack.exit_code, 1);
     EXPECT_THAT(pack.error_output, HasSubstr("not a Jupyter notebook"));

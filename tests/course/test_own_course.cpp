@@ -47,7 +47,7 @@ TEST_F(own_course, skeleton_is_tested_reported_copied_checked_and_graded) {
     EXPECT_EQ(
         bench().dynlab({"lint", std::string(kLesson) + "/lesson.lua", std::string(kLesson) + "/checks.lua"}).output,
         "");
-    EXPECT_THAT(made_->output, HasSubstr("\ntexts: in order\nchecks: in order\ndocuments: in order\n"));
+    EXPECT_THAT(made_->output, HasSubstr("\ntexts: no errors\nchecks: no errors\ndocuments: no errors\n"));
 
     EXPECT_THAT(in_course("lessons").output, HasSubstr("08_springs             A spring and its stiffness\n"));
     EXPECT_THAT(bench().dynlab({"lessons"}).output, Not(HasSubstr("08_springs")));
@@ -153,7 +153,7 @@ TEST_F(own_course, checks_that_do_not_do_what_they_are_for_are_told) {
              {"wrong_compliance.lua", "This is the compliance", "Upside down",
               "wrong_compliance.lua:1: the check \"stiffness\" gives the message \"This is the compliance in mm/N"},
              {"right_other_methods.lua", "1/fit.theta[1])", "fit.theta[1])",
-              "right_other_methods.lua: it fails the check \"stiffness\""},
+              "right_other_methods.lua: the script fails the check \"stiffness\""},
              {"lesson.lua", "answer(\"stiffness\", stiffness)", "answer(\"stiffness\", 2*stiffness)",
               "lesson.lua: the reference solution does not pass the check \"stiffness\""},
              {"lesson.lua",

@@ -81,7 +81,7 @@ TEST(peer_review, seeks_former_names_and_counts_copies) {
     CourseBench::expect_done(bench.course({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
     CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     const ChildResult sent = bench.course({"review", "send", "--at", "2026-03-01 14:00"});
-    EXPECT_THAT(sent.output, HasSubstr("4 sent now, 0 before, 4 stopped, 0 not come yet"));
+    EXPECT_THAT(sent.output, HasSubstr("4 sent now, 0 before, 4 stopped, 0 outstanding"));
     EXPECT_THAT(sent.error_output,
                 AllOf(HasSubstr("report of group-01 was not sent: page 1: "), HasSubstr("Wilhelmina Rutherford"),
                       HasSubstr("mail address"), HasSubstr("report of group-02 was not sent: page 1: ")));
@@ -95,7 +95,7 @@ TEST(peer_review, seeks_former_names_and_counts_copies) {
                 HasSubstr("group-77"));
     const ChildResult accepted =
         bench.course({"review", "send", "--accept", "group-01", "--reason", "agreed", "--at", "2026-03-01 16:00"});
-    EXPECT_THAT(accepted.output, HasSubstr("2 sent now, 4 before, 2 stopped, 0 not come yet"));
+    EXPECT_THAT(accepted.output, HasSubstr("2 sent now, 4 before, 2 stopped, 0 outstanding"));
     EXPECT_THAT(accepted.error_output,
                 AllOf(HasSubstr("report of group-01 was sent, although it contains names: page 1: "),
                       HasSubstr("report of group-02 was not sent: page 1: ")));
@@ -167,7 +167,7 @@ TEST(peer_review, exports_and_imports_an_equal_store) {
         EXPECT_EQ(refused.exit_code, 1) << text;
         return refused.error_output;
     };
-    EXPECT_THAT(refusal("{}"), HasSubstr("bad.json: is not an export of dynlab course"));
+    EXPECT_THAT(refusal("{}"), HasSubstr("bad.json: the file is not an export of dynlab course"));
     EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": []}})"),
                 HasSubstr("the table \"files\" is missing"));
     EXPECT_THAT(refusal(R"({"dynlab course": 1, "tables": {"course": [{"key": {}}], "files": []}})"),
@@ -189,10 +189,10 @@ TEST(peer_review, tells_a_whole_course) {
         told.output,
         HasSubstr("12 groups: 11 submitted; 0 reviews outstanding; 8 final versions."));  // both late ones corrected
     EXPECT_THAT(told.output, HasSubstr("report of group-08 was not sent: page 1: The mail address"));
-    EXPECT_THAT(told.output, HasSubstr("20 sent now, 0 before, 2 stopped, 0 not come yet"));
-    EXPECT_THAT(told.output, HasSubstr("2 sent now, 20 before, 0 stopped, 0 not come yet"));
+    EXPECT_THAT(told.output, HasSubstr("20 sent now, 0 before, 2 stopped, 0 outstanding"));
+    EXPECT_THAT(told.output, HasSubstr("2 sent now, 20 before, 0 stopped, 0 outstanding"));
     EXPECT_THAT(told.output, HasSubstr("21 sent now, 0 before, 0 stopped, 0 outstanding, 1 withheld"));
-    EXPECT_THAT(told.output, HasSubstr("1 sent now, 21 before, 0 stopped, 0 not come yet"));
+    EXPECT_THAT(told.output, HasSubstr("1 sent now, 21 before, 0 stopped, 0 outstanding"));
     EXPECT_THAT(told.output, ::testing::ContainsRegex("group-01 +1 +[1-9][0-9]* % +[0-9]+ +[0-9]+ +1 of 1 +2"));
     EXPECT_THAT(told.output, ::testing::ContainsRegex("group-02 +1 +[1-9][0-9]* % +[0-9]+ +[0-9]+ +- +2"));
     EXPECT_THAT(told.output, ::testing::ContainsRegex("group-04 +1 +0 % +0 +0 +- +2 +the text is unchanged"));
@@ -217,7 +217,7 @@ TEST(peer_review, survives_being_killed_at_any_moment) {
         "2>/dev/null "
         "|| true\n"
         "  $DYNLAB course --course rounds/k submit in --no-checks --at '2026-03-01 10:00' >/dev/null\n"
-        "  $DYNLAB course --course rounds/k verify | grep -q '8 files, 8 versions: all there' || { echo round $round; "
+        "  $DYNLAB course --course rounds/k verify | grep -q '8 files, 8 versions: complete' || { echo round $round; "
         "exit 1; }\n"
         "  rm -r rounds/k\n"
         "done; echo killed $killed");

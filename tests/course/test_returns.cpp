@@ -88,7 +88,7 @@ TEST(returns, names_of_people_are_plain_in_the_zip) {
                   .shell("python3 -c \"import zipfile; print(zipfile.ZipFile('" +
                          (folder.path() / "moodle.zip").string() + "').namelist())\"")
                   .output,
-              "['A  31m B C      _900001_assignfeedback_file_/feedback.pdf']\n");
+              "['A [31m B C     _900001_assignfeedback_file_/feedback.pdf']\n");
 }
 
 // oracle: Moodle numbers participants for each assignment: the names of its folders, and its worksheet

@@ -91,7 +91,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     EXPECT_THAT(graded.output, HasSubstr("  \"silent\" ran to completion but gave no answer\n"));
     EXPECT_THAT(graded.output, Not(HasSubstr("right")));
     const std::string summary = work.read("out/summary.md");
-    EXPECT_THAT(summary, HasSubstr("11 that cannot be read"));
+    EXPECT_THAT(summary, HasSubstr("11 unreadable"));
     EXPECT_THAT(summary, HasSubstr("could not be started"));
     const std::string feedback = work.read("out/results/cannot begin/feedback.md");
     EXPECT_THAT(feedback, HasSubstr("Your script could not be started"));

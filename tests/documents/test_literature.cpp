@@ -144,7 +144,7 @@ TEST_F(literature, a_link_to_a_file_outside_the_folder_is_refused) {
 
 TEST_F(literature, a_bibliography_that_cannot_be_read_is_told) {
     EXPECT_THAT(refusal("---\nbibliography: none.bib\n---\nText\n"),
-                HasSubstr("none.bib: the bibliography is missing"));
+                HasSubstr("none.bib: the bibliography file is missing"));
     EXPECT_THAT(refusal("---\nbibliography: ../books.bib\n---\nText\n"),
                 HasSubstr("report.md:2: bibliography must be"));
     EXPECT_THAT(refusal("---\nbibliography: /etc/passwd\n---\nText\n"), HasSubstr("report.md:2: bibliography must be"));

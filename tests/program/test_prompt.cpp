@@ -159,7 +159,7 @@ TEST(prompt, control_c_and_an_empty_line_give_up_what_is_not_complete) {
     terminal.enter("x = (1 +");
     terminal.until("...> ");
     terminal.enter("");
-    EXPECT_THAT(terminal.until_prompt(), HasSubstr("given up"));
+    EXPECT_THAT(terminal.until_prompt(), HasSubstr("(discarded: the statement"));
     terminal.enter("1 + 1");
     EXPECT_THAT(terminal.until_prompt(), HasSubstr("\n2\r\n"));
 }
@@ -169,7 +169,7 @@ TEST(prompt, a_pasted_function_may_have_blank_lines_and_tabs) {
     Terminal terminal(bench);
     terminal.until_prompt();
     terminal.type("local function f(a)\r\r\tlocal b = a + 1\r\r\treturn b\rend\rf(1)\r");
-    EXPECT_THAT(terminal.until("\n2\r\n"), Not(HasSubstr("given up")));
+    EXPECT_THAT(terminal.until("\n2\r\n"), Not(HasSubstr("(discarded: the statement")));
 }
 
 TEST(prompt, recalls_lines_of_the_last_session_whatever_the_file_holds) {

@@ -99,7 +99,7 @@ TEST(cra, a_regular_input_is_told_and_a_sine_does_no_harm) {
 
 TEST(cra, says_what_it_needs) {
     const IdData data = record(RandomStream(1).normal(60), 0.1, 1);
-    EXPECT_THAT(thrown_message([&] { cra(data, with(30, 10)); }), HasSubstr("over 30 lags at least 90 samples"));
+    EXPECT_THAT(thrown_message([&] { cra(data, with(30, 10)); }), HasSubstr("30 lags need at least 90 samples"));
     EXPECT_THROW(cra(data, with(5, -1)), InvalidArgument);
     EXPECT_THROW(cra(data, with(5, 101)), InvalidArgument);
     EXPECT_THAT(thrown_message([&] { cra(data.range(1, 12)); }), HasSubstr("at least 18 samples"));

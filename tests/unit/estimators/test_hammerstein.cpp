@@ -218,7 +218,7 @@ TEST(hammerstein, refuses_what_it_cannot_fit) {  // oracle: definitions
     EXPECT_THAT(refusal(data, at_edges(values({20, 30}))), HasSubstr("edges of the bins"));
     HammersteinOptions options;
     options.bins = 0;
-    EXPECT_THAT(refusal(data, options), HasSubstr("`bins` must lie"));
+    EXPECT_THAT(refusal(data, options), HasSubstr("`bins` must be between"));
     options = {};
     options.offset = Offset::kEstimate;
     EXPECT_THAT(refusal(data, options), HasSubstr("`offset` must be"));

@@ -190,7 +190,7 @@ TEST(impulseest, poor_inputs_need_the_smooth_estimate) {  // oracle: a sine give
 
 TEST(impulseest, says_what_it_needs) {
     const IdData data = record(response_with(1, 20), RandomStream(1).normal(60), 0.1, 1);
-    EXPECT_THAT(thrown_message([&] { impulseest(data, plain(30)); }), HasSubstr("over 30 lags at least 90 samples"));
+    EXPECT_THAT(thrown_message([&] { impulseest(data, plain(30)); }), HasSubstr("30 lags need at least 90 samples"));
     EXPECT_THROW(impulseest(data, plain(-1)), InvalidArgument);
     EXPECT_THAT(thrown_message([&] { impulseest(data, plain(500)); }), HasSubstr("between 1 and 400"));
     ImpulseestOptions sure;

@@ -198,7 +198,7 @@ TEST(step_test, refuses_an_input_that_is_no_step) {
     Experimental e;
     IdData pulse = record_of(e, 1, first_order(0.5));
     pulse.experiments[0].u.bottomRows(200).setZero();
-    EXPECT_THAT(refusal([&] { step_first_order(pulse); }), HasSubstr("goes 2 times"));
+    EXPECT_THAT(refusal([&] { step_first_order(pulse); }), HasSubstr("changes 2 times"));
     IdData stairs = record_of(e, 1, first_order(0.5));
     stairs.experiments[0].u.middleRows(300, 50).setConstant(0.7);
     EXPECT_THAT(refusal([&] { step_first_order(stairs); }), HasSubstr("but the two levels"));

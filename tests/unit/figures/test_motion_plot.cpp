@@ -135,7 +135,7 @@ TEST(motion_plot, says_what_does_not_fit) {
     MotionRecord narrow = record(10, 0.1);
     narrow.measured = narrow.measured.leftCols(1).eval();
     EXPECT_THAT(refusal(crane(), narrow), HasSubstr("10 x 2, but they are 10 x 1"));
-    EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{2.0}})), HasSubstr("goes from 0 s to 0.9"));
+    EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{2.0}})), HasSubstr("range from 0 s to 0.9"));
     EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{0.5, 0.2, 0.5}})),
                 HasSubstr("0.5 s occurs twice in the list"));
     RigDrawing wrong = crane();

@@ -47,11 +47,11 @@ TEST(diagnosis, of_parameters) {  // oracle: the definition
     fit.names = {"a1", "a2", "b0"};
     fit.std = values({5, 1, 3});
     warn_of_doubtful_parameters(fit);
-    EXPECT_THAT(texts_of(fit.warnings), ElementsAre(HasSubstr("hardly determine a1, b0")));
+    EXPECT_THAT(texts_of(fit.warnings), ElementsAre(HasSubstr("do not reliably determine a1, b0")));
     fit.warnings.clear();
     fit.names[0] = "Td";  // zero is a delay's own bound
     warn_of_doubtful_parameters(fit);
-    EXPECT_THAT(texts_of(fit.warnings), ElementsAre(HasSubstr("hardly determine b0")));
+    EXPECT_THAT(texts_of(fit.warnings), ElementsAre(HasSubstr("do not reliably determine b0")));
     fit.std[1] = std::nan("");  // unknown is not small
     EXPECT_THAT(undetermined_parameters(fit.names, fit.theta, fit.std), ElementsAre("a2", "b0"));
     fit.warnings.clear();

@@ -39,7 +39,7 @@ TEST(impulse_estimate, as_many_lags_as_the_record_bears) {  // oracle: the rule 
     EXPECT_EQ(lags_or_default("cra", 0, 10'000), 70);
     EXPECT_EQ(lags_or_default("cra", 0, 100), 20);
     EXPECT_EQ(lags_or_default("cra", 30, 90), 30);
-    EXPECT_THAT(thrown_message([] { lags_or_default("cra", 31, 90); }), HasSubstr("cra: over 31 lags at least 93"));
+    EXPECT_THAT(thrown_message([] { lags_or_default("cra", 31, 90); }), HasSubstr("cra: 31 lags need at least 93"));
     EXPECT_THAT(thrown_message([] { lags_or_default("cra", -1, 90); }), HasSubstr("must be positive"));
 }
 

@@ -433,7 +433,7 @@ TEST(advice, an_extrapolated_offset_is_told_as_such) {  // oracle: the input nev
     r.u.array() += 10;
     r.y.array() += 23.4567;
     EXPECT_THAT(said(advise(r.data()), "offset"),
-                AllOf(HasSubstr("extrapolation"), HasSubstr("between 9 and 11"), HasSubstr("at about 18.5 ")));
+                AllOf(HasSubstr("extrapolation"), HasSubstr("from 9 to 11"), HasSubstr("of about 18.5 ")));
 }
 
 TEST(advice, a_crane_at_rest_does_not_begin_in_a_movement) {  // oracle: a second of rest, read as 0.012 rad

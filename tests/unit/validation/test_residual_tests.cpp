@@ -95,7 +95,7 @@ TEST(residual_tests, known_causes_are_named) {
     EXPECT_THAT(verdict(running + e, kG), HasSubstr("The assumed initial conditions are wrong: simulated"));
     EXPECT_THAT(verdict(answer + 0.2 * u + e, kG, {{}, Message("With this the fit is 9 %.")}),
                 HasSubstr("With this the fit"));
-    EXPECT_THAT(verdict(answer + e, kG, {{"b0"}, {}}), HasSubstr("the data hardly determine b0"));
+    EXPECT_THAT(verdict(answer + e, kG, {{"b0"}, {}}), HasSubstr("the data do not reliably determine b0"));
 }
 
 TEST(residual_tests, tests_do_not_make_poor_models_good) {  // oracle: how the records were made

@@ -155,7 +155,7 @@ TEST(bla, tells_what_is_wrong_with_a_record) {
     BlaOptions one = options_of(how);
     one.realisations = 1;
     const FrequencyData cut = bla(whole.range(101, 3 * kPeriod), one);
-    EXPECT_THAT(texts_of(cut.warnings), Contains(HasSubstr("its first 412 samples are left out")));
+    EXPECT_THAT(texts_of(cut.warnings), Contains(HasSubstr("the first 412 samples are omitted")));
     EXPECT_THAT(texts_of(cut.warnings), Contains(HasSubstr("One realization cannot reveal")));
     EXPECT_LT(largest_error(cut), 1e-2);
     EXPECT_EQ(cut.distortion.size(), 0);
@@ -196,7 +196,7 @@ TEST(bla, refuses_realisations_of_one_input) {
     const IdData repeated = recorded(how);
     BlaOptions options = options_of(how);
     options.realisations = 4;
-    EXPECT_THAT(thrown_message([&] { bla(repeated, options); }), HasSubstr("realisations 1 and 2 have the same input"));
+    EXPECT_THAT(thrown_message([&] { bla(repeated, options); }), HasSubstr("realizations 1 and 2 have the same input"));
     options.realisations = 1;
     EXPECT_EQ(bla(repeated, options).distortion.size(), 0);
 
@@ -206,7 +206,7 @@ TEST(bla, refuses_realisations_of_one_input) {
     const IdData others = recorded(how),
                  merged = IdData::merge({others.range(1, 3 * kPeriod), others.range(1 + 3 * kPeriod, 6 * kPeriod),
                                          others.range(1, 3 * kPeriod)});
-    EXPECT_THAT(thrown_message([&] { bla(merged, options); }), HasSubstr("realisations 1 and 3"));
+    EXPECT_THAT(thrown_message([&] { bla(merged, options); }), HasSubstr("realizations 1 and 3"));
 }
 
 }  // namespace test_bla
