@@ -37,7 +37,7 @@ const char* answer(std::string text) {
 World& world() {
     PageSession& page = session();
     if (!page.world)
-        page.world = std::make_unique<World>(page.calls, parse_percent_script("", "script.lua"), RunOrder());
+        page.world = std::make_unique<World>(page.calls, parse_percent_script("", "script.lua"), PageRunOrder());
     return *page.world;
 }
 
@@ -72,10 +72,10 @@ using namespace dynlab;
 
 extern "C" {
 
-/// web::RunOrder. Everything else is news.
+/// web::PageRunOrder. Everything else is news.
 void dynlab_run(const char* order_json) {
     carry_out([&] {
-        const auto order = from_json<web::RunOrder>(order_json);
+        const auto order = from_json<web::PageRunOrder>(order_json);
         const PercentScript script = parse_percent_script(order.source, order.file);
         PageSession& page = session();
         if (!page.world || !page.world->goes_on(script, order)) {
@@ -99,7 +99,7 @@ void dynlab_pack(const char* folder, const char* file) {
 /// An answer of app/live/state_questions.h, from the state behind the last run.
 const char* dynlab_ask(const char* question_json) {
     const auto asked = from_json<web::Question>(question_json);
-    app::RunOrder question;
+    app::PageRunOrder question;
     question.question = asked.question, question.text = asked.text, question.cursor = asked.cursor;
     return answer(app::answer_about_state(world().runtime().state(), question));
 }

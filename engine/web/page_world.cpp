@@ -18,12 +18,12 @@ namespace {
 constexpr std::size_t kMostMemory = std::size_t{512} << 20;
 
 /// What a change of which makes every part run again.
-std::string settings_of(const PercentScript& script, const RunOrder& order) {
+std::string settings_of(const PercentScript& script, const PageRunOrder& order) {
     return script.file.string() + "\n" + std::to_string(order.seed.value_or(script.header.seed)) + "\n" +
            script.header.language + "\n" + json_of(order.slider_values);
 }
 
-RunOptions options_of(const CallCache& calls, const PercentScript& script, const RunOrder& order) {
+RunOptions options_of(const CallCache& calls, const PercentScript& script, const PageRunOrder& order) {
     RunOptions options;
     options.seed = order.seed.value_or(script.header.seed);
     options.script_folder = script.file.parent_path();
@@ -59,7 +59,7 @@ void tell_progress(std::size_t part, const std::vector<std::string>& cells) {
     });
 }
 
-World::World(const CallCache& calls, const PercentScript& script, const RunOrder& order)
+World::World(const CallCache& calls, const PercentScript& script, const PageRunOrder& order)
     : language_{script.header.language},
       reader_{catalog_of(script.header.language), &option_name},
       sliders_{order.slider_values, true},
@@ -69,7 +69,7 @@ World::World(const CallCache& calls, const PercentScript& script, const RunOrder
     runtime_.begin_parts(script);
 }
 
-bool World::goes_on(const PercentScript& script, const RunOrder& order) const {
+bool World::goes_on(const PercentScript& script, const PageRunOrder& order) const {
     const std::vector<ScriptPart> parts = script_parts(script);
     const std::size_t first = order.again.empty() ? parts.size() : part_with(parts, order.again);
     if (failed_ || order.anew || settings_ != settings_of(script, order) || done_.size() > first) return false;
@@ -78,7 +78,7 @@ bool World::goes_on(const PercentScript& script, const RunOrder& order) const {
     return true;
 }
 
-void World::run(const PercentScript& script, const RunOrder& order) {
+void World::run(const PercentScript& script, const PageRunOrder& order) {
     const std::vector<ScriptPart> parts = script_parts(script);
     const std::size_t until =
         order.until.empty() ? parts.size() : std::min(part_with(parts, order.until) + 1, parts.size());

@@ -17,14 +17,14 @@
 namespace dynlab::inline web {
 
 /// A call of a page: run a script.
-struct RunOrder {
+struct PageRunOrder {
     std::string source, file;                     ///< the script, and its name in messages
     std::optional<std::uint32_t> seed;            ///< instead of the script header's
     std::map<std::string, double> slider_values;  ///< instead of the script's own
     std::string again, until;  ///< ids of cells: the first that runs, changed or not, and the last; empty: none, all
     bool anew = false;         ///< every cell runs
 };
-DYNLAB_DESCRIBE(RunOrder, source, file, seed, slider_values, again, until, anew)
+DYNLAB_DESCRIBE(PageRunOrder, source, file, seed, slider_values, again, until, anew)
 
 struct PageFigure {
     std::string caption, plot;  ///< plot: documents/html/plot_data.h
@@ -64,12 +64,12 @@ void send_json(const std::string& news);
 /// A script's world. A page has one at a time; results of long calls stay from one to the next.
 class World {
   public:
-    World(const CallCache& calls, const PercentScript& script, const RunOrder& order);
+    World(const CallCache& calls, const PercentScript& script, const PageRunOrder& order);
 
     Runtime& runtime() { return runtime_; }
     /// Whether the script can go on in this world: nothing that it needs to run again has run.
-    bool goes_on(const PercentScript& script, const RunOrder& order) const;
-    void run(const PercentScript& script, const RunOrder& order);
+    bool goes_on(const PercentScript& script, const PageRunOrder& order) const;
+    void run(const PercentScript& script, const PageRunOrder& order);
 
   private:
     std::map<std::string, PageFigure> new_figures(const RunRecord& results);

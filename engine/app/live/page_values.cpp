@@ -104,7 +104,7 @@ Message label_called(const std::string& name) {
     if (name == "by_hand") return Message("by hand");
     if (name == "final_level") return Message("final level");
     if (name == "first_peak") return Message("first peak");
-    throw InvalidArgument("there is no label \"{}\"", name);
+    throw InvalidArgument("unknown label \"{}\"", name);
 }
 
 int give_label(Call& call) {

@@ -78,7 +78,7 @@ void serve_views(WebServer& server, OfficeViews& views) {
 void serve_exchange(WebServer& server, const fs::path& course) {
     server.on_get("/exports/*", [course](const PageRequest& asked) {
         const fs::path file = exchanged_file(course, fs::path(asked.path).filename());
-        if (!fs::exists(file)) throw EnvironmentError("there is no file {}", file.filename().string());
+        if (!fs::exists(file)) throw EnvironmentError("the file {} does not exist", file.filename().string());
         return PageReply{read_file(file), "application/octet-stream"};
     });
     server.on_post("/upload", [course](const PageRequest& asked) {

@@ -11,7 +11,7 @@ addWords({
   marking: tr("Marking"), question: tr("Question"), check: tr("Check"), markedOf: tr("{} of {} marked"), solution: tr("Reference solution"),
   noLab: tr("The course has no lab. Only the questions of a lab are marked here."), noQuestion: tr("This lesson has no questions."),
   noCheck: tr("No check takes marks for this question. Choose one, or add a check with by_hand = true."),
-  noWork: tr("Nobody has submitted this lab yet."), beingRead: trPlural("{} submission is being read", "{} submissions are being read"),
+  noWork: tr("This lab has no submissions yet."), beingRead: trPlural("{} submission is being read", "{} submissions are being read"),
   noAnswer_: tr("no answer"), unreadable_: tr("cannot be read: {}"), sameAs: trPlural("the same text in {} other", "the same text in {} others"),
   whole: tr("Show all ({} kB)"), comment: tr("Comment"), commentAbout: tr("Comment: the student reads it"), otherPoints: tr("Other points"),
   pointsOf: tr("{} of {}"), noMark: tr("not marked"), changed: tr("was changed elsewhere"), undo: tr("Undo"), showKeys: tr("Keys: ?"),

@@ -331,9 +331,10 @@ void add_time_option(CLI::App& command, std::string& text) {
 
 void add_after_option(CLI::App& command, std::optional<std::int64_t>& entry) {
     command
-        .add_option("--after", entry,
-                    "Only if the newest entry for this mark still is the one with this number; 0: only if there is "
-                    "none. dynlab course page gives it")
+        .add_option(
+            "--after", entry,
+            "Set the mark only if its newest entry still has this number, which dynlab course page shows. 0: if "
+            "it has no entry.")
         ->type_name("N");
 }
 

@@ -40,7 +40,7 @@ void add_course_page(CLI::App& course, CourseArguments& where, Action& action) {
         "Five views: Marking (all answers to one question, without names, by keyboard), Today (what is missing, late,\n"
         "unreadable or blocked), Student, Reviews, Marks. Each action is a dynlab course command: the page shows it "
         "and\n"
-        "the history records it. You can use commands in a terminal and several windows at the same time.\n"
+        "it is in the history. You can use commands in a terminal and several windows at the same time.\n"
         "The page writes files for Moodle and Canvas into exports in the course's folder.\n"
         "Example:  dynlab course page");
     command->callback([&where, words, &action] {

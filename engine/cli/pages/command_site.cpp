@@ -19,7 +19,7 @@ void add_site(CLI::App& app, Action& action) {
     };
     auto words = std::make_shared<SiteArguments>();
     CLI::App* command = app.add_subcommand(
-        "site", "Make a static site of the course: lessons whose cells run in the browser, workbench, data and help");
+        "site", "Make a static site of the course: lessons with cells that run in the browser, data and help");
     command->add_option("FOLDER", words->request.folder, "New or empty folder, or an older site, which is replaced")
         ->required();
     command->add_option("--engine", words->engine,
@@ -49,7 +49,8 @@ void add_site(CLI::App& app, Action& action) {
             say(plural(made.pages, "{} page", "{} pages"));
             if (!request.engine)
                 say(
-                    Message("The cells of the lessons do not run: there is no engine for browsers. In the source tree, "
+                    Message("The cells of the lessons do not run, because the engine for browsers is missing. In the "
+                            "source tree, "
                             "scripts/build web makes it."));
             return kDone;
         };

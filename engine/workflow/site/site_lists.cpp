@@ -123,7 +123,7 @@ SitePage course_page(const std::vector<SitePage>& pages, const std::string& lang
         main += part("workbench", Message("Workbench"),
                      "<ul class=\"pages\">\n" +
                          entry("workbench/index.html", Message("Workbench"),
-                               Message("find a model of your own data; the file stays on this device")) +
+                               Message("find a model of your data; the file stays on this device")) +
                          "</ul>\n");
     main += part("demonstrations", Message("Demonstrations"), list_of_kind(pages, "demonstration", root));
     main += part("guides", Message("Guides"), list_of_kind(pages, "guide", root));
