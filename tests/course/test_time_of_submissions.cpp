@@ -19,7 +19,7 @@ using ::testing::Not;
 
 constexpr char kAnswers[] = "--   x: number\n";
 constexpr char kChecks[] = "check{id = 'x', test = function(a) return a.x == 42 end}\n";
-constexpr char kSolution[] = "local k = 0\nfor i = 1, 1e7 do k = k + i % 7 end\nanswer('x', 42)\n";
+constexpr char kSolution[] = "local k = 0\nfor i = 1, 3e7 do k = k + i % 7 end\nanswer('x', 42)\n";
 
 /// Grades, and stops each run of a script for longer than its processor time, as where others have the processors.
 constexpr char kGradeWithPauses[] = R"sh(
@@ -109,10 +109,9 @@ TEST(time_of_submissions, are_compared_with_the_worked_solution_also_where_it_is
     bench.hand_in("b", kSolution);
     ASSERT_EQ(bench.grade().exit_code, 0);
     for (const char* name : {"a", "b"})
-        EXPECT_THAT(
-            bench.bench().read("out/logs/" + std::string(name) + "/log.txt"),
-            AllOf(ContainsRegex("run main: [0-9.]+ s of processor time \\(the reference solution: [0-9.]+ s\\)"),
-                  Not(HasSubstr("solution: 0.000 s"))));
+        EXPECT_THAT(bench.bench().read("out/logs/" + std::string(name) + "/log.txt"),
+                    AllOf(ContainsRegex("run main: [0-9.]+ s of processor time \\(reference solution: [0-9.]+ s\\)"),
+                          Not(HasSubstr("solution: 0.000 s"))));
 }
 
 TEST(time_of_submissions, a_worked_solution_that_uses_most_of_the_time_is_told) {
