@@ -16,7 +16,7 @@ struct ChecksOrder {
 DYNLAB_DESCRIBE(ChecksOrder, source, file, lesson, checks, authors)
 
 /// Runs the script as `dynlab check` does, with its reruns on the records that it draws, and sends CheckedNews. What is
-/// looked at in a document is left to whoever makes it.
+/// looked at in a document is left to the program that makes it.
 void try_checks_of_page(const ChecksOrder& order);
 
 /// Makes the pack of a folder as `dynlab pack` does.

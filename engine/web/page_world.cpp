@@ -72,7 +72,7 @@ World::World(const CallCache& calls, const PercentScript& script, const PageRunO
 bool World::goes_on(const PercentScript& script, const PageRunOrder& order) const {
     const std::vector<ScriptPart> parts = script_parts(script);
     const std::size_t first = order.again.empty() ? parts.size() : part_with(parts, order.again);
-    if (failed_ || order.anew || settings_ != settings_of(script, order) || done_.size() > first) return false;
+    if (failed_ || order.fresh || settings_ != settings_of(script, order) || done_.size() > first) return false;
     for (std::size_t i = 0; i < done_.size(); ++i)
         if (done_[i].code != parts[i].code || done_[i].cells != parts[i].cells) return false;
     return true;

@@ -22,9 +22,9 @@ struct PageRunOrder {
     std::optional<std::uint32_t> seed;            ///< instead of the script header's
     std::map<std::string, double> slider_values;  ///< instead of the script's own
     std::string again, until;  ///< ids of cells: the first that runs, changed or not, and the last; empty: none, all
-    bool anew = false;         ///< every cell runs
+    bool fresh = false;        ///< every cell runs
 };
-DYNLAB_DESCRIBE(PageRunOrder, source, file, seed, slider_values, again, until, anew)
+DYNLAB_DESCRIBE(PageRunOrder, source, file, seed, slider_values, again, until, fresh)
 
 struct PageFigure {
     std::string caption, plot;  ///< plot: documents/html/plot_data.h

@@ -26,7 +26,10 @@ namespace fs = std::filesystem;
 using Rows = std::map<std::string, std::string>;  // English by key
 
 std::string source_of(const std::string& file) {
-    const char* const folder = file.starts_with("office") ? "engine/app/office" : "engine/app/page";
+    const bool of_workbench = file.starts_with("bench_") || file.starts_with("workbench.");
+    const char* const folder = file.starts_with("office") ? "engine/app/office"
+                               : of_workbench             ? "engine/app/workbench"
+                                                          : "engine/app/page";
     return read_text(fs::path(DYNLAB_SOURCE_DIR) / folder / file);
 }
 
@@ -84,7 +87,7 @@ const std::vector<std::string> kPreview = {"index.html", "page.js",    "editor.j
 
 std::vector<std::string> workbench_files() {
     std::vector<std::string> files = {"workbench.html", "workbench.js"};
-    for (const auto& entry : fs::directory_iterator(fs::path(DYNLAB_SOURCE_DIR) / "engine/app/page")) {
+    for (const auto& entry : fs::directory_iterator(fs::path(DYNLAB_SOURCE_DIR) / "engine/app/workbench")) {
         const std::string name = entry.path().filename();
         if (name.starts_with("bench_") && name != "bench_words.js") files.push_back(name);
     }

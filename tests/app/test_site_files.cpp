@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 const fs::path kLessons = fs::path(DYNLAB_SOURCE_DIR) / "lessons";
 
-/// The lines of a lesson's solutions, and all others with what stands in their place in the student's copy.
+/// The lines of a lesson's solutions, and the other lines with their replacement in the student's copy.
 struct LessonLines {
     std::vector<std::string> solution;
     std::string open;

@@ -15,7 +15,7 @@ const module = await create({
   preRun: [(m) => { m.ENV.DYNLAB_HOME = "/dynlab"; m.ENV.DYNLAB_NO_CACHE = "1"; }],
 });
 const { FS } = module;
-FS.mkdirTree("/work");
+FS.mkdirTree("/script");
 for (const set of fs.readdirSync(path.join(home, "data"))) {
   const folder = path.join(home, "data", set);
   if (!fs.statSync(folder).isDirectory()) continue;
@@ -23,11 +23,11 @@ for (const set of fs.readdirSync(path.join(home, "data"))) {
   for (const file of fs.readdirSync(folder)) FS.writeFile(`/dynlab/data/${set}/${file}`, fs.readFileSync(path.join(folder, file)));
 }
 const ready = performance.now() - start;
-const source = fs.readFileSync(script, "utf8"), file = "/work/" + path.basename(script), run = [];
+const source = fs.readFileSync(script, "utf8"), file = "/script/" + path.basename(script), run = [];
 for (let i = 0; i < times; ++i) {
   news.length = 0;
   const before = performance.now();
-  module.ccall("dynlab_run", null, ["string"], [JSON.stringify({ source, file, seed: null, slider_values: {}, again: "", until: "", anew: true })]);
+  module.ccall("dynlab_run", null, ["string"], [JSON.stringify({ source, file, seed: null, slider_values: {}, again: "", until: "", fresh: true })]);
   run.push(performance.now() - before);
 }
 if (checks !== undefined) {

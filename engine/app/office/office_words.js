@@ -22,7 +22,7 @@ addWords({
   keyHelp: tr("show these keys"), nothingToUndo: tr("Nothing to undo."), enter: tr("Enter"),
 
   // Today
-  today: tr("Today"), nothingToDo: tr("Nothing is to be done."), noAssignments: tr("The course has no assignments yet."),
+  today: tr("Today"), nothingToDo: tr("Nothing to do."), noAssignments: tr("The course has no assignments yet."),
   submitted: tr("{} of {} submitted"), countLate: tr("{} late"), countUnreadable: tr("{} unreadable"), countMissing: tr("{} missing"),
   dueFirst: trIn("deadline", "due {}"), dueReview: tr("reviews due {}"), dueFinal: tr("final version due {}"), next: tr("Next: {}"),
   remind: tr("Remind"), remindAll: tr("Remind all"), extend: tr("Extend"), accept: tr("Accept"), askAgain: tr("Ask again"),

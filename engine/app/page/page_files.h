@@ -4,7 +4,7 @@
 
 namespace dynlab::inline app {
 
-/// A file of our pages as it lies in engine/app/page or engine/app/office, or a Lua file of engine/app/workbench: part
+/// A file of our pages as it is in engine/app/page, engine/app/workbench or engine/app/office, by its name alone: part
 /// of the program.
 struct PageFile {
     std::string_view name, text;

@@ -5,7 +5,7 @@
 
 namespace dynlab::inline course {
 
-/// What is handed in of a folder, in one zip.
+/// The files of a folder that are submitted, in one zip.
 struct PackFile {
     std::vector<std::string> files;  ///< in it, MANIFEST.json aside
     std::string bytes;

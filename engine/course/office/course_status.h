@@ -17,7 +17,7 @@ struct ToDo {
     std::string text;   ///< as the terminal shows it
 };
 
-/// What a group submitted for an assignment, and what is to be done about it.
+/// What a group submitted for an assignment, and what to do about it.
 struct GroupState {
     Group group;
     HandedInParts first, last;
@@ -33,7 +33,7 @@ struct AssignmentState {
 AssignmentState assignment_state(Course& course, const Assignment& assignment, Instant now);
 
 /// The state of an assignment as a table an instructor can act on: deadlines, a row for each group with what was handed
-/// in, what is late, what cannot be read and what is to be done about it, sums, and the next command.
+/// in, what is late, what cannot be read, what to do about it, sums, and the next command.
 std::string assignment_status(Course& course, const Assignment& assignment, Instant now);
 
 /// The course at a glance: groups, assignments and their deadlines.

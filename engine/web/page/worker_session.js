@@ -93,7 +93,7 @@ export function workerSession({ root, key, work, news }) {
       running = false;
     }
   }
-  const run = (more) => order("run", { seed: null, slider_values: sliders, again: "", until: "", anew: false, ...more });
+  const run = (more) => order("run", { seed: null, slider_values: sliders, again: "", until: "", fresh: false, ...more });
   const whenIdle = (act, what) => (running ? Promise.resolve(null) : engine.ask(act, what));
 
   return {
@@ -108,7 +108,7 @@ export function workerSession({ root, key, work, news }) {
     },
     runAll() {
       reach = "";
-      return run({ anew: true });
+      return run({ fresh: true });
     },
     /// The script as far as it has run, with other numbers of its sliders.
     moveSliders(values) {
