@@ -28,17 +28,24 @@ namespace dynlab::inline cli {
 namespace {
 
 constexpr const char* kFooter =
-    "First steps:\n  dynlab                         the prompt: type Lua, see the result (or: dynlab < "
-    "statements.lua)\n  dynlab demo                    guided demonstrations\n  dynlab lessons                 list of "
-    "lessons\n  dynlab report 02               a lesson with its reference solution, as a PDF\n  dynlab new 02 my-work "
-    "         your own copy to work on\n  dynlab preview my-work         a page that follows your changes\n  dynlab "
-    "hint my-work 4          hints for question 4, one at a time\n  dynlab report my-work          your report, as a "
-    "PDF\n  dynlab check my-work           problems to fix before submission\n  dynlab grade submissions --lesson 04 "
-    "--out marks        the marks of a class\n  dynlab course init signals-2026                         submissions, "
-    "peer review and marks of a course\n  dynlab identify d.csv --input u --output y --poles 2    a model and a report "
-    "from a file\n  dynlab run -e 'print(1 + 1)'   a line of Lua\n  dynlab help tf                 help for a "
-    "function, with an example; dynlab help lua: Lua in ten minutes\n\nExit codes: 0 done, 1 the script or document "
-    "failed, 2 wrong usage, 3 a required program is missing,\n130 interrupted.";
+    "First steps:\n"
+    "  dynlab                         the prompt: type Lua, see the result (or: dynlab < statements.lua)\n"
+    "  dynlab demo                    guided demonstrations\n"
+    "  dynlab lessons                 list of lessons\n"
+    "  dynlab report 02               a lesson with its reference solution, as a PDF\n"
+    "  dynlab new 02 my-work          your own copy to work on\n"
+    "  dynlab preview my-work         a page that follows your changes\n"
+    "  dynlab hint my-work 4          hints for question 4, one at a time\n"
+    "  dynlab report my-work          your report, as a PDF\n"
+    "  dynlab check my-work           problems to fix before submission\n"
+    "  dynlab grade submissions --lesson 04 --out marks        the marks of a class\n"
+    "  dynlab course init signals-2026                         submissions, peer review and marks of a course\n"
+    "  dynlab identify d.csv --input u --output y --poles 2    a model and a report from a file\n"
+    "  dynlab run -e 'print(1 + 1)'   a line of Lua\n"
+    "  dynlab help tf                 help for a function, with an example; dynlab help lua: Lua in ten minutes\n"
+    "\n"
+    "Exit codes: 0 done, 1 the script or document failed, 2 wrong usage, 3 a required program is missing,\n"
+    "130 interrupted.";
 
 /// Where what was printed has not been taken by whatever standard output is.
 std::optional<Message> complaint_about_output() {

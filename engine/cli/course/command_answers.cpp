@@ -35,8 +35,9 @@ void add_answers_options(CLI::App& command, AnswersArguments& args) {
 
 constexpr char kFiles[] =
     "Numbers replace the names of submissions, and [name] replaces names and ids of the roster. Equal and nearly "
-    "equal\nanswers are shown once. Enter points and reason in answers-qN.csv. Then copy submission (as who), check, "
-    "points\nand reason into marks.csv of the results. A further call keeps the numbers and all entries.\n";
+    "equal\n"
+    "answers are shown once. Enter points and reason in answers-qN.csv. Then copy submission (as who), check, points\n"
+    "and reason into marks.csv of the results. A further call keeps the numbers and all entries.\n";
 
 int print_answers(AnswersRequest request) {
     request.isolation = strongest_isolation();

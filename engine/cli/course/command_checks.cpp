@@ -38,11 +38,14 @@ void add_checks(CLI::App& app, Action& action) {
     add_timeout_option(*command, words->timeout);
     command->footer(
         "The checks run on the reference solution, the untouched starter, the lesson's wrong_*.lua and right_*.lua, "
-        "and your\nown scripts FOLDER/try/*.lua. They also run on the reference solution with one answer 1.5 times as "
-        "large, with the\nopposite sign, or missing. For each script, dynlab prints the points and the messages of "
-        "missing points. At the end\nit lists the checks that the reference solution fails, and the checks that no "
-        "script fails.\nExample:  dynlab checks try my-checks --lesson 04\nExit codes: 0 the reference solution passes "
-        "all checks, 1 it does not, 2 wrong usage.");
+        "and your\n"
+        "own scripts FOLDER/try/*.lua. They also run on the reference solution with one answer 1.5 times as large, "
+        "with the\n"
+        "opposite sign, or missing. For each script, dynlab prints the points and the messages of missing points. At "
+        "the end\n"
+        "it lists the checks that the reference solution fails, and the checks that no script fails.\n"
+        "Example:  dynlab checks try my-checks --lesson 04\n"
+        "Exit codes: 0 the reference solution passes all checks, 1 it does not, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return try_them(*words); }; });
 }
 

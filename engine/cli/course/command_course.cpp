@@ -41,9 +41,10 @@ void add_init(CLI::App& course, Action& action) {
             const std::string own = (folder.has_filename() ? folder : folder.parent_path()).filename();
             Course::create(folder, words->name.empty() ? own : words->name, words->zone);
             std::cout << fmt::format(
-                "Course made in {}, times in {}.\ncourse.key signs the receipts: keep a copy of the whole folder, and "
-                "keep the key secret.\ncourse.pub verifies them: give it to your students, who need only dynlab "
-                "verify.\nNext: cd {} and dynlab course import roster.csv\n",
+                "Course made in {}, times in {}.\n"
+                "course.key signs the receipts: keep a copy of the whole folder, and keep the key secret.\n"
+                "course.pub verifies them: give it to your students, who need only dynlab verify.\n"
+                "Next: cd {} and dynlab course import roster.csv\n",
                 folder.string(), words->zone, words->folder);
             return kDone;
         };
@@ -100,10 +101,14 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
         ->capture_default_str();
     command->footer(
         "Columns: id and group, and optionally name, email (or mail), moodle, canvas, language, seed. dynlab also "
-        "reads the\nexports of Moodle and Canvas. A student without a group works alone; | joins several groups. "
-        "Students and columns\nthat are not in the file do not change.\nExamples:\n  dynlab course import roster.csv\n "
-        " dynlab course import deadlines.csv --deadlines lab4    with the columns of dynlab grade\n  dynlab course "
-        "import course.json copy --from signals-2026    from course export --json");
+        "reads the\n"
+        "exports of Moodle and Canvas. A student without a group works alone; | joins several groups. Students and "
+        "columns\n"
+        "that are not in the file do not change.\n"
+        "Examples:\n"
+        "  dynlab course import roster.csv\n"
+        "  dynlab course import deadlines.csv --deadlines lab4    with the columns of dynlab grade\n"
+        "  dynlab course import course.json copy --from signals-2026    from course export --json");
     command->callback([&where, words, &action] {
         action = [&where, words]() -> int {
             if (!words->assignment.empty()) return import_table(where, words->assignment, words->file);
@@ -262,11 +267,14 @@ void add_assignment_command(CLI::App& course, CourseArguments& where, Action& ac
     command->add_flag("--remove", words->remove, "Remove the assignment if nothing depends on it");
     command->footer(
         "Times are in the course's time zone. Options that you omit keep their values. Once files were submitted, "
-        "--reason is\nrequired to move a deadline to an earlier time. Lateness and marks follow "
-        "immediately.\nExamples:\n  dynlab course assignment lab4 --kind lab --lesson 04 --first \"2026-03-09 18:00\" "
-        "--secret secret.txt --weight 10\n  dynlab course assignment crane --lesson 03_crane --first \"2026-02-28 "
-        "13:00\" \\\n            --review \"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews "
-        "2\n  dynlab course assignment crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
+        "--reason is\n"
+        "required to move a deadline to an earlier time. Lateness and marks follow immediately.\n"
+        "Examples:\n"
+        "  dynlab course assignment lab4 --kind lab --lesson 04 --first \"2026-03-09 18:00\" --secret secret.txt "
+        "--weight 10\n"
+        "  dynlab course assignment crane --lesson 03_crane --first \"2026-02-28 13:00\" \\\n            --review "
+        "\"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews 2\n"
+        "  dynlab course assignment crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
     command->callback(
         [&where, words, &action] { action = [&where, words] { return enter_assignment(where, *words); }; });
 }
@@ -366,17 +374,20 @@ void add_course(CLI::App& app, Action& action) {
     add_who(*course, where, action);
     add_course_page(*course, where, action);
     course->footer(
-        "Each command changes either everything or nothing, and can be repeated. dynlab deletes nothing.\n  dynlab "
-        "course init signals-2026 --timezone Europe/Paris    then, in that folder:\n  dynlab course import "
-        "roster.csv\n  dynlab course assignment lab4 --kind lab --lesson 04 --first ...\n  dynlab course submit "
-        "lab4.zip --assignment lab4            an export of Moodle or Canvas, or files\n  dynlab course status lab4    "
-        "                              late submissions, and what to do next\n  dynlab course grade lab4               "
-        "                    marks and feedback\n  dynlab course export -o term.csv                           all "
-        "marks, and the total\n  dynlab course page                                         the course in the "
-        "browser\nA term in 20 commands: dynlab help guide-instructor\nCommands that depend on the date "
-        "have the option --at TIME, which replaces the current time.\nMore: dynlab help review_marks (how marks follow "
-        "from scores), dynlab help names (which names are searched for)\nExit codes: 0 done, 1 something failed or was "
-        "not accepted, 2 wrong usage.");
+        "Each command changes either everything or nothing, and can be repeated. dynlab deletes nothing.\n"
+        "  dynlab course init signals-2026 --timezone Europe/Paris    then, in that folder:\n"
+        "  dynlab course import roster.csv\n"
+        "  dynlab course assignment lab4 --kind lab --lesson 04 --first ...\n"
+        "  dynlab course submit lab4.zip --assignment lab4            an export of Moodle or Canvas, or files\n"
+        "  dynlab course status lab4                                  late submissions, and what to do next\n"
+        "  dynlab course grade lab4                                   marks and feedback\n"
+        "  dynlab course export -o term.csv                           all marks, and the total\n"
+        "  dynlab course page                                         the course in the browser\n"
+        "A term in 20 commands: dynlab help guide-instructor\n"
+        "Commands that depend on the date have the option --at TIME, which replaces the current time.\n"
+        "More: dynlab help review_marks (how marks follow from scores), dynlab help names (which names are searched "
+        "for)\n"
+        "Exit codes: 0 done, 1 something failed or was not accepted, 2 wrong usage.");
 }
 
 }  // namespace dynlab::inline cli

@@ -57,11 +57,13 @@ CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action) 
         ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
     command->footer(
-        "Compares each final version with the version that its reviewers read. If both versions have a pack with "
-        "an\nanalysis that runs, dynlab compares report.md, otherwise the text of the PDFs. The documents show deleted "
-        "and inserted words, the\nchanged values, answers and table cells, and the released reviews.\nExamples:\n  "
-        "dynlab course changes --assignment crane\n  dynlab course changes group-03 group-07 --assignment crane --out "
-        "changes");
+        "Compares each final version with the version that its reviewers read. If both versions have a pack with an\n"
+        "analysis that runs, dynlab compares report.md, otherwise the text of the PDFs. The documents show deleted and "
+        "inserted words, the\n"
+        "changed values, answers and table cells, and the released reviews.\n"
+        "Examples:\n"
+        "  dynlab course changes --assignment crane\n"
+        "  dynlab course changes group-03 group-07 --assignment crane --out changes");
     command->callback([&where, words, &action] { action = [&where, words] { return changes(where, *words); }; });
     return command;
 }

@@ -145,10 +145,11 @@ void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
     away.app->get_option("--after")->needs("--mark");
     add_reason(away);
     away.app->footer(
-        "Afterwards the previous version counts, if there is one. The file, its receipt and this entry are "
-        "kept.\nExamples:\n  dynlab course withdraw crane group-05 --reason \"group-06's file by mistake\"\n  dynlab "
-        "course withdraw crane group-05 --stage review --of report-17 --reason \"empty form\"\n  dynlab course "
-        "withdraw crane group-05 --mark work --reason \"the paper was found\"");
+        "Afterwards the previous version counts, if there is one. The file, its receipt and this entry are kept.\n"
+        "Examples:\n"
+        "  dynlab course withdraw crane group-05 --reason \"group-06's file by mistake\"\n"
+        "  dynlab course withdraw crane group-05 --stage review --of report-17 --reason \"empty form\"\n"
+        "  dynlab course withdraw crane group-05 --mark work --reason \"the paper was found\"");
     const auto back = add_correction(course, "restore", "Reinstate a withdrawn file", where, action, restore_files);
     add_file_options(back);
     add_reason(back);

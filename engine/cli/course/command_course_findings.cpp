@@ -76,8 +76,9 @@ void add_findings_command(CLI::App& course, CourseArguments& where, Action& acti
     command->add_option("--version", words->version, "Number of an earlier submission. Default: the newest.")
         ->type_name("N");
     command->footer(
-        "The output is the same as for dynlab check.\nExample:  dynlab course findings group-07 --stage review\nExit "
-        "codes: 0 no rule is violated, 1 a rule is violated, or nothing was received.");
+        "The output is the same as for dynlab check.\n"
+        "Example:  dynlab course findings group-07 --stage review\n"
+        "Exit codes: 0 no rule is violated, 1 a rule is violated, or nothing was received.");
     command->callback([&where, words, &action] { action = [&where, words] { return show_findings(where, *words); }; });
 }
 

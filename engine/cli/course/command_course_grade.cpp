@@ -124,9 +124,11 @@ void add_mark(CLI::App& course, CourseArguments& where, Action& action) {
     add_time_option(*command, words->at);
     command->footer(
         "dynlab course withdraw withdraws a mark. For a lab, you can also enter marks in marks.csv in the folder of "
-        "its results.\nExamples:\n  dynlab course mark lab4 \"Wei Li\" q3 2 --reason \"right idea\"\n  dynlab course "
-        "mark lab4 group-08 14 --reason \"shown at the desk\"\n  dynlab course mark crane group-09 work 60 --reason "
-        "\"submitted on paper\"");
+        "its results.\n"
+        "Examples:\n"
+        "  dynlab course mark lab4 \"Wei Li\" q3 2 --reason \"right idea\"\n"
+        "  dynlab course mark lab4 group-08 14 --reason \"shown at the desk\"\n"
+        "  dynlab course mark crane group-09 work 60 --reason \"submitted on paper\"");
     command->callback([&where, words, &action] { action = [&where, words] { return set_mark(where, *words); }; });
 }
 
@@ -152,8 +154,9 @@ void add_grade_commands(CLI::App& course, CourseArguments& where, Action& action
     command->add_flag("--no-pdf", words->no_pdf, "Write feedback and summary as Markdown only");
     command->footer(
         "The assignment determines lesson, checks and secret (dynlab course assignment). The results are in "
-        "marks/ASSIGNMENT\nof the course's folder: gradebook.csv, summary.pdf, feedback, and marks.csv for manual "
-        "marks.\nExample:  dynlab course grade lab4");
+        "marks/ASSIGNMENT\n"
+        "of the course's folder: gradebook.csv, summary.pdf, feedback, and marks.csv for manual marks.\n"
+        "Example:  dynlab course grade lab4");
     command->callback([&where, words, &action] { action = [&where, words] { return grade(where, *words); }; });
     add_mark(course, where, action);
 }

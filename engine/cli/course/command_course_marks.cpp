@@ -245,23 +245,30 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         ->capture_default_str();
     scored.app->footer(
         "Each line is a review: reviewer,report,data,... with the reviewing group and the report's pseudonym (see "
-        "review\npairs). The reviewer \"instructor\" is you. The latest score counts; - withdraws a score, an empty "
-        "cell changes\nnothing. Scores of a withdrawn review do not count until it is restored. dynlab reads the "
-        "scores in the pack of a\nreview (dynlab new review) when it receives the review.\nFor a talk, points in a "
-        "student's row are only for that student; empty cells get the points of the group.\nExamples:\n  dynlab course "
-        "scores final-talk --sheet --students -o sheet.csv\n  dynlab course scores crane scores.csv\n  dynlab course "
-        "scores crane finals.csv --stage final\n  dynlab course scores crane --drop group-24 report-12 --reason "
-        "\"zeros everywhere\"");
+        "review\n"
+        "pairs). The reviewer \"instructor\" is you. The latest score counts; - withdraws a score, an empty cell "
+        "changes\n"
+        "nothing. Scores of a withdrawn review do not count until it is restored. dynlab reads the scores in the pack "
+        "of a\n"
+        "review (dynlab new review) when it receives the review.\n"
+        "For a talk, points in a student's row are only for that student; empty cells get the points of the group.\n"
+        "Examples:\n"
+        "  dynlab course scores final-talk --sheet --students -o sheet.csv\n"
+        "  dynlab course scores crane scores.csv\n"
+        "  dynlab course scores crane finals.csv --stage final\n"
+        "  dynlab course scores crane --drop group-24 report-12 --reason \"zeros everywhere\"");
 
     const auto shown = add_one(course, "marks", "Show medians, marks of reports and reviewers, and unusual reviews",
                                where, action, marks);
     shown.app->add_option("ASSIGNMENT", shown.words->assignment, "Assignment. Required if there are several.");
     add_time_option(*shown.app, shown.words->at);
     shown.app->footer(
-        "Mark of a report: 100 times the sum of the medians over the sum of the maximum points. Mark of a "
-        "reviewer:\n100 (1 - 2 d), at least 0, averaged over the reviews; d is the mean of |points - median of the "
-        "others| / maximum.\nA review is far below the others if the average difference exceeds 0.35 of the scale. An "
-        "example: dynlab help\nreview_marks");
+        "Mark of a report: 100 times the sum of the medians over the sum of the maximum points. Mark of a reviewer:\n"
+        "100 (1 - 2 d), at least 0, averaged over the reviews; d is the mean of |points - median of the others| / "
+        "maximum.\n"
+        "A review is far below the others if the average difference exceeds 0.35 of the scale. An example: dynlab "
+        "help\n"
+        "review_marks");
 
     const auto given =
         add_one(course, "export", "Export one row for each student as CSV, or the complete store as JSON", where,
@@ -282,11 +289,15 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         ->needs("--worksheet");
     given.app->footer(
         "Without an assignment, the CSV contains the percentages of each student and the total, weighted by "
-        "assignment. Work\nthat is missing after its deadline counts 0. Unmarked work does not count; dynlab lists "
-        "it.\nWith --worksheet, dynlab writes the percentage, scaled to the maximum points of the column, into the "
-        "platform's table.\nExamples:\n  dynlab course export -o term.csv\n  dynlab course export crane -o marks.csv\n "
-        " dynlab course export crane --worksheet Grades-crane.csv -o moodle.csv\n  dynlab "
-        "course export --json -o course.json");
+        "assignment. Work\n"
+        "that is missing after its deadline counts 0. Unmarked work does not count; dynlab lists it.\n"
+        "With --worksheet, dynlab writes the percentage, scaled to the maximum points of the column, into the "
+        "platform's table.\n"
+        "Examples:\n"
+        "  dynlab course export -o term.csv\n"
+        "  dynlab course export crane -o marks.csv\n"
+        "  dynlab course export crane --worksheet Grades-crane.csv -o moodle.csv\n"
+        "  dynlab course export --json -o course.json");
 }
 
 }  // namespace dynlab::inline cli

@@ -180,8 +180,9 @@ void add_return(CLI::App& course, CourseArguments& where, Action& action) {
     add_time_option(*command, words->at);
     command->footer(
         "Use this command after review send and release. mail.csv has a row for each student: id, name, group, mail, "
-        "files,\nnew. dynlab keeps a list of the delivered files; newer versions are new again.\nExample:  dynlab "
-        "course deliver crane --out monday --moodle");
+        "files,\n"
+        "new. dynlab keeps a list of the delivered files; newer versions are new again.\n"
+        "Example:  dynlab course deliver crane --out monday --moodle");
     command->callback([&where, words, &action] { action = [&where, words] { return give_back(where, *words); }; });
 }
 
@@ -221,13 +222,16 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
             where, action, assign)
         ->footer(
             "Each group writes, and gets, the same number of reviews. Existing reviews and sent copies are kept. You "
-            "can repeat\nthe command.\nExample:  dynlab course review assign crane");
+            "can repeat\n"
+            "the command.\n"
+            "Example:  dynlab course review assign crane");
     add_one(*peer, "send", "Make anonymized copies of the reports for their reviewers", where, action, send_reports)
         ->footer(
             "A copy that contains a name is not sent; dynlab prints where the name is. If the text means no person, "
-            "--accept\nsends the copy. If you repeat the command, it makes only new copies.\nExamples:  dynlab course "
-            "review send crane\n           dynlab course review send crane --accept group-01 --reason \"Page is a word "
-            "there\"");
+            "--accept\n"
+            "sends the copy. If you repeat the command, it makes only new copies.\n"
+            "Examples:  dynlab course review send crane\n"
+            "           dynlab course review send crane --accept group-01 --reason \"Page is a word there\"");
     add_one(*peer, "release", "Make anonymized copies of the reviews for the authors", where, action, release)
         ->footer(
             "A review that contains a name is not sent, like a report. If you repeat the command, it makes only new "
@@ -236,9 +240,10 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
     add_one(*peer, "pairs", "Show the pairs with their pseudonyms (confidential), or set or forbid a pair", where,
             action, pairs)
         ->footer(
-            "If a forbidden review is not written yet, the next review assign gives it to another group.\nExamples:\n  "
-            "dynlab course review pairs crane\n  dynlab course review pairs crane group-02 group-07 --forbid --reason "
-            "\"they share a flat\"");
+            "If a forbidden review is not written yet, the next review assign gives it to another group.\n"
+            "Examples:\n"
+            "  dynlab course review pairs crane\n"
+            "  dynlab course review pairs crane group-02 group-07 --forbid --reason \"they share a flat\"");
 }
 
 }  // namespace dynlab::inline cli

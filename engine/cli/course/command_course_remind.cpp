@@ -67,9 +67,12 @@ void add_remind_command(CLI::App& course, CourseArguments& where, Action& action
     add_time_option(*command, words->at);
     command->footer(
         "The file has a row for each student: to, subject, text, id, name, group, for the mail merge of any mail "
-        "program. The\ncolumn language of the roster sets the language of subject and text. Missing work is a first "
-        "version, review, final\nversion, slides or script after its deadline, or a file that cannot be "
-        "read.\nExample:  dynlab course remind crane\nExit codes: 0 done, 1 an address is unknown, 2 wrong usage.");
+        "program. The\n"
+        "column language of the roster sets the language of subject and text. Missing work is a first version, review, "
+        "final\n"
+        "version, slides or script after its deadline, or a file that cannot be read.\n"
+        "Example:  dynlab course remind crane\n"
+        "Exit codes: 0 done, 1 an address is unknown, 2 wrong usage.");
     command->callback([&where, words, &action] { action = [&where, words] { return remind(where, *words); }; });
 }
 

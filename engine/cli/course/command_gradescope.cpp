@@ -48,9 +48,11 @@ void add_gradescope(CLI::App& app, Action& action) {
     add_timeout_option(*command, words->timeout);
     command->footer(
         "The zip file contains setup.sh, run_autograder and all they need. Upload it, and choose a base image that is "
-        "at least\nas new as this machine (x86-64). Students submit analysis.lua, or the zip file from dynlab pack, "
-        "and see the same\npoints, messages and hints as from dynlab grade; for your own checks, they see only points "
-        "and hints.\nExample:  dynlab gradescope 04 --secret secret.txt --checks my-checks");
+        "at least\n"
+        "as new as this machine (x86-64). Students submit analysis.lua, or the zip file from dynlab pack, and see the "
+        "same\n"
+        "points, messages and hints as from dynlab grade; for your own checks, they see only points and hints.\n"
+        "Example:  dynlab gradescope 04 --secret secret.txt --checks my-checks");
     command->callback([words, &action] { action = [words] { return make_autograder(*words); }; });
 }
 

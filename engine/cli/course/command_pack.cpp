@@ -190,9 +190,9 @@ void add_bundle(CLI::App& app, Action& action) {
         ->check(CLI::IsMember(languages()));
     command->footer(
         "A zip file contains the starter, the visible checks, the data, the task sheet and a file with the first "
-        "steps.\nGroups without a seed get a random one: FOLDER/roster.csv is the roster with all seeds, for dynlab "
-        "grade.\nExamples:  dynlab bundle 04 -o lesson-4.zip     dynlab bundle 03_crane --roster roster.csv -o "
-        "bundles");
+        "steps.\n"
+        "Groups without a seed get a random one: FOLDER/roster.csv is the roster with all seeds, for dynlab grade.\n"
+        "Examples:  dynlab bundle 04 -o lesson-4.zip     dynlab bundle 03_crane --roster roster.csv -o bundles");
     command->callback([words, &action] { action = [words] { return bundle(*words); }; });
 }
 

@@ -65,10 +65,12 @@ void add_similar(CLI::App& app, Action& action) {
         ->check(CLI::Range(1.0, 100.0));
     command->footer(
         "Comments, layout and chosen names do not count, and code that many scripts share counts little. dynlab also "
-        "compares\nthe scripts with the lesson's reference solution. Copies of one script form one group. The list "
-        "shows both sides of\nthe common code. Similarity does not prove copying.\nExample:  dynlab similar Lab4.zip "
-        "--lesson 04 --out marks --compare 2025/submissions\nExit codes: 0 all scripts were compared, 1 some could not "
-        "be compared, 2 wrong usage.");
+        "compares\n"
+        "the scripts with the lesson's reference solution. Copies of one script form one group. The list shows both "
+        "sides of\n"
+        "the common code. Similarity does not prove copying.\n"
+        "Example:  dynlab similar Lab4.zip --lesson 04 --out marks --compare 2025/submissions\n"
+        "Exit codes: 0 all scripts were compared, 1 some could not be compared, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return compare(*words); }; });
 }
 

@@ -52,10 +52,14 @@ void add_study(CLI::App& app, Action& action) {
     words->run.seed.add_to(*command);
     command->footer(
         "The results are the same as with dynlab run, to the last bit, but the calls of montecarlo are computed in "
-        "parts. Each\npart runs the script up to the call, so your own functions can be estimators. The code before "
-        "the call should be\nfast and must not depend on the time. A script with two montecarlo calls needs its parts "
-        "twice. Existing parts are\nnot computed again.\nExample:  dynlab study bias.lua --on processes:8\nExit codes: "
-        "0 done, 1 the script failed or parts are missing, 2 wrong usage.");
+        "parts. Each\n"
+        "part runs the script up to the call, so your own functions can be estimators. The code before the call should "
+        "be\n"
+        "fast and must not depend on the time. A script with two montecarlo calls needs its parts twice. Existing "
+        "parts are\n"
+        "not computed again.\n"
+        "Example:  dynlab study bias.lua --on processes:8\n"
+        "Exit codes: 0 done, 1 the script failed or parts are missing, 2 wrong usage.");
     command->callback([words, &action] {
         expect_script(words->run.file, "study");
         if (!words->parts.any())

@@ -38,8 +38,9 @@ int verify(const VerifyWords& words) {
     if (verdict.genuine)
         signer = known ? fmt::format(", signed by the course \"{}\"", known->course)
                        : fmt::format(
-                             ", signed with the key that it contains:\n{}\nCheck that this is your course's key: see "
-                             "its {} or its page.",
+                             ", signed with the key that it contains:\n"
+                             "{}\n"
+                             "Check that this is your course's key: see its {} or its page.",
                              own, kPublicKeyFile);
     std::cout << terminal_text(fmt::format("{}: {}{}{}\n", words.receipt, verdict.reason,
                                            verdict.genuine && !words.file.empty() ? ", for exactly this file" : "",
@@ -63,8 +64,10 @@ void add_verify(CLI::App& app, Action& action) {
         ->check(CLI::ExistingFile);
     command->footer(
         "A receipt with a code instead of a signature, from an early version of dynlab, can be verified only by the "
-        "course\n(dynlab course verify).\nExample:  dynlab verify 00012-group-07-first-report.txt report.pdf --key "
-        "course.pub\nExit codes: 0 genuine, 1 not genuine, or not for the file, 2 wrong usage.");
+        "course\n"
+        "(dynlab course verify).\n"
+        "Example:  dynlab verify 00012-group-07-first-report.txt report.pdf --key course.pub\n"
+        "Exit codes: 0 genuine, 1 not genuine, or not for the file, 2 wrong usage.");
     command->callback([words, &action] { action = [words] { return verify(*words); }; });
 }
 

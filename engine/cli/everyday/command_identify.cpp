@@ -111,12 +111,16 @@ void add_identify(CLI::App& app, Action& action) {
     command->add_flag("--script", words->script, "Only print the Lua script")->excludes(report);
     command->footer(
         "The sampling time comes from the column --time, or from the column with a name (t, time_ms, ...) or unit of "
-        "time. The\nsteps may differ, and dynlab converts ms, min and h to seconds. Without a time column, the "
-        "sampling time comes from\n# Ts: 0.01 in a CSV file, or from the variable Ts of a MAT file. The columns of a "
-        "matrix y are named y1, y2, ...;\ndynlab inspect DATA lists the names. Missing samples of inputs hold the "
-        "previous value; those of outputs are linearly\ninterpolated. dynlab prints the summary; the report also "
-        "contains figures.\nA message such as identify.lua:35 refers to line 35 of the output of --script.\nExample:  "
-        "dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate second.csv");
+        "time. The\n"
+        "steps may differ, and dynlab converts ms, min and h to seconds. Without a time column, the sampling time "
+        "comes from\n"
+        "# Ts: 0.01 in a CSV file, or from the variable Ts of a MAT file. The columns of a matrix y are named y1, y2, "
+        "...;\n"
+        "dynlab inspect DATA lists the names. Missing samples of inputs hold the previous value; those of outputs are "
+        "linearly\n"
+        "interpolated. dynlab prints the summary; the report also contains figures.\n"
+        "A message such as identify.lua:35 refers to line 35 of the output of --script.\n"
+        "Example:  dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate second.csv");
     command->callback([words, &action] {
         try {
             words->request.validate();

@@ -56,8 +56,9 @@ void add_inspect(CLI::App& app, Action& action) {
         ->type_name("NAME");
     command->footer(
         "Assumptions of dynlab are listed below the first line. load in a script reads the file in the same way; its "
-        "options\nskip, delimiter, sheet, time, names and units correct wrong assumptions.\nExample:  dynlab inspect "
-        "record.csv -o record.png");
+        "options\n"
+        "skip, delimiter, sheet, time, names and units correct wrong assumptions.\n"
+        "Example:  dynlab inspect record.csv -o record.png");
     command->callback([words, &action] {
         if (words->delimiter.size() > 1)
             throw CLI::ValidationError("--delimiter", "expected one character, not '" + words->delimiter + "'");

@@ -90,8 +90,10 @@ void add_lint(CLI::App& app, Action& action, const CheckNames& check_names) {
     command->add_flag("--json", words->json, "Print {findings: [{file, line, column, kind, message}]}");
     command->footer(
         "The command reports text that Lua cannot read, undefined names, unknown options of functions, and answers "
-        "that the\nheader does not declare or that are never submitted, each as FILE:LINE:COLUMN: message.\nExample:  "
-        "dynlab lint analysis.lua\nExit codes: 0 no errors, 1 errors were found, 2 wrong usage.");
+        "that the\n"
+        "header does not declare or that are never submitted, each as FILE:LINE:COLUMN: message.\n"
+        "Example:  dynlab lint analysis.lua\n"
+        "Exit codes: 0 no errors, 1 errors were found, 2 wrong usage.");
     command->callback([words, check_names, &action] {
         for (const std::string& file : words->files) expect_script(file, "lint");
         action = [words, check_names] { return lint(*words, check_names); };

@@ -79,10 +79,11 @@ void add_new(CLI::App& app, Action& action) {
         ->check(CLI::Range(1u, 4294967295u));
     add_language(*command, words->language, "Language of the report. Default: the lesson's language.");
     command->footer(
-        "Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr\ndynlab new lesson DIR makes a "
-        "small lesson with checks, for you to change: see dynlab help guide-own-course.\ndynlab new editor DIR adds "
-        "files for editors to an existing folder: .luarc.json with all functions (completion,\nsignatures), tasks for "
-        "VS Code, .editorconfig. A student's copy contains them.");
+        "Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr\n"
+        "dynlab new lesson DIR makes a small lesson with checks, for you to change: see dynlab help guide-own-course.\n"
+        "dynlab new editor DIR adds files for editors to an existing folder: .luarc.json with all functions "
+        "(completion,\n"
+        "signatures), tasks for VS Code, .editorconfig. A student's copy contains them.");
     command->callback([words, &action] { action = [words] { return make_new(*words); }; });
 }
 

@@ -85,8 +85,9 @@ void add_notebook(CLI::App& app, Action& action) {
     command->add_flag("--force", words->force, "Replace a file that dynlab did not write, or that was changed");
     command->footer(
         "An unchanged notebook becomes the same script again, byte for byte. Jupyter runs the notebook with the kernel "
-        "that\ndynlab kernel install registers; see dynlab help guide-notebook.\nExamples:  dynlab notebook "
-        "my-crane/analysis.lua     dynlab notebook analysis.ipynb");
+        "that\n"
+        "dynlab kernel install registers; see dynlab help guide-notebook.\n"
+        "Examples:  dynlab notebook my-crane/analysis.lua     dynlab notebook analysis.ipynb");
     command->callback([words, &action] { action = [words] { return convert(*words); }; });
 }
 

@@ -12,8 +12,8 @@ namespace {
 constexpr const char* kFigureFolder = "dynlab_out";
 constexpr const char* kGreeting =
     "dynlab " DYNLAB_VERSION
-    ": type a statement, or help for a list of functions, help tf for help on tf.\nTab completes, the arrow keys show "
-    "earlier lines, Ctrl-C stops a statement, Ctrl-D or quit exits.\n";
+    ": type a statement, or help for a list of functions, help tf for help on tf.\n"
+    "Tab completes, the arrow keys show earlier lines, Ctrl-C stops a statement, Ctrl-D or quit exits.\n";
 
 }  // namespace
 

@@ -146,10 +146,13 @@ void add_run(CLI::App& app, Action& action, const FigureView& view) {
         option->excludes(command->get_option("--interactive"))->excludes(command->get_option("--view"));
     command->footer(
         "dynlab saves the script's figures as PDF in NAME_out, in the folder of the script, and prints their paths. It "
-        "removes\nthe figures of an earlier run. Other files that the script saves go into the folder of the script. "
-        "An existing file\nis replaced only if dynlab wrote it and it was not changed since (see --force). dynlab "
-        "prints reported values and\ntables, and lists the entries that the text of the report does not "
-        "show.\nExample:  dynlab run -e 's = tf(\"s\") step(2/(s^2 + s + 1))'");
+        "removes\n"
+        "the figures of an earlier run. Other files that the script saves go into the folder of the script. An "
+        "existing file\n"
+        "is replaced only if dynlab wrote it and it was not changed since (see --force). dynlab prints reported values "
+        "and\n"
+        "tables, and lists the entries that the text of the report does not show.\n"
+        "Example:  dynlab run -e 's = tf(\"s\") step(2/(s^2 + s + 1))'");
     command->callback([words, view, &action] {
         if (words->file.empty() && words->code.empty()) {
             throw CLI::RequiredError("a script FILE or -e CODE");

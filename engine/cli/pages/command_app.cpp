@@ -45,8 +45,10 @@ void add_app(CLI::App& app, Action& action) {
     command->add_flag("--no-browser", words->no_browser, "Print the address without opening the browser");
     command->footer(
         "The session is a Lua script in the current folder, NAME_session.lua, updated with every step. dynlab run, "
-        "report,\ncheck and pack accept the script, and dynlab app resumes it.\nExamples:  dynlab app record.csv     "
-        "dynlab app crane     dynlab app 03_crane     dynlab app record_session.lua");
+        "report,\n"
+        "check and pack accept the script, and dynlab app resumes it.\n"
+        "Examples:  dynlab app record.csv     dynlab app crane     dynlab app 03_crane     dynlab app "
+        "record_session.lua");
     command->callback([words, &action] { action = [words] { return show_workbench(*words); }; });
 }
 

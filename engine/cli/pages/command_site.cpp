@@ -29,7 +29,8 @@ void add_site(CLI::App& app, Action& action) {
     command->footer(
         "Copy FOLDER to any web server (dynlab help guide-site). Without an engine the pages show results, but no "
         "cell\n"
-        "runs.\n\n"
+        "runs.\n"
+        "\n"
         "Examples:  dynlab site site     python3 -m http.server --directory site");
     command->callback([words, &action] {
         action = [words]() -> int {
