@@ -842,7 +842,7 @@ end
 -- %% [markdown]
 -- ## Without typing
 --
--- `dynlab app` opens an empty session in the workbench in the browser (@fig:workbench). Under **Known system**, press **Begin a study**: it has the
+-- `dynlab app` opens an empty session in the workbench in the browser (@fig:workbench). Under **Known system**, press **Start study**: it has the
 -- system of @eq:system, an input, noise, and SRIVC. Drag **noise** and watch the cloud and the ellipse grow together. Add `lssvf = {{2, 1, 0}, 3}` to
 -- the list of **estimators** and drag again: its cloud moves away from the truth. The table below the figure compares the scatter with the bound.
 -- `session.lua` contains your steps. With `dynlab app crane`, you can identify the crane in the same way.

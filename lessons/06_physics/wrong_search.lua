@@ -1,7 +1,7 @@
 -- expects: tanks: was not submitted
 -- expects: free_run: was not submitted
 -- expects: simulated: was not submitted
--- expects: figures: There is no figure
+-- expects: figures: The report has no figure
 -- expects: crane_follows: For the other crane the search failed
 -- expects: tanks_follow: was not submitted
 -- The crane only, by a search without bounds that finds its end on the records it was tried on, and nowhere else.

@@ -2,7 +2,7 @@
 -- expects: crane_fit: The result must be in percent
 -- expects: free_run: NARX is so good only one sample ahead
 -- expects: simulated: These are levels
--- expects: figures: There is no figure
+-- expects: figures: The report has no figure
 -- expects: crane_follows: On a data set that you have not seen
 -- Two numbers are interchanged, a fit is a fraction, levels stand for readings, and NARX is judged one sample ahead.
 local R = load("crane")

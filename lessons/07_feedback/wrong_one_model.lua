@@ -3,7 +3,7 @@
 -- expects: before_cleaning: This is the single model of all data, which does not track the changes
 -- expects: after_cleaning: The order is gain, time constant
 -- expects: heater_follows: On a data set that you have not seen
--- expects: figures: There is no figure
+-- expects: figures: The report has no figure
 -- The heater stands still in time, two numbers are interchanged, a minus is forgotten, and the wrong record was taken.
 local d, S = load("drive"), 0.01
 answer("G_direct", srivc(iddata(d.open_loop.y, d.open_loop.u, S), {1, 2, 0}))

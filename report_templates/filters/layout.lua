@@ -199,8 +199,10 @@ function layout:code_block(block)
       return { self:need_for_lines(block.text), block }
     end
     local environment = verbatim_environments[class] or "Highlighting"
+    -- A long line of printed text is broken; its percent signs stay with their numbers. Code is copied, and stays as it is.
+    local text = environment == "Highlighting" and block.text or block.text:gsub("(%d) %%", "%1\u{a0}%%")
     return { self:need_for_lines(block.text), pandoc.RawBlock("latex", "\\begin{Shaded}\n\\begin{" .. environment ..
-      "}\n" .. block.text:gsub("[\\{}`]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}") }
+      "}\n" .. text:gsub("[\\{}`]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}") }
   elseif self.format == "html" then
     -- Pandoc would look for a language "output" in all its syntax definitions, which takes 0.3 s.
     local class = block.classes[1]

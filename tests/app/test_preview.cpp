@@ -196,7 +196,7 @@ TEST_F(preview_page, tabs_come_and_go_and_the_end_is_told) {
         ASSERT_TRUE(shows(browser, "x is 20")) << "tab " << i;
     }
     preview.end();
-    EXPECT_TRUE(browser.comes("/ended|no answer/.test(document.getElementById('state').innerText)"));
+    EXPECT_TRUE(browser.comes("/has exited|no response/.test(document.getElementById('state').innerText)"));
     EXPECT_TRUE(shows(browser, "x is 20"));
 }
 
@@ -239,14 +239,14 @@ TEST_F(preview_page, takes_up_a_stream_that_was_cut_and_has_lost_nothing) {
     browser.open(line.address(preview.address()));
     ASSERT_TRUE(shows(browser, "x is 20"));
     line.cut();
-    EXPECT_TRUE(browser.comes("document.getElementById('state').innerText.includes('no answer')"));
+    EXPECT_TRUE(browser.comes("document.getElementById('state').innerText.includes('no response')"));
     std::string changed = kHead + kFirst + kPlot;
     changed.replace(changed.find("x = 20"), 6, "x = 21");
     write(changed);
     EXPECT_FALSE(browser.comes("document.getElementById('document').innerText.includes('x is 21')", 0.5));
     line.mend();
     EXPECT_TRUE(shows(browser, "x is 21"));
-    EXPECT_TRUE(browser.comes("!document.getElementById('state').innerText.includes('no answer')"));
+    EXPECT_TRUE(browser.comes("!document.getElementById('state').innerText.includes('no response')"));
 }
 
 /// A lid that is closed: the program stands still, files change, and it wakes up.

@@ -355,7 +355,7 @@ TEST_F(preview_editing, findings_open_answers_and_the_pdf_come_by_themselves) {
     browser.open(preview.address());
     EXPECT_TRUE(browser.comes("document.getElementById('show-findings').innerText.includes('1 answer open')"));
     EXPECT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 120));
-    EXPECT_TRUE(browser.comes("/rules? broken/.test(document.getElementById('show-findings').innerText)", 120));
+    EXPECT_TRUE(browser.comes("/rules? violated/.test(document.getElementById('show-findings').innerText)", 120));
     browser.click("#show-findings");
     EXPECT_TRUE(browser.comes("document.querySelectorAll('#findings li.rule').length > 0"));
     browser.click("#view");

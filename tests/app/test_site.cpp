@@ -65,7 +65,11 @@ void check_validity(const Workbench& bench, const std::map<std::string, std::str
     for (const auto& [file, html] : pages)
         bench.write("tidy/" + std::regex_replace(file, std::regex("/"), "+"),
                     without(html, "<foreignObject", "</foreignObject>"));
-    EXPECT_EQ(bench.shell("cd tidy && for f in *.html; do tidy -e -q \"$f\" 2>&1 | sed \"s/^/$f: /\"; done").output,
+    // nor does it know the attribute by which pictures come when they are seen.
+    EXPECT_EQ(bench
+                  .shell("cd tidy && for f in *.html; do tidy -e -q \"$f\" 2>&1 | sed \"s/^/$f: /\"; done | grep -v "
+                         "'<img> proprietary attribute \"loading\"'")
+                  .output,
               "");
 }
 
@@ -100,7 +104,8 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     int shown = 0;
     for (const auto& entry : fs::directory_iterator(kSource / "engine/scripting/reference")) {
         if (entry.path().extension() != ".md") continue;
-        const auto page = pages.find("functions/" + entry.path().stem().string() + ".html");
+        const std::string name = entry.path().stem().string() + ".html";  // of a function, or of a subject of its own
+        const auto page = pages.find((pages.contains("guides/" + name) ? "guides/" : "functions/") + name);
         ASSERT_NE(page, pages.end()) << entry.path();
         shown += page->second.find("<pre class=\"output\">") != std::string::npos ||
                  page->second.find("<figure") != std::string::npos;
@@ -119,7 +124,11 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     for (const MethodEntry& method : method_catalogue())
         EXPECT_THAT(bare_text_of(pages.at("guides/methods.html")), HasSubstr(bare(method.reference))) << method.file;
     EXPECT_THAT(bare_text_of(pages.at("guides/methods.html")), HasSubstr(bare("taught in: 06_physics")));
-    EXPECT_GT(attributes(pages.at("gallery/index.html"), "src").size(), 60u);
+    std::size_t drawn = 0;
+    for (const auto& [file, html] : pages)
+        drawn += file.starts_with("functions/") && html.find("<figure") != std::string::npos;
+    EXPECT_GE(drawn, 50u);
+    EXPECT_GE(attributes(pages.at("gallery/index.html"), "src").size(), drawn);
     // Formulas in captions stay formulas.
     EXPECT_THAT(pages.at("gallery/index.html"), HasSubstr("<math"));
     const std::string& contents = pages.at("index.html");
@@ -174,12 +183,9 @@ void check_search(Reader& reader) {
 }
 
 void check_pages_in_browser(Reader& reader) {
-    // Figures are alive, from files and under the page's own policy.
-    EXPECT_TRUE(reader.browser().comes("document.querySelectorAll('.plot canvas').length > 0"));
-    EXPECT_EQ(reader.value("document.querySelectorAll('nav.site .theme').length"), 1);
-    reader.browser().click("nav.site .theme");
-    EXPECT_NE(reader.value("getComputedStyle(document.body).backgroundColor"), "rgb(255, 255, 255)");
-    reader.browser().click("nav.site .theme");
+    // Figures come from files, under the page's own policy.
+    EXPECT_TRUE(
+        reader.browser().comes("[...document.querySelectorAll('main img')].some((one) => one.naturalWidth > 0)"));
     for (const char* file : {"index.html", "functions/index.html", "guides/methods.html", "gallery/index.html",
                              "lessons/04/index.html", "fr/index.html", "fr/lessons/06/index.html",
                              "demonstrations/delays.html", "guides/guide-commands.html", "functions/srivc.html"}) {

@@ -183,7 +183,7 @@ TEST_F(workbench, the_script_is_on_disk_when_the_program_is_killed) {
     ASSERT_TRUE(press(browser, "+ Trend"));
     ASSERT_TRUE(script_has(browser, "detrend(prepared, \"linear\")"));
     ::kill(program->process(), SIGKILL);
-    EXPECT_TRUE(browser.comes("document.getElementById('state').textContent.startsWith('no answer')"));
+    EXPECT_TRUE(browser.comes("document.getElementById('state').textContent.startsWith('no response')"));
     EXPECT_THAT(text_of("plant_session.lua"), HasSubstr("prepared = detrend(prepared, \"linear\")\n"));
     const auto again = app("plant_session.lua");
     browser.open(again->address());
@@ -333,11 +333,11 @@ TEST_F(workbench, files_that_are_no_records_are_told_and_the_page_stays) {
     struct Bad {
         const char *name, *text, *says;
     };
-    const Bad all[] = {{"words.csv", "a,b\nx,y\nz,w\n", "not contain two signals"},
-                       {"one.csv", "y\n1\n2\n3\n4\n", "not contain two signals"},
+    const Bad all[] = {{"words.csv", "a,b\nx,y\nz,w\n", "does not contain two signals"},
+                       {"one.csv", "y\n1\n2\n3\n4\n", "does not contain two signals"},
                        {"back.csv", "t,u,y\n0,1,2\n1,1,3\n0.5,0,4\n2,0,5\n", "must increase"},
                        {"flat.csv", "# Ts: 0.1\nu,y\n1,2\n1,2\n1,2\n1,2\n", "constant"},
-                       {"two.csv", "# Ts: 0.1\nu,y\n1,2\n0,3\n", "says (2)"}};
+                       {"two.csv", "# Ts: 0.1\nu,y\n1,2\n0,3\n", "advice (2)"}};
     for (const Bad& bad : all) {
         write(bad.name, bad.text);
         const auto program = app(bad.name);

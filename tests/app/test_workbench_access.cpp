@@ -149,7 +149,7 @@ TEST_F(workbench_access, a_name_that_cannot_be_is_refused_in_words) {
     };
     const std::string before = script();
     for (const auto& [name, words] :
-         {std::pair("best model", "letters, digits"), std::pair("end", "not a keyword of Lua"),
+         {std::pair("best model", "letters, digits"), std::pair("end", "Lua keyword"),
           std::pair("G1", "is already used in the script"), std::pair("bode", "a function")}) {
         rename(name);
         EXPECT_TRUE(
@@ -220,7 +220,7 @@ TEST_F(workbench_access, after_the_end_nothing_can_be_pressed_and_nothing_fails)
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(view_comes(browser, "bode"));
     program->end();
-    ASSERT_TRUE(browser.comes("document.getElementById('state').textContent.startsWith('dynlab has ended')"));
+    ASSERT_TRUE(browser.comes("document.getElementById('state').textContent.startsWith('dynlab has exited')"));
     EXPECT_EQ(
         browser.evaluate("return [...document.querySelectorAll('#bench-bar button:enabled')].map((one) => one.id)"),
         R"(["show-script"])");

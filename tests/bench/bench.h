@@ -33,7 +33,7 @@ void measure_grading(Report& report);
 void measure_course(Report& report);
 void measure_live(Report& report);       ///< needs Chromium and its driver
 void measure_workbench(Report& report);  ///< as well
-void measure_site(Report& report);     ///< as well
+void measure_site(Report& report);       ///< as well
 void measure_lua(Report& report);
 void measure_searches(Report& report);
 void measure_advice(Report& report);

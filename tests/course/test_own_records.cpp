@@ -129,7 +129,7 @@ TEST(own_records, truth_is_that_of_the_record_which_the_answers_came_from) {
         "check{id = 'not_own', test = function(a)\n"
         "  return truth(a, 'thruster').delay == rig_truth('thruster').delay end}\n"
         "check{id = 'refusals', test = function(a)\n"
-        "  return says('name the data set', a) and says('answers', {}, 'suspension') and says('thrusters', a, "
+        "  return says('give the data set', a) and says('answers', {}, 'suspension') and says('thrusters', a, "
         "'thrusters') end}\n";
     const auto script = [](int specimen) { return kComputesGain + fmt::format("answer('specimen', {})\n", specimen); };
     GradingBench bench("--   K: number\n--   specimen: number\n", checks, script(0));

@@ -149,8 +149,7 @@ TEST(pseudonyms, of_a_store_with_a_seed_stay_as_they_were_drawn) {
         "own_data; ALTER TABLE students DROP COLUMN language; PRAGMA user_version = 4'"));
     EXPECT_EQ(bench.course({"review", "pairs"}).output, before);
     EXPECT_THAT(bench.dump(), Not(HasSubstr("seed")));
-    EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-02 11:00"}).output,
-                HasSubstr("0 new, 0 withdrawn"));
+    EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-02 11:00"}).output, HasSubstr("0 new, 0 withdrawn"));
     EXPECT_EQ(bench.course({"review", "pairs"}).output, before);
     EXPECT_EQ(bench.course({"verify"}).exit_code, 0);
 }

@@ -6,9 +6,9 @@
 #include <regex>
 #include <set>
 
-#include "platform/files/zip_file.h"
 #include "course/grading_bench.h"
 #include "course/similarity/similarity.h"
+#include "platform/files/zip_file.h"
 
 namespace dynlab::test {
 namespace test_similarity {

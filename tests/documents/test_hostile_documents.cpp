@@ -111,7 +111,7 @@ TEST_F(hostile_documents, only_commands_that_set_mathematics_are_allowed) {
             << command;
     }
     EXPECT_THAT(refusal("$\\alhpa$\n"), HasSubstr("did you mean \\alpha?"));
-    EXPECT_THAT(refusal("A\n\n$a\n+ b % c$ d\n"), HasSubstr("report.md:4: a percent sign"));
+    EXPECT_THAT(refusal("A\n\n$a\n+ b % c$ d\n"), HasSubstr("report.md:4: write a percent sign"));
     const std::string both = refusal("$\\write$\n\n$$\\begin{input}x\\end{input} \\jobname$$\n");
     for (const char* part : {"report.md:1: the command \\write", "report.md:3: the environment \\begin{input}",
                              "report.md:3: the command \\jobname"})

@@ -66,7 +66,7 @@ TEST(hints, that_cannot_be_read_are_told_with_their_line) {
     EXPECT_THAT(complaint("## Question 2\n"), AllOf(HasSubstr("hints.md:1"), HasSubstr("# Question 4")));
     EXPECT_THAT(complaint("1. Look.\n"), AllOf(HasSubstr("hints.md:1"), HasSubstr("heading")));
     EXPECT_THAT(complaint("# Question 1\n1. a\n3. b\n"), AllOf(HasSubstr("hints.md:3"), HasSubstr("hint 2")));
-    EXPECT_THAT(complaint("# Question 1\n1. a\nb\n"), HasSubstr("indented"));
+    EXPECT_THAT(complaint("# Question 1\n1. a\nb\n"), HasSubstr("indent further lines"));
     EXPECT_THAT(complaint("# Question 1\n   a\n"), HasSubstr("hints.md:2"));
     EXPECT_THAT(complaint("# Question 1\n1. a\n# Question 1\n"), AllOf(HasSubstr("hints.md:3"), HasSubstr("already")));
 }
@@ -90,7 +90,7 @@ TEST(hints, are_given_one_at_a_time) {
         AllOf(HasSubstr("Hint 1 of 3"), HasSubstr("Hint 2 of 3"), HasSubstr("1 more"), Not(HasSubstr("Hint 3"))));
     EXPECT_THAT(bench.dynlab({"hint", "04"}).output, HasSubstr("question  4   3 hints, 2 seen"));
     EXPECT_THAT(bench.dynlab({"hint", "04", "4", "--all"}).output,
-                AllOf(HasSubstr("Hint 3 of 3"), HasSubstr("last one")));
+                AllOf(HasSubstr("Hint 3 of 3"), HasSubstr("the last hint")));
     const ChildResult none = bench.dynlab({"hint", "04", "40"});
     EXPECT_EQ(none.exit_code, 1);
     EXPECT_THAT(none.error_output, HasSubstr("it has hints for questions 1 to 16"));

@@ -31,7 +31,7 @@ class caches : public testing::Test {
 };
 
 std::string calls(int computed, int recalled) {
-    return " " + std::to_string(computed) + "  long calls computed, " + std::to_string(recalled) + " recalled\n";
+    return " " + std::to_string(computed) + "  long calls computed, " + std::to_string(recalled) + " from the cache\n";
 }
 TEST_F(caches, what_one_of_dynlabs_programs_computed_the_others_recall) {
     bench_.write("a.lua", kHeader + kStudy);

@@ -14,7 +14,8 @@ TEST(guesses, stand_beside_what_was_found) {
     EXPECT_EQ(printed("guess('delay', 0.3, 's')\noutcome('delay', 0.24)"),
               "delay: prediction 0.3 s, result 0.24 s (off by 25 %)\n");
     EXPECT_EQ(printed("guess('x', 1.097)\noutcome('x', 1)"), "x: prediction 1.097, result 1 (off by 10 %)\n");
-    EXPECT_EQ(printed("guess('x', 1.0000001)\noutcome('x', 1)"), "x: prediction 1, result 1 (off by less than 0.01 %)\n");
+    EXPECT_EQ(printed("guess('x', 1.0000001)\noutcome('x', 1)"),
+              "x: prediction 1, result 1 (off by less than 0.01 %)\n");
     EXPECT_EQ(printed("guess('poles', 3)\noutcome('poles', 3)"), "poles: prediction 3, result 3 (off by 0 %)\n");
     EXPECT_EQ(printed("guess('gain', -10, '%')\noutcome('gain', -13.87)"),
               "gain: prediction -10 %, result -13.87 % (off by 3.9 percentage points)\n")

@@ -52,7 +52,8 @@ TEST_P(reference_pages, has_the_form_of_a_page) {
                            "guide-first-hour", "guide-contsid", "guide-lab-report", "guide-prompt", "guide-commands",
                            "guide-check", "guide-instructor", "guide-year", "guide-peer-review", "guide-add-lesson",
                            "guide-formats", "guide-security", "guide-trouble", "guide-package", "guide-notebook",
-                           "guide-editors", "guide-own-course", "guide-interchange", "guide-cluster", "guide-lessons"))
+                           "guide-editors", "guide-own-course", "guide-interchange", "guide-cluster", "guide-lessons",
+                           "guide-site"))
             << "a page that is neither a function's nor a known subject";
         return;
     }

@@ -46,7 +46,8 @@ TEST(script_loops, four_routes) {
         "true\ttrue\ntrue\ntrue\ntrue\ntrue\n");
     EXPECT_THAT(printed(kLoop + "print(clsrivc(data, {1, 2, 0}, {controller = C}).report.message)"),
                 HasSubstr("with a controller delay of 1 sample"));
-    EXPECT_THAT(error_of(kLoop + "clsrivc(data, {1, 2, 0}, {route = 'indirect'})"), HasSubstr("needs a known controller"));
+    EXPECT_THAT(error_of(kLoop + "clsrivc(data, {1, 2, 0}, {route = 'indirect'})"),
+                HasSubstr("needs a known controller"));
     EXPECT_THAT(error_of(kLoop + "clsrivc(data, {1, 2, 0}, {controller = 'C'})"),
                 HasSubstr("the controller must be a model"));
     EXPECT_THAT(error_of(kLoop + "clivsvf(data, {2, 1, 0}, 4, {ComputingDelay = 1})"),

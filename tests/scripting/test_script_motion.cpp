@@ -79,8 +79,9 @@ TEST(script_motion, where_scripts_are_graded_draws_nothing_and_stops_nothing) {
 
 TEST(script_motion, says_what_is_missing) {
     const auto told = [](const std::string& options) { return error_of(kRecord + "motion{" + options + "}"); };
-    EXPECT_THAT(told("t = t, measured = s"),
-                HasSubstr("unknown moving plant ''; the plants are crane, drifting_process, drive, thruster, two_tanks"));
+    EXPECT_THAT(
+        told("t = t, measured = s"),
+        HasSubstr("unknown moving plant ''; the plants are crane, drifting_process, drive, thruster, two_tanks"));
     EXPECT_THAT(told("rig = 'suspension', t = t, measured = s"), HasSubstr("unknown moving plant 'suspension'"));
     EXPECT_THAT(told("rig = 'crane', t = t, measured = {angle = s.angle}"),
                 HasSubstr("option 'measured' lacks the position (m), which moves the animated plant"));

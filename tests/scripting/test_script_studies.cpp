@@ -73,7 +73,8 @@ TEST(script_studies, wrong_studies_say_what_is_wrong) {
     EXPECT_THAT(error_of(kStudy + "study{lssvf = {{2, 1}, 3}}"), HasSubstr("lssvf"));
     EXPECT_THAT(error_of(kStudy + "study{lssvf = {{2, 1, 0}}}"), HasSubstr("lambda"));
     EXPECT_THAT(error_of(kStudy + "study{lssvf = {{2, 1, 0}, 3, {hold = 'foh'}}}"), HasSubstr("option 'hold'"));
-    EXPECT_THAT(error_of(kStudy + "study{nosuch = {{2, 1, 0}, 3}}"), HasSubstr("unknown estimator 'nosuch'; the estimators are lssvf"));
+    EXPECT_THAT(error_of(kStudy + "study{nosuch = {{2, 1, 0}, 3}}"),
+                HasSubstr("unknown estimator 'nosuch'; the estimators are lssvf"));
     EXPECT_THAT(error_of(kStudy + "study{own = function(d) error('always') end}"),
                 AllOf(HasSubstr("every run of 'own' failed"), HasSubstr("always")));
     EXPECT_THAT(error_of(kStudy + "montecarlo{system = G0, input = u, Ts = 0.01, estimators = {}}"),

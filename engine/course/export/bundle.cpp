@@ -7,12 +7,12 @@
 
 #include "base/languages.h"
 #include "base/reader.h"
-#include "platform/files/zip_file.h"
 #include "course/intake/folder_copy.h"
 #include "data_io/dataset_index.h"
 #include "data_io/text_table.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/zip_file.h"
 #include "platform/keys/secure_random.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"

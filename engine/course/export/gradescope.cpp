@@ -8,10 +8,10 @@
 
 #include "course/boxes/boxed_work.h"
 #include "course/boxes/graded_run.h"
-#include "platform/files/zip_file.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
+#include "platform/files/zip_file.h"
 #include "platform/program_lookup.h"
 
 namespace dynlab::inline course {

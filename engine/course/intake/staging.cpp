@@ -9,13 +9,13 @@
 #include <map>
 #include <set>
 
-#include "platform/files/zip_file.h"
 #include "course/intake/folder_copy.h"
 #include "course/intake/notebooks.h"
 #include "course/intake/owners.h"
 #include "data_io/tables/text_decoding.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
+#include "platform/files/zip_file.h"
 #include "platform/temporary_folder.h"
 #include "platform/text/foreign_text.h"
 #include "platform/text/small_letters.h"

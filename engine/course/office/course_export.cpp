@@ -312,8 +312,7 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
             handed_in.push_back(from / "files" / hash.substr(0, 2) / hash);
         }
     } catch (const ValueError& error) {
-        throw EnvironmentError("{}: the file is not an export of dynlab course ({})", file.string(),
-                               message_of(error));
+        throw EnvironmentError("{}: the file is not an export of dynlab course ({})", file.string(), message_of(error));
     }
     for (const char* needed : {"name", "zone"})
         if (!settings.contains(needed)) throw EnvironmentError("{}: the course's {} is missing", file.string(), needed);

@@ -155,14 +155,16 @@ TEST(cbor_values, no_more_memory_is_taken_than_allowed) {
     for (int i = 0; i < 1'000'000; ++i) writer.text("");
     ValueLimits limits;
     limits.memory = 1'000'000 * sizeof(std::string) - 1;
-    EXPECT_THAT(refusal<std::vector<std::string>>(writer.bytes(), limits), HasSubstr("exceeds the allowed 31999999 bytes"));
+    EXPECT_THAT(refusal<std::vector<std::string>>(writer.bytes(), limits),
+                HasSubstr("exceeds the allowed 31999999 bytes"));
     limits.memory += 1000;
     EXPECT_EQ(refusal<std::vector<std::string>>(writer.bytes(), limits), "");
     limits.memory = 800;
     EXPECT_NE(refusal<Vector>(cbor_of(Vector(Vector::Zero(101))), limits), "");
     EXPECT_EQ(refusal<Vector>(cbor_of(Vector(Vector::Zero(100))), limits), "");
     limits.bytes = 10;
-    EXPECT_THAT(refusal<std::string>(cbor_of(std::string("0123456789")), limits), HasSubstr("exceeds the limit of 10 bytes"));
+    EXPECT_THAT(refusal<std::string>(cbor_of(std::string("0123456789")), limits),
+                HasSubstr("exceeds the limit of 10 bytes"));
 }
 
 TEST(cbor_values, errors_tell_the_place_what_was_wanted_and_given) {

@@ -87,7 +87,7 @@ TEST(message_values, what_is_no_message_is_refused_with_its_place) {
     EXPECT_EQ(refusal_of_json(R"({"id": "{}", "arguments": [{"truth": true}]})"),
               "arguments[1]: an argument of a message is of no known kind");
     EXPECT_THAT(refusal_of_json(R"({"id": "{}", "arguments": [{"list": {"items": [], "join": "xor"}}]})"),
-                HasSubstr("arguments[1].list.join: one of comma, and, or"));
+                HasSubstr("arguments[1].list.join: expected one of comma, and, or"));
     for (const char* digits : {"0", "18", "400", "-1"})
         EXPECT_THAT(refusal_of_json(R"({"id": "{}", "arguments": [{"number": {"value": 1, "meaning": "significant",
                                         "digits": )" +

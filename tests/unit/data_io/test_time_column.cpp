@@ -201,7 +201,8 @@ TEST_F(time_column, counters_that_begin_again_are_counted_on) {
     EXPECT_EQ(found("ticks (ms)", counter(50, 65536 - 77, 65536)), "0.05");
     EXPECT_EQ(found("time (s)", counter(10, 86400 - 200, 86400)), "10") << "seconds of the day";
     EXPECT_EQ(found("time (min)", [](int i) { return fmt::format("{}", (1430 + i) % 1440); }), "60");
-    EXPECT_THAT(texts_of(read("millis", counter(20, 65536 - 300, 65536)).notes), Contains(HasSubstr("wraps around at 65536")));
+    EXPECT_THAT(texts_of(read("millis", counter(20, 65536 - 300, 65536)).notes),
+                Contains(HasSubstr("wraps around at 65536")));
     EXPECT_THAT(found("millis", [](int i) { return fmt::format("{}", i % 20 * 20); }), HasSubstr("must increase"));
 }
 

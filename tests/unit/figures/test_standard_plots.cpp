@@ -26,7 +26,7 @@ TEST(compare_plot, a_lost_run_leaves_the_axis_to_the_others) {  // oracle: the r
     const Figure figure = compare_plot(
         IdData(Matrix(y), Matrix(u), 1),
         {{Message("a"), y, Vector::Constant(1, 100)}, {Message("b"), lost, Vector::Constant(1, -kInfinity)}});
-    EXPECT_EQ(curve_called(figure, "b: lost").y[1], 1e6);
+    EXPECT_EQ(curve_called(figure, "b: unstable").y[1], 1e6);
     EXPECT_EQ(curve_called(figure, "a: 100.0 %").y[1], 3);
     EXPECT_EQ(figure.panels[0].y_range, std::pair(0.5, 3.5));
 }

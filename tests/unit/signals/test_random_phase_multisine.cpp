@@ -84,7 +84,7 @@ TEST(random_phase_multisine, refuses_what_cannot_be) {
     options.lines = Vector{{1.5}};
     EXPECT_THAT(refusal(32, options), HasSubstr("but one is 1.5"));
     options.lines = Vector{{2.0, 2.0}};
-    EXPECT_THAT(refusal(32, options), HasSubstr("2 occurs more often"));
+    EXPECT_THAT(refusal(32, options), HasSubstr("2 occurs several times"));
     options.lines = Vector{{2.0, 4.0}};
     options.odd = true;
     EXPECT_THAT(refusal(32, options), HasSubstr("no line remains for"));

@@ -305,7 +305,7 @@ TEST(order_selection, failures_are_kept_and_told) {
     options.cancel = [] { return true; };
     const OrderSelection stopped = select_order(data, order_grid({1, 2}, {0, 0}, {0.0}), options);
     EXPECT_TRUE(stopped.cancelled);
-    EXPECT_THAT(message_text(stopped.candidates.front().failure), HasSubstr("stopped"));
+    EXPECT_THAT(message_text(stopped.candidates.front().failure), HasSubstr("interrupted"));
     EXPECT_THROW(choose_order(stopped), InvalidArgument);
     EXPECT_THROW(select_order(data, {}), InvalidArgument);
 }

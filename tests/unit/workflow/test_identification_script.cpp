@@ -288,14 +288,14 @@ TEST(identify_request, of_orders_delay_or_names_that_make_no_sense_is_refused) {
     refused([](auto& r) { r.outputs = {"u"}; }, "cannot be both input and output");
     refused([](auto& r) { r.poles = 0; }, "at least 1, not 0");
     refused([](auto& r) { r.zeros = 3; }, "from 0 to the number of poles, 2, but is 3");
-    refused([](auto& r) { r.zeros = -1; }, "it is -1");
+    refused([](auto& r) { r.zeros = -1; }, "is -1");
     refused([](auto& r) { r.delay = -1; }, "must be at least 0 s, not -1");
     refused([](auto& r) { r.delay = NAN; }, "the delay must be at least 0 s");
     refused([](auto& r) { r.Ts = 0; }, "Ts must be greater than 0 s");
     refused([](auto& r) { r.Ts = 1, r.time = "t"; }, "not both");
     refused([](auto& r) { r.poles.reset(), r.delay = 0.3; }, "or the delay auto");
     refused([](auto& r) { r.poles.reset(), r.zeros = 4; }, "must exceed the number of zeros");
-    refused([](auto& r) { r.poles.reset(), r.zeros = -1; }, "it is -1");
+    refused([](auto& r) { r.poles.reset(), r.zeros = -1; }, "but is -1");
     refused([](auto& r) { r.poles.reset(), r.inputs = {"u", "v"}; }, "with several inputs, give the number");
 }
 

@@ -137,7 +137,7 @@ TEST(narx, refuses_what_cannot_be_fitted) {
     const IdData data = record(50, 0, 1);
     EXPECT_THAT(thrown_message([&] { narx(data, {0, {0}, {1}}); }), HasSubstr("uses no past value"));
     EXPECT_THAT(thrown_message([&] { narx(data, {-1, {1}, {1}}); }), HasSubstr("must not be negative"));
-    EXPECT_THAT(thrown_message([&] { narx(data, {1, {1, 1}, {1, 1}}); }), HasSubstr("of 2 inputs"));
+    EXPECT_THAT(thrown_message([&] { narx(data, {1, {1, 1}, {1, 1}}); }), HasSubstr("for 2 inputs"));
     EXPECT_THAT(thrown_message([&] {
                     narx(data, kLags, {2, 16});
                 }),
@@ -149,11 +149,12 @@ TEST(narx, refuses_what_cannot_be_fitted) {
                     narx(data, kLags, {4, 0});
                 }),
                 HasSubstr("48 samples have a complete recorded past, but 70 candidate terms"));
-    EXPECT_THAT(thrown_message([&] { narx(data, kLags, {2, 0, [] { return true; }}); }), HasSubstr("stopped before"));
+    EXPECT_THAT(thrown_message([&] { narx(data, kLags, {2, 0, [] { return true; }}); }), HasSubstr("interrupted"));
     const NarxFit found = narx(data, kLags);
     IdData faster = data;
     faster.Ts = 0.1;
-    EXPECT_THAT(thrown_message([&] { found.model->free_run(faster, 0, Vector()); }), HasSubstr("the sampling time 0.5 s"));
+    EXPECT_THAT(thrown_message([&] { found.model->free_run(faster, 0, Vector()); }),
+                HasSubstr("the sampling time 0.5 s"));
     EXPECT_THAT(thrown_message([&] { found.model->free_run(data, 0, Vector::Ones(3)); }),
                 HasSubstr("x0 must have the first 2"));
     const IdData two(Matrix::Random(50, 2), Matrix::Random(50, 1), 1);
