@@ -10,7 +10,7 @@ namespace dynlab::inline platform {
 
 /// Limits of run_guarded; memory counts on top of what this process has mapped already.
 struct GuardLimits {
-    TimeLimits time{std::chrono::milliseconds(3000)};
+    TimeLimits time{std::chrono::milliseconds(3000), 20};
     std::uint64_t memory_bytes = 2ull << 30, output_bytes = 2ull << 30;
     bool one_task = true;  ///< nothing else is done in the copy, which may confine itself to what the task needs
 };

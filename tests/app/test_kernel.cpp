@@ -207,6 +207,11 @@ TEST_F(kernel, what_is_not_signed_or_no_message_is_not_answered) {
     KernelMessage odd;
     odd.header = json::array({1, 2});
     client().send(ours.write(odd));
+    auto deep = ours.made("execute_request", json{{"code", "forged = 3"}}, {});  // as long as the signature is right
+    json nested = json::array();
+    for (int i = 0; i < 150; ++i) nested = json::array({std::move(nested)});
+    deep.content["more"] = std::move(nested);
+    client().send(ours.write(deep));
     client().send(ours.write(ours.made("execute_request", json{{"code", 7}, {"silent", "no"}}, {})));
     EXPECT_EQ(client().answer("history_request", {{"hist_access_type", 3}})["status"], "error");
     EXPECT_THAT(client().run("print(forged)").reply.dump(), HasSubstr("unknown function or variable"));

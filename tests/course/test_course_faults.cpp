@@ -15,8 +15,8 @@ using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
-// Runs $1 in a copy of the course k, with the machine failing it as $2 says (kill, full) at the first, fourth, seventh
-// ... change of a file (at every one with DYNLAB_EVERY_PLACE=1) until it comes to its end; each time $3 is asked
+// Runs $1 in a copy of the course k, with the machine failing it as $2 says (kill, full) at the first change of a file
+// and each $5th behind it (at every one with DYNLAB_EVERY_PLACE=1) until it comes to its end; each time $3 is asked
 // whether all is well, the command is repeated without failure, and $4 is asked. `course` is dynlab course for the
 // copy. In the end no temporary file or folder is left. Threads are left out: one core, so that the order of the
 // changes is the same each time.
@@ -24,7 +24,7 @@ constexpr const char* kTryAll = R"(
 course() { taskset -c 0 $DYNLAB course --course try "$@"; }
 command=$1 fault=$2 between=$3 after=$4
 export TMPDIR=$PWD/temporary
-for place in $(seq 1 ${DYNLAB_EVERY_PLACE:-3} 400); do
+for place in $(seq 1 ${DYNLAB_EVERY_PLACE:-$5} 400); do
   rm -rf try temporary; cp -r k try; mkdir temporary; rm -f count
   taskset -c 0 env FAULT="$fault $place" FAULT_COUNT=$PWD/count LD_PRELOAD=$FAULTS \
     $DYNLAB course --course try $command >said 2>&1; code=$?
@@ -48,9 +48,9 @@ class course_faults : public ::testing::Test {
         bench_.bench().write("assign", "review assign --at 2026-03-02T10:00");
     }
     ChildResult try_all(const std::string& command, const std::string& fault, const std::string& between,
-                        const std::string& after) {
+                        const std::string& after, int step = 3) {
         return bench_.bench().shell("FAULTS=" DYNLAB_FAULTS " DYNLAB=$DYNLAB-course bash try_all \"$(cat " + command +
-                                    ")\" " + fault + " '" + between + "' '" + after + "'");
+                                    ")\" " + fault + " '" + between + "' '" + after + "' " + std::to_string(step));
     }
     void receive_all() {
         CourseBench::expect_done(bench_.course({"submit", "in", "--no-checks", "--at", "2026-03-01 10:00"}));
@@ -128,7 +128,7 @@ TEST_F(course_faults, a_kill_anywhere_while_sending_copies_loses_none) {
     const auto try_sending = [&](const std::string& command, const std::string& way, const std::string& folder) {
         bench_.bench().write("command", command);
         const ChildResult tried =
-            try_all("command", "kill", kSound, "bash all_sent \"" + way + "\" \"" + folder + "\"");
+            try_all("command", "kill", kSound, "bash all_sent \"" + way + "\" \"" + folder + "\"", 10);
         EXPECT_EQ(tried.exit_code, 0) << tried.output << tried.error_output;
         EXPECT_THAT(tried.output, ContainsRegex("failed at [1-9][0-9] places")) << command;
         CourseBench::expect_done(bench_.bench().shell("$DYNLAB course --course k " + command));
@@ -195,6 +195,14 @@ TEST_F(course_faults, a_folder_that_may_not_be_written_to_is_named) {
                                                            HasSubstr("Read-only file system")))
             << command;
         EXPECT_EQ(bench_.dump(), before) << command;
+    }
+    // What only reads is as ever.
+    for (const std::string command : {"status --at 2026-03-02T10:00", "verify", "history", "who group-01"}) {
+        const std::string call = "$DYNLAB course --course $PWD/k " + command;
+        const ChildResult read = bench_.bench().shell("bwrap --dev-bind / / --ro-bind $PWD/k $PWD/k " + call);
+        EXPECT_EQ(read.exit_code, 0) << command << ": " << read.error_output;
+        EXPECT_EQ(read.output, bench_.bench().shell(call).output) << command;
+        EXPECT_NE(read.output, "") << command;
     }
 }
 

@@ -108,6 +108,25 @@ TEST_F(leaks, pages_that_cannot_be_searched_are_hints) {
                 ElementsAre("(not-searchable 2)"));
 }
 
+// Oracle: the picture of the page, which shows the name; pdftotext does not give it.
+TEST_F(leaks, pages_painted_by_a_pattern_of_words_are_hints) {
+    const std::string hello =
+        "BT /F1 12 Tf 72 700 Td (The gain is known, and the oscillation is damped.) Tj ET /X0 Do\n";
+    const std::string form =
+        stream_of("/Pattern cs /P scn 0 0 500 500 re f",
+                  "/Type/XObject/Subtype/Form/BBox[0 0 500 500]/Resources<</Pattern<</P 7 0 R>>>>");
+    const auto pattern = [](const std::string& content, const std::string& resources) {
+        return stream_of(content,
+                         "/Type/Pattern/PatternType 1/PaintType 1/TilingType 1/BBox[0 0 200 50]/XStep 200"
+                         "/YStep 50/Resources<<" +
+                             resources + ">>");
+    };
+    const std::string words = "BT /F1 12 Tf 2 10 Td (by Zoe Brandtner) Tj ET";
+    EXPECT_THAT(found(page_with(hello, "", "", {form, pattern(words, "/Font<</F1 5 0 R>>")})),
+                ElementsAre("(not-searchable 1)"));
+    EXPECT_THAT(found(page_with(hello, "", "", {form, pattern("0 0 m 50 50 l S", "")})), IsEmpty());
+}
+
 // Oracle: the objects of the file: two bookmarks of which each is next to the other; a second page that is not counted.
 TEST_F(leaks, damaged_outlines_and_page_trees_are_searched_to_their_end) {
     const std::string hello = std::string("BT /F1 12 Tf 72 700 Td (The gain is known, and the oscillation is damped ") +

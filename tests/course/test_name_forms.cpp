@@ -56,7 +56,8 @@ void expect_hint(const std::vector<std::string>& texts) {
 
 TEST(name_forms, numbers_of_accounts_and_in_groups) {
     expect_certain({"see s20214711 for it", "SN20214711", "st20214711@uni.example", "u20214711.github.io",
-                    "student20214711", "2021 4711", "2021-4711", "2021/4711", "number 20 214 711", "(s20214711)"});
+                    "student20214711", "2021 4711", "2021-4711", "2021/4711", "number 20 214 711", "(s20214711)",
+                    "data20214711.csv", "crane_run20214711final.csv", "20214711b.pdf", "student_20214711rev2"});
 }
 
 // Numbers of a sentence may count something; beside a name, in brackets, after "student" or alone they are a person's.
@@ -92,7 +93,7 @@ TEST(name_forms, numbers_of_one_digit_say_nothing) {
 TEST(name_forms, groups_in_other_words) {
     expect_certain({"Groupe n° 1", "Group no. 1", "by Group one", "Group I wrote", "by Group 1 of the course",
                     "group1.pdf", "Group #1", "by team 01", "Team 1", "G01", "groupe 01", "Gruppe 1", "GROUP-1",
-                    "group_1"});
+                    "group_1", "group1data.csv", "group01_data", "Gr. 1", "gr. 01"});
     expect_hint({"as Group 2 did", "group2.csv", "Team 12"});
 }
 
@@ -158,7 +159,8 @@ TEST(name_forms, compatibility_forms) {
 }
 
 TEST(name_forms, accounts_of_initial_and_surname) {
-    expect_certain({"https://example.org/~alovelace", "alovelace@laptop", "/srv/alovelace/x", "data_ghopper.csv"});
+    expect_certain({"https://example.org/~alovelace", "alovelace@laptop", "/srv/alovelace/x", "data_ghopper.csv",
+                    "data_hopperg.csv", "lovelacea@laptop", "/srv/adal/x", "~bol/crane", "adal@laptop:~$"});
     EXPECT_EQ(found(course(), "some alovelace here"), "");
 }
 
@@ -212,6 +214,9 @@ TEST(name_forms, what_only_looks_like_them) {
     const IdentityMatcher names = course();
     for (const char* text : {"0x20214711",
                              "120214711",
+                             "1.20214711e5",
+                             "20214711e5",
+                             "3x20214711",
                              "20214711.5",
                              "the year 2021 and 4711 samples",
                              "2021, 4711",

@@ -94,6 +94,17 @@ TEST(unfair_submissions, what_is_no_number_passes_no_comparison) {
     EXPECT_THAT(tests[1].at("output").get<std::string>(), HasSubstr("NaN"));
 }
 
+// oracle: the number that the check wants
+TEST(unfair_submissions, an_answer_that_is_too_large_costs_no_other) {
+    GradingBench bench("--   x: number\n--   big: text\n",
+                       "check{id = 'x', test = function(a) return near(a.x, 1) end}\n",
+                       "answer('x', 1)\nanswer('big', 'a')\n");
+    bench.hand_in("a", "answer('x', 1)\nanswer('big', string.rep('x', 30000000))\n");
+    const ChildResult graded = bench.grade();
+    EXPECT_THAT(bench.result("a").dump(), HasSubstr("\\\"big\\\" is too large")) << graded.output;
+    EXPECT_EQ(bench.result("a").at("tests")[0].value("score", -1.0), 1);
+}
+
 // oracle: digits, of which a message that gives nothing away has none
 TEST(unfair_submissions, feedback_tells_no_distance_on_records_that_nobody_has_seen) {
     GradingBench bench(

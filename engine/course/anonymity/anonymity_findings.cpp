@@ -54,6 +54,26 @@ void add_bookmarks(Object bookmark, std::set<QPDFObjGen>& known, std::vector<Pla
     }
 }
 
+bool has_any(Object resources, const char* kind) {
+    return resources.isDictionary() && resources.getKey(kind).isDictionary() &&
+           !resources.getKey(kind).getDictAsMap().empty();
+}
+
+/// Whether it may print words or pictures by a tiling pattern, in which readers of text do not look.
+bool prints_by_pattern(Object resources, std::set<QPDFObjGen>& known) {
+    if (has_any(resources, "/Pattern"))
+        for (auto& [name, pattern] : resources.getKey("/Pattern").getDictAsMap()) {
+            Object inside = Object(pattern).isStream() ? Object(pattern).getDict().getKey("/Resources") : Object();
+            if (has_any(inside, "/Font") || has_any(inside, "/XObject")) return true;
+        }
+    if (!has_any(resources, "/XObject")) return false;
+    for (auto& [name, form] : resources.getKey("/XObject").getDictAsMap())
+        if (Object(form).isStream() && known.insert(Object(form).getObjGen()).second &&
+            prints_by_pattern(Object(form).getDict().getKey("/Resources"), known))
+            return true;
+    return false;
+}
+
 void add_page(Object page, int number, std::uint64_t most, InsideOfPdf& read) {
     if (Object annotations = page.getKey("/Annots"); annotations.isArray())
         for (Object annotation : annotations.getArrayAsVector())
@@ -68,6 +88,8 @@ void add_page(Object page, int number, std::uint64_t most, InsideOfPdf& read) {
         };
         picture = picture || std::min(size("/Width"), size("/Height")) >= kSmallPicture;
     });
+    std::set<QPDFObjGen> forms;
+    picture = picture || prints_by_pattern(QPDFPageObjectHelper(page).getAttribute("/Resources", false), forms);
     if (picture) read.pictures.push_back(number);
     std::size_t bytes = 0;
     for (const Object& content : page.getPageContents()) bytes += stream_content(content, most).bytes.size();

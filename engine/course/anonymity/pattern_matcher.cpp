@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kShortestJoined = 7;   ///< letters of a whole name written as one word
 constexpr std::size_t kShortestGrouped = 7;  ///< digits of a number that is written in groups
-constexpr std::size_t kLongestPrefix = 3;    ///< letters before an account's number
+constexpr std::size_t kLongestPrefix = 3;    ///< letters before an account's short number
 constexpr std::size_t kShortestPlural = 5;   ///< letters of a surname
 
 using Tokens = std::vector<NameToken>;
@@ -115,14 +115,23 @@ class PatternMatcher {
         return true;
     }
 
+    /// Of a number that cannot be mistaken, and of the authors' own group: "20214711b", "group1data"; not "20214711e5".
+    bool may_touch_letters() const {
+        const NameToken& behind = tokens_[next_];
+        const bool power = behind.letters == "e" && next_ + 1 < tokens_.size() && tokens_[next_ + 1].gap == Gap::kNone;
+        if (behind.digits || power || !tokens_[next_ - 1].digits) return false;
+        return pattern_.kind == NameKind::kGroup ? pattern_.own
+                                                 : pattern_.kind == NameKind::kNumber && !pattern_.labelled;
+    }
+
     /// A number is not part of a longer one and has no decimals. Accounts have letters before it: "s20214711".
     bool stands_apart() const {
-        if (next_ < tokens_.size() && tokens_[next_].gap == Gap::kNone) return false;
+        if (next_ < tokens_.size() && tokens_[next_].gap == Gap::kNone && !may_touch_letters()) return false;
         if (first_ == 0 || tokens_[first_].gap != Gap::kNone) return true;
         const NameToken& before = tokens_[first_ - 1];
         const bool is_account = pattern_.kind == NameKind::kNumber && tokens_[first_].digits && !before.digits &&
                                 (first_ == 1 || before.gap != Gap::kNone);
-        return is_account && (before.letters.size() <= kLongestPrefix || is_label(before));
+        return is_account && (!pattern_.labelled || before.letters.size() <= kLongestPrefix || is_label(before));
     }
 
     const NamePattern& pattern_;

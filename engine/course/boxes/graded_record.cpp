@@ -4,7 +4,8 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kPrinted = 4000;  // characters that are kept of the end
+constexpr std::size_t kPrinted = 4000;        // characters that are kept of the end
+constexpr std::size_t kMostGiven = 24 << 20;  // bytes, of the box's 32 MB
 
 std::string end_of_printed(const RunRecord& record, const PercentScript& script) {
     std::string printed;
@@ -16,6 +17,29 @@ std::string end_of_printed(const RunRecord& record, const PercentScript& script)
     return printed.size() > kPrinted ? printed.substr(printed.size() - kPrinted) : printed;
 }
 
+/// What does not fit through the box's output would cost all answers: each that is too much goes, and the error says
+/// so.
+void keep_what_fits(GradedRun& run) {
+    std::size_t used = 0;
+    const auto fits = [&](std::size_t bytes) {
+        if (used + bytes > kMostGiven) return false;
+        used += bytes;
+        return true;
+    };
+    for (auto answer = run.answers.begin(); answer != run.answers.end();) {
+        if (fits(answer->first.size() + answer->second.json.size())) {
+            ++answer;
+            continue;
+        }
+        if (!run.error)
+            run.error = Message("the answer \"{}\" is too large: all answers together may have {} MB", answer->first,
+                                kMostGiven >> 20);
+        answer = run.answers.erase(answer);
+    }
+    for (std::vector<std::string>* names : {&run.figures, &run.values})
+        std::erase_if(*names, [&](const std::string& name) { return !fits(name.size()); });
+}
+
 }  // namespace
 
 GradedRun graded_run(RunRecord&& record, const PercentScript& script) {
@@ -25,6 +49,7 @@ GradedRun graded_run(RunRecord&& record, const PercentScript& script) {
     for (const auto& [name, value] : record.values) run.values.push_back(name);
     run.answers = std::move(record.answers);
     if (record.error) run.error = with_place(*record.error);
+    keep_what_fits(run);
     return run;
 }
 

@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/Exception.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <utility>
@@ -55,8 +56,25 @@ auto with_plain_errors(const SQLite::Database& database, const Work& work) {
     }
 }
 
+/// Where nobody can write, as in an archived course, SQLite cannot keep the log beside the file, and needs none. A log
+/// that lies there is of an interrupted run and belongs to the data: then SQLite decides.
+bool cannot_change(const std::filesystem::path& file) {
+    std::error_code none;
+    return ::access(file.c_str(), F_OK) == 0 && ::access(file.c_str(), W_OK) != 0 &&
+           std::filesystem::file_size(file.string() + "-wal", none) + 1 <= 1;
+}
+
+/// The file as SQLite's URI for what never changes.
+std::string unchanging(const std::filesystem::path& file) {
+    std::string uri = "file:";
+    for (const char c : file.string())
+        uri += c == '%' ? "%25" : c == '?' ? "%3f" : c == '#' ? "%23" : std::string(1, c);
+    return uri + "?immutable=1";
+}
+
 SQLite::Database opened(const std::filesystem::path& file, int flags) {
     try {
+        if (cannot_change(file)) return {unchanging(file), SQLite::OPEN_READONLY | SQLite::OPEN_URI};
         return {file.string(), flags, kMillisecondsToWait};
     } catch (const SQLite::Exception& error) {
         fail(file.string(), error.getErrorCode(), error.what());

@@ -46,7 +46,7 @@ class Rows : public SQLite::Statement {
 };
 
 /// An SQLite database: write-ahead log, foreign keys enforced, every commit on disk, waits five seconds for another
-/// writer.
+/// writer. A file that cannot be written can be read.
 class Database : public SQLite::Database {
   public:
     enum class Opening { kExisting, kNew };
