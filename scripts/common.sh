@@ -126,14 +126,25 @@ debian_sources() {
       *) ! [ -e "$file" ] || sed -n 's/^deb /deb-src /p' "$file" ;;
     esac >"$lists/parts/$(basename "$file")"
   done
-  local apt=(apt-get -q -o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$lists/parts" -o "Dir::State::lists=$lists"
+  local apt=(-q -o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$lists/parts" -o "Dir::State::lists=$lists"
              -o APT::Sandbox::User=root)
   for package; do
     [ -e "$folder/$package.done" ] && continue
-    (cd "$folder" && { [ -e lists/updated ] || { "${apt[@]}" update && touch lists/updated; } &&
-      "${apt[@]}" source --download-only "$package" && tar xf "$package"_*.orig.tar.* && touch "$package.done"; } >log 2>&1) ||
+    (cd "$folder" && { [ -e lists/updated ] || { apt-get "${apt[@]}" update && touch lists/updated; } &&
+      download_source "$package" && tar xf "$package"_*.orig.tar.* && touch "$package.done"; } >log 2>&1) ||
       { tail -n 5 "$folder/log" >&2; say "The source of Debian's package $package could not be fetched."; return 1; }
   done
+}
+
+# download_source PACKAGE: its newest version whose files are there. A mirror's index can name a version that the mirror no longer has
+# or does not have yet. For debian_sources, whose options of apt it takes.
+download_source() {
+  local version
+  for version in $(apt-cache "${apt[@]}" showsrc --only-source "$1" | sed -n 's/^Version: //p' | sort -ruV); do
+    rm -f "$1"_*
+    apt-get "${apt[@]}" source --download-only "$1=$version" && return
+  done
+  return 1
 }
 
 # build_web: the engine as WebAssembly, in build/web/engine.

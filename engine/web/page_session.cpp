@@ -99,7 +99,7 @@ void dynlab_pack(const char* folder, const char* file) {
 /// An answer of app/live/state_questions.h, from the state behind the last run.
 const char* dynlab_ask(const char* question_json) {
     const auto asked = from_json<web::Question>(question_json);
-    app::PageRunOrder question;
+    app::RunOrder question;
     question.question = asked.question, question.text = asked.text, question.cursor = asked.cursor;
     return answer(app::answer_about_state(world().runtime().state(), question));
 }

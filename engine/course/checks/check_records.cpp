@@ -32,7 +32,7 @@ void call_of_rig(const Call& call, int function, std::uint32_t specimen, std::ui
 int record(Call& call) {
     CheckSession& session = call.owner<CheckSession>();
     const std::string name = call.text(1, "name");
-    const auto whole = [&](int index) { return static_cast<std::uint32_t>(call.size(index, "number")); };
+    const auto whole = [&](int index) { return static_cast<std::uint32_t>(call.whole(index, "number")); };
     session.record.clear();
     lua_State* L = call.state();
     call_of_rig(call, session.rigs.at(name).record, whole(2), whole(3));

@@ -98,7 +98,7 @@ int drive_crane(Call& call) {
         return voltage;
     };
     const CraneRecord record =
-        control_crane({}, {}, run, controller, static_cast<std::uint32_t>(options.size("seed", 1)));
+        control_crane({}, {}, run, controller, static_cast<std::uint32_t>(options.whole("seed", 1)));
     return give_table(call, "t", record.t, "u", record.u, "x", record.x, "theta", record.theta);
 }
 

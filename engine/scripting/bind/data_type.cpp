@@ -52,7 +52,7 @@ int part(Call& call) {
 Index whole_index(double number) {
     if (number != std::floor(number))
         throw InvalidArgument("samples and channels must be whole numbers, but {} was given", number);
-    return static_cast<Index>(number);
+    return index_of_whole(number);
 }
 
 /// data[{i, j}]

@@ -114,7 +114,7 @@ class DrawnNumbers {
   public:
     DrawnNumbers(const Call& call, const Options& options) : stream_(&call.context().random) {
         if (!options.has("seed")) return;
-        own_ = RandomStream(static_cast<std::uint32_t>(options.size("seed", 0)));
+        own_ = RandomStream(static_cast<std::uint32_t>(options.whole("seed", 0)));
         stream_ = &*own_;
     }
     DrawnNumbers(const DrawnNumbers&) = delete;

@@ -90,7 +90,7 @@ std::vector<Segment> segments_argument(const Call& call) {
         throw InvalidArgument(
             "the ranges must be lists of two sample numbers, {{1, 200}, {350, 900}}: the first and the last of each");
     std::vector<Segment> segments;
-    for (const auto& row : rows.rowwise()) segments.push_back({static_cast<Index>(row[0]), static_cast<Index>(row[1])});
+    for (const auto& row : rows.rowwise()) segments.push_back({index_of_whole(row[0]), index_of_whole(row[1])});
     return segments;
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 int rng(Call& call) {
     call.at_most(1);
-    const Index seed = call.integer(1, "seed");
+    const std::int64_t seed = call.whole(1, "seed");
     if (seed < 0 || seed > 0xFFFFFFFF)
         throw InvalidArgument("{} must be {}, but {} was given", Message("the seed"),
                               Message("a whole number from 0 to 4294967295"), seed);

@@ -199,7 +199,7 @@ int slider(Call& call) {
     recorder.add_slider(name, slider);
     const auto is_whole = [](double number) { return number == std::floor(number) && std::abs(number) < 1e15; };
     const bool counts = slider.step && is_whole(*slider.step) && is_whole(slider.from) && is_whole(slider.value);
-    return counts ? call.give_integer(static_cast<Index>(slider.value)) : call.give(slider.value);
+    return counts ? call.give_integer(static_cast<std::int64_t>(slider.value)) : call.give(slider.value);
 }
 
 constexpr const char* kGuesses = "dynlab guesses";  // in Lua's registry: a table for each name

@@ -115,7 +115,7 @@ int make_random_phases(Call& call) {
     options.read(wanted);
     const Index period = call.size(1, "N"), periods = options.size("periods", 1);
     need_room_for_signal(call.state(), static_cast<double>(period) * static_cast<double>(periods));
-    RandomStream own(static_cast<std::uint32_t>(options.size("seed", 1)));
+    RandomStream own(static_cast<std::uint32_t>(options.whole("seed", 1)));
     const RandomPhaseMultisine signal =
         random_phase_multisine(period, wanted, options.has("seed") ? own : call.context().random);
     call.give_vector(signal.u.replicate(periods, 1));

@@ -120,7 +120,7 @@ int range(Call& call) {
     if (step == 0 || !std::isfinite(step)) throw InvalidArgument("the step must not be zero");
     const double count = std::floor((last - first) / step * (1 + 1e-15) + 1e-10) + 1;
     if (!std::isfinite(count)) throw InvalidArgument("first and last must be finite numbers");
-    NumericBlock& block = push_vector(call.state(), static_cast<Index>(std::clamp(count, 0.0, 1e15)));
+    NumericBlock& block = push_vector(call.state(), index_of_whole(std::max(count, 0.0)));
     for (Index k = 0; k < block.rows; ++k) block.data()[k] = first + static_cast<double>(k) * step;
     return 1;
 }

@@ -41,16 +41,17 @@ double number_at(lua_State* L, int index, const Label& label) {
 }
 
 template <class Label>
-Index whole_at(lua_State* L, int index, const Label& label) {
+std::int64_t whole_at(lua_State* L, int index, const Label& label) {
     const double value = number_at(L, index, label);
     if (std::floor(value) != value || std::abs(value) > kLargestExactWhole)
         wrong_value(L, index, label(), Message("a whole number"));
-    return static_cast<Index>(value);
+    return static_cast<std::int64_t>(value);
 }
 
+/// From 0 on.
 template <class Label>
-Index size_at(lua_State* L, int index, const Label& label) {
-    const Index value = whole_at(L, index, label);
+std::int64_t count_at(lua_State* L, int index, const Label& label) {
+    const std::int64_t value = whole_at(L, index, label);
     if (value < 0) throw InvalidArgument("{} must not be negative, but {} was given", label(), value);
     return value;
 }
@@ -149,11 +150,15 @@ double Call::number_or(int index, ArgumentName what, double fallback) const {
 }
 Index Call::integer(int index, ArgumentName what) const {
     if (index > arguments_) wrong_argument(state_, index, what, Message("a whole number"));
+    return index_of_whole(static_cast<double>(whole_at(state_, index, label_of(index, what))));
+}
+std::int64_t Call::whole(int index, ArgumentName what) const {
+    if (index > arguments_) wrong_argument(state_, index, what, Message("a whole number"));
     return whole_at(state_, index, label_of(index, what));
 }
 Index Call::size(int index, ArgumentName what) const {
     if (index > arguments_) wrong_argument(state_, index, what, Message("a whole number"));
-    return size_at(state_, index, label_of(index, what));
+    return index_of_whole(static_cast<double>(count_at(state_, index, label_of(index, what))));
 }
 std::string Call::text(int index, ArgumentName what) const {
     if (index > arguments_) wrong_argument(state_, index, what, Message("a text in quotes"));
@@ -211,7 +216,7 @@ void Call::print_lines(const std::string& text) const {
 int Call::give(double value) const {
     return lua_pushnumber(state_, value), 1;
 }
-int Call::give_integer(Index value) const {
+int Call::give_integer(std::int64_t value) const {
     return lua_pushinteger(state_, value), 1;
 }
 int Call::give(bool value) const {
@@ -324,8 +329,12 @@ double Options::number(const char* name, double fallback) const {
 }
 
 Index Options::size(const char* name, Index fallback) const {
+    return has(name) ? index_of_whole(static_cast<double>(whole(name, 0))) : fallback;
+}
+
+std::int64_t Options::whole(const char* name, std::int64_t fallback) const {
     if (!has(name)) return fallback;
-    const Index value = size_at(call_.state(), push(name), label_of(name));
+    const std::int64_t value = count_at(call_.state(), push(name), label_of(name));
     lua_pop(call_.state(), 1);
     return value;
 }

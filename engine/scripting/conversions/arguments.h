@@ -1,6 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -52,8 +53,9 @@ class Call {
 
     double number(int index, ArgumentName what) const;
     double number_or(int index, ArgumentName what, double fallback) const;
-    Index integer(int index, ArgumentName what) const;
-    Index size(int index, ArgumentName what) const;  ///< a whole number from 0 on
+    Index integer(int index, ArgumentName what) const;       ///< index_of_whole()
+    Index size(int index, ArgumentName what) const;          ///< the same from 0 on
+    std::int64_t whole(int index, ArgumentName what) const;  ///< for what counts no elements, such as seeds
     std::string text(int index, ArgumentName what) const;
 
     /// A vector of the script, or a table of numbers, which is made into one in its place.
@@ -68,7 +70,7 @@ class Call {
     void print_lines(const std::string& text) const;
 
     int give(double value) const;
-    int give_integer(Index value) const;
+    int give_integer(std::int64_t value) const;
     int give(bool value) const;
     int give(const std::string& value) const;
     int give_vector(const VectorView& v) const;
@@ -103,6 +105,7 @@ class Options {
     double number(const char* name, double fallback) const;
     std::optional<double> optional_number(const char* name) const;
     Index size(const char* name, Index fallback) const;
+    std::int64_t whole(const char* name, std::int64_t fallback) const;  ///< from 0 on, for what counts no elements
     bool flag(const char* name, bool fallback) const;
     std::string text(const char* name, const std::string& fallback) const;
     std::vector<std::string> texts(const char* name) const;  ///< a text or a list of texts; empty when absent

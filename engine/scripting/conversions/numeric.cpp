@@ -1,6 +1,7 @@
 #include "scripting/conversions/numeric.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "numerics/error.h"
 #include "scripting/conversions/arguments.h"
@@ -99,6 +100,11 @@ Message vector_shape(Index size) {
 }
 Message matrix_shape(Index rows, Index columns) {
     return Message("a {} x {} matrix", rows, columns);
+}
+
+Index index_of_whole(double whole) {
+    constexpr double kMost = static_cast<double>(std::numeric_limits<Index>::max() / 2);
+    return static_cast<Index>(std::clamp(whole, -kMost, kMost));
 }
 
 NumericBlock& push_vector(lua_State* L, Index size) {

@@ -33,6 +33,10 @@ struct MaskBlock {
     bool* data() { return reinterpret_cast<bool*>(this + 1); }
 };
 
+/// A whole number as an index. An Index has 32 bits in a browser: numbers beyond half of its range, where no vector has
+/// elements, become that half, so that sums of two are indices, too.
+Index index_of_whole(double whole);
+
 /// New objects on top of the stack, not filled. They throw InvalidArgument when the memory limit cannot hold them.
 NumericBlock& push_vector(lua_State* L, Index size);
 NumericBlock& push_matrix(lua_State* L, Index rows, Index columns);

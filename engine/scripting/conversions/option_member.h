@@ -44,8 +44,10 @@ void read_member(const Options& options, const OptionEntry& entry, void* owner) 
     constexpr ValueKind kind = kind_of_member<Value>();
     if constexpr (kind == ValueKind::kFlag)
         value = options.flag(entry.name, false);
+    else if constexpr (std::is_same_v<Value, Index> || std::is_same_v<Value, std::optional<Index>>)
+        value = options.size(entry.name, 0);
     else if constexpr (kind == ValueKind::kCount)
-        value = static_cast<Value>(options.size(entry.name, 0));
+        value = static_cast<Value>(options.whole(entry.name, 0));
     else if constexpr (kind == ValueKind::kNumber)
         value = options.number(entry.name, 0);
     else if constexpr (kind == ValueKind::kChoice)

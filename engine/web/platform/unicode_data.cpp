@@ -9,7 +9,7 @@
 // String.normalize.
 
 EM_JS(int, dynlab_character_is, (int character, const char* pattern), {
-    const known = (globalThis.dynlabPatterns ??= new Map());
+    const known = globalThis.dynlabPatterns || (globalThis.dynlabPatterns = new Map());
     const source = UTF8ToString(pattern);
     if (!known.has(source)) known.set(source, new RegExp("^" + source + "$", "u"));
     return known.get(source).test(String.fromCodePoint(character)) ? 1 : 0;
