@@ -11,6 +11,8 @@
 
 namespace dynlab::inline course {
 
+constexpr std::uint64_t kMostGraded = 4ull << 20;  ///< bytes of a GradedRun outside its box
+
 /// What the checks may see of a run. A script that cannot be read at all has an error and nothing else.
 struct GradedRun {
     std::map<std::string, RecordedAnswer> answers;
@@ -22,7 +24,8 @@ struct GradedRun {
     bool began = true;                         ///< false for a script that cannot be read
 };
 
-/// What they may see of this run of the script.
+/// What they may see of this run of the script. Answers, and names of figures and values, that would need more than
+/// kMostGraded are left out.
 GradedRun graded_run(RunRecord&& record, const PercentScript& script);
 
 /// One run of a student's script for grading.

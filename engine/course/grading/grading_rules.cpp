@@ -31,8 +31,7 @@ constexpr auto kSingleTime = std::chrono::milliseconds(60000);    // of all, whe
 constexpr auto kDocumentTime = std::chrono::milliseconds(15000);  // beyond the script's own
 constexpr int kClockMultiple = 20;  // a script cannot wait: only a busy machine makes its run last
 constexpr std::uint64_t kScriptMemory = 1ull << 30;
-constexpr std::uintmax_t kMostSource = 1u << 20;    // bytes of a script that checks may read
-constexpr std::uint64_t kMostAnswers = 4ull << 20;  // bytes of a run's result
+constexpr std::uintmax_t kMostSource = 1u << 20;  // bytes of a script that checks may read
 
 /// The lesson's template where it demands something, else its report.
 std::string standard_for(const Lesson& lesson, const PercentScript& script) {
@@ -143,7 +142,7 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
         box.set_environment("XDG_CACHE_HOME",
                             box.add_writable(*setup_.call_memory, "/box/caches/dynlab").parent_path());
     const TimeLimits limits{setup_.time.processor, kClockMultiple};
-    const auto result = run_boxed(box, setup_.program, job, limits, kMostAnswers);
+    const auto result = run_boxed(box, setup_.program, job, limits, kMostGraded);
     if (result.waited)
         throw EnvironmentError(
             "the machine was too busy: the script had not used its {} s of processor time after {} s. Grade it again "
