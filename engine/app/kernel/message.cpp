@@ -22,7 +22,8 @@ constexpr std::size_t kPartsBehind = 5;  // signature, header, parent, metadata,
 /// What is nested deeper would exhaust the stack where a message is copied or written, which goes by recursion.
 json object_of(const std::string& frame, const char* what) {
     const auto shallow = [what](int depth, json::parse_event_t, const json&) {
-        if (depth > kDeepestNesting) throw BadMessage("a message in which {} is nested more than {} deep", what, kDeepestNesting);
+        if (depth > kDeepestNesting)
+            throw BadMessage("a message in which {} is nested more than {} deep", what, kDeepestNesting);
         return true;
     };
     json object = json::parse(frame, shallow, false);
