@@ -425,11 +425,11 @@ TEST_F(mat_file, small_files_of_many_values_are_refused) {
 
 // Oracle: what libmatio wrote. Such records come from digital oscilloscopes.
 TEST_F(mat_file, long_records_of_short_integers_are_read) {
-    constexpr std::size_t kCount = 24'000'000;
+    constexpr std::size_t kCount = 8'000'000;
     const auto expect_read = [this] {
         const Vector x = std::get<Vector>(read_mat_file(file_).at("x").value);
         ASSERT_EQ(x.size(), static_cast<Index>(kCount));
-        for (const Index i : {Index{0}, Index{12'345'678}, Index{kCount - 1}}) EXPECT_EQ(x[i], i % 100);
+        for (const Index i : {Index{0}, Index{5'345'678}, Index{kCount - 1}}) EXPECT_EQ(x[i], i % 100);
     };
     std::vector<std::int16_t> words(kCount);
     std::vector<std::uint8_t> bytes(kCount);
