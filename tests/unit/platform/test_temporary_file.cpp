@@ -191,7 +191,7 @@ TEST(temporary_file, making_and_cleaning_up_at_once_loses_nothing) {
         ::_exit(0);
     }
     bool whole = true;
-    for (int i = 0; whole && i < 2000; ++i) {
+    for (int i = 0; whole && i < 500; ++i) {
         ReplacementFile file(folder.path() / "file");
         file.append(std::to_string(i));
         file.commit();
