@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
@@ -90,6 +92,20 @@ TEST_F(session_text, an_order_is_not_written_over_what_another_program_wrote) {
     EXPECT_EQ(on_disk(), "b = 7\n");
     text.undo();
     EXPECT_EQ(on_disk(), "a = 1\n");
+}
+
+TEST_F(session_text, an_editor_that_writes_in_place_loses_nothing_to_an_order_between) {
+    SessionText text(file);
+    text.put("a = 1\n");
+    std::ofstream editor(file, std::ios::trunc);  // emptied, and not written yet
+    std::thread writes([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(60));
+        editor << "b = 2\n" << std::flush;
+    });
+    EXPECT_FALSE(text.obey(line_one(text.revision(), "a = 3")));
+    writes.join();
+    EXPECT_EQ(on_disk(), "b = 2\n");
+    EXPECT_EQ(text.text(), "b = 2\n");
 }
 
 TEST_F(session_text, what_another_program_wrote_before_an_undo_can_be_had_again) {

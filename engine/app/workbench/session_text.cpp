@@ -1,5 +1,8 @@
 #include "app/workbench/session_text.h"
 
+#include <chrono>
+#include <thread>
+
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
@@ -59,10 +62,21 @@ bool SessionText::look_at_file() {
 }
 
 void SessionText::take_from_file() {
+    wait_for_editor();
     try {
         look_at_file();
     } catch (const EnvironmentError&) {
     }
+}
+
+void SessionText::wait_for_editor() const {
+    constexpr auto kPause = std::chrono::milliseconds(5);
+    constexpr int kMostPauses = 60;
+    const auto is_emptied = [this] {
+        std::error_code missing;
+        return !saved_.empty() && std::filesystem::file_size(file_, missing) == 0 && !missing;
+    };
+    for (int pause = 0; pause < kMostPauses && is_emptied(); ++pause) std::this_thread::sleep_for(kPause);
 }
 
 void SessionText::change(std::string text, bool goes_on) {

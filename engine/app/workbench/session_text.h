@@ -52,6 +52,9 @@ class SessionText {
     void take_from_file();
 
   private:
+    /// Up to 0.3 s while the file is empty. An editor that empties it and then writes in place would write into a file
+    /// that a save between the two has replaced, and its text would be lost.
+    void wait_for_editor() const;
     void change(std::string text, bool goes_on);
 
     std::filesystem::path file_;
