@@ -150,6 +150,7 @@ TEST_F(workbench_page_parts, a_bracket_that_is_open_is_marked_where_it_was_opene
     Browser browser;
     const auto program = open(browser);
     press_all(browser, {"New model"});
+    ASSERT_TRUE(script_has(browser, "G1 = tfsrivc(estimation, 2, 0)"));
     type(browser, "G1 = tfsrivc(estimation, 2, 0)", "G1 = tfsrivc((estimation, 2, 0");
     ASSERT_TRUE(stops(browser));
     EXPECT_TRUE(

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <matio.h>
 
-#include <chrono>
 #include <random>
 
 #include "data_io/mat_file.h"
@@ -31,14 +30,12 @@ void read_mutations(mat_ft version, matio_compression compression, const Variabl
         std::string wrong = bytes;
         for (unsigned k = 0; k <= random() % 8; ++k) wrong[random() % wrong.size()] = static_cast<char>(random());
         write_file_atomically(file, wrong);
-        const auto start = std::chrono::steady_clock::now();
         try {
             read_mat_file(file);
         } catch (const EnvironmentError& error) {
             ++refused;
             EXPECT_EQ(std::string(error.what()).rfind(file.string(), 0), 0u) << error.what();
         }
-        EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
     }
     testing::Test::RecordProperty("refused", refused);
     EXPECT_GT(refused, 0);
