@@ -156,8 +156,8 @@ MatContent read_guarded(const fs::path& file) {
         throw EnvironmentError("{} is damaged: reading used more than {} s of processor time", file.string(),
                                limits.time.seconds(TimeLimit::kProcessor));
     if (result.timed_out)
-        throw EnvironmentError("{}: reading did not finish within {} s", file.string(),
-                               limits.time.seconds(TimeLimit::kClock));
+        throw EnvironmentError("{}: reading did not finish within {} s; try again when the machine is less busy",
+                               file.string(), limits.time.seconds(TimeLimit::kClock));
     if (result.output_exceeded) throw EnvironmentError(refusal_for_memory(file, bytes));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0) throw EnvironmentError("{} is damaged: the reader crashed", file.string());

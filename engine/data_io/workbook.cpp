@@ -367,7 +367,8 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
         throw result.time_limit() == TimeLimit::kProcessor
             ? EnvironmentError("{}: reading used more than {} s of processor time", name,
                                limits.time.seconds(TimeLimit::kProcessor))
-            : EnvironmentError("{}: reading did not finish within {} s", name, limits.time.seconds(TimeLimit::kClock));
+            : EnvironmentError("{}: reading did not finish within {} s; try again when the machine is less busy", name,
+                               limits.time.seconds(TimeLimit::kClock));
     if (result.exit_code == 1 && !result.error_output.empty()) throw EnvironmentError(result.error_output);
     if (result.exit_code != 0 || result.output_exceeded)
         throw EnvironmentError("{} is damaged: the reader crashed", name);

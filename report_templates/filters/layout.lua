@@ -199,7 +199,7 @@ function layout:code_block(block)
       return { self:need_for_lines(block.text), block }
     end
     local environment = verbatim_environments[class] or "Highlighting"
-    -- A long line of printed text is broken; its percent signs stay with their numbers. Code is copied, and stays as it is.
+    -- Long lines of printed text are broken, but never between a number and its percent sign. Code is not changed: readers copy it.
     local text = environment == "Highlighting" and block.text or block.text:gsub("(%d) %%", "%1\u{a0}%%")
     return { self:need_for_lines(block.text), pandoc.RawBlock("latex", "\\begin{Shaded}\n\\begin{" .. environment ..
       "}\n" .. text:gsub("[\\{}`]", latex_escapes) .. "\n\\end{" .. environment .. "}\n\\end{Shaded}") }

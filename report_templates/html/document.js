@@ -5,8 +5,8 @@
   const main = document.querySelector("main");
   const make = (name, kind, text = "") => Object.assign(document.createElement(name), { className: kind, textContent: text });
 
-  /// The style's rules for dark screens, whatever the system asks for.
-  const darkRules = [...document.styleSheets].flatMap((sheet) => [...sheet.cssRules])
+  /// The page's own rules for dark screens, whatever the system asks for. A page opened as a file must not read linked sheets.
+  const darkRules = [...document.querySelectorAll("style")].flatMap(({ sheet }) => [...sheet.cssRules])
     .find((rule) => rule.media?.mediaText.includes("prefers-color-scheme"));
   const system = matchMedia("(prefers-color-scheme: dark)");
   const KEY = "dynlab-theme";

@@ -124,11 +124,11 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     for (const MethodEntry& method : method_catalogue())
         EXPECT_THAT(bare_text_of(pages.at("guides/methods.html")), HasSubstr(bare(method.reference))) << method.file;
     EXPECT_THAT(bare_text_of(pages.at("guides/methods.html")), HasSubstr(bare("taught in: 06_physics")));
-    std::size_t drawn = 0;
+    EXPECT_GT(attributes(pages.at("gallery/index.html"), "src").size(), 60u);
     for (const auto& [file, html] : pages)
-        drawn += file.starts_with("functions/") && html.find("<figure") != std::string::npos;
-    EXPECT_GE(drawn, 50u);
-    EXPECT_GE(attributes(pages.at("gallery/index.html"), "src").size(), drawn);
+        if (file.starts_with("functions/") && html.find("<figure") != std::string::npos) {
+            EXPECT_THAT(pages.at("gallery/index.html"), HasSubstr("href=\"../" + file)) << "its figures";
+        }
     // Formulas in captions stay formulas.
     EXPECT_THAT(pages.at("gallery/index.html"), HasSubstr("<math"));
     const std::string& contents = pages.at("index.html");
@@ -183,9 +183,12 @@ void check_search(Reader& reader) {
 }
 
 void check_pages_in_browser(Reader& reader) {
-    // Figures come from files, under the page's own policy.
-    EXPECT_TRUE(
-        reader.browser().comes("[...document.querySelectorAll('main img')].some((one) => one.naturalWidth > 0)"));
+    // Figures are alive, from files and under the page's own policy.
+    EXPECT_TRUE(reader.browser().comes("document.querySelectorAll('.plot canvas').length > 0"));
+    EXPECT_EQ(reader.value("document.querySelectorAll('nav.site .theme').length"), 1);
+    reader.browser().click("nav.site .theme");
+    EXPECT_NE(reader.value("getComputedStyle(document.body).backgroundColor"), "rgb(255, 255, 255)");
+    reader.browser().click("nav.site .theme");
     for (const char* file : {"index.html", "functions/index.html", "guides/methods.html", "gallery/index.html",
                              "lessons/04/index.html", "fr/index.html", "fr/lessons/06/index.html",
                              "demonstrations/delays.html", "guides/guide-commands.html", "functions/srivc.html"}) {

@@ -230,8 +230,10 @@ void add_group(const std::string& group, bool own, std::vector<NamePattern>& pat
         std::vector<std::string> words = {"group", "groupe", "gruppe", "grp", "team", "equipe"};
         const std::string& given = tokens[1].letters;
         const std::string number = given.substr(std::min(given.find_first_not_of('0'), given.size() - 1));
-        if (std::ranges::find(words, tokens[0].letters) == words.end()) words = {tokens[0].letters};
-        if (own && words.size() > 1) words.push_back("gr");
+        if (std::ranges::find(words, tokens[0].letters) == words.end())
+            words = {tokens[0].letters};
+        else if (own)
+            words.push_back("gr");
         const auto add = [&](const std::string& word, const std::string& digits) {
             NamePattern pattern;
             pattern.kind = NameKind::kGroup;
@@ -320,15 +322,17 @@ std::vector<NamePattern> patterns_of(const Student& student, bool own) {
         pattern.own = own;
         const std::string &given = name.given.front().letters, &surname = name.surname.letters;
         const auto add = [&](const std::string& account_name, std::size_t shortest) {
-            if (account_name.size() < shortest || is_ordinary_word(account_name)) return;
+            if (account_name.size() < shortest) return;
             pattern.letters = account_name;
             patterns.push_back(pattern);
         };
         if (may_stand_alone(name.surname)) {
             add(given.substr(0, 1) + surname, kShortestAccount);
-            add(surname + given.substr(0, 1), kShortestAccount);
+            if (const std::string turned = surname + given.substr(0, 1); !is_ordinary_word(turned))
+                add(turned, kShortestAccount);
         }
-        if (own && !surname.empty()) add(given + surname.substr(0, 1), kShortestName);
+        if (const std::string short_name = given + surname.substr(0, 1); own && !is_ordinary_word(short_name))
+            add(short_name, kShortestName);
     }
     std::erase_if(patterns, [](const NamePattern& pattern) { return pattern.letters.empty(); });
     return patterns;

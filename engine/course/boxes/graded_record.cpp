@@ -17,8 +17,8 @@ std::string end_of_printed(const RunRecord& record, const PercentScript& script)
     return printed.size() > kPrinted ? printed.substr(printed.size() - kPrinted) : printed;
 }
 
-/// What does not fit through the box's output would cost all answers: each that is too much goes, and the error says
-/// so.
+/// A result that exceeds the box's output would be lost whole. Each answer that does not fit is left out instead, and
+/// the error names the first.
 void keep_what_fits(GradedRun& run) {
     std::size_t used = 0;
     const auto fits = [&](std::size_t bytes) {
@@ -32,8 +32,9 @@ void keep_what_fits(GradedRun& run) {
             continue;
         }
         if (!run.error)
-            run.error = Message("the answer \"{}\" is too large: all answers together may have {} MB", answer->first,
-                                kMostGiven >> 20);
+            run.error =
+                Message("the answer \"{}\" is too large: all answers together can have {} MB; give fewer numbers",
+                        answer->first, kMostGiven >> 20);
         answer = run.answers.erase(answer);
     }
     for (std::vector<std::string>* names : {&run.figures, &run.values})

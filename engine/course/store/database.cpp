@@ -59,9 +59,9 @@ auto with_plain_errors(const SQLite::Database& database, const Work& work) {
 /// Where nobody can write, as in an archived course, SQLite cannot keep the log beside the file, and needs none. A log
 /// that lies there is of an interrupted run and belongs to the data: then SQLite decides.
 bool cannot_change(const std::filesystem::path& file) {
-    std::error_code none;
-    return ::access(file.c_str(), F_OK) == 0 && ::access(file.c_str(), W_OK) != 0 &&
-           std::filesystem::file_size(file.string() + "-wal", none) + 1 <= 1;
+    if (::access(file.c_str(), F_OK) != 0 || ::access(file.c_str(), W_OK) == 0) return false;
+    std::error_code no_log;
+    return std::filesystem::file_size(file.string() + "-wal", no_log) == 0 || no_log;
 }
 
 /// The file as SQLite's URI for what never changes.

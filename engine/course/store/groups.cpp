@@ -61,8 +61,7 @@ void refuse_odd_group(const std::string& name) {
     throw EnvironmentError(
         "the group's name \"{}\" cannot be the name of a folder: it must not start or end with a period, and must not "
         "contain /, \\ or invisible characters. Correct the roster, where the id is the group name of a student "
-        "without a "
-        "group; nothing was changed",
+        "without a group; nothing was changed",
         terminal_text(name));
 }
 

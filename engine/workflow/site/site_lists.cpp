@@ -70,14 +70,20 @@ std::string without_links(std::string html) {
 }
 
 /// The figures of a page, each with the block of code that stands before it.
+/// Where the script of a figure begins: the last cell before it, or on a help page the last example, which is marked
+/// where it can be run.
+std::size_t code_before(const std::string& html, std::size_t figure) {
+    for (const char* begin : {"<pre class=\"code\"", "<pre class=\"example", "<pre class=\"sourceCode"})
+        if (const std::size_t at = html.rfind(begin, figure); at != std::string::npos) return at;
+    return std::string::npos;
+}
+
 std::vector<ShownFigure> figures_of(const SitePage& page) {
     std::vector<ShownFigure> figures;
     const std::string& html = page.body;
     for (std::size_t at = 0; (at = html.find("<figure", at)) != std::string::npos; ++at) {
         const std::size_t end = html.find("</figure>", at), image = html.find("<img ", at);
-        const std::size_t code = html.rfind("<pre class=\"code\"", at),
-                          example = html.rfind("<pre class=\"sourceCode", at);
-        const std::size_t pre = code == std::string::npos ? example : code;
+        const std::size_t pre = code_before(html, at);
         if (image > end || pre == std::string::npos) continue;
         ShownFigure figure;
         figure.image =

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <matio.h>
+#include <sys/resource.h>
 
+#include <chrono>
 #include <random>
 
 #include "data_io/mat_file.h"
@@ -14,6 +16,12 @@ namespace dynlab {
 namespace test_mat_mutations {
 
 // Oracle: the contract. Whatever the bytes, reading gives variables or an EnvironmentError, and this process lives on.
+std::chrono::seconds processor_time_of_children() {
+    rusage use = {};
+    ::getrusage(RUSAGE_CHILDREN, &use);
+    return std::chrono::seconds(use.ru_utime.tv_sec + use.ru_stime.tv_sec);
+}
+
 void read_mutations(mat_ft version, matio_compression compression, const VariableTable& variables, int trials) {
     const TemporaryFolder folder;
     const auto file = folder.path() / "x.mat";
@@ -30,12 +38,14 @@ void read_mutations(mat_ft version, matio_compression compression, const Variabl
         std::string wrong = bytes;
         for (unsigned k = 0; k <= random() % 8; ++k) wrong[random() % wrong.size()] = static_cast<char>(random());
         write_file_atomically(file, wrong);
+        const auto before = processor_time_of_children();
         try {
             read_mat_file(file);
         } catch (const EnvironmentError& error) {
             ++refused;
             EXPECT_EQ(std::string(error.what()).rfind(file.string(), 0), 0u) << error.what();
         }
+        EXPECT_LT(processor_time_of_children() - before, std::chrono::seconds(10));
     }
     testing::Test::RecordProperty("refused", refused);
     EXPECT_GT(refused, 0);
