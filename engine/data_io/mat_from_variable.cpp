@@ -21,8 +21,8 @@ void check_name(const std::string& name) {
     };
     if (name.empty() || name.size() > kLongest || !is_letter(name[0]) || !std::ranges::all_of(name, is_allowed)) {
         throw InvalidArgument(
-            "\"{}\" cannot be the name of a MATLAB variable: use a letter, then letters, digits and _, at most {} "
-            "characters",
+            "\"{}\" is not a valid MATLAB variable name: begin with a letter, use only letters, digits and _, and "
+            "use at most {} characters",
             name, kLongest);
     }
 }

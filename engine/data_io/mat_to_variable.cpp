@@ -71,7 +71,7 @@ std::vector<std::string> text_rows(const matvar_t& variable, const std::string& 
                                    std::size_t columns) {
     const std::u32string units = units_of(variable);
     if (units.size() < rows * columns)
-        throw EnvironmentError("variable {} is damaged: it has fewer characters than its size says", name);
+        throw EnvironmentError("variable {} is damaged: it has fewer characters than its size indicates", name);
     std::vector<std::string> texts(rows);
     for (std::size_t row = 0; row < rows; ++row) {
         std::u16string text;
@@ -205,7 +205,7 @@ class Converter {
     void fill(double* numbers, const void* data) const {
         if (count() == 0) return;
         if (variable_.nbytes / Mat_SizeOf(variable_.data_type) < count()) {
-            throw EnvironmentError("variable {} is damaged: it has fewer values than its size says", name_);
+            throw EnvironmentError("variable {} is damaged: it has fewer values than its size indicates", name_);
         }
         with_numbers(data, [&](const auto* stored) {
             for (std::size_t i = 0; i < count(); ++i) numbers[i] = static_cast<double>(stored[i]);
@@ -330,7 +330,7 @@ class Converter {
         const std::size_t wanted = count() * each;
         if (wanted == 0) return;
         if (!variable_.data || variable_.nbytes / sizeof(matvar_t*) < wanted) {
-            throw EnvironmentError("variable {} is damaged: it has fewer parts than its size says", name_);
+            throw EnvironmentError("variable {} is damaged: it has fewer parts than its size indicates", name_);
         }
     }
 

@@ -111,8 +111,8 @@ void Recording::expect_one_clock(const std::string& time) const {
                 if (column == signal(name).name) break;
             }
             if (own != time)
-                throw EnvironmentError("{}: '{}' belongs to the time '{}', not to '{}'. {}", name_, name, own, time,
-                                       *loaded_.time.question);
+                throw EnvironmentError("{}: the signal '{}' belongs to the time column '{}', not to '{}'. {}", name_,
+                                       name, own, time, *loaded_.time.question);
         }
 }
 

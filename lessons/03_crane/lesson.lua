@@ -16,7 +16,7 @@
 
 -- %% [markdown]
 -- A motor pulls a trolley along a rail, and a pendulum hangs from the trolley. One voltage moves both, so the model has two outputs: the position of
--- the trolley and the angle of the load (@fig:crane). You get five data sets. In one of them, part of the motion is beyond any linear model. The
+-- the trolley and the angle of the load (@fig:crane). You get five data sets. In one of them, no linear model can describe part of the motion. The
 -- crane is *simulated*: a program solves its equations, with noise. Find a model, assess its quality, and describe your work so that a reader can
 -- repeat it.
 --
@@ -31,7 +31,7 @@
 --
 -- | data set | experiment |
 -- |-----------|-----------------------|
--- | `estimation`, `validation` | rest, then a pseudo-random binary voltage of ±2 V, in two different orders |
+-- | `estimation`, `validation` | rest, then a pseudo-random binary voltage of ±2 V, with a different sequence in each data set |
 -- | `steps` | rest, then pulses of ±2 V and ±4 V with pauses between them |
 -- | `free_swing` | motor at 0 V, the load released by hand |
 -- | `limits` | pseudo-random voltage, then manual motion to both ends of the rail, then pseudo-random again |
@@ -57,7 +57,7 @@ idplot(estimation)
 -- %% id=raw
 -- BEGIN SOLUTION
 local seconds = say("time (s)", "temps (s)")
-local volts, metres = say("voltage (V)", "tension (V)"), "position (m)"
+local volts, meters = say("voltage (V)", "tension (V)"), "position (m)"
 local radians = "angle (rad)"
 
 local function panels(record, further)
@@ -95,8 +95,8 @@ report.figure("raw", figure{rows = 3, height = 6.4, panels = panels(crane.estima
 -- %% [markdown]
 -- **Question 2.** What do the first second of the data and the differences between samples show about noise, resolution, and levels at rest?
 --
--- **Question 3.** Which part of `limits` can no linear model describe, and why? Find its first and last instant, and compare with the output of
--- `advice` and with its field `discard`.
+-- **Question 3.** Which part of `limits` can no linear model describe, and why? Find its start and end times, and compare them with the output of
+-- `advice` and its field `discard`.
 
 -- %% id=preparation
 -- BEGIN SOLUTION
@@ -117,7 +117,7 @@ report.value("position_step", 1e3*smallest_step(crane.estimation.x), "%.1f")
 report.value("way", max(crane.estimation.x) - min(crane.estimation.x), "%.2f")
 report.value("largest_angle", max(abs(crane.estimation.theta)), "%.2f")
 
-local amplifier, buffers = 10, 0.495  -- V, m: beyond them stand the amplifier's limit and the rubber buffers
+local amplifier, buffers = 10, 0.495  -- V, m: limit of the amplifier, and a position just before the rubber buffers
 local limits = crane.limits
 local first, last
 for k = 1, #limits.t do
@@ -128,11 +128,11 @@ end
 report.value("discard_from", limits.t[first], "%.1f")
 report.value("discard_to", limits.t[last], "%.1f")
 
-local told = advice(iddata(matrix{limits.x, limits.theta}, limits.u, Ts, signals)).discard
+local advised = advice(iddata(matrix{limits.x, limits.theta}, limits.u, Ts, signals)).discard
 if #told > 0 then
     report.value("advised_from", limits.t[told[1][1]], "%.1f")
     report.value("advised_to", limits.t[told[#told][2]], "%.1f")
-else  -- on some cranes the stretch is too short to be noticed
+else  -- on some cranes, this part is too short for advice to detect
     report.value("advised_from", "–")
     report.value("advised_to", "–")
 end
@@ -149,14 +149,14 @@ report.figure("limits", figure{rows = 3, height = 6.4, panels = limit_panels},
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 4.** What in the path from voltage to position can no finite data set fully reveal? Write the equations of the crane from physics. Which
+-- **Question 4.** Which element in the path from voltage to position cannot be fully identified from a finite data set? Write the equations of the crane from physics. Which
 -- poles and zeros do position and angle have in common?
 --
 -- **Question 5.** Compare structures for each output on estimation and validation data (`srivcstruc`).
 
 -- %% id=structure
 -- BEGIN SOLUTION
--- A held voltage has an integral that runs on straight lines, so this data object is exact.
+-- The integral of a zero-order-hold voltage is piecewise linear, so this data object is exact.
 local function integrated(record, y)
     local integral = Ts*(cumsum(record.u) - record.u)
     return detrend(iddata(y, integral, Ts, {InterSample = "foh"}), "start", {samples = rest})
@@ -172,7 +172,7 @@ local tried = {
 }
 local shown = {{{1, 0}, {2, 0}, {4, 2}}, {{1, 0}, {3, 2}, {4, 3}}, {{2, 1}, {3, 0}, {3, 1}, {4, 2}}}
 local function remark(row)
-    if not row.converged then return say("not settled", "non stabilisé") end
+    if not row.converged then return say("not converged", "non stabilisé") end
     if row.cancellation then return say("zero cancels pole", "zéro sur pôle") end
     if #row.undetermined > 0 then
         local several = #row.undetermined > 1 and "s" or ""
@@ -206,25 +206,25 @@ report.value("delay_fit", fit(direct(against, against.theta), delayed), "%.2f")
 
 -- %% [markdown]
 -- **Question 6.** Estimate the model that you chose. Do the two outputs, estimated separately, agree on the dynamics they share? What is the joint
--- estimate (`CommonDenominator`)? You cannot add millimeters and milliradians: by which number do you divide the errors of each output
+-- estimate (`CommonDenominator`)? You cannot add millimeters and milliradians. By what factor do you scale the errors of each output
 -- (`OutputWeights`)?
 
 -- %% id=estimate
 -- BEGIN SOLUTION
 local function both(record) return integrated(record, matrix{record.x, record.theta}) end
-local options = {TdMax = 0, InitialState = "zero", Offset = "none"}
+local options = {TdMax = 0, InitialState = "none", Offset = "none"}
 local position = tfsrivc(integrated(from, from.x), 3, 2, options)
 local angle = tfsrivc(direct(from, from.theta), 3, 1, options)
--- The errors of each output are divided by their standard deviation, which a first estimate tells.
+-- Divide the errors of each output by their standard deviation, known from a first estimate.
 local function joint_model(data, more)
-    local chosen = {TdMax = 0, CommonDenominator = true, InitialState = "zero", Offset = "none"}
+    local chosen = {TdMax = 0, CommonDenominator = true, InitialState = "none", Offset = "none"}
     for name, value in pairs(more or {}) do chosen[name] = value end
     local first = tfsrivc(data, 3, 2, chosen)
     local _, tests = resid(data, first, {InitialState = chosen.InitialState, Offset = chosen.Offset, quiet = true})
     chosen.OutputWeights = {1/math.sqrt(tests.outputs[1].variance), 1/math.sqrt(tests.outputs[2].variance)}
     return tfsrivc(data, 3, 2, chosen), chosen.OutputWeights
 end
--- The recommended model: the two numerator coefficients of the angle that physics puts to zero are put to zero.
+-- The recommended model: the two numerator coefficients of the angle that are zero in the physical model are set to zero.
 local function recommended(joint)
     local p = joint.param
     local F = {1, p[1], p[2], p[3]}
@@ -240,7 +240,7 @@ present(joint)
 -- %% id=estimate_report echo=false
 -- BEGIN SOLUTION
 local model = recommended(joint)
--- A value with its error of one digit, or of two where these are below 20.
+-- Formats a value with its error. The error has one significant digit, or two if they are below 20.
 local function rounded(value, error)
     local digits = math.floor(math.log(error, 10) + 1e-9)
     if error/10^digits < 1.95 then digits = digits - 1 end
@@ -254,7 +254,7 @@ local function with_error(G, name)
     end
     return ""
 end
--- The rows of the table of parameters; question 9 adds to them how far each one scatters.
+-- Rows of the parameter table; question 9 adds the scatter of each parameter.
 local rows = {}
 for k, name in ipairs{"a1", "a2", "a3"} do
     rows[k] = {"$a_" .. k .. "$", with_error(position, name), with_error(angle, name), with_error(joint, name)}
@@ -277,12 +277,12 @@ report.value("passes", position.report.iterations, "%d")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 7.** What else did you try, and why did you reject it? Compare the simulation of an ARX model. Also estimate your model from `limits`,
--- from all of it and without the part that you discarded. How does it change?
+-- **Question 7.** What else did you try, and why did you reject it? Compare the simulation of an ARX model. Also estimate your model from `limits`:
+-- first from all of it, then without the part that you discarded. How does it change?
 
 -- %% id=discarded
 -- BEGIN SOLUTION
-local resting = {InitialState = "zero", Offset = "none"}
+local resting = {InitialState = "none", Offset = "none"}
 local x_val, theta_val = integrated(against, against.x), direct(against, against.theta)
 local function facts(name, G)
     return {name, string.format("%.2f", fit(x_val, G.x, resting)), string.format("%.2f", fit(theta_val, G.theta, resting)),
@@ -298,7 +298,7 @@ report.table("sources", {
     {say("estimated from", "estimé sur"), "position (%)", "angle (%)",
      say("swing (rad/s)", "oscill. (rad/s)"), "gain (mm/s/V)"},
     facts("estimation", model), facts(say("limits, both linear parts", "limits, parties linéaires"), kept),
-    facts(say("limits, whole", "limits, en entier"), whole)})
+    facts(say("limits, all data", "limits, en entier"), whole)})
 -- END SOLUTION
 
 -- %% [markdown]
@@ -386,7 +386,7 @@ report.value("steps_fit_x", fit(integrated(steps, steps.x), model.x, resting), "
 report.value("steps_fit_theta", fit(direct(steps, steps.theta), model.theta, resting), "%.1f")
 report.value("steps_error", 1e3*max(abs(steps_x_error)), "%.0f")
 
--- The speed at the end of each push, over its last half second; both directions together.
+-- Speed in the last half second of each push, averaged over both directions.
 local window = math.floor(0.5/Ts)
 local speed = {}
 for k = 2, #steps.t do
@@ -398,13 +398,13 @@ for k = 2, #steps.t do
     end
 end
 local free_gain = (speed[4] - speed[2])/2          -- of a trolley without dry friction, m/s per volt
-local dry_voltage = 2 - speed[2]/free_gain         -- what dry friction takes
+local dry_voltage = 2 - speed[2]/free_gain         -- voltage lost to dry friction
 report.value("speed2", 1e3*speed[2]/2, "%.1f")
 report.value("speed4", 1e3*speed[4]/4, "%.1f")
 report.value("free_gain", 1e3*free_gain, "%.1f")
 report.value("dry_voltage", dry_voltage, "%.2f")
 
--- The free swing: upward crossings of its middle give the frequency, extreme values the decay.
+-- Free swing: the upward zero crossings give the frequency, the amplitudes at both ends give the decay.
 local swing = crane.free_swing
 local swing_angle = swing.theta - mean(swing.theta:range(#swing.theta - 489, #swing.theta))
 local crossings = {}
@@ -430,7 +430,7 @@ report.value("free_moved", 1e3*(max(swing.x) - min(swing.x)), "%.1f")
 
 -- %% [markdown]
 -- **Question 9.** One data set is one realization. You can run the simulated crane again: `rig("crane", {seed = 2})` repeats all five experiments
--- with another order of bits and other noise. First, enter a prediction (`guess`, `outcome`): which fit of the angle is typical? Then repeat your
+-- with a different binary sequence and different noise. First, enter a prediction (`guess`, `outcome`): which fit of the angle is typical? Then repeat your
 -- whole procedure forty times. How large is the scatter of fit, parameters and frequency? Do the standard errors show this scatter? How close is your
 -- model to the best linear model of this structure?
 
@@ -464,7 +464,7 @@ for k = 1, repetitions do
     study.own_x[k] = fit(record_x, tfcoe(record_x, 3, 2, options), resting)
     study.own_theta[k] = fit(record_theta, tfcoe(record_theta, 3, 1, options), resting)
 end
--- Beside every standard error the standard deviation of the repetitions, two digits of which are known.
+-- Next to each standard error: the standard deviation over the repetitions, with two significant digits.
 local parameter_rows = {{"", say("position alone", "position seule"), say("angle alone", "angle seul"),
                          say("both together", "les deux ensemble"), say("scatter", "dispersion")}}
 for i, row in ipairs(rows) do
@@ -474,7 +474,7 @@ report.table("parameters", parameter_rows)
 report.value("scatter_a3", std(vector(scattered[3])), "%.1f")
 report.value("scatter_a3_position", std(vector(a3_alone.position)), "%.1f")
 report.value("scatter_a3_angle", std(vector(a3_alone.angle)), "%.0f")
--- The best that one linear model can do: output error on all validation records at once.
+-- The best single linear model: output-error estimate from all validation data sets together.
 local best_x = tfcoe(merge(table.unpack(validations_x)), 3, 2, options)
 local best_theta = tfcoe(merge(table.unpack(validations_theta)), 3, 1, options)
 study.best_x, study.best_theta = {}, {}
@@ -497,8 +497,8 @@ add(say("position: fitted to the same data (%)", "position : ajusté à l'enregi
 add(say("angle: recommended model, fit (%)", "angle : modèle recommandé, adéquation (%)"), study.theta, "%.2f")
 add(say("angle: best single linear model (%)", "angle : meilleur modèle linéaire unique (%)"), study.best_theta, "%.2f")
 add(say("angle: fitted to the same data (%)", "angle : ajusté à l'enregistrement même (%)"), study.own_theta, "%.2f")
-add(say("swing of the model's poles (rad/s)", "oscillation, pôles du modèle (rad/s)"), study.swing, "%.3f")
-add(say("pendulum of the position's zeros (rad/s)", "pendule, zéros de la position (rad/s)"), study.pendulum, "%.3f")
+add(say("swing frequency, from the poles (rad/s)", "oscillation, pôles du modèle (rad/s)"), study.swing, "%.3f")
+add(say("pendulum frequency, from the zeros of the position (rad/s)", "pendule, zéros de la position (rad/s)"), study.pendulum, "%.3f")
 report.table("repetition", repeated_rows)
 outcome(say("angle: mean fit", "angle : adéquation moyenne"), mean(vector(study.theta)))
 report.value("repetitions", repetitions, "%d")
@@ -513,7 +513,7 @@ report.value("gap_theta", mean(vector(study.best_theta)) - mean(vector(study.the
 report.value("own_gap_theta", mean(vector(study.own_theta)) - mean(vector(study.theta)), "%.1f")
 
 -- The simulator's frequencies for small swings without dry friction, from its parameters (data/crane/SOURCE.md): the pendulum with the
--- trolley held, which makes the zeros, and with the trolley moving, which makes the poles.
+-- trolley fixed (zeros) and with the trolley moving (poles).
 local constant = 0.05*5/0.02                               -- motor and gear: V s/m, and N/A
 local mass, viscous = 1 + 0.23 + 2e-5*(5/0.02)^2, constant^2/5 + 2 + 3
 local lever, inertia, pivot = 0.23*0.36, 1e-3 + 0.23*0.36^2, 3e-3
@@ -533,15 +533,15 @@ report.value("pendulum_error", largest_error(study.pendulum, truth.natural_frequ
 
 -- %% id=nonlinear
 -- BEGIN SOLUTION
--- Trolley and load as physics has them, divided by their masses; s, c, w^2 stand for sin, cos and the centrifugal force,
--- or for the angle, 1 and 0 where swings are taken for small:
+-- Equations of motion of trolley and load, divided by their masses. s, c and w^2 are sin, cos and the centrifugal term;
+-- for small swings, they are the angle, 1 and 0:
 --     v' + coupling c w' = gain u - viscous v - dry sign(v) + coupling s w^2,    w' + c v'/length = -(g/length) s - (pivot + air |w|) w.
--- Runge-Kutta steps of fourth order; where the trolley stops, a step ends, and friction holds it or lets it go.
+-- Fourth-order Runge-Kutta steps. A step ends when the trolley stops; friction then holds or releases the trolley.
 local function drive(p, wide, record)
     local sine, cosine, size = math.sin, math.cos, math.abs
     local gain, viscous, dry, coupling, length, pivot, air = p.gain, p.viscous, p.dry, p.coupling, p.length, p.pivot, p.air
     local x, v, phi, w = 0, 0, 0, 0
-    -- What accelerates the trolley but for friction, what accelerates the load, and c.
+    -- Acceleration of the trolley without friction, acceleration of the load, and c.
     local function drives(u, speed, angle, rate)
         local s, c, square = angle, 1, 0
         if wide then s, c, square = sine(angle), cosine(angle), rate^2 end
@@ -565,7 +565,7 @@ local function drive(p, wide, record)
         local a3, b3 = rates(u, side, v + h/2*a2, phi + h/2*w + h^2/4*b1, w + h/2*b2)
         local a4, b4 = rates(u, side, v + h*a3, phi + h*w + h^2/2*b2, w + h*b3)
         local speed = v + h/6*(a1 + 2*a2 + 2*a3 + a4)
-        if speed*v < 0 then  -- it stops within the step, at about this part of it
+        if speed*v < 0 then  -- the trolley stops within the step, after about this fraction of the step
             local part = h*v/(v - speed)
             x, phi, w, v = x + part*v/2, phi + part*w + part^2/2*b1, w + part*b1, 0
             return advance(u, h - part)
@@ -604,7 +604,7 @@ local function grey_box(p, names, wide)
         local correction = lsq(matrix(columns), now).theta
         for k, name in ipairs(names) do p[name] = p[name] + correction[k] end
         local changed = errors()
-        if not (norm(changed) < norm(now)) then  -- at the bottom, but for rounding
+        if not (norm(changed) < norm(now)) then  -- minimum reached, apart from rounding errors
             for name, value in pairs(before) do p[name] = value end
             break
         end
@@ -619,7 +619,7 @@ local function variant(start, changes)
     end
     return p
 end
--- Rough starts, from the linear model where the load weighs little against the trolley.
+-- Rough initial values from the linear model, for a load that is light compared with the trolley.
 local first_length = -joint.param[4]/joint.param[7]
 local linear = grey_box({gain = joint.param[4]*0.9, viscous = 0.9*joint.param[1], dry = 0, coupling = 0.1*first_length,
                          length = first_length, pivot = 0.1, air = 0},
@@ -657,7 +657,7 @@ report.value("grey_length", physical.length, "%.3f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 11 (appendix).** Propose a controller that moves the trolley quickly to a given place with little swing of the load. Draw a block
+-- **Question 11 (appendix).** Propose a controller that moves the trolley quickly to a given position with little swing of the load. Draw a block
 -- diagram, design the controller from your model (`lqr`, `place`), and simulate its closed loop with the nonlinear crane (`drive_crane`).
 
 -- %% id=control
@@ -669,11 +669,11 @@ local A = matrix{{-a1, -a2, -a3, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}
 local B = matrix{{1}, {0}, {0}, {0}}
 local C = matrix{{0, b0, b1, b2}, {0, c0, 0, 0}}
 
--- What counts as large: 5 cm of position, 0.05 rad of angle, 4 V.
+-- Scales of the weights: a position of 5 cm, an angle of 0.05 rad and a voltage of 4 V count as large.
 local large = {x = 0.05, theta = 0.05, u = 4}
 local weight = matrix{{1/large.x^2, 0}, {0, 1/large.theta^2}}
 local K, loop_poles = lqr(A, B, C:t()*weight*C, {{1/large.u^2}})
--- The observer by duality: disturbances come in with the voltage (friction), measurements are as exact as their residuals.
+-- The observer by duality: disturbances (friction) act at the input, and the residuals give the measurement noise.
 local L = lqr(A:t(), C:t(), B*B:t()*0.5^2 + 1e-9*eye(4), {{(1e-3)^2, 0}, {0, (5e-3)^2}}):t()
 
 -- Observer and feedback, exact between the samples: d/dt z = (A - L C) z + [B L] [u; x; theta].
@@ -702,7 +702,7 @@ local function settling(run)
     end
     return last_out - begin
 end
--- When nine tenths of the way are done.
+-- Rise time: the time until the trolley has covered 90 % of the distance.
 local function rise(run)
     for k = 1, #run.t do
         if run.x[k] > 0.9*goal then return run.t[k] - begin end
@@ -766,7 +766,7 @@ report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
 --
 -- People read the report. If the script is graded too, submit results with `answer(name, value)`:
 --
--- * `discarded`: the first and the last instant (s) of the part of `limits` that no linear model can describe;
+-- * `discarded`: the start and end times (s) of the part of `limits` that no linear model can describe;
 -- * `rest_angle`: the reading of the potentiometer (rad) while the load is at rest;
 -- * `G_position` and `G_angle`: your recommended models from voltage to position, including the integrator, and from voltage to angle;
 -- * `fits`: the fits (%) of their simulated position and angle to the validation data;

@@ -376,7 +376,7 @@ end
 report.table("orders", orders)
 report.value("pole_gain", pole_gain, "%.1f")
 
--- What becomes of the root model where the thrust is filtered before its root is taken, and the pulses are not.
+-- The root model if the thrust is filtered before the square root, and the pulses are not.
 local one_sided = static_curve_and_lag(thruster, "square", amplitudes, function(r) return root(low_pass(thrust(r))) end)
 report.value("delay_one_sided", 1e3*one_sided.IODelay, "%.0f")
 -- END SOLUTION

@@ -193,7 +193,7 @@ local function correlation(v, u)
     end
     return vector(values)
 end
--- What the last values of v do not tell of the next one, and the voltage there.
+-- Part of v that its past values do not predict, and the voltage at the same instants.
 local past = 20
 local function news(v, u)
     local columns = {}

@@ -53,7 +53,7 @@ TEST(packed_hand_ins, the_report_of_a_pack_counts) {
                       ContainsRegex("group-02 +report \\(from the pack\\) +v1 +in time +[1-9][0-9]* rule"),
                       ContainsRegex("group-03 +pack .*the pack contains no PDF, and none can be made from it "
                                     "\\(.*stopped.*\\): ask for this file"),
-                      ContainsRegex("group-04 +pack .*the pack contains 2 PDFs, and not exactly one is named "
+                      ContainsRegex("group-04 +pack .*the pack contains 2 PDF files; exactly one must be named "
                                     "report.pdf: ask for this file"),
                       HasSubstr("6 files accepted")));
     const std::string packed = bench.bench().shell("sha256sum < work-group-01/report.pdf").output.substr(0, 64);

@@ -53,7 +53,7 @@ TEST(peer_review, allots_mends_and_takes_reviews) {
             .output;
     const std::string name = report.substr(0, report.find('\n'));
     EXPECT_THAT(bench.course({"review", "collect", "r.pdf", "--from", "group-02"}).error_output,
-                HasSubstr("it does not name the report that it reviews; group-02 received report-"));
+                HasSubstr("the review does not name the reviewed report. group-02 received report-"));
     CourseBench::expect_done(
         bench.course({"review", "collect", "r.pdf", "--from", "group-02", "--of", name, "--at", "2026-03-05 10:00"}));
     CourseBench::expect_done(bench.course({"drop", "group-02", "--reason", "ill"}));

@@ -11,7 +11,7 @@ addWords({
   lost: tr("dynlab does not respond: restart it and open its new address; your text is still here"),
   asked: tr("This document runs programs. Run it?"),
   askedAbout: tr("Its text is shown below. Answer yes only if you know its origin."),
-  askedAboutOwn: tr("dynlab new made its folder on this computer. Its text is shown below."),
+  askedAboutOwn: tr("dynlab new created its folder on this computer. Its text is shown below."),
   notPrinted: tr("{}: code that is not printed"), asInScript: tr("Reset"),
 
   // The editor

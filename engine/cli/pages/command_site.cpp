@@ -50,9 +50,8 @@ void add_site(CLI::App& app, Action& action) {
             say(plural(made.pages, "{} page", "{} pages"));
             if (!request.engine)
                 say(
-                    Message("The cells of the lessons do not run, because the engine for browsers is missing. In the "
-                            "source tree, "
-                            "scripts/build web makes it."));
+                    Message("The cells of the lessons do not run, because the engine for browsers is missing. To "
+                            "build it, run scripts/build web in the source tree."));
             return kDone;
         };
     });

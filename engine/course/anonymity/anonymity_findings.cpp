@@ -172,8 +172,8 @@ Message sentence_about(const NameHit& hit, const Message& where, const std::stri
             return sure ? Message("The mail address or account of {} appears {}: \"{}\".", who, where, excerpt)
                         : Message("The mail address or account of {} may appear {}: \"{}\".", who, where, excerpt);
         case NameKind::kGroup:
-            return sure ? Message("The group {} appears {}: \"{}\".", who, where, excerpt)
-                        : Message("The group {} may appear {}: \"{}\".", who, where, excerpt);
+            return sure ? Message("The group name {} appears {}: \"{}\".", who, where, excerpt)
+                        : Message("The group name {} may appear {}: \"{}\".", who, where, excerpt);
         case NameKind::kHome:
             return Message("A home folder appears {}: \"{}\".", where, excerpt);
         case NameKind::kName:

@@ -150,7 +150,7 @@ CheckResult findings_from_json(const std::string& json) {
     try {
         return from_json<CheckResult>(json);
     } catch (const ValueError& error) {
-        throw EnvironmentError("these findings were not written by dynlab check: {}", message_of(error));
+        throw EnvironmentError("the check results cannot be read: {}. Run dynlab check again", message_of(error));
     }
 }
 

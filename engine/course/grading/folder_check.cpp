@@ -60,7 +60,7 @@ Message sentence_about_missing(const ExpectedAnswer& answer) {
     const std::string &name = answer.name, &kind = answer.kind;
     if (kind == "number") return Message("The answer \"{}\" (number) is missing.", name);
     if (kind == "text") return Message("The answer \"{}\" (text) is missing.", name);
-    if (kind == "truth") return Message("The answer \"{}\" (truth) is missing.", name);
+    if (kind == "truth") return Message("The answer \"{}\" (true or false) is missing.", name);
     if (kind == "vector") return Message("The answer \"{}\" (vector) is missing.", name);
     if (kind == "matrix") return Message("The answer \"{}\" (matrix) is missing.", name);
     if (kind == "data") return Message("The answer \"{}\" (data) is missing.", name);
@@ -136,8 +136,9 @@ class FolderCheck {
             if (fs::is_regular_file(fs::symlink_status(folder_ / needed))) continue;
             if (needed == kOwnScript && fs::is_regular_file(fs::symlink_status(folder_ / kOwnNotebook))) continue;
             add("analysis-missing", Severity::kRule, needed, Message("The folder has no file {}.", needed),
-                Message("Submit the complete folder that dynlab new made, with analysis.lua and report.md at its top "
-                        "level."));
+                Message(
+                    "Submit the complete folder that dynlab new created, with analysis.lua and report.md at its top "
+                    "level."));
         }
         return result_.findings.empty();
     }

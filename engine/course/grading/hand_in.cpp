@@ -21,7 +21,7 @@ constexpr int kMostFiles = 2000;
 Pack pack_folder(const fs::path& folder, const fs::path& file) {
     const auto has = [&](const char* name) { return fs::is_regular_file(fs::symlink_status(folder / name)); };
     if (!has("analysis.lua") && !has("analysis.ipynb"))
-        throw EnvironmentError("{} has no analysis.lua; pack the folder that dynlab new made", folder.string());
+        throw EnvironmentError("{} has no analysis.lua; pack the folder that dynlab new created", folder.string());
     const TemporaryFolder copy;
     const FolderCopy copied = copy_folder(folder, copy.path(), kMostPackedBytes, kMostFiles);
     if (copied.too_large)

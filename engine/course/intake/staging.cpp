@@ -261,10 +261,10 @@ class Stager {
         if (const std::string kind = closed_kind(others); !kind.empty())
             return with_rest(
                 Message("The submission contains no analysis.lua, only {} ({} archives cannot be opened; zip and tar "
-                        "can); submit the folder that dynlab new made.",
+                        "can); submit the folder that dynlab new created.",
                         listed(shortened_list(others)), kind));
         return with_rest(
-            Message("The submission contains no analysis.lua, only {}; submit the folder that dynlab new made.",
+            Message("The submission contains no analysis.lua, only {}. Submit the folder that dynlab new created.",
                     listed(shortened_list(others))));
     }
 

@@ -99,7 +99,7 @@ OpenedPack open_pack(const fs::path& pack, const std::string& part, const fs::pa
     if (pdfs.empty()) return made_document(files, part, to / "made", level, program);
     const std::vector<fs::path> meant = named.empty() ? pdfs : highest(named);
     if (meant.size() != 1)
-        return {{}, Message("the pack contains {} PDFs, and not exactly one is named {}.pdf", meant.size(), part)};
+        return {{}, Message("the pack contains {} PDF files; exactly one must be named {}.pdf", meant.size(), part)};
     return {PackedDocument{meant.front(), meant.front().lexically_relative(unpacked).generic_string()}, {}};
 }
 

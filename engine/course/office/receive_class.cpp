@@ -94,7 +94,8 @@ class ClassReceiver {
             all.push_back(one.submission);
         }
         for (const std::string& name : owners.unmatched_names(all))
-            received_.complaints.push_back(Message("the owner of \"{}\": no submission has this name", name));
+            received_.complaints.push_back(
+                Message("the owners file names \"{}\", but there is no submission with this name", name));
     }
 
     /// What goes wrong with one submission stops no other.

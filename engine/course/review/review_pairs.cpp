@@ -98,7 +98,8 @@ ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& revi
         throw EnvironmentError("it is a review of {}, which {} did not receive; the reports to review are {}",
                                fmt::format("report-{:02}", named.front()), reviewer.name, listed(reports, Join::kAnd));
     throw EnvironmentError(
-        "it does not name the report that it reviews; {} received {}: name the file review-{}.pdf or give --of {}",
+        "the review does not name the reviewed report. {} received {}: rename the file to review-{}.pdf, or give --of "
+        "{}",
         reviewer.name, listed(reports, Join::kAnd), reports.front(), reports.front());
 }
 

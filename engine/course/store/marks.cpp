@@ -178,9 +178,11 @@ void refuse_unseen_entry(Course& course, const Assignment& assignment, std::int6
     if (newest.id == seen) return;
     const std::string at = course.clock().show_exactly(newest.at);
     if (newest.points)
-        throw InvalidArgument("nothing was changed: {} has {} for {} since {} (\"{}\")", who, *newest.points, item, at,
-                              newest.reason);
-    throw InvalidArgument("nothing was changed: the mark of {} for {} was taken back at {} (\"{}\")", who, item, at,
+        throw InvalidArgument(
+            "the mark was not changed: {} already has {} for {}, entered at {} (\"{}\"). Check this mark, then try "
+            "again",
+            who, *newest.points, item, at, newest.reason);
+    throw InvalidArgument("nothing was changed: the mark of {} for {} was withdrawn at {} (\"{}\")", who, item, at,
                           newest.reason);
 }
 

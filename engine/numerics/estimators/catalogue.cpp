@@ -201,7 +201,7 @@ const std::vector<MethodEntry>& method_catalogue() {
         {"frequency/spa",
          {"spa"},
          "frequency response and noise spectrum from smoothed correlations",
-         marked("estimator", "y = G u + v, no parameters"),
+         marked("estimator", "y = G u + v, nonparametric"),
          TimeDomain::kDiscrete,
          marked("estimator", "any noise independent of the input"),
          "Ljung (1999), sections 6.4 and 6.5"},

@@ -228,9 +228,9 @@ void describe(SubspaceFit& found, bool reflected) {
     Fit& fit = found.fit;
     const auto seen = (found.singular_values.array() > kNoSignal * found.singular_values[0]).count();
     if (seen < found.system.order())
-        fit.warnings.push_back(
-            plural(seen, "The data show only {} state; the others are rounding errors, so a lower order is sufficient.",
-                   "The data show only {} states; the others are rounding errors, so a lower order is sufficient."));
+        fit.warnings.push_back(plural(
+            seen, "The data support only {} state; the other singular values are rounding errors. Use a lower order.",
+            "The data support only {} states; the other singular values are rounding errors. Use a lower order."));
     if (reflected) fit.warnings.push_back(Message("Eigenvalues outside the unit circle were mirrored into it."));
     if (fit.condition_number > kAmbiguousCondition)
         fit.warnings.push_back(Message("The data do not determine all entries of B separately (condition number {}).",

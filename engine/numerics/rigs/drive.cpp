@@ -42,7 +42,8 @@ DriveRecord run(const DriveParameters& p, const Vector& reference, RandomStream&
     p.validate();
     const Index N = reference.size();
     if (N == 0 || !reference.allFinite())
-        throw InvalidArgument("The drive's reference or voltage must be at least one finite number");
+        throw InvalidArgument(
+            "The reference or voltage of the drive must have at least one sample, and every sample must be finite");
     const Vector load = load_of(p, N, random), normals = random.normal(N);
     const StepMatrices step = step_of(p);
     DriveRecord record;

@@ -59,10 +59,10 @@ Message infinite(SignalName name, Index sample, Index channel) {
 }
 
 Message too_large(SignalName name) {
-    return of(name, {{Message("the input contains samples that are too large"),
-                      Message("the output contains samples that are too large"),
-                      Message("the reference contains samples that are too large"),
-                      Message("the signal contains samples that are too large")}});
+    return of(name, {{Message("the sum of the samples of the input overflows: use another unit"),
+                      Message("the sum of the samples of the output overflows: use another unit"),
+                      Message("the sum of the samples of the reference overflows: use another unit"),
+                      Message("the sum of the samples of the signal overflows: use another unit")}});
 }
 
 Message no_samples(SignalName name) {

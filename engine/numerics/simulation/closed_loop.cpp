@@ -37,7 +37,8 @@ void check_proper(const TransferFunction& plant, const TransferFunction& control
 void check_loop(const TransferFunction& plant, const LoopController& controller, double Ts) {
     if (!valid_sampling_time(Ts))
         throw InvalidArgument("closed loop: the sampling time must be a positive number of seconds, but it is {}", Ts);
-    if (!plant.continuous()) throw InvalidArgument("closed loop: the plant must be a model in continuous time");
+    if (!plant.continuous())
+        throw InvalidArgument("closed loop: the plant must be a continuous-time model; convert it with d2c(G)");
     check_proper(plant, controller.C);
     if (controller.computing_delay < 0)
         throw InvalidArgument("closed loop: the computing delay must be a number of samples from 0, but it is {}",

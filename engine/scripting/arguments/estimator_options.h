@@ -101,8 +101,8 @@ inline constexpr std::array kKnownDelayOptions = {
                                    about("initial value of the delay for the search, instead of a grid"),
                                    {.unit = "s"}}};
 
-inline constexpr ArgumentEntry kDataArgument = {
-    "data", ValueKind::kData, about("data object, or a measured frequency response (idfrd) if the method accepts one")};
+inline constexpr ArgumentEntry kDataArgument = {"data", ValueKind::kData,
+                                                about("data object or measured frequency response (idfrd)")};
 inline constexpr ArgumentEntry kOneOutputData = {
     "data", ValueKind::kData,
     about("data object with one output, one or several inputs and experiments, regularly sampled")};

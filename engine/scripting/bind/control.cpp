@@ -23,8 +23,8 @@ constexpr ArgumentEntry kStateMatrix = {"A", ValueKind::kAny, about("n x n matri
 constexpr ArgumentEntry kRegulatorArguments[] = {
     kStateMatrix,
     {"B", ValueKind::kAny, about("n x inputs matrix")},
-    {"Q", ValueKind::kAny, about("weights of the states: n x n, symmetric, not negative")},
-    {"R", ValueKind::kAny, about("weights of the inputs: inputs x inputs, symmetric, positive")}};
+    {"Q", ValueKind::kAny, about("weights of the states: n x n, symmetric positive semidefinite")},
+    {"R", ValueKind::kAny, about("weights of the inputs: inputs x inputs, symmetric positive definite")}};
 constexpr ArgumentEntry kPlacementArguments[] = {
     kStateMatrix,
     {"B", ValueKind::kAny, about("n x 1 matrix, one input")},

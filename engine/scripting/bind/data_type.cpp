@@ -61,7 +61,7 @@ int part_by_table(Call& call) {
         throw InvalidArgument("write data[{i, j}] for the samples i to j; the signals are data.y, data.u and data.t");
     const VectorMap bounds = call.vector(2, "{first, last}");
     if (bounds.size() != 2)
-        throw InvalidArgument("write data[{i, j}] for the samples i to j, not {}",
+        throw InvalidArgument("data[{i, j}] needs two numbers, the first and the last sample, not {}",
                               plural(bounds.size(), "{} number", "{} numbers"));
     return give_data(call, data_self(call).range(whole_index(bounds[0]), whole_index(bounds[1])));
 }

@@ -19,7 +19,7 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr OrderEntry kDiscreteNb{"nb", [] { return Message("coefficients of B"); }};
-constexpr OrderEntry kDiscreteNk{"nk", [] { return Message("samples of delay, 1 for no direct term"); }};
+constexpr OrderEntry kDiscreteNk{"nk", [] { return Message("samples of delay, 1 for no direct feedthrough"); }};
 constexpr OrderEntry kDiscreteNa{"na", [] { return Message("poles"); }},
     kDiscreteNf{"nf", [] { return Message("poles"); }};
 constexpr OrderEntry kDiscreteNc{"nc", [] { return Message("coefficients of C after the leading one"); }};
@@ -36,24 +36,26 @@ constexpr OptionTable kPredictionError[] = {kLimitOptions, kDiscreteIntegration}
 constexpr OptionTable kDiscreteSimulation[] = {kStartOptions, kDiscreteIntegration, kLimitOptions};
 
 constexpr std::array kEquationErrorArguments = {
-    kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
-                                  about("na poles, nb coefficients of B, nk samples of delay, 1 for no direct term; "
-                                        "with several inputs nb and nk are tables, {2, {1, 2}, {1, 3}}")}};
+    kOneOutputData,
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("na poles, nb coefficients of B, nk samples of delay, 1 for no direct feedthrough; "
+                        "with several inputs nb and nk are tables, {2, {1, 2}, {1, 3}}")}};
 constexpr std::array kArmaxArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
                   about("na poles, nb coefficients of B, nc coefficients of C after the leading one, nk samples of "
-                        "delay, 1 for no direct term; with several inputs nb and nk are tables")}};
+                        "delay, 1 for no direct feedthrough; with several inputs nb and nk are tables")}};
 constexpr std::array kDiscreteOutputErrorArguments = {
     kOneOutputData,
-    ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct term; with several "
-                        "inputs, each with separate poles, they are tables, {{2, 1}, {2, 1}, {1, 3}}")}};
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct feedthrough; with several "
+              "inputs, each with separate poles, they are tables, {{2, 1}, {2, 1}, {1, 3}}")}};
 constexpr std::array kBoxJenkinsArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
                   about("nb coefficients of B, nc and nd of C and D after the leading one, nf poles, nk samples of "
-                        "delay, 1 for no direct term; with several inputs nb, nf and nk are tables")}};
+                        "delay, 1 for no direct feedthrough; with several inputs nb, nf and nk are tables")}};
 
 /// The entry of an order vector that is one number for all inputs.
 int only_value(const std::vector<int>& entry, const OrderEntry& what) {

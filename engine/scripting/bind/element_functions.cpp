@@ -97,7 +97,7 @@ constexpr FunctionEntry kElementFunctions[] = {
     {"floor", "vectors", "floor(x) -> y", "Round down to a whole number", guarded<apply<std::floor>>},
     {"ceil", "vectors", "ceil(x) -> y", "Round up to a whole number", guarded<apply<std::ceil>>},
     {"sqrt", "vectors", "sqrt(x) -> y", "Square root", guarded<apply<std::sqrt, Operation::kSqrt, Domain::kFromZero>>},
-    {"exp", "vectors", "exp(x) -> y; exp(-Td*s) -> G", "Exponential function, or a delay of a model",
+    {"exp", "vectors", "exp(x) -> y; exp(-Td*s) -> G", "Exponential function, or a time delay in a model",
      guarded<exponential>},
     {"log", "vectors", "log(x) -> y", "Natural logarithm",
      guarded<apply<std::log, Operation::kLog, Domain::kFromZero>>},

@@ -27,13 +27,13 @@ constexpr std::array kCurveLists = {
     OptionEntry{"colour", ValueKind::kAny,
                 about("number in the palette, starting at 0, or a name such as \"red\", for all curves or as a list "
                       "with one per curve")},
+    OptionEntry{"dash", ValueKind::kVector,
+                about("dash pattern for all curves, or a list with one per curve: 0 solid, 1 dashed, 2 dotted, 3 "
+                      "dash-dot, 4 to 7 further patterns")},
     OptionEntry{
-        "dash", ValueKind::kVector,
-        about(
-            "dash pattern, for all curves or each: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns")},
-    OptionEntry{"marker", ValueKind::kVector,
-                about("marker, for all curves or each: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the same open, 8 "
-                      "cross, 9 plus, 10 asterisk")},
+        "marker", ValueKind::kVector,
+        about("marker for all curves, or a list with one per curve: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the "
+              "same shapes unfilled, 8 cross, 9 plus, 10 asterisk")},
     option<&Curve::line_width>("line_width", about("line width"), {.unit = "points"})};
 constexpr std::array kFigureGridOptions = {
     OptionEntry{"panels", ValueKind::kTable, about("list of panels, each a table of the options of one panel")},

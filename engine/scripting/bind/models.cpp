@@ -51,9 +51,10 @@ constexpr ArgumentEntry kSsArguments[] = {
     {"C", ValueKind::kAny, about("outputs x n matrix")},
     {"D", ValueKind::kAny, about("outputs x inputs matrix")},
     {"G", ValueKind::kModel, about("instead of the matrices, a transfer function")}};
-constexpr ArgumentEntry kEqualTimes = {"G1, G2", ValueKind::kModel, about("models with equal sampling times")},
-                        kEqualDelays = {"G1, G2", ValueKind::kModel,
-                                        about("models with equal sampling times, and in continuous time equal delays")};
+constexpr ArgumentEntry
+    kEqualTimes = {"G1, G2", ValueKind::kModel, about("models with equal sampling times")},
+    kEqualDelays = {"G1, G2", ValueKind::kModel,
+                    about("models with the same sampling time; continuous-time models must also have the same delay")};
 constexpr std::array kSeriesArguments = {kEqualTimes}, kParallelArguments = {kEqualDelays};
 constexpr ArgumentEntry kFeedbackArguments[] = {
     {"forward, backward", ValueKind::kModel,

@@ -65,7 +65,7 @@ constexpr ArgumentEntry kMergeArguments[] = {
     {"data1, ...", ValueKind::kData, about("data objects with the same channels and sampling time")}};
 constexpr ArgumentEntry kGapArguments[] = {{"x", ValueKind::kVector, about("signal")}};
 constexpr ArgumentEntry kOutlierArguments[] = {
-    {"x", ValueKind::kAny, about("signal, or a data object, to clean its outputs")}};
+    {"x", ValueKind::kAny, about("signal, or data object; for a data object, the outputs are cleaned")}};
 
 /// What a function works on: a data object, or one signal, which becomes the output of one.
 struct Signals {

@@ -19,7 +19,8 @@ constexpr std::array kSubspaceOptions = {
                                          {.member = "block_rows"}),
     option<&SubspaceOptions::weighting>("Weighting", about("weighting of the directions against the noise"),
                                         {.initial = "\"MOESP\"", .choices = kWeightings}),
-    option<&SubspaceOptions::feedthrough>("Feedthrough", about("direct term D; zero otherwise"))};
+    option<&SubspaceOptions::feedthrough>("Feedthrough",
+                                          about("estimate the direct feedthrough D, which otherwise is zero"))};
 constexpr OptionTable kSubspace[] = {kSubspaceOptions};
 
 constexpr std::array kSubspaceArguments = {

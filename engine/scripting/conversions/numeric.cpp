@@ -192,8 +192,9 @@ void make_matrix_of_table(lua_State* L, int index, const Message& label) {
         const Message entry = by_rows ? Message("{}, row {}", label, i + 1) : Message("{}, column {}", label, i + 1);
         if ((lua_rawgeti(L, index, i + 1) == LUA_TTABLE) != by_rows || (!by_rows && to_vector(L, -1) == nullptr)) {
             const Message given = given_value(L, -1);
-            throw InvalidArgument(by_rows ? Message("{} must be a row like the first, but it is {}", entry, given)
-                                          : Message("{} must be a column like the first, but it is {}", entry, given));
+            throw InvalidArgument(by_rows
+                                      ? Message("{} must be a table of numbers like row 1, but it is {}", entry, given)
+                                      : Message("{} must be a vector like column 1, but it is {}", entry, given));
         }
         if (by_rows) make_vector_of_table(L, -1, entry);
         NumericBlock* part = to_vector(L, -1);

@@ -96,7 +96,9 @@ int numeric_divide(Call& call) {
 int numeric_power(Call& call) {
     const Operand a = operand(call, 1, "^"), b = operand(call, 2, "^");
     if ((a.block != nullptr && !a.is_vector) || (b.block != nullptr && !b.is_vector))
-        throw InvalidArgument("A ^ x is not defined for a matrix A; write A*A, or A:times(A) element by element");
+        throw InvalidArgument(
+            "A ^ x is not defined for a matrix A; write A*A for the matrix product, or A:times(A) for the element-wise "
+            "product");
     if (b.block == nullptr && b.number == 2) return elementwise(call, "^", [](double x, double) { return x * x; });
     return elementwise(call, "^", [](double x, double y) { return std::pow(x, y); });
 }

@@ -24,8 +24,8 @@ inline constexpr std::array kPanelOptions = {
                                  "legend if space is missing"),
                            {.initial = "\"automatic\"", .choices = kLegendPlaces}),
     OptionEntry{"curves", ValueKind::kTable,
-                about("list of curves, {x =, y =, label =, style =, colour =, dash =, line_width =, marker =}; with "
-                      "y_upper, a band from y to y_upper")},
+                about("list of curves, each {x =, y =, label =, style =, colour =, dash =, line_width =, marker =}; a "
+                      "curve with y_upper is a band from y to y_upper")},
     OptionEntry{"references", ValueKind::kTable,
                 about("list of reference lines, {y = level, label =, dash =} or {x = instant, label =, dash =}")},
     OptionEntry{"annotations", ValueKind::kTable, about("list of marked points, {x =, y =, text =, marker =}")},

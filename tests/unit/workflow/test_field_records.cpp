@@ -108,7 +108,7 @@ TEST_F(field_records, two_records_side_by_side_keep_their_clocks) {
     EXPECT_THAT(look("rates.csv"), HasSubstr("the columns Time_u, Time_y are two clocks"));
     EXPECT_THAT(refusal(of("rates.csv", "u", "y")), AllOf(HasSubstr("two clocks"), HasSubstr("interp1")));
     for (const char* time : {"Time_u", "Time_y (s)"})
-        EXPECT_THAT(refusal(of("rates.csv", "u", "y", time)), HasSubstr("belongs to the time")) << time;
+        EXPECT_THAT(refusal(of("rates.csv", "u", "y", time)), HasSubstr("belongs to the time column")) << time;
 }
 
 TEST_F(field_records, cells_of_switches_percents_and_thousands_are_numbers) {

@@ -386,7 +386,7 @@ void check_recursive_data(const RecursiveName& method, const IdData& data, const
 void check_fixed_model(const RecursiveName& method, const TransferFunction& model, const TransferStructure& structure) {
     if (!model.continuous() || model.pole_count() != structure.poles.front() ||
         model.zero_count() > structure.channels.front().zeros)
-        throw InvalidArgument("{}: model must be in continuous time with {} and no more than {}, as the orders say",
+        throw InvalidArgument("{}: model must be in continuous time with {} and no more than {}, as the orders specify",
                               method.name, plural(structure.poles.front(), "{} pole", "{} poles"),
                               plural(structure.channels.front().zeros, "{} zero", "{} zeros"));
     if (!model.stable())

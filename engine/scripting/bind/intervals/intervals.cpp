@@ -155,7 +155,7 @@ int follow_parameter(Call& call) {
 
 constexpr FunctionEntry kIntervalFunctions[] = {
     {"bootstrap", "validation", "bootstrap(G, data, {options}) -> fig, table",
-     "Compute intervals of parameters, gain and time constants by repeated simulation",
+     "Compute confidence intervals for parameters, gain and time constants by repeated simulation",
      guarded<memoized_call<repeat_experiment>>, kBootstrapTables, kBootstrapArguments},
     {"profile", "validation", "profile(G, data, name, {options}) -> fig, table",
      "Compute the profile-likelihood interval of one parameter", guarded<memoized_call<follow_parameter>>,

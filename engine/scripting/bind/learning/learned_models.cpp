@@ -16,9 +16,10 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kNarxLags = {OrderEntry{"na", [] { return Message("past outputs"); }},
-                                  OrderEntry{"nb", [] { return Message("values of the input"); }},
-                                  OrderEntry{"nk", [] { return Message("samples of delay, 1 for no direct term"); }}};
+constexpr std::array kNarxLags = {
+    OrderEntry{"na", [] { return Message("past outputs"); }},
+    OrderEntry{"nb", [] { return Message("values of the input"); }},
+    OrderEntry{"nk", [] { return Message("samples of delay, 1 for no direct feedthrough"); }}};
 
 constexpr std::array kNarxOptions = {
     option<&NarxOptions::degree>("degree", about("maximum number of factors in a product"), {.member = "degree"}),
