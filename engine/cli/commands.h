@@ -11,7 +11,7 @@ namespace dynlab::inline cli {
 /// Exit codes of every command.
 enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kMissingProgram = 3, kInterrupted = 130 };
 
-/// What a command does once its words are parsed; returns the exit code.
+/// Runs a command after its arguments are parsed. Returns the exit code.
 using Action = std::function<int()>;
 
 /// Opens a page in the browser for figures and gives what shows them there. Programs without pages never return from
@@ -22,8 +22,8 @@ using FigureView = std::function<FigureListener()>;
 /// sets the second when it is the one called.
 using Commands = std::vector<std::function<void(CLI::App&, Action&)>>;
 
-/// The names that files with checks may use besides those of lessons, for lint. Only the program with all commands
-/// knows them; the other one hands over to it.
+/// Names that check files may use in addition to those of lessons, for lint. Only the program with all commands knows
+/// these names; the other program starts that program.
 using CheckNames = std::function<std::vector<std::string>()>;
 
 /// The commands of a folder beside this file, whose libraries all programs with them load as they start.
@@ -61,7 +61,7 @@ void add_answers(CLI::App& app, Action& action);
 void add_course(CLI::App& app, Action& action);
 void add_test_lesson(CLI::App& app, Action& action);
 void add_study(CLI::App& app, Action& action);
-void add_boxed_version(CLI::App& app, Action& action);
+void add_sandboxed_version(CLI::App& app, Action& action);
 
 // pages/
 void add_site(CLI::App& app, Action& action);

@@ -61,36 +61,36 @@ bool is_new_form(const Words& before, Words::const_iterator begin, Words::const_
 }
 
 /// Past the option --course DIR.
-std::size_t past_folder(const Words& words, std::size_t at) {
-    while (at < words.size() && words[at].starts_with("--course")) at += words[at] == "--course" ? 2 : 1;
-    return std::min(at, words.size());
+std::size_t past_folder(const Words& args, std::size_t at) {
+    while (at < args.size() && args[at].starts_with("--course")) at += args[at] == "--course" ? 2 : 1;
+    return std::min(at, args.size());
 }
 
 /// Replaces the old name at `at`, if there is one, and makes the note.
-void rename(Words& words, std::size_t at, const std::vector<Alias>& aliases, const char* group, std::string& note) {
-    const auto begin = words.begin() + static_cast<std::ptrdiff_t>(at);
+void rename(Words& args, std::size_t at, const std::vector<Alias>& aliases, const char* group, std::string& note) {
+    const auto begin = args.begin() + static_cast<std::ptrdiff_t>(at);
     for (const auto& [before, now] : aliases) {
-        if (static_cast<std::size_t>(words.end() - begin) < before.size() ||
-            !std::equal(before.begin(), before.end(), begin) || is_new_form(before, begin, words.end()))
+        if (static_cast<std::size_t>(args.end() - begin) < before.size() ||
+            !std::equal(before.begin(), before.end(), begin) || is_new_form(before, begin, args.end()))
             continue;
         note = message_text(Message("note: dynlab {} is now dynlab {}; the old name works until 2027",
                                     fmt::format("{}{}", group, fmt::join(before, " ")),
                                     fmt::format("{}{}", group, fmt::join(now, " "))));
-        const auto rest = words.erase(begin, begin + static_cast<std::ptrdiff_t>(before.size()));
-        words.insert(rest, now.begin(), now.end());
+        const auto rest = args.erase(begin, begin + static_cast<std::ptrdiff_t>(before.size()));
+        args.insert(rest, now.begin(), now.end());
         return;
     }
 }
 
 }  // namespace
 
-std::vector<std::string> with_new_names(std::vector<std::string> words, std::string& note) {
-    const std::size_t command = past_folder(words, 0);
-    if (command < words.size() && words[command] == "course")
-        rename(words, past_folder(words, command + 1), course_aliases(), "course ", note);
+std::vector<std::string> with_new_names(std::vector<std::string> args, std::string& note) {
+    const std::size_t command = past_folder(args, 0);
+    if (command < args.size() && args[command] == "course")
+        rename(args, past_folder(args, command + 1), course_aliases(), "course ", note);
     else
-        rename(words, command, program_aliases(), "", note);
-    return words;
+        rename(args, command, program_aliases(), "", note);
+    return args;
 }
 
 }  // namespace dynlab::inline cli

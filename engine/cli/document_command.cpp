@@ -19,8 +19,8 @@ void show_time(double seconds, const std::string& of, const char* indent = "") {
 }
 
 void show_use(const std::optional<CacheUse>& use, const char* of, const char* made) {
-    if (use && use->recalled + use->made > 0)
-        std::cout << fmt::format("{:>11}  {} {}, {} from the cache\n", use->made, of, made, use->recalled);
+    if (use && use->from_cache + use->made > 0)
+        std::cout << fmt::format("{:>11}  {} {}, {} from the cache\n", use->made, of, made, use->from_cache);
 }
 
 void show(const ReportResult& result) {

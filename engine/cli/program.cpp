@@ -58,7 +58,7 @@ std::optional<Message> complaint_about_output() {
 
 /// Runs the chosen command and turns what it throws into one line on standard error and an exit code.
 int run_action(const Action& action) {
-    const InterruptScope interrupts(InterruptScope::Unheard::kEnds);
+    const InterruptScope interrupts(InterruptScope::Unhandled::kEnds);
     try {
         const int code = action();
         const std::optional<Message> complaint = complaint_about_output();
@@ -101,11 +101,11 @@ bool Program::has_command(const std::string& name) const {
     return !app_.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; }).empty();
 }
 
-int Program::run(int count, char** words) {
+int Program::run(int count, char** args) {
     keep_freed_memory();
     speak_as_environment();
     try {
-        app_.parse(count, words);
+        app_.parse(count, args);
     } catch (const CLI::ParseError& error) {
         const bool asked_for_text = error.get_exit_code() == 0;
         app_.exit(error);
@@ -135,9 +135,9 @@ std::optional<std::filesystem::path> build_script(const std::filesystem::path& d
 
 }  // namespace
 
-void go_on_as(const std::string& program, char** words) {
+void go_on_as(const std::string& program, char** args) {
     const std::filesystem::path dynlab = running_program(), file = dynlab.parent_path() / program;
-    ::execv(file.c_str(), words);
+    ::execv(file.c_str(), args);
     const int error = errno;
     const auto script = build_script(dynlab);
     if (error == ENOENT && script)

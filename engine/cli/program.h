@@ -15,7 +15,7 @@ class Program {
 
     bool has_command(const std::string& name) const;
     /// Does what the words of main() ask for; what goes wrong is one line on standard error. Returns the exit code.
-    int run(int count, char** words);
+    int run(int count, char** args);
 
   private:
     CLI::App app_{"dynlab runs a laboratory course on data-driven learning of dynamical systems.", "dynlab"};
@@ -26,6 +26,6 @@ class Program {
 
 /// Continues as another of dynlab's programs with the arguments of main(). Where that program is missing, prints the
 /// command that builds it and exits with kMissingProgram.
-[[noreturn]] void go_on_as(const std::string& program, char** words);
+[[noreturn]] void go_on_as(const std::string& program, char** args);
 
 }  // namespace dynlab::inline cli

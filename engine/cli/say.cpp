@@ -32,12 +32,12 @@ std::string text_for_user(const Message& message) {
     return terminal_text(message_text(message, user()));
 }
 
-void remember(std::vector<Message> SaidMessages::*kind, const Message& message) {
-    static SaidMessages said;
-    const char* const file = std::getenv(kFileOfSaidMessages);
+void save_entry(std::vector<Message> CommandMessages::*kind, const Message& message) {
+    static CommandMessages said;
+    const char* const file = std::getenv(kFileOfCommandMessages);
     if (file == nullptr || *file == '\0') return;
     (said.*kind).push_back(message);
-    write_said_messages(file, said);
+    write_command_messages(file, said);
 }
 
 void put_on_error_output(const Message& message) {
@@ -61,17 +61,17 @@ const Reader& user() {
 
 void say(const Message& result) {
     std::cout << text_for_user(result) << '\n';
-    remember(&SaidMessages::results, result);
+    save_entry(&CommandMessages::results, result);
 }
 
 void complain(const Message& complaint) {
     put_on_error_output(complaint);
-    remember(&SaidMessages::complaints, complaint);
+    save_entry(&CommandMessages::complaints, complaint);
 }
 
 void note(const Message& remark) {
     put_on_error_output(Message("note: {}", remark));
-    remember(&SaidMessages::notes, remark);
+    save_entry(&CommandMessages::notes, remark);
 }
 
 }  // namespace dynlab::inline cli

@@ -70,15 +70,15 @@ Message unknown_command(const CLI::App* command, const std::string& word, const 
 }
 
 /// What is said of words that no command and no option takes, the first of them above all.
-Message unknown_words(const CLI::App* command, const std::vector<std::string>& words, bool required) {
-    const std::string option = words.front().substr(0, words.front().find('='));
+Message unknown_words(const CLI::App* command, const std::vector<std::string>& args, bool required) {
+    const std::string option = args.front().substr(0, args.front().find('='));
     if (option.size() > 1 && option.starts_with('-'))
         return unknown_option(whole_name(command), option, option_names(command));
     const std::vector<std::string> names = command_names(command);
-    if (words.front().ends_with(".lua") && command->get_parent() == nullptr)
-        return Message("use the command run for a script: dynlab run {}", shell_word(words.front()));
-    if (!names.empty()) return unknown_command(command, words.front(), names);
-    return required ? Message() : Message("too many arguments: {}", fmt::format("{}", fmt::join(words, " ")));
+    if (args.front().ends_with(".lua") && command->get_parent() == nullptr)
+        return Message("use the command run for a script: dynlab run {}", shell_word(args.front()));
+    if (!names.empty()) return unknown_command(command, args.front(), names);
+    return required ? Message() : Message("too many arguments: {}", fmt::format("{}", fmt::join(args, " ")));
 }
 
 }  // namespace
@@ -88,9 +88,9 @@ std::string usage_message(const CLI::App* app, const CLI::Error& error) {
     // misspelt.
     const bool required = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
     Message message;
-    if (const std::vector<std::string> words = app->remaining(true);
-        !words.empty() && (required || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr))
-        message = unknown_words(reached_command(app), words, required);
+    if (const std::vector<std::string> args = app->remaining(true);
+        !args.empty() && (required || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr))
+        message = unknown_words(reached_command(app), args, required);
     if (message.empty()) message = in_our_words(error.what());
     const Message help = Message("Run with {} for more information.", app->get_help_ptr()->get_name());
     return terminal_text(message_text(Message("dynlab: {}\n{}\n", message, help), user()));

@@ -244,8 +244,8 @@ bool goes_up(const Vector& values) {
     if (count < 2) return false;
     Index up = 0;
     for (Index i = 0; i + 1 < count; ++i) up += values[i + 1] > values[i];
-    constexpr double kMost = 0.45;  // of pairs of equal times, wrapping counters
-    return static_cast<double>(up) >= kMost * static_cast<double>(count - 1);
+    constexpr double kMax = 0.45;  // of pairs of equal times, wrapping counters
+    return static_cast<double>(up) >= kMax * static_cast<double>(count - 1);
 }
 
 std::optional<double> known_seconds(const LoadedData& data, const std::string& name) {

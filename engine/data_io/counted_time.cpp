@@ -94,8 +94,8 @@ class CountedUnit {
 }  // namespace
 
 double quantum_of(const Vector& values) {
-    constexpr double kClose = 1e-3, kLeast = 1e-9;
-    for (double quantum = 1; quantum > kLeast / 2; quantum /= 10) {
+    constexpr double kClose = 1e-3, kMin = 1e-9;
+    for (double quantum = 1; quantum > kMin / 2; quantum /= 10) {
         const auto count = values.array() / quantum;
         if (((count - count.round()).abs() < kClose).all()) return quantum;
     }
@@ -114,7 +114,7 @@ double median_step(const Vector& values) {
 
 double count_on(Vector& values, std::span<const double> ranges) {
     const double usual = median_step(values), largest = values.maxCoeff(), least = values.minCoeff();
-    constexpr double kLongest = 10;  // usual steps across the end of the range
+    constexpr double kMaxLength = 10;  // usual steps across the end of the range
     const auto fits = [&](double range) {
         if (largest - least >= range) return false;
         bool wraps = false;
@@ -122,7 +122,7 @@ double count_on(Vector& values, std::span<const double> ranges) {
             const double step = values[i + 1] - values[i];
             if (step >= 0 || std::isnan(step)) continue;
             wraps = true;
-            if (step + range <= 0 || step + range > kLongest * usual) return false;
+            if (step + range <= 0 || step + range > kMaxLength * usual) return false;
         }
         return wraps;
     };

@@ -21,7 +21,7 @@
 namespace dynlab::inline data_io {
 namespace {
 
-constexpr std::size_t kMostTold = 8;
+constexpr std::size_t kMaxListed = 8;
 
 class CsvReader {
   public:
@@ -49,13 +49,13 @@ class CsvReader {
     void note(Message sentence) { table_.notes.push_back(std::move(sentence)); }
     /// The first of them, as nobody reads hundreds.
     static MessageList first_of(MessageList list) {
-        if (list.items.size() <= kMostTold) return list;
-        list.items.resize(kMostTold);
+        if (list.items.size() <= kMaxListed) return list;
+        list.items.resize(kMaxListed);
         list.items.push_back(Message::verbatim("..."));
         return list;
     }
     static MessageList first_of(const std::vector<std::string>& texts) {
-        const auto count = static_cast<std::ptrdiff_t>(std::min(texts.size(), kMostTold + 1));
+        const auto count = static_cast<std::ptrdiff_t>(std::min(texts.size(), kMaxListed + 1));
         return first_of(listed({texts.begin(), texts.begin() + count}));
     }
 
@@ -160,44 +160,44 @@ class CsvReader {
         table_.names = headers;
         std::map<std::string, int> times;
         for (const std::string& header : headers) ++times[split_unit(header).name];
-        MessageList told;
+        MessageList reported;
         for (std::size_t j = 0; j < columns(); ++j) {
             const auto [name, unit] = split_unit(headers[j]);
             if (unit.empty() || times[name] > 1) continue;  // y (m) and y (V) are told apart by their units
             table_.names[j] = name, units[j] = unit;
-            told.items.push_back(Message("{} in {}", name, unit));
+            reported.items.push_back(Message("{} in {}", name, unit));
         }
-        if (!told.items.empty()) note(Message("units from the headers: {}", first_of(told)));
+        if (!reported.items.empty()) note(Message("units from the headers: {}", first_of(reported)));
     }
 
     void name_the_nameless() {
-        MessageList told;
+        MessageList reported;
         const bool all = layout_.names.empty();
         for (std::size_t j = 0; j < columns(); ++j) {
             if (!table_.names[j].empty()) continue;
             table_.names[j] = all ? fmt::format("c{}", j + 1) : j == 0 ? "index" : fmt::format("column_{}", j + 1);
-            told.items.push_back(all ? Message::verbatim(table_.names[j])
-                                     : Message("column {} is named {}", j + 1, table_.names[j]));
+            reported.items.push_back(all ? Message::verbatim(table_.names[j])
+                                         : Message("column {} is named {}", j + 1, table_.names[j]));
         }
-        if (told.items.empty()) return;
+        if (reported.items.empty()) return;
         note(all ? Message(
                        "the file has no line of names, so the columns are named {}; {names = {...}} sets their names",
-                       first_of(told))
-                 : Message("columns without a name in the header: {}", first_of(told)));
+                       first_of(reported))
+                 : Message("columns without a name in the header: {}", first_of(reported)));
     }
 
     void number_equal_names() {
         std::set<std::string> taken(table_.names.begin(), table_.names.end());
         std::map<std::string, std::size_t> numbers;  // the last one of each name
-        std::vector<std::string> told;
+        std::vector<std::string> reported;
         for (std::string& name : table_.names) {
             std::size_t& number = numbers[name];
             if (++number == 1) continue;
             while (!taken.insert(fmt::format("{}_{}", name, number)).second) ++number;
             name = fmt::format("{}_{}", name, number);
-            told.push_back(name);
+            reported.push_back(name);
         }
-        if (!told.empty()) note(Message("columns with the same name are numbered: {}", first_of(told)));
+        if (!reported.empty()) note(Message("columns with the same name are numbered: {}", first_of(reported)));
     }
 
     void state_unit(const std::string& name, const std::string& unit, const std::set<std::string>& known) {
@@ -217,9 +217,9 @@ class CsvReader {
                          layout_.passed_over));
         if (layout_.named_by_comment) note(Message("the column names come from the comment above the numbers"));
         if (layout_.units_line > 0) {
-            MessageList told;
-            for (const auto& [name, unit] : table_.units) told.items.push_back(Message("{} in {}", name, unit));
-            note(Message("line {} is read as units: {}", layout_.units_line, first_of(told)));
+            MessageList reported;
+            for (const auto& [name, unit] : table_.units) reported.items.push_back(Message("{} in {}", name, unit));
+            note(Message("line {} is read as units: {}", layout_.units_line, first_of(reported)));
         }
     }
 
@@ -259,16 +259,16 @@ class CsvReader {
     }
 
     void tell_missing(const TableRows& rows) {
-        MessageList told;
+        MessageList reported;
         for (std::size_t j = 0; j < columns(); ++j)
             if (const TableColumn& column = rows.columns[j]; column.missing > 0)
-                told.items.push_back(Message("{} of {} in {} (first in line {})", column.missing, rows.count,
-                                             table_.names[j], column.first_missing_line));
-        if (!told.items.empty())
+                reported.items.push_back(Message("{} of {} in {} (first in line {})", column.missing, rows.count,
+                                                 table_.names[j], column.first_missing_line));
+        if (!reported.items.empty())
             note(
                 Message("missing numbers were replaced with NaN: {}; fillmissing(u, {method = \"previous\"}) holds an "
                         "input that is logged when it changes, fillmissing(y) interpolates an output",
-                        first_of(told)));
+                        first_of(reported)));
     }
 
     const std::filesystem::path& file_;

@@ -24,7 +24,7 @@ struct LoadedData {
     Index rows = 0;                                 ///< of a table
     std::map<std::string, ClockForms> clocks = {};  ///< of a table's columns of times: seconds since midnight or 1970
     ClockSearch time = {};                          ///< of the usual_length()
-    std::vector<Message> notes = {};  ///< sentences that the user should see: what was left out, what was guessed
+    std::vector<Message> notes = {};                ///< messages for the user: what was omitted, what was assumed
 };
 
 /// Whether the name's ending is one of those that read_data_file() knows.

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kMostJsonBytes = 64u << 20;
-constexpr std::size_t kDeepestJson = 100;
+constexpr std::size_t kMaxJsonDepth = 100;
 
 /// Counts the memory that reading takes, and refuses more than a file of that size may take.
 class ReadingMemory {
@@ -183,8 +183,8 @@ class VariableBuilder final : public nlohmann::json_sax<Json> {
         throw EnvironmentError("{}: the outermost value must be an object, {\"name\": value, ...}", file_.string());
     }
     Open& begin() {
-        if (open_.size() >= kDeepestJson)
-            throw EnvironmentError("{}: the values are nested deeper than {} levels", file_.string(), kDeepestJson);
+        if (open_.size() >= kMaxJsonDepth)
+            throw EnvironmentError("{}: the values are nested deeper than {} levels", file_.string(), kMaxJsonDepth);
         return open_.emplace_back();
     }
     bool add(Variable&& value) {

@@ -14,16 +14,16 @@ namespace {
 constexpr int kAllDigits = 17;  // which no two numbers share
 
 void check_name(const std::string& name) {
-    constexpr std::size_t kLongest = 63;
+    constexpr std::size_t kMaxLength = 63;
     const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)); };
     const auto is_allowed = [&](char c) {
         return is_letter(c) || std::isdigit(static_cast<unsigned char>(c)) || c == '_';
     };
-    if (name.empty() || name.size() > kLongest || !is_letter(name[0]) || !std::ranges::all_of(name, is_allowed)) {
+    if (name.empty() || name.size() > kMaxLength || !is_letter(name[0]) || !std::ranges::all_of(name, is_allowed)) {
         throw InvalidArgument(
             "\"{}\" is not a valid MATLAB variable name: begin with a letter, use only letters, digits and _, and "
             "use at most {} characters",
-            name, kLongest);
+            name, kMaxLength);
     }
 }
 

@@ -12,7 +12,7 @@
 namespace dynlab::inline data_io {
 namespace {
 
-constexpr int kDeepest = 50;  // levels of structs and cells
+constexpr int kMaxDepth = 50;  // levels of structs and cells
 
 /// Values that one byte of a file can stand for: deflate makes at most 1032 bytes from one.
 constexpr double kLargestDeflateRatio = 1032;
@@ -20,8 +20,8 @@ constexpr double kLargestDeflateRatio = 1032;
 constexpr double kBytesOfValue = 2 * sizeof(double);
 
 void refuse_unsupported(const matvar_t& variable, const std::string& name, int depth) {
-    if (depth > kDeepest)
-        throw EnvironmentError("variable {} has more than {} levels of structs and cells", name, kDeepest);
+    if (depth > kMaxDepth)
+        throw EnvironmentError("variable {} has more than {} levels of structs and cells", name, kMaxDepth);
     switch (variable.class_type) {
         case MAT_C_OBJECT:
         case MAT_C_OPAQUE:
@@ -158,8 +158,8 @@ class Converter {
         }
         rows_ = variable_.dims[0];
         columns_ = variable_.rank > 1 ? variable_.dims[1] : 1;
-        constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-        if (rows_ > kMost || columns_ > kMost || (rows_ > 0 && columns_ > kMost / rows_))
+        constexpr std::size_t kMax = std::numeric_limits<std::int32_t>::max();
+        if (rows_ > kMax || columns_ > kMax || (rows_ > 0 && columns_ > kMax / rows_))
             throw EnvironmentError("variable {} is too large", name_);
     }
 
@@ -327,9 +327,9 @@ class Converter {
 
     /// The pointers to the parts must be there, as many as the size says.
     void check_parts(std::size_t each) const {
-        const std::size_t wanted = count() * each;
-        if (wanted == 0) return;
-        if (!variable_.data || variable_.nbytes / sizeof(matvar_t*) < wanted) {
+        const std::size_t requested = count() * each;
+        if (requested == 0) return;
+        if (!variable_.data || variable_.nbytes / sizeof(matvar_t*) < requested) {
             throw EnvironmentError("variable {} is damaged: it has fewer parts than its size indicates", name_);
         }
     }

@@ -9,8 +9,8 @@ namespace dynlab::inline data_io {
 /// The bytes of memory that reading a file of so many may take: 512 MB, or eight times as much as a larger file. What
 /// asks for more is refused, before it is taken where its size is known.
 constexpr std::size_t memory_for_reading(std::size_t file_bytes) {
-    constexpr std::size_t kSmallest = std::size_t{512} << 20, kTimes = 8;
-    return file_bytes > kSmallest / kTimes ? kTimes * file_bytes : kSmallest;
+    constexpr std::size_t kMinValue = std::size_t{512} << 20, kTimes = 8;
+    return file_bytes > kMinValue / kTimes ? kTimes * file_bytes : kMinValue;
 }
 
 /// For messages about it.

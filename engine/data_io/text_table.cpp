@@ -15,7 +15,7 @@
 namespace dynlab::inline data_io {
 namespace {
 
-constexpr std::size_t kMostTableCells = 4'000'000;  // the empty ones at the ends of short rows count, too
+constexpr std::size_t kMaxTableCells = 4'000'000;  // the empty ones at the ends of short rows count, too
 
 /// The separator that the first line has most of.
 char table_separator_of(std::string_view text) {
@@ -46,9 +46,9 @@ class Reader {
                                        plural(std::ssize(row), "{} cell", "{} cells"),
                                        plural(std::ssize(table.names), "{} column", "{} columns"));
             row.resize(table.names.size());
-            if (table.rows.size() >= kMostTableCells / row.size())
+            if (table.rows.size() >= kMaxTableCells / row.size())
                 throw EnvironmentError("{}, line {}: the table has more than {} cells", file_.string(), line,
-                                       kMostTableCells);
+                                       kMaxTableCells);
             table.rows.push_back(row);
             table.lines.push_back(line);
         }

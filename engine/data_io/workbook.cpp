@@ -29,8 +29,8 @@ DYNLAB_DESCRIBE(SheetText, csv, sheets)
 namespace {
 
 constexpr std::size_t kSmallestSheet = std::size_t{64} << 20;  // as text; where the file is larger, its size
-constexpr int kMostParts = 10000;
-constexpr std::size_t kMostRows = 1048576, kMostSheetColumns = 16384;  // of the format
+constexpr int kMaxParts = 10000;
+constexpr std::size_t kMaxRowCount = 1048576, kMaxSheetColumns = 16384;  // of the format
 
 /// A sheet as it comes from a guarded copy.
 struct SheetOutcome {
@@ -50,7 +50,7 @@ struct WorkbookParts {
     throw EnvironmentError("{} is not a workbook (.xlsx): it is not a zip archive", file);
 }
 
-bool is_wanted(std::string_view path) {
+bool is_requested(std::string_view path) {
     return path.ends_with(".xml") || path.ends_with(".rels");
 }
 
@@ -66,9 +66,9 @@ WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
     archive_entry* entry = nullptr;
     int result = ARCHIVE_OK;
     for (int count = 0; (result = ::archive_read_next_header(zip.get(), &entry)) == ARCHIVE_OK; ++count) {
-        if (count == kMostParts) throw EnvironmentError("{} has more than {} parts", file, kMostParts);
+        if (count == kMaxParts) throw EnvironmentError("{} has more than {} parts", file, kMaxParts);
         const char* path = ::archive_entry_pathname(entry);
-        if (path == nullptr || !is_wanted(path)) continue;
+        if (path == nullptr || !is_requested(path)) continue;
         std::string& part = parts.by_path[path];
         part.clear();
         char block[65536];
@@ -231,7 +231,7 @@ class SheetReader {
         const std::string stated = attribute_of(row, "r");
         const std::size_t before = rows_.empty() ? 0 : rows_.back().number;
         const std::size_t number = stated.empty() ? before + 1 : whole_number(stated);
-        if (number <= before || number > kMostRows)
+        if (number <= before || number > kMaxRowCount)
             throw EnvironmentError("{} is damaged: its rows are out of order", file_);
         std::map<std::size_t, std::string> cells;  // by column, from 0
         std::size_t next = 0;
@@ -239,7 +239,7 @@ class SheetReader {
             if (local_name(cell.name()) != "c") continue;
             const std::string place = attribute_of(cell, "r");
             const std::size_t column = place.empty() ? next : column_of(place);
-            if (column >= kMostSheetColumns)
+            if (column >= kMaxSheetColumns)
                 throw EnvironmentError("{} is damaged: a cell is beyond the last column", file_);
             std::string text = cell_text(cell);
             if (!text.empty()) cells[column] = std::move(text);
@@ -291,7 +291,7 @@ class SheetReader {
     std::size_t column_of(const std::string& place) const {
         std::size_t column = 0;
         for (const char c : place) {
-            if (c < 'A' || c > 'Z' || column > kMostSheetColumns) break;
+            if (c < 'A' || c > 'Z' || column > kMaxSheetColumns) break;
             column = column * 26 + static_cast<std::size_t>(c - 'A' + 1);
         }
         if (column == 0) throw EnvironmentError("{} is damaged: \"{}\" is not a cell", file_, place.substr(0, 20));
@@ -317,7 +317,7 @@ class SheetReader {
     std::vector<Row> rows_;
 };
 
-SheetText sheet_of(const std::string& file, const std::string& bytes, const std::string& wanted) {
+SheetText sheet_of(const std::string& file, const std::string& bytes, const std::string& requested) {
     WorkbookParts parts = unpacked(file, bytes);
     const pugi::xml_document workbook = part_document(parts, "xl/workbook.xml");
     const pugi::xml_document relations = part_document(parts, "xl/_rels/workbook.xml.rels");
@@ -325,10 +325,11 @@ SheetText sheet_of(const std::string& file, const std::string& bytes, const std:
     std::string relation;
     for (const pugi::xml_node& sheet : child_of(workbook.document_element(), "sheets").children()) {
         text.sheets.push_back(attribute_of(sheet, "name"));
-        if (relation.empty() && (wanted.empty() || text.sheets.back() == wanted)) relation = attribute_of(sheet, "id");
+        if (relation.empty() && (requested.empty() || text.sheets.back() == requested))
+            relation = attribute_of(sheet, "id");
     }
     if (relation.empty())
-        throw EnvironmentError("{} has no sheet \"{}\"; the sheets are {}", file, wanted, listed(text.sheets));
+        throw EnvironmentError("{} has no sheet \"{}\"; the sheets are {}", file, requested, listed(text.sheets));
     std::string path;
     for (const pugi::xml_node& entry : relations.document_element().children())
         if (attribute_of(entry, "Id") == relation) path = part_path(attribute_of(entry, "Target"));

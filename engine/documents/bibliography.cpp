@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 1u << 20;
+constexpr std::uintmax_t kMaxByteCount = 1u << 20;
 
 bool is_blank_sign(char c) {
     return std::isspace(static_cast<unsigned char>(c)) != 0;
@@ -142,7 +142,7 @@ Message why_no_bibliography(const fs::path& file) {
         return Message("the bibliography is outside the folder of this file; copy it into the folder");
     if (!fs::is_regular_file(file))
         return Message("the bibliography file is missing; add the file, or remove \"bibliography:\"");
-    if (fs::file_size(file) > kMostBytes)
+    if (fs::file_size(file) > kMaxByteCount)
         return Message("the bibliography exceeds one megabyte; keep only the works that the document cites");
     return {};
 }

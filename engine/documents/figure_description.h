@@ -29,9 +29,9 @@ void describe(T& object, V& member) {
 DYNLAB_DESCRIBE(Arrow, x0, y0, x1, y1, text, both_heads)
 DYNLAB_DESCRIBE(Panel, title, x_label, y_label, log_x, log_y, x_range, y_range, x_tick_step, y_tick_step, equal_axes,
                 legend, curves, references, annotations, arrows)
-DYNLAB_DESCRIBE(RigPart, signal, unit, on, turns, x, y, by, drawn_at)
-DYNLAB_DESCRIBE(RigPiece, x, y, part, filled, look)
-DYNLAB_DESCRIBE(RigDrawing, width, height, parts, pieces)
+DYNLAB_DESCRIBE(PlantPart, signal, unit, on, turns, x, y, by, drawn_at)
+DYNLAB_DESCRIBE(PlantShape, x, y, part, filled, look)
+DYNLAB_DESCRIBE(PlantDrawing, width, height, parts, pieces)
 DYNLAB_DESCRIBE(Motion, rig, picture, measured, simulated)
 DYNLAB_DESCRIBE(Figure, rows, columns, panels, title, width_cm, height_cm, motion)
 

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr int kMostPasses = 4;
-constexpr std::uint64_t kMemoryLimit = 1u << 30, kLargestFile = 64u << 20;
+constexpr std::uint64_t kMemoryLimit = 1u << 30, kMaxFileBytes = 64u << 20;
 constexpr std::uint64_t kLualatexMemoryLimit = 4ull << 30;  // reading the Chinese, Arabic and other fonts of a class
 constexpr std::array kAuxiliaryFiles = {"main.aux", "main.out", "main.toc"};
 
@@ -57,7 +57,7 @@ class KeptAuxiliaryFiles {
         cache_.emplace();
         if (!cache_->lasting()) return;
         entry_ = EntryName("latex-references").add(job.identity).add(job.layout.language).add(engine.program).text();
-        before_ = cache_->recall(entry_).value_or("");
+        before_ = cache_->load_entry(entry_).value_or("");
         if (!before_.empty()) write_files();
     }
 
@@ -65,7 +65,7 @@ class KeptAuxiliaryFiles {
         if (entry_.empty()) return;
         std::vector<std::string> files;
         for (const char* name : kAuxiliaryFiles) files.push_back(read_work_file(job_.work_folder / name));
-        if (const std::string now = cbor_of(files); now != before_) cache_->remember(entry_, now);
+        if (const std::string now = cbor_of(files); now != before_) cache_->save_entry(entry_, now);
     }
 
   private:
@@ -246,7 +246,7 @@ class LatexRun {
         child.processor_time = 120s;
         child.timeout = 1200s;  // of a machine that others keep busy
         child.memory_bytes = engine_.program == kLualatex.program ? kLualatexMemoryLimit : kMemoryLimit;
-        child.file_bytes = kLargestFile;
+        child.file_bytes = kMaxFileBytes;
         return child;
     }
 
@@ -254,19 +254,19 @@ class LatexRun {
     /// is the second wall. A document that is made inside of a box cannot have another.
     bool is_boxed() const { return engine_.program == kLualatex.program && strongest_isolation() == Isolation::kFull; }
 
-    ChildResult run_in_box(const ChildOptions& wanted) const {
-        Box box(Isolation::kFull);
-        box.add_document_programs();
+    ChildResult run_in_box(const ChildOptions& requested) const {
+        Sandbox sandbox(Isolation::kFull);
+        sandbox.add_document_programs();
         const fs::path shared = fs::absolute(job_.layout.shared_templates);
-        box.add(shared, shared.string());
+        sandbox.add(shared, shared.string());
         for (const fs::path& folder : {fs::absolute(job_.work_folder), fonts_})
-            if (!folder.empty()) box.add_writable(folder, folder.string());
-        for (const auto& [name, value] : wanted.environment) box.set_environment(name, value);
-        Box::Limits limits;
-        limits.time = {*wanted.processor_time, static_cast<int>(*wanted.timeout / *wanted.processor_time)};
-        limits.file_bytes = wanted.file_bytes;
-        limits.memory_bytes = wanted.memory_bytes;
-        return box.run(wanted.command, fs::absolute(job_.work_folder), "", limits);
+            if (!folder.empty()) sandbox.add_writable(folder, folder.string());
+        for (const auto& [name, value] : requested.environment) sandbox.set_environment(name, value);
+        Sandbox::Limits limits;
+        limits.time = {*requested.processor_time, static_cast<int>(*requested.timeout / *requested.processor_time)};
+        limits.file_bytes = requested.file_bytes;
+        limits.memory_bytes = requested.memory_bytes;
+        return sandbox.run(requested.command, fs::absolute(job_.work_folder), "", limits);
     }
 
     void run_pass(int pass, bool draft) const {

@@ -26,7 +26,7 @@ const char* const kReader =
     // These make Pandoc read each "[" in several ways: its time doubles with each one that is not closed. The filter
     // finds citations in the text; notes have a line of their own ([^1]: ...).
     "-markdown_in_html_blocks-citations-inline_notes-bracketed_spans";
-constexpr std::chrono::seconds kMostTime = 60s;  // of the processor; the manual, the longest document, takes some 10 s
+constexpr std::chrono::seconds kMaxTime = 60s;  // of the processor; the manual, the longest document, takes some 10 s
 const char* const kMarkdownWriter =
     "markdown-raw_html-raw_tex-raw_attribute-native_divs-native_spans-fenced_divs-bracketed_spans-header_attributes-"
     "link_attributes-fenced_code_attributes-inline_code_attributes-citations-simple_tables-multiline_tables-grid_"
@@ -163,8 +163,8 @@ ChildOptions pandoc_child(const PandocJob& job) {
     child.command = command_line(job);
     child.folder = job.work_folder;
     child.environment = {{"LC_ALL", "C.UTF-8"}};
-    child.processor_time = kMostTime;
-    child.timeout = 10 * kMostTime;  // of a machine that others keep busy
+    child.processor_time = kMaxTime;
+    child.timeout = 10 * kMaxTime;  // of a machine that others keep busy
     return child;
 }
 
@@ -223,7 +223,7 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
         throw DocumentError(
             Place{job.template_file},
             Message("Pandoc did not finish this document within {} s of processor time, or ten times that elapsed time",
-                    kMostTime.count()));
+                    kMaxTime.count()));
     if (run.output_exceeded)
         throw DocumentError(Place{job.template_file}, Message("the output of Pandoc exceeds the limit"));
     Complaints found;

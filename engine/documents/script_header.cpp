@@ -114,7 +114,7 @@ class HeaderReader {
     int number_ = 0;
 };
 
-constexpr std::size_t kMostMistakes = 10;
+constexpr std::size_t kMaxMistakes = 10;
 
 bool is_fence(const std::string& line) {
     return line.starts_with("--") && trimmed(line.substr(2)) == "---";
@@ -151,7 +151,7 @@ std::size_t read_script_header(const std::vector<std::string>& lines, const std:
             reader.read_line(content, number);
         } catch (const DocumentError& error) {
             if (mistakes.items.empty()) place = error.place();
-            if (mistakes.items.size() < kMostMistakes)
+            if (mistakes.items.size() < kMaxMistakes)
                 mistakes.items.push_back(mistakes.items.empty() ? error.sentence() : error.message());
         }
     }

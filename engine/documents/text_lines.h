@@ -13,9 +13,9 @@ std::vector<std::string> lines_of(std::string_view text);
 /// The lines of a text, each with the end it has: joined, they give the text back byte for byte.
 std::vector<std::string_view> lines_with_ends(std::string_view text);
 /// A script or template has at most so many bytes: what is larger is something else.
-inline constexpr std::uintmax_t kMostSourceBytes = std::uintmax_t{4} << 20;
+inline constexpr std::uintmax_t kMaxSourceSize = std::uintmax_t{4} << 20;
 /// The text of a script or template, without a byte order mark. Throws EnvironmentError where it cannot be read,
-/// DocumentError for more than kMostSourceBytes.
+/// DocumentError for more than kMaxSourceSize.
 std::string text_of_source(const std::filesystem::path& file);
 std::string trimmed(std::string_view text);  ///< without spaces, tabs and line ends at both sides
 bool is_blank(std::string_view text);

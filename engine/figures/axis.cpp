@@ -13,8 +13,8 @@
 namespace dynlab::inline figures {
 namespace {
 
-constexpr double kLargestValue = 1e300;                        // keeps spans and margins finite
-constexpr double kLargestEnd = 1e305, kSmallestSpan = 1e-305;  // of an axis
+constexpr double kMaxAxisValue = 1e300;                   // keeps spans and margins finite
+constexpr double kMaxAxisEnd = 1e305, kMinSpan = 1e-305;  // of an axis
 
 std::string with_minus_sign(std::string text) {
     if (!text.empty() && text.front() == '-') text.replace(0, 1, "−");
@@ -37,13 +37,13 @@ int common_exponent(double largest, double step) {
 
 /// Decimals with which multiples of a step such as 0.25 are written out.
 int decimals_of(double step) {
-    constexpr int kMost = 12;
-    int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, kMost);
+    constexpr int kMax = 12;
+    int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, kMax);
     const auto left_over = [step](int digits) {
         const double scaled = step * std::pow(10.0, digits);
         return std::abs(scaled - std::round(scaled)) / scaled;
     };
-    if (left_over(decimals) > 1e-6 && decimals < kMost && left_over(decimals + 1) < 1e-6) ++decimals;
+    if (left_over(decimals) > 1e-6 && decimals < kMax && left_over(decimals + 1) < 1e-6) ++decimals;
     return decimals;
 }
 
@@ -81,13 +81,13 @@ int count_of_digits(const Axis& axis, std::string_view digits) {
 }
 
 void add_log_ticks(Axis& axis, double count) {
-    constexpr int kFewest = 4;
+    constexpr int kMinCount = 4;
     const double first = std::log10(axis.low), last = std::log10(axis.high);
     const double decades = last - first;
     if (decades < 0.35) return add_linear_ticks(axis, count, {});
     std::string_view digits = kNumberedDigits.front();
     for (const std::string_view more : kNumberedDigits)
-        if (count_of_digits(axis, digits) < std::min<double>(kFewest, count)) digits = more;
+        if (count_of_digits(axis, digits) < std::min<double>(kMinCount, count)) digits = more;
     const int stride = digits.size() > 1 ? 1 : std::max(1, static_cast<int>(std::ceil(decades / std::max(count, 2.0))));
     const bool plain = first > -3.01 && last < 4.01 && (decades < 2.1 || digits.size() > 1);
     for (int k = static_cast<int>(std::floor(first)); k <= static_cast<int>(std::ceil(last)); ++k) {
@@ -122,7 +122,7 @@ double Axis::widest_label(double size) const {
 void Extent::include(double value) {
     if (low_ && value >= *low_ && value <= *high_) return;  // as nearly all samples of a long record
     if (!std::isfinite(value) || (log_ && value <= 0)) return;
-    value = std::clamp(value, -kLargestValue, kLargestValue);
+    value = std::clamp(value, -kMaxAxisValue, kMaxAxisValue);
     low_ = std::min(low_.value_or(value), value);
     high_ = std::max(high_.value_or(value), value);
 }
@@ -145,11 +145,11 @@ std::pair<double, double> Extent::padded(double margin) const {
 }
 
 std::pair<double, double> usable_range(std::pair<double, double> range, bool log) {
-    const double least = log ? 1 / kLargestEnd : -kLargestEnd;
-    double low = std::clamp(range.first, least, kLargestEnd), high = std::clamp(range.second, least, kLargestEnd);
+    const double least = log ? 1 / kMaxAxisEnd : -kMaxAxisEnd;
+    double low = std::clamp(range.first, least, kMaxAxisEnd), high = std::clamp(range.second, least, kMaxAxisEnd);
     if (log && !(low < high)) (high > 1 ? low : high) = high > 1 ? high / 10 : high * 10;
-    if (!log && !(high - low >= kSmallestSpan)) {
-        const double room = std::max(kSmallestSpan, 1e-9 * std::abs(high));
+    if (!log && !(high - low >= kMinSpan)) {
+        const double room = std::max(kMinSpan, 1e-9 * std::abs(high));
         low -= room, high += room;
     }
     return {low, high};

@@ -16,16 +16,16 @@ Message confidence_text(double level) {
 void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level, double most) {
     const auto is_band = [](const Curve& curve) { return curve.style == CurveStyle::kBand; };
     const bool first = std::none_of(panel.curves.begin(), panel.curves.end(), is_band);
-    const Curve& centre = panel.curves[line];
+    const Curve& center = panel.curves[line];
     Curve band;
     band.style = CurveStyle::kBand;
-    band.x = centre.x;
-    band.colour = centre.colour;
-    band.dash = centre.dash;
+    band.x = center.x;
+    band.colour = center.colour;
+    band.dash = center.dash;
     const auto width =
         (half_width.array() <= most).select(half_width.array(), std::numeric_limits<double>::quiet_NaN());
-    band.y = centre.y.array() - width;
-    band.y_upper = centre.y.array() + width;
+    band.y = center.y.array() - width;
+    band.y_upper = center.y.array() + width;
     if (!(band.y.array().isFinite() && band.y_upper.array().isFinite()).any()) return;
     if (first) band.label = confidence_text(level);
     panel.curves.push_back(std::move(band));
@@ -47,24 +47,24 @@ void limit_to_readable(Panel& panel, std::size_t lines, double least_room) {
     panel.y_range = {std::max(band_low, low - room), std::min(band_high, high + room)};
 }
 
-void fix_colours(Panel& panel) {
-    for (std::size_t i = 0; i < panel.curves.size(); ++i) style::fix_look(panel.curves[i], static_cast<int>(i));
+void fix_colors(Panel& panel) {
+    for (std::size_t i = 0; i < panel.curves.size(); ++i) style::fix_appearance(panel.curves[i], static_cast<int>(i));
 }
 
 void choose_phase_axis(Panel& phase) {
-    constexpr double kLeast = 60;  // degrees shown
-    constexpr int kFewestNumbers = 4;
+    constexpr double kMin = 60;  // degrees shown
+    constexpr int kMinNumbers = 4;
     Extent extent(false);
     for (const Curve& curve : phase.curves) {
         extent.include(curve.y);
         extent.include(curve.y_upper);
     }
     auto [low, high] = phase.y_range.value_or(extent.padded(0.06));
-    if (const double lacking = kLeast - (high - low); lacking > 0)
+    if (const double lacking = kMin - (high - low); lacking > 0)
         phase.y_range = {low -= 0.5 * lacking, high += 0.5 * lacking};
     phase.y_tick_step = 15;
     double step = 30;
-    while (std::floor(high / step) - std::ceil(low / step) + 1 >= kFewestNumbers) {
+    while (std::floor(high / step) - std::ceil(low / step) + 1 >= kMinNumbers) {
         phase.y_tick_step = step;
         step = step == 30 ? 45 : 2 * step;
     }

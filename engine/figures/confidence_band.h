@@ -22,6 +22,6 @@ void limit_to_readable(Panel& panel, std::size_t lines, double least_room);
 void choose_phase_axis(Panel& phase);
 
 /// Gives every curve of the panel the colour of its index, which bands added later must not move.
-void fix_colours(Panel& panel);
+void fix_colors(Panel& panel);
 
 }  // namespace dynlab::inline figures

@@ -10,7 +10,7 @@
 namespace dynlab::inline figures {
 namespace {
 
-constexpr std::size_t kMostPoints = 20000;
+constexpr std::size_t kMaxPointCount = 20000;
 
 std::int64_t cell_of(double value, double cell) {
     return static_cast<std::int64_t>(std::floor(std::clamp(value / cell, -1e9, 1e9)));
@@ -78,7 +78,7 @@ Trace keep_new_segments(const Trace& trace, double cell) {
 
 Trace decimate_line(const Trace& trace, double cell) {
     Trace kept = keep_column_extremes(trace, cell);
-    for (; kept.size() > kMostPoints && cell < 1; cell *= 2) kept = keep_new_segments(kept, cell);
+    for (; kept.size() > kMaxPointCount && cell < 1; cell *= 2) kept = keep_new_segments(kept, cell);
     return kept;
 }
 
@@ -90,9 +90,9 @@ Trace decimate_points(const Trace& trace, double cell) {
             const auto column = static_cast<std::uint64_t>(cell_of(point.x, cell)) << 32;
             const auto row = static_cast<std::uint64_t>(cell_of(point.y, cell)) & 0xFFFFFFFFu;
             if (taken.insert(column | row).second) kept.push_back(point);
-            if (kept.size() > kMostPoints) break;
+            if (kept.size() > kMaxPointCount) break;
         }
-        if (kept.size() <= kMostPoints) return kept;
+        if (kept.size() <= kMaxPointCount) return kept;
     }
 }
 

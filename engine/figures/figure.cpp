@@ -96,9 +96,9 @@ void check_motion(const Motion& motion, const std::vector<Panel>& panels) {
 }  // namespace
 
 void Figure::validate() const {
-    constexpr int kMostRows = 100;
-    if (rows < 1 || columns < 1 || rows > kMostRows || columns > kMostRows)
-        throw InvalidArgument("a figure needs 1 to {} rows and columns, not {} x {}", kMostRows, rows, columns);
+    constexpr int kMaxRowCount = 100;
+    if (rows < 1 || columns < 1 || rows > kMaxRowCount || columns > kMaxRowCount)
+        throw InvalidArgument("a figure needs 1 to {} rows and columns, not {} x {}", kMaxRowCount, rows, columns);
     if (panels.empty()) throw InvalidArgument("a figure needs at least one panel, but it has none");
     if (panels.size() > static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns))
         throw InvalidArgument("a figure of {} x {} panels cannot contain {} panels", rows, columns, panels.size());

@@ -95,7 +95,7 @@ void blank_creation_date(const std::filesystem::path& pdf) {
         throw EnvironmentError("cannot write \"{}\": {}", pdf.string(), system_reason(errno));
 }
 
-TemporaryFile make_temporary_beside(const std::filesystem::path& target) {
+TemporaryFile make_temporary_next_to(const std::filesystem::path& target) {
     const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
     TemporaryFile made = make_temporary_file(folder, target.filename().string(), 0666);
     if (!made.file)

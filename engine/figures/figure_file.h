@@ -18,6 +18,6 @@ void blank_creation_date(const std::filesystem::path& pdf);
 
 /// An empty file beside `target`, to be filled and renamed while it is open. Throws EnvironmentError that says why none
 /// can be made.
-TemporaryFile make_temporary_beside(const std::filesystem::path& target);
+TemporaryFile make_temporary_next_to(const std::filesystem::path& target);
 
 }  // namespace dynlab::inline figures

@@ -15,7 +15,7 @@ using namespace style;
 constexpr double kEdge = 0.08;  // free rim of the page
 constexpr double kBetweenColumns = 0.35;
 constexpr double kBetweenEntries = 0.45;  // in a legend
-constexpr double kSmallestFrame = 0.6;
+constexpr double kMinFrame = 0.6;
 
 struct Margins {
     double left = 0, bottom = 0, right = 0, top = 0;
@@ -188,9 +188,9 @@ class LayoutWork {
         double used_height = 2 * kEdge + block_height(title_.text);
         for (const Margins& c : column) used_width += c.left + c.right;
         for (const Margins& r : row) used_height += r.top + r.bottom;
-        const double width = std::max(kSmallestFrame, (figure_.width_cm - used_width) / figure_.columns);
+        const double width = std::max(kMinFrame, (figure_.width_cm - used_width) / figure_.columns);
         const double height = figure_.height_cm > 0
-                                  ? std::max(kSmallestFrame, (figure_.height_cm - used_height) / figure_.rows)
+                                  ? std::max(kMinFrame, (figure_.height_cm - used_height) / figure_.rows)
                                   : default_frame_height(width);
         height_ = figure_.height_cm > 0 ? figure_.height_cm : used_height + height * figure_.rows;
 
@@ -229,7 +229,7 @@ class LayoutWork {
     std::vector<PanelLayout> panels_;
     std::vector<bool> direct_;  // names stand beside the curves
     std::vector<Margins> column_margins_, row_margins_;
-    CentredText title_;
+    CenteredText title_;
     double height_ = 0;
 };
 

@@ -23,7 +23,7 @@ struct LegendEntry {
 };
 
 /// A text with the page position of its middle.
-struct CentredText {
+struct CenteredText {
     FittedText text;
     double x = 0, y = 0;
 };
@@ -33,14 +33,14 @@ struct PanelLayout {
     Axis x, y;
     bool x_numbers = true;  ///< false where the panel below carries them for both
     std::vector<LegendEntry> legend;
-    CentredText title, x_label, y_label;
+    CenteredText title, x_label, y_label;
     double exponent_x = 0, exponent_y = 0;  ///< height of the text "×10^n" of either axis
 };
 
 /// Where everything of a figure goes: frames aligned in rows and columns, margins just wide enough for the texts.
 struct FigureLayout {
     double width, height;
-    CentredText title;
+    CenteredText title;
     std::vector<PanelLayout> panels;
 };
 FigureLayout lay_out(const Figure& figure);

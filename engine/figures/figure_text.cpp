@@ -92,8 +92,8 @@ std::string cut_text(const std::string& text, double length, double size) {
 
 /// Smaller type for lines of which the widest is `widest` long; what is still longer than `length` is cut.
 FittedText made_smaller(FittedText text, double widest, double length) {
-    constexpr double kSmallest = 0.7;
-    text.size *= std::clamp(length / widest, kSmallest, 1.0);
+    constexpr double kMinValue = 0.7;
+    text.size *= std::clamp(length / widest, kMinValue, 1.0);
     for (std::string& line : text.lines) line = cut_text(line, length, text.size);
     return text;
 }

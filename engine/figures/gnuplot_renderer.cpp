@@ -89,13 +89,13 @@ class GnuplotRenderer::Work {
 
     void draw(const Figure& figure, const fs::path& target, FigureFormat format, const Reader& reader) {
         const std::string script = gnuplot_script(figure, format, reader);
-        TemporaryFile made = make_temporary_beside(target);
+        TemporaryFile made = make_temporary_next_to(target);
         Pending next{0, format, std::move(made.path), target, std::move(made.file), {}, {}};
         next.ends = EndsWithProgram(next.temporary);
         if (cache_) next.name = name_of_drawing(format, script);
         pending_.push_back(std::move(next));
         try {
-            if (!recall(pending_.back())) start_drawing(pending_.back(), script);
+            if (!load_entry(pending_.back())) start_drawing(pending_.back(), script);
         } catch (...) {
             give_up();
             throw;
@@ -144,14 +144,14 @@ class GnuplotRenderer::Work {
         fs::remove(figure.temporary, ignored);
     }
 
-    bool recall(const Pending& figure) {
-        const auto drawn = cache_ ? cache_->recall(figure.name) : std::nullopt;
+    bool load_entry(const Pending& figure) {
+        const auto drawn = cache_ ? cache_->load_entry(figure.name) : std::nullopt;
         if (!drawn) return false;
         std::ofstream file(figure.temporary, std::ios::binary);
         file << *drawn;
         file.close();
         if (!file) return false;
-        ++use_.recalled;
+        ++use_.from_cache;
         return true;
     }
 
@@ -194,7 +194,7 @@ class GnuplotRenderer::Work {
         if (figure.format == FigureFormat::kPdf) blank_creation_date(figure.temporary);
         if (figure.format == FigureFormat::kSvg) finish_svg(figure.temporary);
         ++use_.made;
-        if (cache_) cache_->remember(figure.name, read_file(figure.temporary));
+        if (cache_) cache_->save_entry(figure.name, read_file(figure.temporary));
         return {};
     }
 

@@ -98,7 +98,7 @@ class PanelScript {
                  kFrameColour);
     }
 
-    void block(const CentredText& placed, bool upright = false) {
+    void block(const CenteredText& placed, bool upright = false) {
         const double count = static_cast<double>(placed.text.lines.size());
         for (std::size_t i = 0; i < placed.text.lines.size(); ++i) {
             const double step = kTextLine * placed.text.size / kTextSize;
@@ -173,7 +173,7 @@ class PanelScript {
 
     void write_legend_entry(const LegendEntry& entry) {
         const Curve& curve = panel_.curves[entry.curve];
-        const CurveLook look = look_of(curve, static_cast<int>(entry.curve));
+        const CurveAppearance look = appearance_of(curve, static_cast<int>(entry.curve));
         const double x = entry.x - layout_.box.left, y = entry.y - layout_.box.bottom;
         if (curve.style == CurveStyle::kBand || curve.style == CurveStyle::kBars)
             put("set object rectangle from {:.4f},{:.4f} to {:.4f},{:.4f} front noclip fc rgb '{}' fs {} noborder\n", x,
@@ -207,7 +207,7 @@ class PanelScript {
         }
     }
 
-    void write_curve(const Curve& curve, const CurveTraces& traces, const CurveLook& look) {
+    void write_curve(const Curve& curve, const CurveTraces& traces, const CurveAppearance& look) {
         if (!traces.lower.empty())
             element(fmt::format("u 1:2:3 w filledcurves lc rgb '{}' fs {} noborder", look.colour, fill(curve.style)),
                     [&] {
@@ -253,7 +253,7 @@ class PanelScript {
         for (const bool bands : {true, false})
             for (std::size_t i = 0; i < traces_.size(); ++i)
                 if ((panel_.curves[i].style == CurveStyle::kBand) == bands)
-                    write_curve(panel_.curves[i], traces_[i], look_of(panel_.curves[i], static_cast<int>(i)));
+                    write_curve(panel_.curves[i], traces_[i], appearance_of(panel_.curves[i], static_cast<int>(i)));
         put("plot {}\n", elements_.empty() ? "-1e6" : elements_);  // a level far below the frame draws the frame alone
     }
 

@@ -12,9 +12,9 @@ namespace {
 constexpr Index kMostBins = 200, kMostWanted = 100'000;
 
 void check_finite(const VectorView& values) {
-    constexpr double kLargest = 1e300;  // differences of such values are numbers still
+    constexpr double kMaxValue = 1e300;  // differences of such values are numbers still
     for (Index i = 0; i < values.size(); ++i)
-        if (!(std::abs(values[i]) <= kLargest))
+        if (!(std::abs(values[i]) <= kMaxValue))
             throw InvalidArgument("a histogram needs finite values, but value {} is {}", i + 1, values[i]);
 }
 

@@ -10,7 +10,7 @@ namespace dynlab::inline figures {
 
 /// A part slides by (x, y) per unit of its signal, or turns about (x, y), to the left by `by` radians per unit. It is
 /// drawn as it stands at the value `drawn_at`.
-struct RigPart {
+struct PlantPart {
     std::string signal, unit;  ///< which it follows, in which unit
     int on = -1;               ///< the part that carries it, before it in the list; -1 for none
     bool turns = false;
@@ -18,7 +18,7 @@ struct RigPart {
 };
 
 /// A line, or an area without a rim.
-struct RigPiece {
+struct PlantShape {
     std::vector<double> x, y;
     std::vector<int> part;  ///< that each point moves with; -1 for none
     bool filled = false;
@@ -27,22 +27,22 @@ struct RigPiece {
     bool moves() const;
 };
 
-struct RigDrawing {
+struct PlantDrawing {
     double width = 0, height = 0;
-    std::vector<RigPart> parts;
-    std::vector<RigPiece> pieces;
+    std::vector<PlantPart> parts;
+    std::vector<PlantShape> pieces;
 
     /// Throws InvalidArgument for pieces whose lists differ in length or parts that are not there.
     void validate() const;
     /// The piece where it stands while the parts' signals have these values, one a part.
-    RigPiece placed(const RigPiece& piece, const Vector& values) const;
+    PlantShape placed(const PlantShape& piece, const Vector& values) const;
 };
 
 /// A rig beside the records that it follows, in one figure: the panel `picture` shows it at some instants, and the
 /// panel behind it by 1 + k the signal of part k over time in seconds, first as measured, then as simulated, where
 /// there are both.
 struct Motion {
-    RigDrawing rig;
+    PlantDrawing rig;
     std::size_t picture = 0;
     bool measured = true, simulated = true;
 };

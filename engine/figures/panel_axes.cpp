@@ -93,7 +93,7 @@ Axis thinned(const Axis& axis, AxisLength length) {
     return axis;
 }
 
-constexpr std::size_t kFewestNumbers = 4;
+constexpr std::size_t kMinNumbers = 4;
 
 /// The coarsest axis with four numbers, else that with most of those that hold their numbers; steps are 1, 2, 2.5 or 5
 /// times a power of ten.
@@ -103,7 +103,7 @@ Axis finer_axis(const Axis& axis, AxisLength length) {
     const double decade = std::pow(10.0, std::ceil(std::log10(range.second - range.first)));
     for (const double scale : {1.0, 0.1})
         for (const double factor : {1.0, 0.5, 0.25, 0.2}) {
-            if (best.ticks.size() >= kFewestNumbers) return best;
+            if (best.ticks.size() >= kMinNumbers) return best;
             Axis candidate = make_axis(range, false, 20, factor * scale * decade);
             if (candidate.ticks.size() > best.ticks.size() && length.holds(candidate)) best = std::move(candidate);
         }
@@ -113,12 +113,12 @@ Axis finer_axis(const Axis& axis, AxisLength length) {
 /// As many numbers as fit, four where there is room and more than one even in little, as one tells no scale. A wanted
 /// step is never divided.
 Axis fitted_axis(Range range, bool log, double count, std::optional<double> step, AxisLength length) {
-    constexpr double kFewest = 1.2, kMost = 20;
+    constexpr double kMinCount = 1.2, kMax = 20;
     Axis axis = make_axis(range, log, count, step);
-    while (!step && !length.holds(axis) && count >= kFewest) axis = make_axis(range, log, count *= 0.75);
+    while (!step && !length.holds(axis) && count >= kMinCount) axis = make_axis(range, log, count *= 0.75);
     if (!step && !log && length.holds(axis)) axis = finer_axis(axis, length);
     Axis finer = axis;
-    while (!step && finer.ticks.size() < 2 && count < kMost) finer = make_axis(range, log, count *= 1.5);
+    while (!step && finer.ticks.size() < 2 && count < kMax) finer = make_axis(range, log, count *= 1.5);
     if (!length.holds(finer)) finer = thinned(finer, length);
     return length.holds(finer) ? finer : axis;
 }

@@ -27,7 +27,7 @@ class Construction {
         panel_.y_label = input_.y_label;
         const bool smooth = input_.smoothed.size() > 0;
         panel_.curves.push_back(
-            line_of(input_.t, input_.y, Message("measured"), smooth ? style::kGreyColour : 0, 0, smooth ? 0.6 : 0.9));
+            line_of(input_.t, input_.y, Message("measured"), smooth ? style::kGrayColor : 0, 0, smooth ? 0.6 : 0.9));
         if (smooth) panel_.curves.push_back(line_of(input_.t, input_.smoothed, Message("smoothed"), 0, 0, 1.1));
         panel_.references = {{true, input_.final, Message("final value"), 1},
                              {true, input_.initial, Message("initial value"), 1}};
@@ -49,7 +49,7 @@ class Construction {
     double level(double part) const { return input_.initial + part * change_; }
 
     void dotted(double x0, double y0, double x1, double y1) {
-        panel_.curves.push_back(line_of(Vector{{x0, x1}}, Vector{{y0, y1}}, {}, style::kGreyColour, 2, 0.8));
+        panel_.curves.push_back(line_of(Vector{{x0, x1}}, Vector{{y0, y1}}, {}, style::kGrayColor, 2, 0.8));
     }
     void duration(double end, double height, const std::string& symbol) {
         panel_.arrows.push_back({input_.step_time, height, end, height,

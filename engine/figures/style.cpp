@@ -28,15 +28,15 @@ std::string dash_pattern(int dash) {
     return pick(kPatterns, dash);
 }
 
-CurveLook look_of(const Curve& curve, int index) {
-    const int colour = curve.colour.value_or(index % kGreyColour);
-    const int round = curve.colour ? 0 : index / kGreyColour;  // the ninth curve has the first one's colour alone
+CurveAppearance appearance_of(const Curve& curve, int index) {
+    const int colour = curve.colour.value_or(index % kGrayColor);
+    const int round = curve.colour ? 0 : index / kGrayColor;  // the ninth curve has the first one's colour alone
     return {pick(kPalette, colour), dash_pattern(curve.dash.value_or(pick(kDashOfColour, colour) + round)),
             pick(kPointTypes, curve.marker.value_or(pick(kMarkerOfColour, colour + round)))};
 }
 
-void fix_look(Curve& curve, int index) {
-    const int colour = index % kGreyColour, round = index / kGreyColour;
+void fix_appearance(Curve& curve, int index) {
+    const int colour = index % kGrayColor, round = index / kGrayColor;
     if (curve.colour) return;
     curve.colour = colour;
     if (round == 0) return;

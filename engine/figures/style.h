@@ -30,10 +30,10 @@ inline constexpr int kOpenCircle = 4, kCross = 8;
 /// Poles are cross, plus, asterisk; zeros open circle, square, triangle: a pair for each of three models.
 inline constexpr int kPoleMarkers = 3;
 /// The grey beyond the palette's own eight colours, for measured data and guiding curves.
-inline constexpr int kGreyColour = 8;
+inline constexpr int kGrayColor = 8;
 
 /// How a curve looks, by its index among its panel's curves.
-struct CurveLook {
+struct CurveAppearance {
     std::string colour;  ///< "#rrggbb"
     std::string dash;    ///< gnuplot's dash type
     int point_type;      ///< gnuplot's number
@@ -41,9 +41,9 @@ struct CurveLook {
 
 /// Colours after Okabe and Ito (2008), ordered so that neighbours differ in luminance and stay apart for colour-blind
 /// readers and in grey print; dash pattern and marker change with the colour, and again where the colours repeat.
-CurveLook look_of(const Curve& curve, int index);
+CurveAppearance appearance_of(const Curve& curve, int index);
 /// Gives a curve the look of the one with this index wherever it may stand, unless its colour was chosen.
-void fix_look(Curve& curve, int index);
+void fix_appearance(Curve& curve, int index);
 std::string dash_pattern(int dash);
 /// Size and line of a curve's markers, in gnuplot's units of size and in points: a wide line makes markers larger
 /// rather than bolder.

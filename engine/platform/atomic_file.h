@@ -6,9 +6,9 @@
 
 namespace dynlab::inline platform {
 
-/// Writes `content` to a temporary file beside `file`, syncs, then renames: `file` appears whole or stays as
-/// it was. Throws EnvironmentError that names the file and the system's reason (no such folder, not writable,
-/// disk full).
+/// Writes `content` to a temporary file in the folder of `file`, syncs it and renames it: `file` is either complete or
+/// unchanged. Throws EnvironmentError that names the file and the system's reason (no such folder, not writable, disk
+/// full).
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 /// Moves or copies a finished file to its destination with the same promise, across file systems too.
 void place_file_atomically(const std::filesystem::path& from, const std::filesystem::path& to);
@@ -17,9 +17,10 @@ struct NewFile {
     std::filesystem::path file;
     std::string content;
 };
-/// As write_file_atomically for each, in their order: each appears whole or not at all, and none before those that
-/// stand before it. They wait for the disk together, which takes little longer than for one. `made_in`: the folder of
-/// the temporary files; those on another file system are copied. Default: beside each file.
+/// Writes several files in their order, each one atomically: a file appears only after all files before it. All files
+/// are synced together, which takes little longer than syncing one. `made_in`: folder of the temporary files; files on
+/// another file system are copied. Default: the folder of each file. Throws EnvironmentError as write_file_atomically
+/// does.
 void write_files_atomically(const std::vector<NewFile>& files, const std::filesystem::path& made_in = {});
 
 std::string read_file(const std::filesystem::path& file);  ///< throws EnvironmentError

@@ -67,21 +67,21 @@ Isolation strongest_isolation() {
     return strongest;
 }
 
-fs::path Box::mount(const fs::path& outside, const std::string& inside, bool writable) {
+fs::path Sandbox::mount(const fs::path& outside, const std::string& inside, bool writable) {
     const fs::path whole = fs::absolute(outside);
     mounts_.push_back({whole, inside, writable});
     return level_ == Isolation::kFull ? fs::path(inside) : whole;
 }
 
-fs::path Box::add(const fs::path& outside, const std::string& inside) {
+fs::path Sandbox::add(const fs::path& outside, const std::string& inside) {
     return mount(outside, inside, false);
 }
 
-fs::path Box::add_writable(const fs::path& outside, const std::string& inside) {
+fs::path Sandbox::add_writable(const fs::path& outside, const std::string& inside) {
     return mount(outside, inside, true);
 }
 
-fs::path Box::add_program(const fs::path& program) {
+fs::path Sandbox::add_program(const fs::path& program) {
     // It looks for its own libraries in ../lib/dynlab.
     if (const auto libraries = library_folder_of(program)) add(*libraries, "/box/lib/dynlab");
     if (const fs::path other = program.parent_path() / kCourseProgram;
@@ -90,21 +90,21 @@ fs::path Box::add_program(const fs::path& program) {
     return add(program, std::string("/box/bin/") + kProgram);
 }
 
-void Box::add_document_programs() {
+void Sandbox::add_document_programs() {
     for (const char* folder : {"/etc/alternatives", "/etc/fonts", "/etc/texmf", "/var/lib/texmf",
                                "/var/cache/fontconfig", "/etc/papersize", "/etc/localtime"})
         if (fs::exists(folder)) add(folder, folder);
 }
 
-void Box::add_document_home(const fs::path& data) {
+void Sandbox::add_document_home(const fs::path& data) {
     add_document_programs();
     const fs::path home = add(data, "/box/home/data").parent_path();
     add(shared_folder() / "report_templates", "/box/home/report_templates");
     set_environment("DYNLAB_HOME", home.string());
 }
 
-ChildResult Box::run(const Words& command, const fs::path& folder, const std::string& input,
-                     const Limits& limits) const {
+ChildResult Sandbox::run(const Words& command, const fs::path& folder, const std::string& input,
+                         const Limits& limits) const {
     ChildOptions child;
     child.input = input;
     child.timeout = limits.time.clock();

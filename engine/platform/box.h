@@ -13,10 +13,11 @@
 
 namespace dynlab::inline platform {
 
-/// How far untrusted work is kept apart. kFull: bubblewrap gives it its own file system with nothing but /usr, what is
-/// put into the box and an empty scratch folder, its own process numbers, no network. kProcess: a process of its own
-/// with limits of time, an almost empty environment and a temporary working folder. In both the program inside is
-/// expected to confine itself (confine_process) before it touches what is not trusted.
+/// Level of isolation of untrusted work.
+/// * kFull: bubblewrap provides a separate file system (only /usr, the added files and an empty scratch folder),
+///   separate process numbers, and no network.
+/// * kProcess: a separate process with time limits, an almost empty environment and a temporary working folder.
+/// At both levels the program inside must confine itself (confine_process) before it reads untrusted input.
 enum class Isolation { kFull, kProcess };
 
 std::string isolation_name(Isolation level);  ///< "full", "process"
@@ -26,18 +27,18 @@ std::optional<Message> obstacle_to(Isolation level);
 /// The strongest level that this machine can have; found out once.
 Isolation strongest_isolation();
 
-/// One process in a box.
-class Box {
+/// A process in a sandbox.
+class Sandbox {
   public:
-    explicit Box(Isolation level) : level_(level) {}
+    explicit Sandbox(Isolation level) : level_(level) {}
 
-    /// Puts a file or folder into the box and returns its place there: `inside` at level kFull, `outside` otherwise.
+    /// Adds a file or folder to the sandbox. Returns its path there: `inside` at level kFull, otherwise `outside`.
     std::filesystem::path add(const std::filesystem::path& outside, const std::string& inside);
     /// The same for a folder that the work may write into.
     std::filesystem::path add_writable(const std::filesystem::path& outside, const std::string& inside);
     void set_environment(const std::string& name, const std::string& value) { environment_.emplace_back(name, value); }
-    /// A program of dynlab's with the libraries of its own that it may have, `dynlab` with dynlab-course, too, whose
-    /// commands it has there; returns its place.
+    /// Adds a dynlab program with its libraries, and dynlab-course if the program is `dynlab`, which runs its commands.
+    /// Returns the path of the program in the sandbox.
     std::filesystem::path add_program(const std::filesystem::path& program);
     /// The TeX, font and alternatives settings of this machine, for pandoc, LaTeX and gnuplot.
     void add_document_programs();

@@ -61,7 +61,7 @@ std::optional<fs::path> lasting_root() {
 
 /// With a lock, until it is released: the next run removes what a killed one left.
 fs::path new_folder(const fs::path& root, const char* beginning) {
-    const fs::path folder = make_folder_in_use(root, beginning_in_use(beginning));
+    const fs::path folder = make_folder_in_use(root, prefix_in_use(beginning));
     if (folder.empty()) throw EnvironmentError("cannot create a folder in {}: {}", root.string(), system_reason(errno));
     return folder;
 }
@@ -75,7 +75,7 @@ void remove_leftovers_of_killed_runs(const fs::path& root) {
         if (!cleaned.insert(root).second) return;
     }
     for (const char* beginning : {kUnfinished, kDropped})
-        remove_unused(root, beginning_in_use(beginning), Leftovers::kFilesAndFolders);
+        remove_unused(root, prefix_in_use(beginning), Leftovers::kFilesAndFolders);
 }
 
 bool is_plain(std::string_view name) {
@@ -134,7 +134,7 @@ struct UnfinishedFile {
 /// A file of the digest and then the bytes. Nobody waits for the disk: what a power failure leaves does not match.
 UnfinishedFile write_unfinished(const fs::path& root, std::string_view bytes) {
     for (;;) {
-        std::string path = root / (beginning_in_use(kUnfinished) + "XXXXXX");
+        std::string path = root / (prefix_in_use(kUnfinished) + "XXXXXX");
         FileDescriptor file(::mkostemp(path.data(), O_CLOEXEC));
         if (file && !lock_as_in_use(file.get(), path)) continue;  // taken for a leftover, before it had its lock
         const std::string digest = digest_of(bytes).hex();
@@ -198,20 +198,20 @@ Cache::Cache(std::uint64_t limit_bytes) : limit_bytes_(limit_bytes) {
     if (lasting_) remove_leftovers_of_killed_runs(root_);
 }
 
-std::optional<std::string> Cache::recall(const std::string& name) const {
+std::optional<std::string> Cache::load_entry(const std::string& name) const {
     check_name(name);
     try {
         if (!mark_as_used(root_ / name)) return {};
         const std::string content = read_file(root_ / name);
         const std::string_view bytes = std::string_view(content).substr(std::min(kDigestDigits, content.size()));
         if (content.substr(0, kDigestDigits) == digest_of(bytes).hex()) return std::string(bytes);
-        forget(name);
+        erase_entry(name);
     } catch (const std::exception&) {  // deleted meanwhile, or not to be read: then it is made anew
     }
     return {};
 }
 
-void Cache::remember(const std::string& name, std::string_view bytes) const {
+void Cache::save_entry(const std::string& name, std::string_view bytes) const {
     check_name(name);
     try {
         write(name, bytes);
@@ -265,7 +265,7 @@ fs::path Cache::commit(const fs::path& prepared, const std::string& name) const 
     return folder;
 }
 
-void Cache::forget(const std::string& name) const {
+void Cache::erase_entry(const std::string& name) const {
     check_name(name);
     drop(root_, root_ / name);
 }

@@ -10,9 +10,9 @@
 
 namespace dynlab::inline platform {
 
-/// What a cache spared, and what was made anew.
+/// Number of results that a cache returned, and number of results that were computed.
 struct CacheUse {
-    std::size_t recalled = 0, made = 0;
+    std::size_t from_cache = 0, made = 0;
 };
 
 /// The name of an entry: its kind, and a digest of what makes such entries (the program, unless another maker is given)
@@ -28,23 +28,23 @@ class EntryName {
     DigestStream parts_;
 };
 
-/// The one store of what is kept between runs: $XDG_CACHE_HOME/dynlab, else ~/.cache/dynlab. Entries are bytes, or
-/// files in a folder; they appear whole and may be deleted at any time. When what was written since the last look
-/// exceeds a sixteenth of `limit_bytes`, the least recently used are dropped until all fit the limit, but none that was
-/// used within the last minute. With DYNLAB_NO_CACHE set, or where no such folder can be made, the store is private
-/// and goes with the process. What is graded is made without.
+/// Cache for results between runs, in $XDG_CACHE_HOME/dynlab or ~/.cache/dynlab. An entry consists of bytes or of a
+/// folder with files. Entries are written atomically, and users may delete them at any time. If the bytes written since
+/// the last check exceed a sixteenth of `limit_bytes`, the cache evicts the least recently used entries until the rest
+/// fits, but no entry used within the last minute. If DYNLAB_NO_CACHE is set, or if the folder cannot be created, the
+/// cache is private to the process. Grading does not use the cache.
 class Cache {
   public:
     explicit Cache(std::uint64_t limit_bytes = 512u << 20);
 
-    /// Whether later runs will find anything; where not, names for what is to last need not be made.
+    /// Whether entries survive this process. If not, callers need not compute names of entries.
     bool lasting() const { return lasting_; }
     const std::filesystem::path& root() const { return root_; }
 
-    /// Bytes under a name. Whatever happens to the disk, work goes on: what cannot be kept is not kept, what is spoilt
-    /// is not recalled and is forgotten. The later of two writers wins.
-    std::optional<std::string> recall(const std::string& name) const;
-    void remember(const std::string& name, std::string_view bytes) const;
+    /// Entries of bytes. Disk errors do not stop the caller: bytes that cannot be written are not cached, and a corrupt
+    /// entry is removed and counts as missing. If two processes write the same entry, the later one wins.
+    std::optional<std::string> load_entry(const std::string& name) const;
+    void save_entry(const std::string& name, std::string_view bytes) const;
 
     /// Files under a name: the entry's folder if it is there, which marks it as just used.
     std::optional<std::filesystem::path> find(const std::string& name) const;
@@ -53,7 +53,7 @@ class Cache {
     std::filesystem::path prepare() const;
     std::filesystem::path commit(const std::filesystem::path& prepared, const std::string& name) const;
 
-    void forget(const std::string& name) const;
+    void erase_entry(const std::string& name) const;
 
   private:
     void write(const std::string& name, std::string_view bytes) const;

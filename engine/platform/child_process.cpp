@@ -22,14 +22,14 @@ constexpr char kBoxProgram[] = "bwrap";
 /// A process that outlives this program by a moment, to kill the groups that run then. `changes` has the leader of each
 /// that begins, and minus the leader of each that has ended.
 [[noreturn]] void survive(int changes) {
-    constexpr int kMost = 1024;
-    static pid_t groups[kMost] = {};
+    constexpr int kMax = 1024;
+    static pid_t groups[kMax] = {};
     ::setsid();
     if (changes > 0) ::close_range(0, static_cast<unsigned>(changes) - 1, 0);
     ::close_range(static_cast<unsigned>(changes) + 1, ~0U, 0);
     pid_t change = 0;
     while (retry_interrupted([&] { return ::read(changes, &change, sizeof change); }) == sizeof change)
-        if (pid_t* const place = std::find(groups, groups + kMost, std::max(-change, 0)); place != groups + kMost)
+        if (pid_t* const place = std::find(groups, groups + kMax, std::max(-change, 0)); place != groups + kMax)
             *place = std::max(change, 0);
     for (const pid_t group : groups)
         if (group > 0) ::kill(-group, SIGKILL);
@@ -48,14 +48,14 @@ int changes_of_boxes() {
     return changes.write_end.get();
 }
 
-void tell_change(int changes, pid_t change) {
+void notify_change(int changes, pid_t change) {
     write_all(changes, reinterpret_cast<const char*>(&change), sizeof change);
 }
 
-struct EndOfBox {
+struct EndOfSandbox {
     pid_t leader = 0;  ///< 0: it was no box
-    ~EndOfBox() {
-        if (leader > 0) tell_change(changes_of_boxes(), -leader);
+    ~EndOfSandbox() {
+        if (leader > 0) notify_change(changes_of_boxes(), -leader);
     }
 };
 
@@ -131,7 +131,7 @@ Launch prepare_launch(const ChildOptions& options, const std::string& package) {
 [[noreturn]] void become_program(const Launch& launch, pid_t parent, int output, int error_output, int failure) {
     if (launch.changes >= 0) ::setsid();
     if (!become_group_leader(parent)) ::_exit(127);
-    if (launch.changes >= 0) tell_change(launch.changes, ::getpid());
+    if (launch.changes >= 0) notify_change(launch.changes, ::getpid());
     const bool ready = ::dup2(launch.input.get(), STDIN_FILENO) >= 0 && ::dup2(output, STDOUT_FILENO) >= 0 &&
                        ::dup2(error_output, STDERR_FILENO) >= 0 &&
                        (launch.folder.empty() || ::chdir(launch.folder.c_str()) == 0);
@@ -184,7 +184,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 
 ChildResult run_child(const ChildOptions& options, const std::string& package) {
     const auto group = start(options, package);
-    const EndOfBox end{options.command.front() == kBoxProgram ? group->leader() : 0};
+    const EndOfSandbox end{options.command.front() == kBoxProgram ? group->leader() : 0};
     return group->wait();
 }
 

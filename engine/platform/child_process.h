@@ -27,7 +27,7 @@ struct ChildOptions {
     std::optional<std::uint64_t> file_bytes;    ///< of the largest file the child may write; SIGXFSZ ends it
     std::uint64_t output_bytes = 64u << 20;     ///< more output than this ends the child
     std::function<bool()> give_up = {};         ///< asked twenty times a second: true ends the child
-    bool heeds_interrupt = true;  ///< false: Ctrl-C is left for later, as what is begun or undone must be whole
+    bool heeds_interrupt = true;  ///< false: Ctrl-C is deferred, because the work must be complete or undone
 };
 
 struct ChildResult {

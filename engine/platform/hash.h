@@ -31,7 +31,7 @@ std::string sha256_of_file(const std::filesystem::path& file);  ///< throws Envi
 /// HMAC-SHA256 (RFC 2104) of the parts, one after the other, as 64 lower-case hexadecimal digits: shows those who share
 /// the key that a message is of one of them.
 std::string hmac_sha256(std::string_view key, std::initializer_list<std::string_view> parts);
-/// In a time that does not tell where they differ, so that nobody can guess a secret piece by piece.
+/// Compares in constant time, so that an attacker cannot find a secret byte by byte.
 bool equal_in_constant_time(std::string_view a, std::string_view b);
 
 /// 128 bits that tell contents apart, as 32 lower-case hexadecimal digits.

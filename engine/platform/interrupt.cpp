@@ -17,7 +17,7 @@ namespace {
 volatile std::sig_atomic_t interrupt_count = 0;
 volatile std::sig_atomic_t ending_count = 2;
 volatile std::sig_atomic_t termination = 0;  // the signal
-volatile std::sig_atomic_t ends_unheard = 0;
+volatile std::sig_atomic_t ends_unhandled = 0;
 std::atomic<int> slow_endings{0};
 int open_scopes = 0;  // scopes are made by the main thread only
 
@@ -35,7 +35,7 @@ void count_interrupt(int number) {
     interrupt_count = interrupt_count + 1;
     if (number != SIGINT) termination = number;
     if (interrupt_count < ending_count) {
-        if (ends_unheard != 0) set_alarm(kMicrosecondsToHear);
+        if (ends_unhandled != 0) set_alarm(kMicrosecondsToHear);
         return;
     }
     ::signal(number, SIG_DFL);
@@ -44,7 +44,7 @@ void count_interrupt(int number) {
 
 /// Whatever the program was doing, locks and memory may be in any state here: system calls only.
 void end_unheard(int) {
-    if (ends_unheard == 0) return;
+    if (ends_unhandled == 0) return;
     if (slow_endings > 0) return set_alarm(kMicrosecondsToHear);
     end_what_ends_with_program();
     constexpr std::string_view kLastWords =
@@ -55,7 +55,7 @@ void end_unheard(int) {
     ::_exit(128 + SIGINT);
 }
 
-void begin_anew(int count_that_ends) {
+void begin_again(int count_that_ends) {
     set_alarm(0);
     ending_count = count_that_ends;
     interrupt_count = 0;
@@ -63,10 +63,10 @@ void begin_anew(int count_that_ends) {
 
 }  // namespace
 
-InterruptScope::InterruptScope(Unheard unheard) {
+InterruptScope::InterruptScope(Unhandled unhandled) {
     if (open_scopes++ > 0) return;
-    begin_anew(2);
-    ends_unheard = unheard == Unheard::kEnds ? 1 : 0;
+    begin_again(2);
+    ends_unhandled = unhandled == Unhandled::kEnds ? 1 : 0;
     struct sigaction action {};
     action.sa_handler = count_interrupt;
     sigemptyset(&action.sa_mask);
@@ -83,7 +83,7 @@ InterruptScope::InterruptScope(Unheard unheard) {
 InterruptScope::~InterruptScope() {
     if (--open_scopes > 0) return;
     for (std::size_t i = 0; i < std::size(kSignals); ++i) ::sigaction(kSignals[i], &actions_before[i], nullptr);
-    begin_anew(2);
+    begin_again(2);
     ::sigaction(SIGALRM, &alarm_action_before, nullptr);
 }
 
@@ -103,13 +103,13 @@ void throw_if_interrupted() {
     if (interrupted()) throw Interrupted();
 }
 
-void forget_interrupts(int count_that_ends) {
-    ends_unheard = 0;
-    begin_anew(count_that_ends);
+void clear_interrupts(int count_that_ends) {
+    ends_unhandled = 0;
+    begin_again(count_that_ends);
 }
 
 void end_when_terminated() {
-    ends_unheard = 0;
+    ends_unhandled = 0;
     for (const int number : {SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
 }
 

@@ -10,8 +10,8 @@ class InterruptScope {
     /// What happens 0.4 s after the first signal, where the program is still there: calls of libraries
     /// and of Lua's own functions cannot look at the flag. kEnds: it ends, with what EndsWithProgram names, by exit
     /// code 130 or the signal.
-    enum class Unheard { kGoesOn, kEnds };
-    explicit InterruptScope(Unheard unheard = Unheard::kGoesOn);
+    enum class Unhandled { kGoesOn, kEnds };
+    explicit InterruptScope(Unhandled unhandled = Unhandled::kGoesOn);
     ~InterruptScope();
     InterruptScope(const InterruptScope&) = delete;
     InterruptScope& operator=(const InterruptScope&) = delete;
@@ -31,7 +31,7 @@ void throw_if_interrupted();  ///< throws Interrupted
 
 /// For a program that goes on after the work that was interrupted (the prompt): the flag is down again, and only so
 /// many SIGINT without another call end the program; from now on it does not end for being still there.
-void forget_interrupts(int count_that_ends = 2);
+void clear_interrupts(int count_that_ends = 2);
 
 /// For a program that waits for its user (the prompt): SIGTERM and SIGHUP end it at once, as if there were no scope,
 /// and it does not end for being still there after Ctrl-C.

@@ -5,9 +5,9 @@
 namespace dynlab::inline platform {
 
 void keep_freed_memory() {
-    constexpr int kLargest = 1 << 30;  // of a piece, and of what is kept
-    mallopt(M_MMAP_THRESHOLD, kLargest);
-    mallopt(M_TRIM_THRESHOLD, kLargest);
+    constexpr int kMaxValue = 1 << 30;  // of a piece, and of what is kept
+    mallopt(M_MMAP_THRESHOLD, kMaxValue);
+    mallopt(M_TRIM_THRESHOLD, kMaxValue);
 }
 
 void return_freed_memory() {

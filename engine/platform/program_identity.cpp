@@ -34,7 +34,7 @@ int add_library(dl_phdr_info* library, std::size_t, void* stamps) {
 const std::string& program_identity() {
     static const std::string stamps = [] {
         std::string programs;
-        for (const fs::path& program : programs_beside(running_program())) programs += file_stamp(program) + "\n";
+        for (const fs::path& program : programs_next_to(running_program())) programs += file_stamp(program) + "\n";
         ::dl_iterate_phdr(add_library, &programs);
         return programs;
     }();

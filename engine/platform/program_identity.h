@@ -7,8 +7,8 @@ namespace dynlab::inline platform {
 /// Path, size and time of writing of an installed file, which stand for its content; empty when there is no such file.
 std::string file_stamp(const std::filesystem::path& file);
 
-/// The running program with those beside it, and the variant of its own libraries that was loaded, by their stamps:
-/// hashing megabytes would cost more than a whole report.
+/// Identity of the running program: the stamps of the program, of the other dynlab programs in its folder and of the
+/// loaded variant of its libraries. Stamps are used because hashing megabytes would cost more time than a report.
 const std::string& program_identity();
 
 }  // namespace dynlab::inline platform

@@ -61,7 +61,7 @@ fs::path shared_folder_of(const fs::path& program) {
 
 fs::path running_program() {
     const fs::path file = fs::read_symlink("/proc/self/exe");
-    for (const char* other : {kCourseProgram, kBoxedProgram})
+    for (const char* other : {kCourseProgram, kSandboxProgram})
         if (file.filename() == other) return file.parent_path() / kProgram;
     return file;
 }
@@ -70,9 +70,9 @@ fs::path source_record(const fs::path& dynlab) {
     return dynlab.parent_path().parent_path() / "share/dynlab/source";
 }
 
-std::vector<fs::path> programs_beside(const fs::path& dynlab) {
+std::vector<fs::path> programs_next_to(const fs::path& dynlab) {
     std::vector<fs::path> files = {dynlab};
-    for (const char* other : {kCourseProgram, kBoxedProgram})
+    for (const char* other : {kCourseProgram, kSandboxProgram})
         if (fs::is_regular_file(dynlab.parent_path() / other)) files.push_back(dynlab.parent_path() / other);
     return files;
 }

@@ -12,7 +12,7 @@ std::optional<std::filesystem::path> find_program(const std::string& name);  ///
 /// as the second, which has all commands. The last one works in sandboxes.
 inline constexpr const char* kProgram = "dynlab";
 inline constexpr const char* kCourseProgram = "dynlab-course";
-inline constexpr const char* kBoxedProgram = "dynlab-boxed";
+inline constexpr const char* kSandboxProgram = "dynlab-boxed";
 
 /// The file of the program that runs; that of dynlab where one of the others does.
 std::filesystem::path running_program();
@@ -22,7 +22,7 @@ std::filesystem::path running_program();
 std::filesystem::path source_record(const std::filesystem::path& dynlab);
 
 /// Those of dynlab's programs that are there, in the order above, `dynlab` being the file of the first.
-std::vector<std::filesystem::path> programs_beside(const std::filesystem::path& dynlab);
+std::vector<std::filesystem::path> programs_next_to(const std::filesystem::path& dynlab);
 
 /// The folder of a program's own libraries, <prefix>/lib/dynlab beside it; those of portable builds have one.
 std::optional<std::filesystem::path> library_folder_of(const std::filesystem::path& program);

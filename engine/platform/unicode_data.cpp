@@ -110,7 +110,7 @@ std::string folded_letter(char32_t given) {
     return letters;
 }
 
-bool is_silent(char32_t c) {
+bool is_ignorable(char32_t c) {
     if (c < 0x80) return false;
     const bool on_its_own = c == 0xA8 || c == 0xB4 || c == 0xB8 || (c >= 0x2C6 && c < 0x2E0);
     return on_its_own || is_accent(c) ||

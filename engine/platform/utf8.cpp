@@ -9,12 +9,12 @@
 namespace dynlab::inline platform {
 namespace {
 
-constexpr std::size_t kLongestCharacter = 4;  ///< bytes
+constexpr std::size_t kMaxCharacterBytes = 4;  ///< bytes
 
 }  // namespace
 
 std::optional<char32_t> take_character(std::string_view& utf8) {
-    const std::string_view first = utf8.substr(0, kLongestCharacter);
+    const std::string_view first = utf8.substr(0, kMaxCharacterBytes);
     const auto bytes = reinterpret_cast<const std::uint8_t*>(first.data());
     std::int32_t length = 0;
     UChar32 c = 0;
@@ -60,7 +60,7 @@ std::u16string utf16_of(std::string_view utf8) {
 
 std::string utf8_of(char32_t character) {
     if (character > 0x10FFFF || U_IS_SURROGATE(character)) character = kNoCharacter;
-    std::array<std::uint8_t, kLongestCharacter> bytes{};
+    std::array<std::uint8_t, kMaxCharacterBytes> bytes{};
     std::size_t length = 0;
     U8_APPEND_UNSAFE(bytes.data(), length, static_cast<std::uint32_t>(character));
     return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)};

@@ -38,7 +38,7 @@ std::string folded_letter(char32_t character);
 
 /// What leaves no trace when letters are compared: accents on their own or combining, the soft hyphen, signs without
 /// width and those that direct the text.
-bool is_silent(char32_t character);
+bool is_ignorable(char32_t character);
 
 /// A script by its name and its code (UAX #24, ISO 15924): "Devanagari", "Deva". Both are empty for characters that
 /// several scripts share: digits, signs, most accents.

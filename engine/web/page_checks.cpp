@@ -80,12 +80,12 @@ class CheckedWork {
         const CheckResults listed = read.listed({});
         make_records(read, listed);
         std::set<std::string> runs = {kMainRun};
-        for (const TriedCheck& one : listed.checks)
+        for (const EvaluatedCheck& one : listed.checks)
             if (!one.check.rerun.empty()) runs.insert(one.check.rerun);
         for (const std::string& run : runs) submission_.work.runs[run] = run_on(run);
         CheckedNews news;
         ReadChecks checks(job_, &submission_);
-        for (const TriedCheck& one : checks.tried()) news.checks.push_back(shown(one));
+        for (const EvaluatedCheck& one : checks.evaluated()) news.checks.push_back(shown(one));
         if (const auto& error = submission_.work.runs.at(kMainRun).error) news.trouble = text(*error);
         return news;
     }
@@ -104,19 +104,19 @@ class CheckedWork {
     /// Hidden records of what the checks speak of, and those of reruns.
     void make_records(ReadChecks& read, const CheckResults& listed) {
         std::set<std::string> reruns;
-        for (const TriedCheck& one : listed.checks)
+        for (const EvaluatedCheck& one : listed.checks)
             if (!one.check.rerun.empty() && one.check.rerun != kOtherSeedRun) reruns.insert(one.check.rerun);
         for (const std::string& rerun : reruns) {
             fs::create_directories(kRecords / rerun);
             write_file_atomically(kRecords / rerun / "SOURCE.md", "A record.\n");
         }
-        for (const Rig& rig : rig_catalogue()) {
+        for (const Plant& rig : plant_catalog()) {
             if (order_.checks.find(rig.name) == std::string::npos) continue;
             for (const std::string& run : {std::string(kHiddenRecords), rig.name}) {
                 if (run != kHiddenRecords && !reruns.contains(run)) continue;
-                const RigChoice choice{.specimen = drawn(rig.name), .seed = drawn(noise_of(rig.name, run))};
+                const PlantChoice choice{.specimen = drawn(rig.name), .seed = drawn(noise_of(rig.name, run))};
                 submission_.specimens[run][rig.name] = choice.specimen;
-                write_specimen_record(rig.name, choice, place_of(rig.name, run));
+                write_variant_data(rig.name, choice, place_of(rig.name, run));
             }
         }
         for (const std::string& rig : listed.rigs) {
@@ -148,11 +148,11 @@ class CheckedWork {
         GnuplotRenderer renderer;
         Runtime runtime(options, renderer);
         runtime.services().language = &language;
-        tell_progress(0, {});
+        report_progress(0, {});
         return graded_run(runtime.run(script_), script_);
     }
 
-    ShownCheck shown(const TriedCheck& one) const {
+    ShownCheck shown(const EvaluatedCheck& one) const {
         ShownCheck check{one.check.id, text(Message::verbatim(one.check.about)),
                          text(Message::verbatim(one.check.hint)), text(one.message), one.check.points};
         check.tried = !one.check.by_hand && !one.check.document;
@@ -164,7 +164,7 @@ class CheckedWork {
     PercentScript script_;
     Catalog authors_{order_.authors};
     ChecksJob job_;
-    SubmissionToJudge submission_;
+    SubmissionToGrade submission_;
 };
 
 }  // namespace

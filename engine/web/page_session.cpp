@@ -18,7 +18,7 @@ constexpr std::uint64_t kMostKept = 64u << 20;  // bytes of results of long call
 struct PageSession {
     Cache cache{kMostKept};
     CallCache calls{cache};
-    std::unique_ptr<World> world;
+    std::unique_ptr<RunEnvironment> world;
 };
 
 PageSession& session() {
@@ -34,10 +34,11 @@ const char* answer(std::string text) {
 }
 
 /// The world of the last run; before one, that of an empty script.
-World& world() {
+RunEnvironment& world() {
     PageSession& page = session();
     if (!page.world)
-        page.world = std::make_unique<World>(page.calls, parse_percent_script("", "script.lua"), PageRunOrder());
+        page.world =
+            std::make_unique<RunEnvironment>(page.calls, parse_percent_script("", "script.lua"), PageRunOrder());
     return *page.world;
 }
 
@@ -80,7 +81,7 @@ void dynlab_run(const char* order_json) {
         PageSession& page = session();
         if (!page.world || !page.world->goes_on(script, order)) {
             page.world.reset();  // before the next: memory for one
-            page.world = std::make_unique<World>(page.calls, script, order);
+            page.world = std::make_unique<RunEnvironment>(page.calls, script, order);
         }
         page.world->run(script, order);
     });
@@ -113,8 +114,8 @@ void dynlab_add_language(const char* code, const char* po_text) {
 const char* dynlab_lint(const char* source, const char* file, const char* language) {
     const Reader reader{catalog_of(language), &option_name};
     std::vector<Linted> found;
-    for (const LintFinding& finding : lint_script(source, file))
-        found.push_back({finding.line, finding.column, finding.kind, message_text(finding.message, reader)});
+    for (const LintIssue& issue : lint_script(source, file))
+        found.push_back({issue.line, issue.column, issue.kind, message_text(issue.message, reader)});
     return answer(json_of(found));
 }
 }

@@ -52,14 +52,14 @@ void send_json(const std::string& news) {
     dynlab_send_news(news.c_str());
 }
 
-void tell_progress(std::size_t part, const std::vector<std::string>& cells) {
-    ProgressBar::tell_instead([part, cells](std::size_t done, std::size_t total) {
+void report_progress(std::size_t part, const std::vector<std::string>& cells) {
+    ProgressBar::set_listener([part, cells](std::size_t done, std::size_t total) {
         const double share = total == 0 ? 0 : double(std::min(done, total)) / double(total);
         send({.kind = "progress", .part = part, .cells = cells, .progress = share});
     });
 }
 
-World::World(const CallCache& calls, const PercentScript& script, const PageRunOrder& order)
+RunEnvironment::RunEnvironment(const CallCache& calls, const PercentScript& script, const PageRunOrder& order)
     : language_{script.header.language},
       reader_{catalog_of(script.header.language), &option_name},
       sliders_{order.slider_values, true},
@@ -69,7 +69,7 @@ World::World(const CallCache& calls, const PercentScript& script, const PageRunO
     runtime_.begin_parts(script);
 }
 
-bool World::goes_on(const PercentScript& script, const PageRunOrder& order) const {
+bool RunEnvironment::goes_on(const PercentScript& script, const PageRunOrder& order) const {
     const std::vector<ScriptPart> parts = script_parts(script);
     const std::size_t first = order.again.empty() ? parts.size() : part_with(parts, order.again);
     if (failed_ || order.fresh || settings_ != settings_of(script, order) || done_.size() > first) return false;
@@ -78,13 +78,13 @@ bool World::goes_on(const PercentScript& script, const PageRunOrder& order) cons
     return true;
 }
 
-void World::run(const PercentScript& script, const PageRunOrder& order) {
+void RunEnvironment::run(const PercentScript& script, const PageRunOrder& order) {
     const std::vector<ScriptPart> parts = script_parts(script);
     const std::size_t until =
         order.until.empty() ? parts.size() : std::min(part_with(parts, order.until) + 1, parts.size());
     for (std::size_t i = done_.size(); i < until; ++i) {
         send({.kind = "begun", .part = i, .cells = parts[i].cells});
-        tell_progress(i, parts[i].cells);
+        report_progress(i, parts[i].cells);
         const auto start = std::chrono::steady_clock::now();
         RunRecord results = runtime_.run_part(script, parts[i]);
         News news{.kind = "done", .part = i, .cells = parts[i].cells, .seconds = seconds_since(start)};
@@ -100,7 +100,7 @@ void World::run(const PercentScript& script, const PageRunOrder& order) {
     send({.kind = "ended", .part = done_.size()});
 }
 
-std::map<std::string, PageFigure> World::new_figures(const RunRecord& results) {
+std::map<std::string, PageFigure> RunEnvironment::new_figures(const RunRecord& results) {
     std::map<std::string, PageFigure> figures;
     for (const auto& [name, recorded] : results.figures) {
         auto& [drawn, caption] = drawn_[name];

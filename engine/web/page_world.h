@@ -57,14 +57,14 @@ void describe(T& object, V& member) {
 }
 
 /// Of a slow call of the work that runs meanwhile.
-void tell_progress(std::size_t part, const std::vector<std::string>& cells);
+void report_progress(std::size_t part, const std::vector<std::string>& cells);
 void send(const News& news);
 void send_json(const std::string& news);
 
 /// A script's world. A page has one at a time; results of long calls stay from one to the next.
-class World {
+class RunEnvironment {
   public:
-    World(const CallCache& calls, const PercentScript& script, const PageRunOrder& order);
+    RunEnvironment(const CallCache& calls, const PercentScript& script, const PageRunOrder& order);
 
     Runtime& runtime() { return runtime_; }
     /// Whether the script can go on in this world: nothing that it needs to run again has run.

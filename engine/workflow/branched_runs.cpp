@@ -50,16 +50,16 @@ RunRecord received_record(int pipe) {
 class BranchingRun {
   public:
     BranchingRun(const RunRequest& request, int pipe)
-        : request_(request), pipe_(pipe), world_(request, renderer_), parts_(script_parts(request.script)) {}
+        : request_(request), pipe_(pipe), run_environment_(request, renderer_), parts_(script_parts(request.script)) {}
 
     void serve(const std::string& cell, const std::vector<SliderNumbers>& choices) {
         const auto holds = [&](const ScriptPart& part) {
             return std::find(part.cells.begin(), part.cells.end(), cell) != part.cells.end();
         };
         const auto first = std::find_if(parts_.begin(), parts_.end(), holds);
-        world_.runtime.begin_parts(request_.script);
+        run_environment_.runtime.begin_parts(request_.script);
         for (auto part = parts_.begin(); part != first; ++part) {
-            const RunRecord record = world_.runtime.run_part(request_.script, *part);
+            const RunRecord record = run_environment_.runtime.run_part(request_.script, *part);
             if (part + 1 != first) continue;
             for (const auto& [name, figure] : record.figures) before_[name] = cbor_of(*figure.figure);
         }
@@ -88,10 +88,10 @@ class BranchingRun {
     }
 
     RunRecord record_of(const SliderNumbers& choice, std::vector<ScriptPart>::const_iterator first) {
-        world_.sliders.chosen = choice;
+        run_environment_.sliders.chosen = choice;
         RunRecord record;
         for (auto part = first; part != parts_.end() && !record.error; ++part)
-            record = world_.runtime.run_part(request_.script, *part);
+            record = run_environment_.runtime.run_part(request_.script, *part);
         const Reader reader{catalog_of(request_.script.header.language)};
         for (auto& [name, figure] : record.figures) {
             const auto was = before_.find(name);
@@ -105,7 +105,7 @@ class BranchingRun {
     const RunRequest& request_;
     int pipe_;
     GnuplotRenderer renderer_;  // what scripts save for a place is nobody's
-    ScriptWorld world_;
+    ScriptEnvironment run_environment_;
     std::vector<ScriptPart> parts_;
     std::map<std::string, std::string> before_;  ///< figures made before the cell
 };

@@ -138,12 +138,12 @@ std::string called(const FunctionEntry& entry) {
 
 std::string functions_by_area() {
     std::vector<std::string_view> areas;
-    for (const FunctionEntry& entry : catalogue_of_functions())
+    for (const FunctionEntry& entry : catalog_of_functions())
         if (std::find(areas.begin(), areas.end(), entry.area) == areas.end()) areas.emplace_back(entry.area);
     std::string latex;
     for (const std::string_view area : areas) {
         latex += fmt::format("\\dynlabarea{{{}}}\n", latex_words(area));
-        for (const FunctionEntry& entry : catalogue_of_functions())
+        for (const FunctionEntry& entry : catalog_of_functions())
             if (entry.area == area)
                 latex += fmt::format("\\dynlabrow{{{}}}{{{}}}\n", latex_words(tied(called(entry))),
                                      latex_cell(entry.summary));

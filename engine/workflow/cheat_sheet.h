@@ -3,8 +3,8 @@
 
 namespace dynlab::inline workflow {
 
-/// Two pages to lay beside the keyboard, made from the help pages, as PDF. `output` appears whole or stays as it was.
-/// Throws MissingProgram without pdflatex, EnvironmentError for another kind of file.
+/// Creates a reference card of two pages from the help pages, as PDF. `output` is complete or unchanged. Throws
+/// MissingProgram without pdflatex, EnvironmentError for another file type.
 void make_cheat_sheet(const std::filesystem::path& output);
 
 }  // namespace dynlab::inline workflow

@@ -23,7 +23,7 @@ std::string source_of(const std::string& file, const PercentScript& script) {
     const fs::path folder = folder_around(script.file);
     const fs::path path = folder / file;
     std::error_code none;
-    if (fs::path(file).extension() != ".lua" || !fs::is_regular_file(path, none) || !lies_below(path, folder) ||
+    if (fs::path(file).extension() != ".lua" || !fs::is_regular_file(path, none) || !is_below_folder(path, folder) ||
         fs::file_size(path, none) > kLargestSource)
         return {};
     return read_text(path);

@@ -46,7 +46,7 @@ Message kind_of(const std::string& ending) {
 bool is_small_file(const std::filesystem::path& file) {
     std::error_code error;
     return std::filesystem::symlink_status(file, error).type() == std::filesystem::file_type::regular &&
-           std::filesystem::file_size(file, error) <= kMostSourceBytes && !error;
+           std::filesystem::file_size(file, error) <= kMaxSourceSize && !error;
 }
 
 }  // namespace
@@ -65,8 +65,8 @@ Message why_no_script(const fs::path& given, const std::string& command) {
 }
 
 Message nearly_called(const fs::path& folder, const std::string& name) {
-    const std::string wanted = in_small_letters(name), ending = ending_of(name);
-    const std::string stem = wanted.substr(0, wanted.size() - ending.size());
+    const std::string requested = in_small_letters(name), ending = ending_of(name);
+    const std::string stem = requested.substr(0, requested.size() - ending.size());
     std::vector<std::string> near;
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(folder, none)) {
@@ -80,8 +80,8 @@ Message nearly_called(const fs::path& folder, const std::string& name) {
                    ? Message("but {}: give that file", stem + ".ipynb")
                    : Message();
     std::sort(near.begin(), near.end());
-    constexpr std::size_t kMost = 3;
-    near.resize(std::min(near.size(), kMost));
+    constexpr std::size_t kMax = 3;
+    near.resize(std::min(near.size(), kMax));
     return Message("but {}: rename it to {}", listed(near), name);
 }
 

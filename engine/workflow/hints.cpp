@@ -81,13 +81,13 @@ bool HintsSeen::lasting() const {
 }
 
 std::size_t HintsSeen::count() const {
-    const auto known = Cache().recall(entry_);
+    const auto known = Cache().load_entry(entry_);
     const auto number = known ? read_number<int>(*known) : std::nullopt;
     return number && *number > 0 ? static_cast<std::size_t>(*number) : 0;
 }
 
-void HintsSeen::remember(std::size_t count) const {
-    Cache().remember(entry_, std::to_string(count));
+void HintsSeen::save_entry(std::size_t count) const {
+    Cache().save_entry(entry_, std::to_string(count));
 }
 
 }  // namespace dynlab::inline workflow

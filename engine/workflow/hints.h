@@ -17,14 +17,14 @@ using Hints = std::map<int, std::vector<std::string>>;
 Hints read_hints(const std::filesystem::path& file);
 Hints hints_in(const std::string& text, const std::filesystem::path& name);
 
-/// How many hints of a question somebody has seen, remembered in the cache under the lesson's name; 0 where it is
-/// forgotten. Hints are help and no secret: what is forgotten costs nothing.
+/// Number of hints of a question that the user has seen. The cache stores the number under the name of the lesson; it
+/// is 0 if the entry is missing. Hints are not secret, so a lost entry does no harm.
 class HintsSeen {
   public:
     HintsSeen(std::string lesson, int question);
-    bool lasting() const;  ///< whether anything is remembered at all
+    bool lasting() const;  ///< whether the cache survives this process
     std::size_t count() const;
-    void remember(std::size_t count) const;
+    void save_entry(std::size_t count) const;
 
   private:
     std::string entry_;

@@ -59,7 +59,7 @@ std::vector<std::string> simulated_data_of(const RunRecord& record) {
     for (const std::filesystem::path& file : record.files_read) {
         const std::filesystem::path folder = file.parent_path();
         const bool is_data_set = folder.parent_path().filename() == "data";
-        if (is_data_set && find_rig(folder.filename().string())) names.insert(folder.filename().string());
+        if (is_data_set && find_plant(folder.filename().string())) names.insert(folder.filename().string());
     }
     return {names.begin(), names.end()};
 }
@@ -68,13 +68,13 @@ std::vector<std::string> simulated_data_of(const Lesson& lesson) {
     const PercentScript script = read_percent_script(lesson.script());
     const Cache cache;
     const std::string name = EntryName("lessons").add(lesson.script().string()).add(script.source).text();
-    if (const auto known = cache.recall(name)) return words_of(*known);
+    if (const auto known = cache.load_entry(name)) return words_of(*known);
     const RunRecord record = run_of_solution(script);
     if (record.error)
         throw EnvironmentError("the data of lesson {} are unknown, because its reference solution stops: {}",
                                lesson.slug, record.error->text());
     const std::vector<std::string> names = simulated_data_of(record);
-    cache.remember(name, fmt::format("{}\n", fmt::join(names, "\n")));
+    cache.save_entry(name, fmt::format("{}\n", fmt::join(names, "\n")));
     return names;
 }
 

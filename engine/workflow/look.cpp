@@ -54,8 +54,8 @@ class DataLooker {
         if (usual_length(data_) != samples_) data_.time = find_clock(data_, samples_, options);
     }
 
-    DataLook look() const {
-        DataLook shown;
+    DataSummary look() const {
+        DataSummary shown;
         shown.text = title() + notes() + columns() + sampling() + first_rows();
         shown.text = terminal_text(shown.text);
         shown.figure = figure();
@@ -79,7 +79,7 @@ class DataLooker {
         if (const auto* vector = std::get_if<Vector>(&variable.value))
             signals_.push_back({name, unit_of(name), *vector});
         if (const auto* matrix = std::get_if<Matrix>(&variable.value))
-            for (Index j = 0; j < matrix->cols() && j < kMostPanels; ++j)
+            for (Index j = 0; j < matrix->cols() && j < kMaxPanels; ++j)
                 signals_.push_back({fmt::format("{}{}", name, j + 1), "", matrix->col(j)});
     }
 
@@ -191,21 +191,21 @@ class DataLooker {
         const Vector& t = clock()->t;
         const InstantSpacing& spacing = clock()->spacing;
         if (spacing.gaps.empty()) return "";
-        constexpr std::size_t kMostGaps = 5;
+        constexpr std::size_t kMaxGaps = 5;
         MessageList first{{}, Join::kSemicolon};
-        for (std::size_t i = 0; i < std::min(kMostGaps, spacing.gaps.size()); ++i) {
+        for (std::size_t i = 0; i < std::min(kMaxGaps, spacing.gaps.size()); ++i) {
             const Index at = spacing.gaps[i];
             first.items.push_back(Message("{} after {} s", seconds(t[at + 1] - t[at]), short_number(t[at])));
         }
-        if (spacing.gaps.size() > kMostGaps) first.items.push_back(Message::verbatim("..."));
+        if (spacing.gaps.size() > kMaxGaps) first.items.push_back(Message::verbatim("..."));
         return text(Message("gaps: {}, {}", spacing.gaps.size(), first)) + "\n";
     }
 
     std::string first_rows() const {
-        constexpr std::size_t kRows = 5, kMostColumns = 10;
+        constexpr std::size_t kRows = 5, kMaxColumns = 10;
         if (data_.columns.empty()) return "";
         TextRows table(1 + std::min(kRows, static_cast<std::size_t>(data_.rows)));
-        for (std::size_t j = 0; j < std::min(kMostColumns, data_.columns.size()); ++j) {
+        for (std::size_t j = 0; j < std::min(kMaxColumns, data_.columns.size()); ++j) {
             const std::string& name = data_.columns[j];
             const Variable& variable = data_.variables.at(name);
             const auto* numbers = std::get_if<Vector>(&variable.value);
@@ -219,22 +219,22 @@ class DataLooker {
                     table[i].push_back(i == 1 ? short_number(std::get<double>(variable.value)) : "");
             }
         }
-        if (data_.columns.size() > kMostColumns)
+        if (data_.columns.size() > kMaxColumns)
             for (auto& row : table) row.emplace_back("...");
         return line(Message("first rows:")) + aligned(table);
     }
 
     /// Long records are drawn by the least and the largest of each of many short stretches.
     static Curve thinned(const Vector& x, const Vector& y) {
-        constexpr Index kMostPoints = 4000;
+        constexpr Index kMaxPointCount = 4000;
         Curve curve;
-        if (y.size() <= kMostPoints) {
+        if (y.size() <= kMaxPointCount) {
             curve.x = x, curve.y = y;
             return curve;
         }
         std::vector<double> xs, ys;
-        for (Index k = 0; k < kMostPoints / 2; ++k) {
-            const Index begin = k * y.size() / (kMostPoints / 2), end = (k + 1) * y.size() / (kMostPoints / 2);
+        for (Index k = 0; k < kMaxPointCount / 2; ++k) {
+            const Index begin = k * y.size() / (kMaxPointCount / 2), end = (k + 1) * y.size() / (kMaxPointCount / 2);
             Index least = begin, most = begin;
             for (Index i = begin; i < end; ++i) {
                 if (!(y[i] >= y[least])) least = i;
@@ -261,7 +261,7 @@ class DataLooker {
             panel.x_range = {x[0], x[samples_ - 1]};
             panel.curves.push_back(thinned(x, signal.numbers));
             figure.panels.push_back(std::move(panel));
-            if (figure.panels.size() == kMostPanels) break;
+            if (figure.panels.size() == kMaxPanels) break;
         }
         if (figure.panels.empty()) return nullptr;
         figure.rows = static_cast<int>(figure.panels.size());
@@ -269,7 +269,7 @@ class DataLooker {
         return std::make_shared<const Figure>(std::move(figure));
     }
 
-    static constexpr Index kMostPanels = 8;
+    static constexpr Index kMaxPanels = 8;
     LoadedData data_;
     Reader reader_;
     std::vector<std::string> names_;  ///< in the file's order, or alphabetically
@@ -279,7 +279,7 @@ class DataLooker {
 
 }  // namespace
 
-DataLook look_at_data(const std::string& name, const ImportOptions& options, const Reader& reader) {
+DataSummary summarize_data(const std::string& name, const ImportOptions& options, const Reader& reader) {
     return DataLooker(load_data(name, ".", false, options), options, reader).look();
 }
 

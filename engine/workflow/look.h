@@ -12,13 +12,13 @@ struct Figure;
 namespace dynlab::inline workflow {
 
 /// What `dynlab inspect` shows of a data file.
-struct DataLook {
+struct DataSummary {
     std::string text;  ///< what was read: notes, columns with units and ranges, sampling, gaps, first rows
     std::shared_ptr<const Figure>
         figure;  ///< the signals over time (over the samples where it is unknown); at most eight
 };
 
 /// `name`: a data file or a data set. Throws EnvironmentError as load_data().
-DataLook look_at_data(const std::string& name, const ImportOptions& options, const Reader& reader = {});
+DataSummary summarize_data(const std::string& name, const ImportOptions& options, const Reader& reader = {});
 
 }  // namespace dynlab::inline workflow

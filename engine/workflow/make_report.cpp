@@ -256,10 +256,10 @@ ReportResult make_report(const ReportRequest& request) {
     GnuplotRenderer renderer(&cache);
     std::optional<CachedLatexFormat> latex_format;  // made by TeX while the script runs
     std::optional<RunRecord> known;
-    if (!anew) known = runs.recall();
-    const bool recalled = known.has_value();
+    if (!anew) known = runs.load_entry();
+    const bool from_cache = known.has_value();
     RunRecord record;
-    if (recalled) {
+    if (from_cache) {
         record = *std::move(known);
         watch.note("recall the run");
     } else {
@@ -298,9 +298,9 @@ ReportResult make_report(const ReportRequest& request) {
         options.pictures = &pictures;
         DocumentMaker(options).make(source, request.output, format, [&] {
             renderer.finish();
-            if (recalled) return;
+            if (from_cache) return;
             result.figures = renderer.use();
-            runs.remember(record);
+            runs.save_entry(record);
         });
         result.gaps = gaps.messages();
         record.files_read.insert(record.files_read.end(), pictures.begin(), pictures.end());
@@ -313,7 +313,7 @@ ReportResult make_report(const ReportRequest& request) {
         throw DocumentError(
             Message("{}\nThe report up to this point cannot be made: {}", *result.error, complaint.message()));
     }
-    if (!result.error && result.gaps.empty()) reports.remember(record);
+    if (!result.error && result.gaps.empty()) reports.save_entry(record);
     return result;
 }
 

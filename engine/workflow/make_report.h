@@ -29,9 +29,9 @@ struct ReportRequest {
                                    ///< a report is always made anew
     std::uint32_t seed = 1;
     std::map<std::string, double> slider_values;  ///< instead of what the script gives its sliders
-    bool of_lesson = false;       ///< its text is not the user's to mend: nothing is told of what has no place in it
-    bool stay_in_folder = false;  ///< the script reads files of its folder and the installed data only
-    std::function<void(const Message&)> step;        ///< called with each step as it begins; may be empty
+    bool of_lesson = false;                    ///< the user cannot change the text: unplaced entries are not reported
+    bool stay_in_folder = false;               ///< the script reads files of its folder and the installed data only
+    std::function<void(const Message&)> step;  ///< called with each step as it begins; may be empty
     std::function<void(const Message&)> enter_cell;  ///< called with each cell of the script as it begins
     std::function<void(const std::string&)> print;  ///< sees what the script prints; such a report is always made anew,
                                                     ///< and not at all where the script fails
@@ -71,8 +71,8 @@ ReportRequest sheet_of(const std::string& lesson, const std::filesystem::path& o
 /// the model answers for whoever asks; 05_thruster_talk.pdf unless given. Slots in the answers are filled from a run of
 /// the worked solution. Throws EnvironmentError for a lesson without such questions.
 ReportRequest talk_sheet_of(const std::string& lesson, bool with_answers, const std::filesystem::path& output = {});
-/// The model answers of a lesson for those who have handed in: its text with the worked solutions, figures and tables,
-/// without code and printed output, or the report beside it in `language` where there is one.
+/// The model answers of a lesson for students who have submitted: the text with the reference solutions, figures and
+/// tables, without code and printed output, or the report in the same folder in `language` if there is one.
 ReportRequest model_answers_of(const Lesson& lesson, const std::filesystem::path& output,
                                const std::string& language = {});
 /// The report of any script, with the template its header names, or that of lessons when it has no place for cells.

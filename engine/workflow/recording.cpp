@@ -217,8 +217,8 @@ Recording::Signal Recording::signal(const std::string& name) const {
 
 std::optional<Recording::Signal> Recording::matrix_column(const std::string& name) const {
     const std::size_t last = name.find_last_not_of("0123456789");
-    constexpr std::size_t kMostDigits = 6;
-    if (last == std::string::npos || last + 1 == name.size() || name.size() - last > kMostDigits) return std::nullopt;
+    constexpr std::size_t kMaxDigits = 6;
+    if (last == std::string::npos || last + 1 == name.size() || name.size() - last > kMaxDigits) return std::nullopt;
     const auto found = loaded_.variables.find(name.substr(0, last + 1));
     const Matrix* matrix = found == loaded_.variables.end() ? nullptr : std::get_if<Matrix>(&found->second.value);
     const int column = std::stoi(name.substr(last + 1));

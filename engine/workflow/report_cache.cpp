@@ -55,7 +55,7 @@ ReportCache::ReportCache(const ReportRequest& request, const Cache& cache)
                              : std::string()) {}
 
 bool ReportCache::unchanged() const {
-    const auto known = entry_.empty() ? std::nullopt : cache_.recall(entry_);
+    const auto known = entry_.empty() ? std::nullopt : cache_.load_entry(entry_);
     if (!known) return false;
     try {
         const auto [output, inputs] = from_cbor<ReportFacts>(*known, ValueLimits::own());
@@ -65,10 +65,10 @@ bool ReportCache::unchanged() const {
     }
 }
 
-void ReportCache::remember(const RunRecord& record) const {
+void ReportCache::save_entry(const RunRecord& record) const {
     if (entry_.empty()) return;
-    cache_.remember(entry_,
-                    cbor_of(ReportFacts{digest_or_nothing(output_), inputs_read(record.files_read, script_folder_)}));
+    cache_.save_entry(entry_,
+                      cbor_of(ReportFacts{digest_or_nothing(output_), inputs_read(record.files_read, script_folder_)}));
 }
 
 }  // namespace dynlab::inline workflow

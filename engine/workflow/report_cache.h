@@ -20,7 +20,7 @@ class ReportCache {
     ReportCache(const ReportRequest& request, const Cache& cache);
 
     bool unchanged() const;
-    void remember(const RunRecord& record) const;
+    void save_entry(const RunRecord& record) const;
 
   private:
     const Cache& cache_;

@@ -59,8 +59,8 @@ RunCache::RunCache(const ReportRequest& request, FigureFormat format, const Cach
       script_(fs::absolute(request.script.file)),
       entry_(cache.lasting() ? entry_of_script(request, script_, format) : std::string()) {}
 
-std::optional<RunRecord> RunCache::recall() const {
-    const auto known = entry_.empty() ? std::nullopt : cache_.recall(entry_);
+std::optional<RunRecord> RunCache::load_entry() const {
+    const auto known = entry_.empty() ? std::nullopt : cache_.load_entry(entry_);
     if (!known) return {};
     try {
         const auto inputs = from_cbor<InputsRead>(*known, ValueLimits::own());
@@ -73,7 +73,7 @@ std::optional<RunRecord> RunCache::recall() const {
     }
 }
 
-void RunCache::remember(const RunRecord& record) const {
+void RunCache::save_entry(const RunRecord& record) const {
     if (entry_.empty() || record.error || names_a_line(record)) return;
     try {
         keep(record);
@@ -87,7 +87,7 @@ void RunCache::keep(const RunRecord& record) const {
     for (const auto& [name, figure] : record.figures) fs::copy_file(figure.file, folder / figure.file.filename());
     write_file_atomically(folder / kRecord, cbor_of(record));
     cache_.commit(folder, entry_of_run(entry_, inputs));
-    cache_.remember(entry_, cbor_of(inputs));
+    cache_.save_entry(entry_, cbor_of(inputs));
 }
 
 }  // namespace dynlab::inline workflow

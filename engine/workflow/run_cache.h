@@ -19,9 +19,9 @@ class RunCache {
     RunCache(const ReportRequest& request, FigureFormat format, const Cache& cache);
 
     /// The record of an equal run, its figures' files in the cache.
-    std::optional<RunRecord> recall() const;
+    std::optional<RunRecord> load_entry() const;
     /// All figures of the record must have been drawn. Where it cannot be kept, nothing is.
-    void remember(const RunRecord& record) const;
+    void save_entry(const RunRecord& record) const;
 
   private:
     void keep(const RunRecord& record) const;

@@ -88,8 +88,9 @@ RunOptions run_options(const RunRequest& request) {
     options.print = request.print;
     options.call_cache = request.call_cache;
     if (request.enter_cell) {
-        options.enter_cell = [titles = cell_titles(request.script), tell = request.enter_cell](const std::string& id) {
-            if (const auto title = titles.find(id); title != titles.end()) tell(title->second);
+        options.enter_cell = [titles = cell_titles(request.script),
+                              notify = request.enter_cell](const std::string& id) {
+            if (const auto title = titles.find(id); title != titles.end()) notify(title->second);
         };
     }
     return options;
@@ -97,7 +98,7 @@ RunOptions run_options(const RunRequest& request) {
 
 }  // namespace
 
-ScriptWorld::ScriptWorld(const RunRequest& request, GnuplotRenderer& renderer)
+ScriptEnvironment::ScriptEnvironment(const RunRequest& request, GnuplotRenderer& renderer)
     : language{request.script.header.language},
       sliders{request.slider_values},
       runtime(run_options(request), renderer) {
@@ -106,7 +107,7 @@ ScriptWorld::ScriptWorld(const RunRequest& request, GnuplotRenderer& renderer)
 }
 
 RunRecord run_script(const RunRequest& request, GnuplotRenderer& renderer) {
-    ScriptWorld world(request, renderer);
+    ScriptEnvironment world(request, renderer);
     RunRecord record = world.runtime.run(request.script);
     if (!record.error) check_sliders(request, record);
     return record;

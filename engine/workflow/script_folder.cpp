@@ -48,9 +48,9 @@ class FilesNamed {
   private:
     /// Up to the bracket that closes the one before `begin`.
     static std::string in_brackets(const std::string& text, std::size_t begin) {
-        constexpr std::size_t kLongest = 300;
+        constexpr std::size_t kMaxLength = 300;
         int depth = 1;
-        for (std::size_t end = begin; end < std::min(text.size(), begin + kLongest); ++end) {
+        for (std::size_t end = begin; end < std::min(text.size(), begin + kMaxLength); ++end) {
             depth += text[end] == '(' ? 1 : text[end] == ')' ? -1 : 0;
             if (depth == 0) return text.substr(begin, end - begin);
         }

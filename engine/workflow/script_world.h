@@ -6,14 +6,14 @@
 namespace dynlab::inline workflow {
 
 /// What a script of a request runs in: its functions and their services. The request's `written` must outlive it.
-struct ScriptWorld {
+struct ScriptEnvironment {
     ReportLanguage language;
     SliderValues sliders;
     Runtime runtime;
 
-    ScriptWorld(const RunRequest& request, GnuplotRenderer& renderer);
-    ScriptWorld(const ScriptWorld&) = delete;
-    ScriptWorld& operator=(const ScriptWorld&) = delete;
+    ScriptEnvironment(const RunRequest& request, GnuplotRenderer& renderer);
+    ScriptEnvironment(const ScriptEnvironment&) = delete;
+    ScriptEnvironment& operator=(const ScriptEnvironment&) = delete;
 };
 
 }  // namespace dynlab::inline workflow

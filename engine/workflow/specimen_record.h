@@ -12,7 +12,7 @@ namespace dynlab::inline workflow {
 /// Writes NAME.mat into `folder`: the record of the data set's rig, rounded to seven significant digits as the stored
 /// ones are. Throws InvalidArgument for a data set that no rig makes, EnvironmentError where the file cannot be
 /// written.
-void write_specimen_record(const std::string& data_set, const RigChoice& choice, const std::filesystem::path& folder);
+void write_variant_data(const std::string& data_set, const PlantChoice& choice, const std::filesystem::path& folder);
 
 /// Makes `folder`/NAME with SOURCE.md and such a record for each of the data sets, as a group finds its own data:
 /// specimen and noise are the group's seed's, which SOURCE.md tells.

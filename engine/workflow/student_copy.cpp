@@ -125,14 +125,14 @@ PercentScript lesson_script(const Lesson& lesson, const std::string& language) {
 
 void make_student_copy(const Lesson& lesson, const fs::path& folder, std::optional<std::uint32_t> group_seed,
                        const std::string& language, const std::function<void(const fs::path&)>& further) {
-    make_whole_folder(folder, [&](const fs::path& growing) {
+    make_complete_folder(folder, [&](const fs::path& growing) {
         fill_lesson(growing, lesson, group_seed, language);
         if (further) further(growing);
     });
 }
 
 void make_review_folder(const fs::path& folder, const std::string& language) {
-    make_whole_folder(folder, [&](const fs::path& growing) { fill_review(growing, language); });
+    make_complete_folder(folder, [&](const fs::path& growing) { fill_review(growing, language); });
 }
 
 }  // namespace dynlab::inline workflow

@@ -35,7 +35,7 @@ TEST(channel, carries_open_files) {
     EXPECT_EQ(inner_here.receive()->bytes, "through it");
 }
 
-TEST(channel, tells_that_the_other_side_is_gone) {
+TEST(channel, reports_that_the_other_side_is_gone) {
     auto [here, there] = Channel::pair();
     there = Channel(FileDescriptor());
     EXPECT_FALSE(here.receive());

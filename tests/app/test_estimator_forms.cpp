@@ -51,16 +51,16 @@ std::string error_of(const std::string& code) {
 }
 
 TEST(estimator_forms, every_function_that_makes_a_model_of_a_record_is_there) {
-    std::set<std::string> wanted, there;
-    for (const FunctionEntry& entry : catalogue_of_functions()) {
+    std::set<std::string> expected, there;
+    for (const FunctionEntry& entry : catalog_of_functions()) {
         const std::string signature = entry.signature, area = entry.area;
         const bool estimates = area == "continuous time" || area == "discrete time" || area == "step tests" ||
                                area == "grey box" || area == "learning from data";
         if (estimates && signature.starts_with(entry.name + std::string("(data")) && signature.ends_with("-> G"))
-            wanted.insert(entry.name);
+            expected.insert(entry.name);
     }
     for (const EstimatorForm& one : estimator_forms()) there.insert(one.name);
-    EXPECT_EQ(there, wanted);
+    EXPECT_EQ(there, expected);
     EXPECT_GE(there.size(), 20u);
 }
 
@@ -85,7 +85,7 @@ TEST(estimator_forms, functions_know_all_options_that_are_offered) {
         }
 }
 
-TEST(estimator_forms, choices_flags_and_numbers_are_told_apart) {
+TEST(estimator_forms, choices_flags_and_numbers_are_distinguished) {
     EXPECT_EQ(option("srivc", "InitialState").kind, "choice");
     EXPECT_THAT(option("srivc", "InitialState").parts,
                 testing::ElementsAre("\"none\"", "\"steady\"", "\"estimate\"", "\"auto\""));

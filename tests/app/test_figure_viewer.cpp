@@ -29,15 +29,15 @@ TEST(figure_viewer, shows_figures_as_they_are_made_the_newest_first) {
     FigureViewer viewer;
     Browser browser;
     browser.open(viewer.address());
-    EXPECT_TRUE(browser.comes("document.getElementById('state').innerText.includes('none yet')"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText.includes('none yet')"));
     viewer.show("figure-1.pdf", figure_titled("First"));
-    EXPECT_TRUE(browser.comes("document.querySelector('img')?.naturalWidth > 100"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('img')?.naturalWidth > 100"));
     viewer.show("figure-2.pdf <b>", figure_titled("Second"));
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('img').length === 2"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('img').length === 2"));
     EXPECT_EQ(browser.evaluate("return [...document.querySelectorAll('figcaption')].map(n => n.innerText)"),
               "[\"figure-2.pdf <b>\",\"figure-1.pdf\"]");
     browser.open(viewer.address());  // again: all that were made
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('img').length === 2"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('img').length === 2"));
 }
 
 TEST(figure_viewer, figures_can_be_read_off_as_in_documents) {
@@ -45,15 +45,15 @@ TEST(figure_viewer, figures_can_be_read_off_as_in_documents) {
     Browser browser;
     browser.open(viewer.address());
     viewer.show("figure-1.pdf", figure_titled("First </script><b>"));
-    ASSERT_TRUE(browser.comes("document.querySelector('figure .plot')?.clientWidth > 100"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('figure .plot')?.clientWidth > 100"));
     browser.evaluate(
         "const plot = document.querySelector('.plot').plot, panel = plot.panels[0]; plot.setCursor({panel, x: "
         "panel.place(0.5, 0.5)[0], y: panel.place(0.5, 0.5)[1]})");
-    EXPECT_TRUE(browser.comes("/0\\.50/.test(document.querySelector('.reading').innerText)"));
+    EXPECT_TRUE(browser.becomes_true("/0\\.50/.test(document.querySelector('.reading').innerText)"));
     browser.evaluate("document.querySelector('.plot .data').click()");
     EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.samples tbody tr').length"), "5");
     viewer.show("figure-2.pdf", figure_titled("Second"));
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('figure .plot').length === 2"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('figure .plot').length === 2"));
 }
 
 /// A prompt has no document whose language the page could take.
@@ -63,7 +63,7 @@ TEST(figure_viewer, speaks_the_language_of_the_browser) {
     browser.devtools("Network.setUserAgentOverride", R"({"userAgent": "Chromium", "acceptLanguage": "fr-FR"})");
     browser.open(viewer->address());
     const auto state_is = [&](const std::string& pattern) {
-        return browser.comes("/" + pattern + "/.test(document.getElementById('state').innerText)");
+        return browser.becomes_true("/" + pattern + "/.test(document.getElementById('state').innerText)");
     };
     EXPECT_TRUE(state_is("^aucune encore.: tapez, par exemple, step\\(tf\\("));
     EXPECT_EQ(browser.evaluate("return [document.documentElement.lang, document.getElementById('name').innerText]"),
@@ -83,8 +83,8 @@ TEST(figure_viewer, speaks_a_language_that_came_with_a_catalog) {
     Browser browser;
     browser.devtools("Network.setUserAgentOverride", R"({"userAgent": "Chromium", "acceptLanguage": "eo-XX"})");
     browser.open(viewer.address());
-    EXPECT_TRUE(
-        browser.comes("document.getElementById('state').innerText === 'tajpu step(tf({1}, {1, 1})): ankoraŭ neniu'"));
+    EXPECT_TRUE(browser.becomes_true(
+        "document.getElementById('state').innerText === 'tajpu step(tf({1}, {1, 1})): ankoraŭ neniu'"));
     EXPECT_EQ(browser.evaluate("return [document.documentElement.lang, document.getElementById('name').innerText]"),
               "[\"eo\",\"Figuroj\"]");
 }
@@ -94,7 +94,7 @@ TEST(figure_viewer, forgets_the_oldest) {
     for (int i = 0; i < 103; ++i) viewer.show(std::to_string(i), figure_titled("A figure"));
     Browser browser;
     browser.open(viewer.address());
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('img').length === 100"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('img').length === 100"));
     EXPECT_EQ(browser.evaluate("return document.querySelector('main').lastElementChild.innerText"), "\"3\"");
 }
 

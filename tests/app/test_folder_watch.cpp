@@ -49,7 +49,7 @@ TEST_F(folder_watch, is_quiet_where_nothing_changes) {
     EXPECT_THAT(watch.changes(), IsEmpty());
 }
 
-TEST_F(folder_watch, a_folder_that_is_not_there_is_told) {
+TEST_F(folder_watch, a_folder_that_is_not_there_is_reported) {
     EXPECT_THROW(watch.add(folder.path() / "nowhere"), EnvironmentError);
 }
 

@@ -76,9 +76,9 @@ TEST(kernel_parts, history_keeps_the_last_thousand) {
 }
 
 TEST_F(kernel, says_who_it_is_and_beats) {
-    const json told = client().answer("kernel_info_request");
-    EXPECT_EQ(told["language_info"]["name"], "lua");
-    EXPECT_EQ(told["protocol_version"], "5.3");
+    const json reported = client().answer("kernel_info_request");
+    EXPECT_EQ(reported["language_info"]["name"], "lua");
+    EXPECT_EQ(reported["protocol_version"], "5.3");
     EXPECT_EQ(client().answer("kernel_info_request", {}, true)["implementation"], "dynlab");
     EXPECT_TRUE(client().beats());
     EXPECT_EQ(client().answer("comm_info_request")["comms"], json::object());
@@ -112,7 +112,7 @@ TEST_F(kernel, cells_print_show_values_formulas_and_figures_and_share_locals) {
     EXPECT_THAT(client().run("report.value('fit', 93.25, '%.1f')").printed, HasSubstr("fit: 93.2"));
 }
 
-TEST_F(kernel, mistakes_are_told_with_cell_line_and_text) {
+TEST_F(kernel, mistakes_are_reported_with_cell_line_and_text) {
     const auto ran = client().run("local y = 1\nprint(y + nil)");
     EXPECT_EQ(ran.reply["status"], "error");
     const json error = ran.first("error");
@@ -127,18 +127,19 @@ TEST_F(kernel, completes_inspects_and_knows_what_is_whole) {
     client().run("some_table = {alpha = 1, beta = 2}");
     // The cursor counts characters: two bytes of UTF-8 are one.
     const std::string code = "x = '\xC3\xA9'; y = some_table.al";
-    json told = client().answer("complete_request", {{"code", code + " + 1"}, {"cursor_pos", code.size() - 1}});
-    EXPECT_EQ(told["matches"], json{"alpha"});
-    EXPECT_EQ(told["cursor_start"], code.size() - 3);
-    EXPECT_EQ(told["cursor_end"], code.size() - 1);
-    told = client().answer("inspect_request", {{"code", "y = lsim(G, u)"}, {"cursor_pos", 6}, {"detail_level", 0}});
-    EXPECT_TRUE(told["found"]);
-    EXPECT_THAT(told["data"]["text/plain"].get<std::string>(), HasSubstr("lsim(G, u"));
-    told = client().answer("inspect_request", {{"code", "some_table.beta"}, {"cursor_pos", 15}, {"detail_level", 0}});
-    EXPECT_EQ(told["data"]["text/plain"], "2");
-    told =
+    json reported = client().answer("complete_request", {{"code", code + " + 1"}, {"cursor_pos", code.size() - 1}});
+    EXPECT_EQ(reported["matches"], json{"alpha"});
+    EXPECT_EQ(reported["cursor_start"], code.size() - 3);
+    EXPECT_EQ(reported["cursor_end"], code.size() - 1);
+    reported = client().answer("inspect_request", {{"code", "y = lsim(G, u)"}, {"cursor_pos", 6}, {"detail_level", 0}});
+    EXPECT_TRUE(reported["found"]);
+    EXPECT_THAT(reported["data"]["text/plain"].get<std::string>(), HasSubstr("lsim(G, u"));
+    reported =
+        client().answer("inspect_request", {{"code", "some_table.beta"}, {"cursor_pos", 15}, {"detail_level", 0}});
+    EXPECT_EQ(reported["data"]["text/plain"], "2");
+    reported =
         client().answer("inspect_request", {{"code", "nothing_of_the_kind"}, {"cursor_pos", 3}, {"detail_level", 0}});
-    EXPECT_FALSE(told["found"]);
+    EXPECT_FALSE(reported["found"]);
     EXPECT_THAT(client().run("lsim?").reply["payload"].dump(), HasSubstr("lsim(G, u"));
     const auto state = [](const char* text) {
         return client().answer("is_complete_request", {{"code", text}})["status"].get<std::string>();
@@ -294,7 +295,7 @@ TEST_F(kernel, a_frame_of_many_megabytes_is_not_taken) {
     EXPECT_LT(megabytes_of(client().process()), before + 100);
 }
 
-TEST_F(kernel, a_cell_that_ends_its_process_is_told_and_the_next_runs) {
+TEST_F(kernel, a_cell_that_ends_its_process_is_reported_and_the_next_runs) {
     client().run("kept = 1");
     const std::string id = client().start(kEndless);
     client().await_output(id);

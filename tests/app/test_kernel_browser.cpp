@@ -61,28 +61,28 @@ TEST(kernel_browser, shows_values_figures_formulas_stops_and_goes_on) {
     Browser browser;
     browser.open("http://127.0.0.1:" + port + "/notebooks/a.ipynb?token=t");
     ASSERT_TRUE(
-        browser.comes("window.Jupyter && Jupyter.notebook && Jupyter.notebook.kernel && "
-                      "Jupyter.notebook.kernel.is_connected() && Jupyter.notebook.get_cells().length === 7"));
+        browser.becomes_true("window.Jupyter && Jupyter.notebook && Jupyter.notebook.kernel && "
+                             "Jupyter.notebook.kernel.is_connected() && Jupyter.notebook.get_cells().length === 7"));
     const auto output_of = [](int cell, const std::string& says) {
         return "document.querySelectorAll('.cell')[" + std::to_string(cell) + "].querySelector('.output')?." + says;
     };
     browser.evaluate("Jupyter.notebook.execute_all_cells()");
-    EXPECT_TRUE(browser.comes(output_of(2, "innerText.includes('42')")));
-    EXPECT_TRUE(browser.comes(output_of(3, "querySelector('svg, img')?.getBoundingClientRect().width > 100")));
-    EXPECT_TRUE(browser.comes(output_of(4, "querySelector('.output_latex')")));
-    EXPECT_TRUE(browser.comes(output_of(5, "innerText.includes('on the way')")));
+    EXPECT_TRUE(browser.becomes_true(output_of(2, "innerText.includes('42')")));
+    EXPECT_TRUE(browser.becomes_true(output_of(3, "querySelector('svg, img')?.getBoundingClientRect().width > 100")));
+    EXPECT_TRUE(browser.becomes_true(output_of(4, "querySelector('.output_latex')")));
+    EXPECT_TRUE(browser.becomes_true(output_of(5, "innerText.includes('on the way')")));
     browser.click("button[data-jupyter-action='jupyter-notebook:interrupt-kernel']");
-    EXPECT_TRUE(browser.comes(output_of(5, "innerText.includes('interrupted')")));
+    EXPECT_TRUE(browser.becomes_true(output_of(5, "innerText.includes('interrupted')")));
     EXPECT_TRUE(
-        browser.comes("Jupyter.notebook.get_cell(6).get_text().includes('not reached') && "
-                      "!document.body.innerText.includes('not reached\\n\\n')"));
+        browser.becomes_true("Jupyter.notebook.get_cell(6).get_text().includes('not reached') && "
+                             "!document.body.innerText.includes('not reached\\n\\n')"));
     if (const char* folder = std::getenv("DYNLAB_SCREENSHOTS"))
         browser.photograph(std::string(folder) + "/notebook.png");
     // The cell is changed, and runs; what a cell kept is still there.
     browser.evaluate(
         "Jupyter.notebook.get_cell(5).set_text('print(x + 1)'); Jupyter.notebook.select(5); "
         "Jupyter.notebook.execute_cell()");
-    EXPECT_TRUE(browser.comes(output_of(5, "innerText.includes('22')")));
+    EXPECT_TRUE(browser.becomes_true(output_of(5, "innerText.includes('22')")));
     if (const char* folder = std::getenv("DYNLAB_SCREENSHOTS")) {
         browser.evaluate("document.querySelectorAll('.cell')[5].scrollIntoView()");
         browser.photograph(std::string(folder) + "/notebook_end.png");

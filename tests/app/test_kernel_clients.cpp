@@ -54,16 +54,16 @@ TEST_F(kernel_clients, nbconvert_runs_a_notebook_and_makes_a_page_of_it) {
                 AllOf(HasSubstr("42"), HasSubstr("<svg"), HasSubstr("\\frac{1}{s + 2}"), HasSubstr("A head")));
 }
 
-TEST_F(kernel_clients, doctor_tells_whether_the_kernel_is_there) {
-    const auto told = [&] { return jupyter("$DYNLAB doctor | grep Jupyter").output; };
-    EXPECT_THAT(told(), AllOf(HasSubstr("ok"), HasSubstr("installed\n")));
+TEST_F(kernel_clients, doctor_reports_whether_the_kernel_is_there) {
+    const auto reported = [&] { return jupyter("$DYNLAB doctor | grep Jupyter").output; };
+    EXPECT_THAT(reported(), AllOf(HasSubstr("ok"), HasSubstr("installed\n")));
     EXPECT_EQ(jupyter("$DYNLAB kernel remove").exit_code, 0);
-    EXPECT_THAT(told(), HasSubstr("not installed (dynlab kernel install"));
+    EXPECT_THAT(reported(), HasSubstr("not installed (dynlab kernel install"));
     EXPECT_EQ(jupyter("$DYNLAB kernel remove").exit_code, 1);
     bench.write("jupyter/kernels/dynlab/kernel.json", R"({"argv": ["/nowhere/dynlab"]})");
-    EXPECT_THAT(told(), AllOf(HasSubstr("--"), HasSubstr("/nowhere/dynlab does not exist")));
+    EXPECT_THAT(reported(), AllOf(HasSubstr("--"), HasSubstr("/nowhere/dynlab does not exist")));
     bench.write("jupyter/kernels/dynlab/kernel.json", "[");
-    EXPECT_THAT(told(), HasSubstr("not installed"));
+    EXPECT_THAT(reported(), HasSubstr("not installed"));
     bench.write("c.json", "{\"ip\": 3}");
     EXPECT_THAT(jupyter("$DYNLAB kernel run c.json").error_output, HasSubstr("not a Jupyter connection file. Jupyter"));
     bench.write("c.json", R"({"ip": "127.0.0.1", "key": "", "shell_port": 1, "control_port": 2, "stdin_port": 3,)"

@@ -29,7 +29,7 @@ class live_document : public testing::Test {
 
     /// Shows the document until its run is over; notes what a reader is told.
     void open() {
-        readings = 0, told.clear();
+        readings = 0, reported.clear();
         std::counting_semaphore<> over(0);
         ScriptRunner runner;
         LivePage page;
@@ -42,7 +42,7 @@ class live_document : public testing::Test {
             const json shown = json::parse(page.whole());
             const std::string whose = shown["recalled"] == true ? "of before" : "own";
             const std::string what = page.settled() ? "settled" : shown["running"] == true ? "running" : "waiting";
-            if (told.empty() || told.back() != whose + ", " + what) told.push_back(whose + ", " + what);
+            if (reported.empty() || reported.back() != whose + ", " + what) reported.push_back(whose + ", " + what);
             if (page.settled() && shown["html"].dump().find("it is 7") != std::string::npos) over.release();
         });
         document.allow_runs();
@@ -56,16 +56,17 @@ class live_document : public testing::Test {
     TemporaryFolder folder;
     test::EnvironmentVariable cache_home{"XDG_CACHE_HOME", folder.path() / "cache"};
     int readings = 0;
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
 };
 
 /// What is made beside the page waits for the end of the run, and is told of the document once.
 TEST_F(live_document, of_before_is_shown_until_its_run_is_over_and_read_once) {
     open();
-    ASSERT_FALSE(told.empty());
-    EXPECT_EQ(told.back(), "own, settled");
+    ASSERT_FALSE(reported.empty());
+    EXPECT_EQ(reported.back(), "own, settled");
     open();
-    EXPECT_THAT(told, ElementsAre("of before, waiting", "of before, running", "of before, waiting", "own, settled"));
+    EXPECT_THAT(reported,
+                ElementsAre("of before, waiting", "of before, running", "of before, waiting", "own, settled"));
     EXPECT_EQ(readings, 1);
 }
 

@@ -72,19 +72,19 @@ constexpr const char* kWrongInEnglish = "analysis.lua:3: unknown function or var
 constexpr const char* kWrongInFrench = "analysis.lua:3: il n'y a ni fonction ni variable «\u00A0y\u00A0»";
 
 /// Findings are made in English, as programs read them.
-TEST_F(live_page, tells_in_the_document_s_language_what_is_wrong_and_found) {
+TEST_F(live_page, reports_in_the_document_s_language_what_is_wrong_and_found) {
     CheckResult result;
     result.checked = {Message("checks of lesson {}: {} of {} points", "a", 0, 3)};
     result.findings = {{"answer-missing", Severity::kRule, 0, "",
                         Message("The answer \"{}\" (number) is missing.", "gain"),
                         Message("Submit it: answer(\"{}\", ...).", "gain")}};
-    const json findings = json::parse(findings_as_json(result));
+    const json findings = json::parse(issues_as_json(result));
     page.complain({kWrong});
     page.set_work(findings.dump(), false);
     EXPECT_EQ(whole()["language"], "en");
     EXPECT_EQ(whole()["complaints"], json({kWrongInEnglish}));
     EXPECT_EQ(whole()["findings"], findings);
-    EXPECT_EQ(page.told(kWrong), kWrongInEnglish);
+    EXPECT_EQ(page.translated(kWrong), kWrongInEnglish);
 
     page.changes();
     page.speak("fr", "");
@@ -93,17 +93,18 @@ TEST_F(live_page, tells_in_the_document_s_language_what_is_wrong_and_found) {
     EXPECT_EQ(changed["language"], "fr");
     EXPECT_EQ(changed["complaints"], json({kWrongInFrench}));
     EXPECT_EQ(changed["findings"]["checked"], findings["checked"]);
-    const json finding = changed["findings"]["findings"][0];
-    EXPECT_EQ(finding["what"], "La réponse «\u00A0gain\u00A0» (nombre) n'est pas donnée.");
-    EXPECT_EQ(finding["remedy"], "Donnez-la\u202F: answer(\"gain\", ...).");
-    EXPECT_EQ(page.told(Message("{}", MessageList{{kWrong, Message("{} (up to date)", "/tmp/a.pdf")}, Join::kLines})),
-              std::string(kWrongInFrench) + "\n/tmp/a.pdf (à jour)");
+    const json issue = changed["findings"]["findings"][0];
+    EXPECT_EQ(issue["what"], "La réponse «\u00A0gain\u00A0» (nombre) n'est pas donnée.");
+    EXPECT_EQ(issue["remedy"], "Donnez-la\u202F: answer(\"gain\", ...).");
+    EXPECT_EQ(
+        page.translated(Message("{}", MessageList{{kWrong, Message("{} (up to date)", "/tmp/a.pdf")}, Join::kLines})),
+        std::string(kWrongInFrench) + "\n/tmp/a.pdf (à jour)");
     page.set_work("no JSON", false);
     EXPECT_TRUE(whole()["findings"].is_null());
 }
 
 /// A header that turns to another language takes along what was told before it.
-TEST_F(live_page, tells_again_in_a_new_language_what_was_wrong_before) {
+TEST_F(live_page, reports_again_in_a_new_language_what_was_wrong_before) {
     const json english = json::array({kWrongInEnglish}), french = json::array({kWrongInFrench});
     const auto changed = [&] { return json::parse(page.changes().value())["complaints"]; };
     page.complain({kWrong});
@@ -143,13 +144,13 @@ TEST_F(live_page, reads_the_french_of_a_lesson_once) {
     const Message quuxes = Message::verbatim("quuxes abound here");
     const test::EnvironmentVariable lessons("DYNLAB_LESSONS", folder.path() / "lessons");
     page.speak("fr", "91_first");
-    EXPECT_EQ(page.told(quuxes), "c'est deux");
+    EXPECT_EQ(page.translated(quuxes), "c'est deux");
     add_lesson("91_first", "changed");
-    EXPECT_EQ(page.told(quuxes), "c'est deux");
+    EXPECT_EQ(page.translated(quuxes), "c'est deux");
     page.speak("fr", "92_second");
-    EXPECT_EQ(page.told(quuxes), "il y en a deux");
+    EXPECT_EQ(page.translated(quuxes), "il y en a deux");
     page.speak("fr", "");
-    EXPECT_EQ(page.told(quuxes), "quuxes abound here");
+    EXPECT_EQ(page.translated(quuxes), "quuxes abound here");
 }
 
 }  // namespace test_live_page

@@ -111,7 +111,7 @@ TEST(notebook, what_a_cell_shows_is_what_is_run) {
     EXPECT_EQ(parse_percent_script(source, "a.lua").cells.size(), 2u) << source;
 }
 
-TEST(notebook, places_are_told_as_jupyter_counts_them) {
+TEST(notebook, places_are_reported_as_jupyter_counts_them) {
     const std::string source =
         "-- ---\n-- title: T\n-- ---\n\n-- %% [markdown]\n-- words\n\n-- %%\nx = 1\ny = nil + x\n";
     EXPECT_EQ(message_text(place_in_notebook(source, 2)), "cell 1, line 2");
@@ -158,7 +158,7 @@ TEST(notebook, other_files_are_refused_with_a_reason) {
 }
 
 // Field case 17: a line of a string that reads as a marker, and cells that a script does not have.
-TEST(notebook, lines_that_read_as_markers_come_back_and_are_told) {
+TEST(notebook, lines_that_read_as_markers_come_back_and_are_reported) {
     for (const char* line : {"-- %% [markdown]", "--%%", "-- %% id=x", "--- %%", "---- %% a"}) {
         const std::string code = std::string("local s = [[\n") + line + "\ninside]]\nprint(s)";
         const NotebookScript script = script_of_notebook(
@@ -177,7 +177,7 @@ TEST(notebook, lines_that_read_as_markers_come_back_and_are_told) {
     }
 }
 
-TEST(notebook, raw_cells_are_left_out_and_told) {
+TEST(notebook, raw_cells_are_left_out_and_reported) {
     const NotebookScript script = script_of_notebook(
         notebook_with({cell("code", "x = 1"), cell("raw", "raw \\newpage"), cell("code", "print(x)")}).dump(),
         "a.ipynb");

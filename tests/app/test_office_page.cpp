@@ -34,13 +34,13 @@ class office_page : public testing::Test {
     }
     /// All commands have been answered.
     static bool settles(Browser& browser, double seconds = 60) {
-        return browser.comes(
+        return browser.becomes_true(
             "document.getElementById('last').className !== 'running' && "
             "!document.querySelector('.answer.waiting')",
             seconds);
     }
-    static bool answers_come(Browser& browser, int count) {
-        return browser.comes("document.querySelectorAll('.answer').length === " + std::to_string(count));
+    static bool answers_appear(Browser& browser, int count) {
+        return browser.becomes_true("document.querySelectorAll('.answer').length === " + std::to_string(count));
     }
     static std::vector<std::string> shown_names(Browser& browser) {
         return json::parse(
@@ -67,7 +67,7 @@ TEST_F(office_page, sixty_answers_are_marked_by_one_key_each) {
     const auto program = course.page();
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(answers_come(browser, 60));
+    ASSERT_TRUE(answers_appear(browser, 60));
     EXPECT_EQ(browser.evaluate(
                   "return document.querySelector('main').innerText.match(/.*(group-|Family|\\bs0\\d\\d\\b).*/)?.[0] ?? "
                   "'none'"),
@@ -81,7 +81,7 @@ TEST_F(office_page, sixty_answers_are_marked_by_one_key_each) {
         ++keys;
     }
     EXPECT_LE(keys, 60 * 1.5);
-    ASSERT_TRUE(browser.comes("document.getElementById('progress').textContent === '60 of 60 marked'", 120));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('progress').textContent === '60 of 60 marked'", 120));
     ASSERT_TRUE(settles(browser));
     const auto points = points_of(course);
     for (int i = 1; i <= 60; ++i) {
@@ -97,14 +97,14 @@ TEST_F(office_page, comments_are_used_again_and_marks_are_undone) {
     const auto program = course.page();
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(answers_come(browser, 4));
+    ASSERT_TRUE(answers_appear(browser, 4));
     const std::vector<std::string> names = shown_names(browser);
     press(browser, "cSign is wrong.\n3");
-    ASSERT_TRUE(browser.comes("document.querySelector('.reused')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.reused')"));
     press(browser, "a2");  // the comment of before, and points
     ASSERT_TRUE(settles(browser));
     press(browser, "p1.5\n");
-    ASSERT_TRUE(browser.comes("document.getElementById('progress').textContent === '3 of 4 marked'"));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('progress').textContent === '3 of 4 marked'"));
     ASSERT_TRUE(settles(browser));
     std::map<std::string, std::string> group_of;
     for (int i = 1; i <= 4; ++i)
@@ -119,7 +119,7 @@ TEST_F(office_page, comments_are_used_again_and_marks_are_undone) {
     press(browser, "u");
     ASSERT_TRUE(settles(browser));
     press(browser, "u");
-    ASSERT_TRUE(browser.comes("document.getElementById('progress').textContent === '1 of 4 marked'"));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('progress').textContent === '1 of 4 marked'"));
     ASSERT_TRUE(settles(browser));
     points = points_of(course);
     EXPECT_EQ(points[group_of[names[0]]], "8");
@@ -133,8 +133,8 @@ TEST_F(office_page, comments_are_used_again_and_marks_are_undone) {
     EXPECT_EQ(points_of(course)[group_of[names[0]]], "6");
     press(browser, "u");
     ASSERT_TRUE(settles(browser));
-    EXPECT_TRUE(
-        browser.comes("document.querySelectorAll('.answer')[0].querySelector('.mark').textContent === '3 of 4'"));
+    EXPECT_TRUE(browser.becomes_true(
+        "document.querySelectorAll('.answer')[0].querySelector('.mark').textContent === '3 of 4'"));
     EXPECT_EQ(points_of(course)[group_of[names[0]]], "8");
     EXPECT_THAT(browser.evaluate("return document.getElementById('lines').textContent"),
                 AllOf(HasSubstr("dynlab course mark lab4 answer-"), Not(HasSubstr("group-"))));
@@ -152,7 +152,7 @@ TEST_F(office_page, answers_are_text_whatever_they_hold) {
     const auto program = course.page();
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(answers_come(browser, 3));
+    ASSERT_TRUE(answers_appear(browser, 3));
     EXPECT_THAT(
         browser.evaluate("return document.querySelector('main').innerText"),
         AllOf(HasSubstr("<script>document.title = 'taken'</script>"), HasSubstr("مرحبا, 王小明, $\\\\frac{1}{2}$")));
@@ -162,8 +162,8 @@ TEST_F(office_page, answers_are_text_whatever_they_hold) {
     browser.evaluate("document.querySelector('.whole-text').closest('.answer').click()");
     press(browser, "w");
     EXPECT_TRUE(
-        browser.comes("[...document.querySelectorAll('.answer pre')].some((one) => one.textContent.length > "
-                      "1048576 && one.textContent.endsWith('end'))"));
+        browser.becomes_true("[...document.querySelectorAll('.answer pre')].some((one) => one.textContent.length > "
+                             "1048576 && one.textContent.endsWith('end'))"));
 }
 
 TEST_F(office_page, two_windows_and_a_terminal_lose_nothing) {
@@ -172,7 +172,7 @@ TEST_F(office_page, two_windows_and_a_terminal_lose_nothing) {
     const auto program = course.page();
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(answers_come(browser, 3));
+    ASSERT_TRUE(answers_appear(browser, 3));
     const std::vector<std::string> names = shown_names(browser);
     PageClient other(program->next_address());
     const auto order = [&](const std::vector<std::string>& words) {
@@ -185,11 +185,12 @@ TEST_F(office_page, two_windows_and_a_terminal_lose_nothing) {
     const json refused = order({"course", "mark", "lab4", names[0], "q3", "4", "--after=0"});
     EXPECT_EQ(refused["code"], 1);
     EXPECT_THAT(refused["words"].get<std::string>(), HasSubstr("seen by A"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.answer .mark').textContent === '1 of 4'")) << "it follows";
-    EXPECT_TRUE(browser.comes("document.querySelector('.answer .reason').textContent === 'seen by A'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.answer .mark').textContent === '1 of 4'"))
+        << "it follows";
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.answer .reason').textContent === 'seen by A'"));
     // A command in a terminal changes the store; the page follows.
     EXPECT_EQ(course.run({"mark", "lab4", names[1], "q3", "2", "--reason", "typed"}).exit_code, 0);
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('.answer .mark')[1].textContent === '2 of 4'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('.answer .mark')[1].textContent === '2 of 4'"));
     // What this window does not know yet is not replaced: it says what the mark is.
     browser.evaluate(
         "const real = window.fetch; window.fetch = (path, how) => (String(path).startsWith('marking') ? new Promise(() "
@@ -198,7 +199,7 @@ TEST_F(office_page, two_windows_and_a_terminal_lose_nothing) {
     browser.evaluate("document.querySelectorAll('.answer')[2].click()");
     press(browser, "0");
     ASSERT_TRUE(settles(browser));
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('.answer .mark')[2].textContent === '3 of 4'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('.answer .mark')[2].textContent === '3 of 4'"));
     EXPECT_THAT(browser.evaluate("return document.querySelectorAll('.answer')[2].innerText"),
                 AllOf(HasSubstr("nothing was changed"), HasSubstr("not seen")));
     std::map<std::string, std::string> points = points_of(course);
@@ -214,14 +215,14 @@ TEST_F(office_page, a_lost_connection_stores_no_mark_twice_and_loses_none) {
     const auto program = course.page();
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(answers_come(browser, 3));
+    ASSERT_TRUE(answers_appear(browser, 3));
     // The answer to the first order is lost although the command ran; the second one never arrives.
     browser.evaluate(
         "const real = window.fetch; let lost = 0; window.fetch = async (path, how) => { if (String(path) === 'command' "
         "&& lost < 2) { ++lost; if (lost === 1) await real(path, how); throw new TypeError('lost'); } return "
         "real(path, how); }");
     press(browser, "34");
-    ASSERT_TRUE(browser.comes("document.getElementById('progress').textContent === '2 of 3 marked'"));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('progress').textContent === '2 of 3 marked'"));
     ASSERT_TRUE(settles(browser));
     const std::string history = course.run({"history"}).output;
     int marks = 0;
@@ -240,15 +241,15 @@ TEST_F(office_page, every_action_is_a_command_that_the_page_shows) {
     Browser browser;
     browser.open(program->address());
     const auto click = [&](const std::string& words) {
-        return browser.comes(
+        return browser.becomes_true(
             "(() => { const found = [...document.querySelectorAll('button')].find((one) => "
             "one.textContent.trim() === `" +
                 words + "` && one.offsetParent); found?.click(); return found; })()",
             10);
     };
     ASSERT_TRUE(click("Today"));
-    ASSERT_TRUE(browser.comes("document.querySelector('[data-assignment=lab4] tbody tr')"));
-    ASSERT_TRUE(browser.comes(
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('[data-assignment=lab4] tbody tr')"));
+    ASSERT_TRUE(browser.becomes_true(
         "(() => { const row = [...document.querySelectorAll('[data-assignment=lab4] tr')].find((one) => "
         "one.innerText.includes('group-003')); if (!row) return false; [...row.querySelectorAll('button')].find((one) "
         "=> one.textContent === 'Extend').click(); return true; })()"));
@@ -256,31 +257,31 @@ TEST_F(office_page, every_action_is_a_command_that_the_page_shows) {
         "const [time, reason] = document.querySelectorAll('#ask input'); time.value = '2027-01-01 12:00'; "
         "reason.value = 'illness'; document.getElementById('ask-do').click()");
     EXPECT_TRUE(
-        browser.comes("document.getElementById('last').textContent === \"dynlab course extend lab4 group-003 "
-                      "'2027-01-01 12:00' --stage=first --reason=illness\""))
+        browser.becomes_true("document.getElementById('last').textContent === \"dynlab course extend lab4 group-003 "
+                             "'2027-01-01 12:00' --stage=first --reason=illness\""))
         << browser.evaluate("return document.getElementById('last').textContent");
     ASSERT_TRUE(settles(browser));
     EXPECT_THAT(course.run({"status", "lab4"}).output, HasSubstr("extended       group-003"));
     EXPECT_TRUE(
-        browser.comes("![...document.querySelectorAll('[data-assignment=lab4] tr')].some((one) => "
-                      "one.innerText.includes('group-003'))"))
+        browser.becomes_true("![...document.querySelectorAll('[data-assignment=lab4] tr')].some((one) => "
+                             "one.innerText.includes('group-003'))"))
         << "nothing is missing of it now";
     ASSERT_TRUE(click("Reviews"));
-    ASSERT_TRUE(browser.comes("document.querySelector('.matrix .review.outlier')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.matrix .review.outlier')"));
     browser.evaluate("document.querySelector('.matrix .review.outlier').click()");
     ASSERT_TRUE(click("Drop the scores"));
     browser.evaluate("document.querySelector('#ask input').value = 'zeros'; document.getElementById('ask-do').click()");
-    ASSERT_TRUE(browser.comes("document.getElementById('last').textContent.includes('--drop group-001')"));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('last').textContent.includes('--drop group-001')"));
     ASSERT_TRUE(settles(browser));
     EXPECT_THAT(course.run({"history"}).output, HasSubstr("the scores of group-001 for report-"));
     ASSERT_TRUE(click("Student"));
     browser.evaluate(
         "const field = document.getElementById('search'); field.value = 'nguyen'; "
         "field.dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter'}))");
-    EXPECT_TRUE(browser.comes("document.querySelector('main h2')?.textContent.startsWith('Nguyễn Family002')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('main h2')?.textContent.startsWith('Nguyễn Family002')"));
     ASSERT_TRUE(click("Marks"));
     ASSERT_TRUE(click("Export the marks"));
-    EXPECT_TRUE(browser.comes("document.querySelector('#changes a[download=\"marks.csv\"]')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('#changes a[download=\"marks.csv\"]')"));
     EXPECT_EQ(read_text(course.folder() / "exports/marks.csv"), course.run({"export"}).output);
 }
 
@@ -323,7 +324,7 @@ TEST_F(office_page, views_of_300_students_come_fast) {
     const auto program = course.page();
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(answers_come(browser, 300));
+    ASSERT_TRUE(answers_appear(browser, 300));
     const PageClient page(program->next_address());
     const std::map<std::string, std::pair<std::string, std::string>> views = {
         {"marking", {"/marking?assignment=lab2&question=3", "document.querySelectorAll('.answer').length === 300"}},
@@ -332,11 +333,11 @@ TEST_F(office_page, views_of_300_students_come_fast) {
         {"reviews", {"/reviews?assignment=crane", "document.querySelectorAll('.matrix tbody tr').length === 300"}},
         {"marks", {"/marks", "document.querySelectorAll('#all-marks tbody tr').length === 301"}}};
     browser.evaluate("document.querySelector('[data-view=student]').click()");
-    ASSERT_TRUE(browser.comes("document.getElementById('search')"));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('search')"));
     browser.evaluate(
         "const field = document.getElementById('search'); field.value = 'group-077'; "
         "field.dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter'}))");
-    ASSERT_TRUE(browser.comes("document.querySelectorAll('#facts section').length === 6"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('#facts section').length === 6"));
     for (const auto& [view, how] : views) {
         double server = 1e9, shown = 1e9;
         for (int i = 0; i < 5; ++i) {
@@ -353,7 +354,7 @@ TEST_F(office_page, views_of_300_students_come_fast) {
                 how.second +
                 ") requestAnimationFrame(() => { window.took = "
                 "performance.now() - window.begun; }); else setTimeout(look, 1); }; look();");
-            ASSERT_TRUE(browser.comes("window.took > 0")) << view;
+            ASSERT_TRUE(browser.becomes_true("window.took > 0")) << view;
             shown = std::min(shown, std::stod(browser.evaluate("return window.took")));
         }
         std::printf("%-8s %4.0f ms by the server, %4.0f ms from the click to the picture\n", view.c_str(), server,

@@ -209,7 +209,7 @@ TEST(office_views, a_worksheet_of_a_platform_gets_the_percent_of_an_assignment) 
                       HasSubstr("Participant 72,x,s002@example.org,45,50.00"), HasSubstr("who@example.org,,50.00")));
 }
 
-TEST(office_views, answers_are_shown_without_names_and_in_an_order_that_tells_nothing) {
+TEST(office_views, answers_are_shown_without_names_and_in_an_order_that_has_no_information) {
     OfficeCourse course(12);
     const std::string script = "-- <script>document.title = 'taken'</script> $\\alpha$ مرحبا 王小明";
     const Assignment lab = course.add_lab("lab4", [&](int i) {

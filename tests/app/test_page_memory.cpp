@@ -29,7 +29,7 @@ class page_memory : public testing::Test {
     void set_script(const std::string& source) {
         request.script = parse_percent_script(source, folder.path() / "analysis.lua");
     }
-    bool knows() const { return memory->recall(request).has_value(); }
+    bool knows() const { return memory->load_entry(request).has_value(); }
     std::ptrdiff_t entries() const {
         return std::distance(fs::directory_iterator(Cache().root() / "pages"), fs::directory_iterator());
     }
@@ -44,10 +44,10 @@ class page_memory : public testing::Test {
 
 TEST_F(page_memory, gives_back_the_page_wherever_it_is_opened_from) {
     EXPECT_FALSE(knows());
-    memory->remember(request, files, page);
+    memory->save_entry(request, files, page);
     request.output = "/elsewhere/preview.html";
     request.template_file = folder.path() / "." / "report.md";
-    const auto known = memory->recall(request);
+    const auto known = memory->load_entry(request);
     ASSERT_TRUE(known);
     EXPECT_EQ(known->name, page.name);
     EXPECT_EQ(known->html, page.html);
@@ -55,7 +55,7 @@ TEST_F(page_memory, gives_back_the_page_wherever_it_is_opened_from) {
 }
 
 TEST_F(page_memory, knows_nothing_of_other_scripts_templates_seeds_and_data) {
-    memory->remember(request, files, page);
+    memory->save_entry(request, files, page);
     ASSERT_TRUE(knows());
     request.seed = 2;
     EXPECT_FALSE(knows());
@@ -72,9 +72,9 @@ TEST_F(page_memory, knows_nothing_of_other_scripts_templates_seeds_and_data) {
 }
 
 TEST_F(page_memory, keeps_one_page_of_a_document) {
-    memory->remember(request, files, page);
+    memory->save_entry(request, files, page);
     set_script("-- %% id=one\nprint(2)\n");
-    memory->remember(request, files, page);
+    memory->save_entry(request, files, page);
     EXPECT_TRUE(knows());
     EXPECT_EQ(entries(), 1);
     set_script("-- %% id=one\nprint(1)\n");
@@ -83,18 +83,18 @@ TEST_F(page_memory, keeps_one_page_of_a_document) {
 
 /// What `cat` says of such files: a folder that may not be read, a symbolic link to itself, nothing there.
 TEST_F(page_memory, does_without_where_files_cannot_be_read) {
-    memory->remember(request, files, page);
+    memory->save_entry(request, files, page);
     fs::remove(folder.path() / "d.csv");
     fs::create_symlink("d.csv", folder.path() / "d.csv");
     EXPECT_NO_THROW(EXPECT_FALSE(knows()));
-    EXPECT_NO_THROW(memory->remember(request, files, page));
+    EXPECT_NO_THROW(memory->save_entry(request, files, page));
     fs::remove(folder.path() / "d.csv");
     write("d.csv", "a\n1\n2\n");
-    memory->remember(request, files, page);
+    memory->save_entry(request, files, page);
     ASSERT_TRUE(knows());
     fs::rename(folder.path() / "report.md", folder.path() / "away.md");
     EXPECT_NO_THROW(EXPECT_FALSE(knows()));
-    EXPECT_NO_THROW(memory->remember(request, files, page));
+    EXPECT_NO_THROW(memory->save_entry(request, files, page));
     fs::rename(folder.path() / "away.md", folder.path() / "report.md");
     EXPECT_TRUE(knows());
 }

@@ -187,9 +187,9 @@ TEST(page_words, are_written_in_the_tables_alone) {
 
 /// What the first group of a pattern finds.
 std::set<std::string> all_found(const std::string& text, const std::string& pattern) {
-    const std::regex wanted(pattern);
+    const std::regex expected(pattern);
     std::set<std::string> found;
-    for (std::sregex_iterator one(text.begin(), text.end(), wanted), end; one != end; ++one) found.insert((*one)[1]);
+    for (std::sregex_iterator one(text.begin(), text.end(), expected), end; one != end; ++one) found.insert((*one)[1]);
     return found;
 }
 
@@ -207,19 +207,19 @@ TEST(page_words, one_file_of_the_document_s_page_speaks_to_the_server) {
 }
 
 /// The editor's own words are looked up by their English. Oracle: the sources of CodeMirror that our pages load.
-TEST(page_words, tell_all_that_the_editor_s_search_says) {
+TEST(page_words, contain_all_that_the_editor_s_search_says) {
     const fs::path package = "/usr/share/javascript/codemirror";
     ASSERT_TRUE(fs::exists(package)) << "libjs-codemirror, which scripts/test installs";
-    std::set<std::string> said, told;
+    std::set<std::string> said, reported;
     for (const std::string& file :
          all_found(source_of("page_routes.cpp"), R"re(\{"/codemirror[^"]*", "([^"]*\.js)"\})re"))
         said.merge(all_found(read_text(package / file), R"re(\bphrase\("([^"]*)"\))re"));
     const std::set<std::string> lists = all_found(source_of("editor.js"), R"re(const kPhrases = \[([^\]]*)\])re");
     ASSERT_EQ(lists.size(), 1u);
     const Rows rows = rows_of("page_words.js");
-    for (const std::string& key : all_found(*lists.begin(), R"re("(\w+)")re")) told.insert(rows.at(key));
+    for (const std::string& key : all_found(*lists.begin(), R"re("(\w+)")re")) reported.insert(rows.at(key));
     EXPECT_GT(said.size(), 5u);
-    EXPECT_EQ(told, said);
+    EXPECT_EQ(reported, said);
 }
 
 /// How many {} a text has.

@@ -22,9 +22,9 @@ TEST_F(preview_page, shows_text_code_output_and_figures_and_follows_the_file) {
     browser.open(preview.address());
     EXPECT_TRUE(shows(browser, "Words at the beginning."));
     EXPECT_TRUE(shows(browser, "x is 20"));
-    EXPECT_TRUE(browser.comes("document.querySelector('figure img')?.naturalWidth > 100"));
-    EXPECT_TRUE(browser.comes("document.querySelector('figure .plot')?.clientWidth > 100"));
-    EXPECT_TRUE(browser.comes("document.getElementById('head').innerText.includes('A document')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('figure img')?.naturalWidth > 100"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('figure .plot')?.clientWidth > 100"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('head').innerText.includes('A document')"));
     EXPECT_EQ(browser.evaluate("return location.search"), "\"\"");  // no token in the address
 
     std::string changed = kHead + kFirst + kPlot;
@@ -34,7 +34,7 @@ TEST_F(preview_page, shows_text_code_output_and_figures_and_follows_the_file) {
     changed.replace(changed.find("x = 20"), 6, "x = 21");
     write(changed);
     EXPECT_TRUE(shows(browser, "x is 21"));
-    EXPECT_TRUE(browser.comes("!document.getElementById('document').innerText.includes('x is 20')"));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('document').innerText.includes('x is 20')"));
 }
 
 TEST_F(preview_page, figures_can_be_read_off) {
@@ -42,11 +42,11 @@ TEST_F(preview_page, figures_can_be_read_off) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelector('.plot')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.plot')"));
     browser.evaluate(
         "const plot = document.querySelector('.plot').plot; const panel = plot.panels[0]; plot.setCursor({panel, x: "
         "panel.place(2, 4)[0], y: panel.place(2, 4)[1]})");
-    EXPECT_TRUE(browser.comes("/\\b2\\b(?!\\.).*\\b4\\b/s.test(document.querySelector('.reading').innerText)"));
+    EXPECT_TRUE(browser.becomes_true("/\\b2\\b(?!\\.).*\\b4\\b/s.test(document.querySelector('.reading').innerText)"));
 }
 
 TEST_F(preview_page, changes_only_what_has_changed) {
@@ -54,8 +54,8 @@ TEST_F(preview_page, changes_only_what_has_changed) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelector('figure img')"));
-    ASSERT_TRUE(browser.comes(
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('figure img')"));
+    ASSERT_TRUE(browser.becomes_true(
         "document.getElementById('stop').hidden && document.querySelectorAll('[data-state=done]').length > 0"));
     browser.evaluate("for (const node of document.querySelectorAll('.piece')) node.seen = true");
     std::string changed = kHead + kFirst + kPlot;
@@ -77,8 +77,8 @@ TEST_F(preview_page, does_not_jump) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(
-        browser.comes("document.querySelector('figure img')?.complete && document.getElementById('stop').hidden"));
+    ASSERT_TRUE(browser.becomes_true(
+        "document.querySelector('figure img')?.complete && document.getElementById('stop').hidden"));
     browser.evaluate(
         "window.held = [...document.querySelectorAll('.piece')].find(n => n.innerText.startsWith('Paragraph 30'));"
         "held.scrollIntoView(); window.before = held.getBoundingClientRect().top");
@@ -99,22 +99,22 @@ TEST_F(preview_page, a_failing_cell_says_why_and_keeps_what_was_below) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelector('figure img') && document.getElementById('stop').hidden"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('figure img') && document.getElementById('stop').hidden"));
     std::string wrong = kHead + kFirst + kPlot;
     wrong.replace(wrong.find("print("), 6, "pritn(");
     write(wrong);
     EXPECT_TRUE(shows(browser, "did you mean"));
     EXPECT_TRUE(state_is(browser, "one", "failed"));
-    EXPECT_TRUE(browser.comes("document.querySelector('figure img')"));
-    EXPECT_TRUE(
-        browser.comes("document.querySelector('.older figure') && getComputedStyle(document.querySelector('.older "
-                      "figure')).opacity < 0.6"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('figure img')"));
+    EXPECT_TRUE(browser.becomes_true(
+        "document.querySelector('.older figure') && getComputedStyle(document.querySelector('.older "
+        "figure')).opacity < 0.6"));
     write(kHead + kFirst + kPlot);
     EXPECT_TRUE(state_is(browser, "one", "done"));
-    EXPECT_TRUE(browser.comes("!document.querySelector('.older')"));
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('.older')"));
 }
 
-TEST_F(preview_page, tells_what_is_wrong_with_the_text) {
+TEST_F(preview_page, reports_what_is_wrong_with_the_text) {
     write(kHead + kFirst + kPlot);
     const Preview preview(file());
     Browser browser;
@@ -123,16 +123,17 @@ TEST_F(preview_page, tells_what_is_wrong_with_the_text) {
     std::string wrong = kHead + kFirst + kPlot;
     wrong.replace(wrong.find("Words at the end"), 5, "See @fig:none. Words");
     write(wrong);
-    EXPECT_TRUE(browser.comes("document.getElementById('complaints').innerText.includes('@fig:none has no target')"));
+    EXPECT_TRUE(
+        browser.becomes_true("document.getElementById('complaints').innerText.includes('@fig:none has no target')"));
     EXPECT_TRUE(shows(browser, "Words at the end"));
     write("-- ---\n-- titel: x\n-- ---\n" + kFirst);
-    EXPECT_TRUE(browser.comes("document.getElementById('complaints').innerText.includes('titel')"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('complaints').innerText.includes('titel')"));
     EXPECT_TRUE(shows(browser, "x is 20"));  // the last good page stays
     write(kHead + kFirst);
-    EXPECT_TRUE(browser.comes("document.getElementById('complaints').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('complaints').hidden"));
 }
 
-TEST_F(preview_page, an_endless_loop_can_be_stopped_and_mended) {
+TEST_F(preview_page, an_endless_loop_can_be_stopped_and_fixed) {
     write(kHead + kFirst + kPlot);
     const Preview preview(file());
     Browser browser;
@@ -141,7 +142,7 @@ TEST_F(preview_page, an_endless_loop_can_be_stopped_and_mended) {
     write(kHead + kFirst + "-- %% id=loop\nwhile true do end\n");
     ASSERT_TRUE(state_is(browser, "loop", "running"));
     browser.click("#stop");
-    EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('stop').hidden"));
     EXPECT_TRUE(state_is(browser, "loop", "waiting"));
     write(kHead + kFirst + "-- %% id=loop\nprint(\"over\")\n");
     EXPECT_TRUE(shows(browser, "over"));
@@ -163,30 +164,30 @@ TEST_F(preview_page, nothing_in_a_document_runs_in_the_page) {
               "[true,0]");
 }
 
-TEST_F(preview_page, a_stranger_s_document_is_shown_and_runs_only_when_told) {
+TEST_F(preview_page, an_untrusted_document_is_shown_and_runs_only_after_consent) {
     write(kHead + kFirst + "-- %% id=mark\nsave_csv(\"mark.csv\", {a = {1}})\n");
     Preview preview(file(), false);
     Browser browser;
     browser.open(preview.address());
     ASSERT_TRUE(shows(browser, "Words at the beginning."));
-    EXPECT_TRUE(browser.comes("!document.getElementById('question').hidden"));
-    EXPECT_TRUE(browser.comes("document.activeElement.id === 'question'"));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('question').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.activeElement.id === 'question'"));
     // Who was typing when the page came has not said yes.
     browser.act(R"([{"type": "key", "id": "keys", "actions": [{"type": "keyDown", "value": " "}, )"
                 R"({"type": "keyUp", "value": " "}, {"type": "keyDown", "value": "\uE007"}, )"
                 R"({"type": "keyUp", "value": "\uE007"}]}])");
     // The printed document runs it, too; the refusal comes after all that the keys could have asked for.
     browser.evaluate("fetch('document.pdf').then(async r => { window.refused = r.status + await r.text() })");
-    EXPECT_TRUE(browser.comes("/^403.*allowed/.test(window.refused)"));
+    EXPECT_TRUE(browser.becomes_true("/^403.*allowed/.test(window.refused)"));
     EXPECT_EQ(browser.evaluate("return document.getElementById('question').hidden"), "false");
     EXPECT_EQ(browser.evaluate("return document.getElementById('document').innerText.includes('x is 20')"), "false");
     EXPECT_FALSE(fs::exists(file("mark.csv")));
     browser.click("#allow");
     EXPECT_TRUE(shows(browser, "x is 20"));
-    EXPECT_TRUE(browser.comes("document.getElementById('question').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('question').hidden"));
 }
 
-TEST_F(preview_page, tabs_come_and_go_and_the_end_is_told) {
+TEST_F(preview_page, tabs_come_and_go_and_the_end_is_reported) {
     write(kHead + kFirst);
     Preview preview(file());
     Browser browser(1280, 900, Browser::Kind::kWhole);  // which tells a tab that it is hidden
@@ -196,7 +197,7 @@ TEST_F(preview_page, tabs_come_and_go_and_the_end_is_told) {
         ASSERT_TRUE(shows(browser, "x is 20")) << "tab " << i;
     }
     preview.end();
-    EXPECT_TRUE(browser.comes("/has exited|no response/.test(document.getElementById('state').innerText)"));
+    EXPECT_TRUE(browser.becomes_true("/has exited|no response/.test(document.getElementById('state').innerText)"));
     EXPECT_TRUE(shows(browser, "x is 20"));
 }
 
@@ -209,7 +210,7 @@ TEST_F(preview_page, gives_the_pdf) {
     browser.evaluate(
         "fetch('document.pdf').then(r => r.arrayBuffer()).then(b => { window.pdf = new "
         "TextDecoder('latin1').decode(b.slice(0, 5)) })");
-    EXPECT_TRUE(browser.comes("window.pdf === '%PDF-'", 60));
+    EXPECT_TRUE(browser.becomes_true("window.pdf === '%PDF-'", 60));
 }
 
 /// Light words on dark paper where the desktop is dark, in the document, the bar and the editor.
@@ -220,7 +221,7 @@ TEST_F(preview_page, is_dark_where_the_desktop_is) {
     browser.prefer_dark();
     browser.open(preview.address());
     ASSERT_TRUE(shows(browser, "x is 20"));
-    ASSERT_TRUE(browser.comes("document.querySelector('.CodeMirror')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.CodeMirror')"));
     const std::string brightness =
         "(node, what) => getComputedStyle(node)[what].match(/[0-9]+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), "
         "0)";
@@ -239,14 +240,14 @@ TEST_F(preview_page, takes_up_a_stream_that_was_cut_and_has_lost_nothing) {
     browser.open(line.address(preview.address()));
     ASSERT_TRUE(shows(browser, "x is 20"));
     line.cut();
-    EXPECT_TRUE(browser.comes("document.getElementById('state').innerText.includes('no response')"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText.includes('no response')"));
     std::string changed = kHead + kFirst + kPlot;
     changed.replace(changed.find("x = 20"), 6, "x = 21");
     write(changed);
-    EXPECT_FALSE(browser.comes("document.getElementById('document').innerText.includes('x is 21')", 0.5));
+    EXPECT_FALSE(browser.becomes_true("document.getElementById('document').innerText.includes('x is 21')", 0.5));
     line.mend();
     EXPECT_TRUE(shows(browser, "x is 21"));
-    EXPECT_TRUE(browser.comes("!document.getElementById('state').innerText.includes('no response')"));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('state').innerText.includes('no response')"));
 }
 
 /// A lid that is closed: the program stands still, files change, and it wakes up.
@@ -264,7 +265,7 @@ TEST_F(preview_page, wakes_up_with_the_newest_document) {
     }
     ASSERT_EQ(::kill(preview.process(), SIGCONT), 0);
     EXPECT_TRUE(shows(browser, "x is 22"));
-    EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('stop').hidden"));
 }
 
 /// A line of /proc/PID/status, "VmRSS: 1234 kB"; 0 where it is not there.
@@ -315,7 +316,8 @@ TEST_F(preview_page, takes_no_processor_time_while_nothing_changes) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 30));  // the PDF, the last
+    ASSERT_TRUE(
+        browser.becomes_true("document.getElementById('view').classList.contains('ready')", 30));  // the PDF, the last
     long before = ticks_of_family(preview.process());
     ASSERT_GT(before, 0);
     bool at_rest = false;  // a Pandoc for the next time still starts
@@ -344,7 +346,7 @@ TEST_F(preview_page, does_not_grow_with_the_edits) {
             save(i);
             ASSERT_TRUE(shows(browser, "Save number " + std::to_string(i) + "."));
         }
-        ASSERT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+        ASSERT_TRUE(browser.becomes_true("document.getElementById('stop').hidden"));
     };
     save_up_to(1, 30);
     const auto [before, processes] = memory_of_family(preview.process());

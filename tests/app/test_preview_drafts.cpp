@@ -38,10 +38,10 @@ class preview_drafts : public preview_page {
     static std::string has(const std::string& text) {
         return "document.querySelector('.CodeMirror')?.CodeMirror.getValue().includes(`" + text + "`)";
     }
-    bool editor_has(const std::string& text) { return browser.comes(has(text)); }
+    bool editor_has(const std::string& text) { return browser.becomes_true(has(text)); }
     bool is_true(const std::string& expression) { return browser.evaluate("return " + expression) == "true"; }
     bool kept(int count) {
-        return browser.comes(
+        return browser.becomes_true(
             "(fetch('notes').then((reply) => reply.json()).then((notes) => "
             "window.notes_kept = Object.keys(notes).filter((key) => "
             "key.startsWith('dynlab-draft')).length), window.notes_kept === " +
@@ -62,8 +62,8 @@ TEST_F(preview_drafts, what_was_not_saved_is_kept_and_offered) {
     type("\\n-- typed\\n");
     ASSERT_TRUE(kept(1));
     open();
-    EXPECT_TRUE(browser.comes(kOffered));
-    EXPECT_TRUE(browser.comes(
+    EXPECT_TRUE(browser.becomes_true(kOffered));
+    EXPECT_TRUE(browser.becomes_true(
         "/^A draft of .*\\d\\d:\\d\\d was not saved\\.$/.test(document.getElementById('draft-text').innerText)"));
     EXPECT_EQ(browser.evaluate("return " + has("-- typed")), "false");
     press("take-draft");
@@ -83,10 +83,10 @@ TEST_F(preview_drafts, what_was_not_saved_is_kept_and_offered) {
     write(kHead + kFirst + "-- theirs\n");
     begin();
     open();
-    EXPECT_TRUE(browser.comes(kOffered));
+    EXPECT_TRUE(browser.becomes_true(kOffered));
     press("take-draft");
     EXPECT_TRUE(editor_has("-- more"));
-    EXPECT_TRUE(browser.comes("document.getElementById('theirs').innerText.includes('-- theirs')"))
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('theirs').innerText.includes('-- theirs')"))
         << "it was made from another text";
     EXPECT_THAT(text_of_file(), testing::EndsWith("-- theirs\n"));
     press("take-theirs");
@@ -95,7 +95,7 @@ TEST_F(preview_drafts, what_was_not_saved_is_kept_and_offered) {
     type("\\n-- third\\n");
     ASSERT_TRUE(kept(1));
     open();
-    EXPECT_TRUE(browser.comes(kOffered));
+    EXPECT_TRUE(browser.becomes_true(kOffered));
     press("drop-draft");
     EXPECT_TRUE(kept(0));
     EXPECT_EQ(browser.evaluate("return " + kOffered), "false");
@@ -109,11 +109,11 @@ TEST_F(preview_drafts, what_is_typed_beside_an_offered_draft_is_kept_apart) {
     type("-- first\\n");
     ASSERT_TRUE(kept(1));
     open();
-    ASSERT_TRUE(browser.comes(kOffered));
+    ASSERT_TRUE(browser.becomes_true(kOffered));
     type("-- second\\n");
     ASSERT_TRUE(kept(2));
     open();
-    ASSERT_TRUE(browser.comes(kOffered));
+    ASSERT_TRUE(browser.becomes_true(kOffered));
     EXPECT_FALSE(is_true(has("-- first")) || is_true(has("-- second")));
     press("take-draft");
     EXPECT_TRUE(is_true(has("-- second"))) << "the newest is offered first";

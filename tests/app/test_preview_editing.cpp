@@ -25,7 +25,8 @@ class preview_editing : public preview_page {
                          text + "`)");
     }
     static bool editor_has(Browser& browser, const std::string& text) {
-        return browser.comes("document.querySelector('.CodeMirror')?.CodeMirror.getValue().includes(`" + text + "`)");
+        return browser.becomes_true("document.querySelector('.CodeMirror')?.CodeMirror.getValue().includes(`" + text +
+                                    "`)");
     }
 };
 
@@ -59,7 +60,7 @@ TEST_F(preview_editing, a_slider_leaves_long_calls_that_do_not_depend_on_it) {
     browser.evaluate(
         "const s = document.querySelector('input[type=range]'); s.value = 40; s.dispatchEvent(new Event('input', "
         "{bubbles: true})); s.dispatchEvent(new Event('change', {bubbles: true}))");
-    ASSERT_TRUE(browser.comes("/last 1[.]/.test(document.getElementById('document').innerText)"));
+    ASSERT_TRUE(browser.becomes_true("/last 1[.]/.test(document.getElementById('document').innerText)"));
     EXPECT_EQ(kept(), 1);
 }
 
@@ -76,7 +77,7 @@ TEST_F(preview_editing, a_slider_runs_what_follows_it) {
     browser.evaluate(kMoveTo8);
     EXPECT_TRUE(shows(browser, "k is 8"));
     EXPECT_EQ(browser.evaluate("return /once (.*)/.exec(document.getElementById('document').innerText)[1]"), once);
-    EXPECT_TRUE(browser.comes("document.querySelector('.slider output').innerText.startsWith('8')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.slider output').innerText.startsWith('8')"));
     // The place behind its cell, and the choice, outlast a change of the text above.
     std::string changed = kHead + "-- %% [markdown]\n-- More words.\n\n" + kSlider;
     write(changed);
@@ -87,7 +88,7 @@ TEST_F(preview_editing, a_slider_runs_what_follows_it) {
     browser.click(".slider button");
     EXPECT_TRUE(shows(browser, "k is 3"));
     write(kHead + kFirst);
-    EXPECT_TRUE(browser.comes("!document.querySelector('.slider')"));
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('.slider')"));
 }
 
 const std::string kHandle =
@@ -104,7 +105,7 @@ TEST_F(preview_editing, a_handle_moves_its_sliders_while_it_is_held) {
     Browser browser;
     browser.open(preview.address());
     ASSERT_TRUE(shows(browser, "T 2 K 1"));
-    ASSERT_TRUE(browser.comes("document.querySelector('.handle')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.handle')"));
     const auto drag = [&](double T, double K) {
         const nlohmann::json place = nlohmann::json::parse(browser.evaluate(
             "const plot = document.querySelector('div.plot').plot, panel = plot.panels[0], box = "
@@ -130,7 +131,8 @@ TEST_F(preview_editing, a_handle_moves_its_sliders_while_it_is_held) {
     EXPECT_TRUE(shows(browser, "T 7 K 3"));
     const std::string place = browser.evaluate("return document.getElementById('slider-T').value");
     EXPECT_EQ(place, "\"6\"");
-    EXPECT_TRUE(browser.comes("Math.abs(document.querySelector('div.plot').plot.panels[0].handles[0].y - 3) < 0.1"));
+    EXPECT_TRUE(
+        browser.becomes_true("Math.abs(document.querySelector('div.plot').plot.panels[0].handles[0].y - 3) < 0.1"));
     EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.held').length"), "0");
     drag(1, 0.5);
     EXPECT_TRUE(shows(browser, "T 1 K 0.5"));
@@ -147,7 +149,7 @@ TEST_F(preview_editing, a_dragged_slider_ends_where_it_was_left) {
         "const s = document.getElementById('slider-k');"
         "for (let i = 0; i <= 60; ++i) setTimeout(() => { s.value = i % 19; s.dispatchEvent(new Event('input')); "
         "window.moves = i }, 10 * i)");
-    ASSERT_TRUE(browser.comes("window.moves === 60"));
+    ASSERT_TRUE(browser.becomes_true("window.moves === 60"));
     EXPECT_TRUE(shows(browser, "k is 2.5"));  // 60 % 19 = 3 steps of 0.5 above 1
 }
 
@@ -158,13 +160,13 @@ TEST_F(preview_editing, what_is_saved_on_the_page_is_the_file_and_the_page_follo
     browser.open(preview.address());
     ASSERT_TRUE(editor_has(browser, "local x = 20"));
     type(browser, "\\n-- %% [markdown]\\n-- Typed: é and λ.\\n");
-    EXPECT_TRUE(browser.comes("!document.getElementById('save').disabled"));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('save').disabled"));
     EXPECT_THAT(text_of(), testing::Not(HasSubstr("Typed")));
     browser.click("#save");
     EXPECT_TRUE(shows(browser, "Typed: é and λ."));
     EXPECT_THAT(text_of(), HasSubstr("Typed: é and λ."));
     EXPECT_TRUE(
-        browser.comes("document.getElementById('save').disabled && document.getElementById('conflict').hidden"));
+        browser.becomes_true("document.getElementById('save').disabled && document.getElementById('conflict').hidden"));
 }
 
 /// Neither text is lost when the file changes on disk while the page has another.
@@ -176,21 +178,21 @@ TEST_F(preview_editing, an_edit_on_both_sides_shows_both) {
     ASSERT_TRUE(editor_has(browser, "local x = 20"));
     type(browser, "\\n-- mine\\n");
     write(kHead + kFirst + "-- theirs\n");
-    ASSERT_TRUE(browser.comes("!document.getElementById('conflict').hidden"));
-    EXPECT_TRUE(browser.comes("document.getElementById('theirs').innerText.includes('theirs')"));
+    ASSERT_TRUE(browser.becomes_true("!document.getElementById('conflict').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('theirs').innerText.includes('theirs')"));
     EXPECT_TRUE(editor_has(browser, "-- mine"));
     EXPECT_THAT(text_of(), HasSubstr("-- theirs"));
     browser.click("#keep-mine");
-    EXPECT_TRUE(browser.comes("document.getElementById('conflict').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('conflict').hidden"));
     for (int i = 0; i < 200 && text_of().find("-- mine") == std::string::npos; ++i) std::this_thread::sleep_for(20ms);
     EXPECT_THAT(text_of(), HasSubstr("-- mine"));
 
     type(browser, "\\n-- mine again\\n");
     write(kHead + kFirst + "-- theirs again\n");
-    ASSERT_TRUE(browser.comes("!document.getElementById('conflict').hidden"));
+    ASSERT_TRUE(browser.becomes_true("!document.getElementById('conflict').hidden"));
     browser.click("#take-theirs");
     EXPECT_TRUE(editor_has(browser, "-- theirs again"));
-    EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('save').disabled"));
     // What is the same between two changes is not shown as another.
     std::string far;
     for (int i = 1; i <= 20; ++i) far += "-- line " + std::to_string(i) + "\n";
@@ -200,14 +202,14 @@ TEST_F(preview_editing, an_edit_on_both_sides_shows_both) {
     far.replace(far.find("line 2\n"), 6, "another");
     far.replace(far.find("line 18"), 7, "yet another");
     write(kHead + kFirst + far);
-    ASSERT_TRUE(browser.comes("document.getElementById('theirs').innerText.includes('yet another')"));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('theirs').innerText.includes('yet another')"));
     const std::string theirs = browser.evaluate("return document.getElementById('theirs').innerText");
     EXPECT_THAT(theirs, testing::ContainsRegex("› [0-9]+  -- another"));
     EXPECT_THAT(theirs, testing::ContainsRegex("› [0-9]+  -- yet another"));
     EXPECT_THAT(theirs, HasSubstr("-- line 17"));
     EXPECT_THAT(theirs, testing::Not(HasSubstr("line 10")));
     browser.click("#take-theirs");
-    EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('save').disabled"));
     // A file that changes while nothing was typed is just shown.
     write(kHead + kFirst + "-- new\n");
     EXPECT_TRUE(editor_has(browser, "-- new"));
@@ -225,12 +227,12 @@ TEST_F(preview_editing, what_cannot_be_saved_stays_on_the_page) {
     type(browser, "\\n-- typed\\n");
     fs::rename(folder.path() / "work", folder.path() / "away");
     browser.click("#save");
-    EXPECT_TRUE(browser.comes("document.body.innerText.includes('not saved')"));
+    EXPECT_TRUE(browser.becomes_true("document.body.innerText.includes('not saved')"));
     EXPECT_TRUE(editor_has(browser, "-- typed"));
     fs::rename(folder.path() / "away", folder.path() / "work");
-    EXPECT_TRUE(browser.comes("!document.getElementById('save').disabled"));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('save').disabled"));
     browser.click("#save");
-    EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('save').disabled"));
     EXPECT_THAT(text_of("work/analysis.lua"), HasSubstr("-- typed"));
 }
 
@@ -245,7 +247,7 @@ TEST_F(preview_editing, a_late_save_writes_nothing) {
         browser.evaluate(
             "window.reply = null; fetch('save', {method: 'POST', headers: {'X-Dynlab': '1'}, body: JSON.stringify(" +
             json + ")}).then(async r => { window.reply = r.status + ' ' + await r.text() })");
-        browser.comes("window.reply");
+        browser.becomes_true("window.reply");
         return browser.evaluate("return window.reply");
     };
     EXPECT_THAT(saves("{number: 0, name: 'x', text: 'bad', digest: 'old'}"), HasSubstr("409"));
@@ -262,7 +264,7 @@ TEST_F(preview_editing, line_ends_stay_as_they_are) {
     Browser browser;
     browser.open(preview.address());
     ASSERT_TRUE(editor_has(browser, "local x = 20"));
-    EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('save').disabled"));
     write("-- %% id=one\r\nlocal x = 21\r\nprint(\"x is \" .. x)\r\n");
     EXPECT_TRUE(editor_has(browser, "local x = 21"));
     EXPECT_EQ(browser.evaluate("return document.getElementById('conflict').hidden"), "true");
@@ -283,7 +285,7 @@ TEST_F(preview_editing, saves_do_not_meet_each_other) {
         type(browser, "-- line " + std::to_string(i) + "\\n");
         browser.evaluate("document.getElementById('save').click(); document.getElementById('save').click()");
     }
-    EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('save').disabled"));
     EXPECT_EQ(browser.evaluate("return document.getElementById('conflict').hidden"), "true");
     EXPECT_THAT(text_of(), testing::EndsWith("-- line 19\n"));
 }
@@ -304,9 +306,9 @@ TEST_F(preview_editing, choices_follow_the_script) {
     other.replace(other.find("\"k\", 50, 40, 60"), 15, "\"q\", 50, 40, 60");
     write(other);
     EXPECT_TRUE(shows(browser, "k is 50"));
-    EXPECT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 60));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('view').classList.contains('ready')", 60));
     browser.evaluate("fetch('document.pdf').then(r => { window.pdf = r.status })");
-    EXPECT_TRUE(browser.comes("window.pdf === 200", 60));
+    EXPECT_TRUE(browser.becomes_true("window.pdf === 200", 60));
 }
 
 TEST_F(preview_editing, nothing_is_written_without_the_option) {
@@ -319,7 +321,7 @@ TEST_F(preview_editing, nothing_is_written_without_the_option) {
         "fetch('save', {method: 'POST', headers: {'X-Dynlab': '1'}, body: JSON.stringify({number: 0, name: 'x', text: "
         "'bad', digest: ''})})"
         ".then(r => { window.reply = r.status })");
-    EXPECT_TRUE(browser.comes("window.reply === 500"));
+    EXPECT_TRUE(browser.becomes_true("window.reply === 500"));
     EXPECT_EQ(browser.evaluate("return document.body.classList.contains('editing')"), "false");
     EXPECT_EQ(text_of(), kHead + kFirst);
 }
@@ -336,14 +338,15 @@ TEST_F(preview_editing, source_and_page_lead_to_each_other) {
     browser.evaluate(
         "const m = document.querySelector('.CodeMirror').CodeMirror; m.focus();"
         "m.setCursor(m.getValue().split('\\n').findIndex(line => line.includes('Paragraph 55')), 0)");
-    EXPECT_TRUE(browser.comes("document.querySelector('.chosen')?.innerText === 'Paragraph 55.'"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.chosen').getBoundingClientRect().bottom <= innerHeight"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.chosen')?.innerText === 'Paragraph 55.'"));
+    EXPECT_TRUE(
+        browser.becomes_true("document.querySelector('.chosen').getBoundingClientRect().bottom <= innerHeight"));
     browser.evaluate(
         "[...document.querySelectorAll('.piece')].find(n => n.innerText === 'Paragraph "
         "3.').querySelector('p').click()");
     EXPECT_TRUE(
-        browser.comes("(m => m.getLine(m.getCursor().line).includes('Paragraph "
-                      "3.'))(document.querySelector('.CodeMirror').CodeMirror)"));
+        browser.becomes_true("(m => m.getLine(m.getCursor().line).includes('Paragraph "
+                             "3.'))(document.querySelector('.CodeMirror').CodeMirror)"));
 }
 
 TEST_F(preview_editing, findings_open_answers_and_the_pdf_come_by_themselves) {
@@ -353,34 +356,35 @@ TEST_F(preview_editing, findings_open_answers_and_the_pdf_come_by_themselves) {
     const Preview preview(folder.path());
     Browser browser;
     browser.open(preview.address());
-    EXPECT_TRUE(browser.comes("document.getElementById('show-findings').innerText.includes('1 answer open')"));
-    EXPECT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 120));
-    EXPECT_TRUE(browser.comes("/rules? violated/.test(document.getElementById('show-findings').innerText)", 120));
-    browser.click("#show-findings");
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('#findings li.rule').length > 0"));
-    browser.click("#view");
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('show-findings').innerText.includes('1 answer open')"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('view').classList.contains('ready')", 120));
     EXPECT_TRUE(
-        browser.comes("document.querySelector('#page\\\\:pdf iframe') && document.getElementById('document').hidden"));
+        browser.becomes_true("/rules? violated/.test(document.getElementById('show-findings').innerText)", 120));
+    browser.click("#show-findings");
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('#findings li.rule').length > 0"));
     browser.click("#view");
-    EXPECT_TRUE(browser.comes("!document.getElementById('document').hidden"));
+    EXPECT_TRUE(browser.becomes_true(
+        "document.querySelector('#page\\\\:pdf iframe') && document.getElementById('document').hidden"));
+    browser.click("#view");
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('document').hidden"));
     // What is changed is made anew.
     write(kFirst);
-    EXPECT_TRUE(browser.comes("!document.getElementById('view').classList.contains('ready')"));
-    EXPECT_TRUE(browser.comes("document.getElementById('view').classList.contains('ready')", 120));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('view').classList.contains('ready')"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('view').classList.contains('ready')", 120));
 }
 
 TEST_F(preview_editing, a_second_preview_leads_to_the_first) {
     write(kHead + kFirst);
     const Preview first(file());
     ASSERT_FALSE(first.address().empty());
-    const fs::path told = folder.path() / "told";
+    const fs::path reported = folder.path() / "told";
     const auto second = [&] {
         return std::system(("XDG_CACHE_HOME='" + first.out.path().string() + "' '" + DYNLAB_PROGRAM + "' preview '" +
-                            file().string() + "' --no-browser > '" + told.string() + "'")
+                            file().string() + "' --no-browser > '" + reported.string() + "'")
                                .c_str());
     };
     EXPECT_EQ(second(), 0);
-    const std::string words = read_text(told), address = words.substr(0, words.find('\n'));
+    const std::string words = read_text(reported), address = words.substr(0, words.find('\n'));
     EXPECT_EQ(words, address + "\n(the document is already open)\n");
     EXPECT_NE(address, first.address()) << "an address works once";
     EXPECT_EQ(PageClient(address).host(), PageClient(first.address()).host());

@@ -25,9 +25,9 @@ class preview_editor : public preview_page {
   protected:
     void open(Browser& browser, const Preview& preview, const std::string& ran = "third ran") {
         browser.open(preview.address());
-        ASSERT_TRUE(browser.comes("document.querySelector('.editing .CodeMirror')"));
+        ASSERT_TRUE(browser.becomes_true("document.querySelector('.editing .CodeMirror')"));
         ASSERT_TRUE(shows(browser, ran));
-        ASSERT_TRUE(browser.comes("document.querySelectorAll('.text-cell').length > 0"));
+        ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.text-cell').length > 0"));
     }
     /// Puts the cursor behind the last letter of the line that begins so.
     static void go_to(Browser& browser, const std::string& line) {
@@ -59,8 +59,8 @@ TEST_F(preview_editor, functions_options_and_fields_of_variables_are_completed) 
     Browser browser;
     open(browser, preview);
     const auto offers = [&](const std::string& name) {
-        return browser.comes("[...document.querySelectorAll('.CodeMirror-hint b')].some(b => b.innerText.trim() === '" +
-                             name + "')");
+        return browser.becomes_true(
+            "[...document.querySelectorAll('.CodeMirror-hint b')].some(b => b.innerText.trim() === '" + name + "')");
     };
     go_to(browser, "print(\"third");
     press(browser, {}, kEnter);
@@ -92,12 +92,12 @@ TEST_F(preview_editor, the_call_around_the_cursor_shows_its_signature_and_the_ar
     press(browser, {}, kEnter);
     type(browser, "lsim(G, max(1, 2), ");
     const std::string shown = "document.getElementById('signature')";
-    EXPECT_TRUE(
-        browser.comes("!" + shown + ".hidden && " + shown + ".querySelector('b').innerText.trim() === 't_or_Ts'"))
+    EXPECT_TRUE(browser.becomes_true("!" + shown + ".hidden && " + shown +
+                                     ".querySelector('b').innerText.trim() === 't_or_Ts'"))
         << browser.evaluate("return " + shown + ".innerText");
     EXPECT_THAT(browser.evaluate("return " + shown + ".innerText"), HasSubstr(find_function("lsim")->summary));
     type(browser, "1)");
-    EXPECT_TRUE(browser.comes(shown + ".hidden"));
+    EXPECT_TRUE(browser.becomes_true(shown + ".hidden"));
 }
 
 TEST_F(preview_editor, a_mistake_is_marked_while_it_is_typed_and_an_error_where_the_run_stopped) {
@@ -108,15 +108,15 @@ TEST_F(preview_editor, a_mistake_is_marked_while_it_is_typed_and_an_error_where_
     go_to(browser, "print(\"third");
     press(browser, {}, kEnter);
     type(browser, "print(nothing)");
-    EXPECT_TRUE(browser.comes("document.querySelector('.mistake')?.innerText === 'nothing'"));
-    EXPECT_TRUE(browser.comes("document.getElementById('mistake').innerText.includes(\"'nothing'\")"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.mistake')?.innerText === 'nothing'"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('mistake').innerText.includes(\"'nothing'\")"));
     EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.failed').length"), "0");
     press(browser, {"\uE009"}, "s");
-    EXPECT_TRUE(browser.comes("document.querySelector('.failure')?.innerText.includes(\"'nothing'\")"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.failed')?.innerText.includes('print(nothing)')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.failure')?.innerText.includes(\"'nothing'\")"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.failed')?.innerText.includes('print(nothing)')"));
     browser.evaluate("cm.undo(); cm.setValue(cm.getValue().replace('print(nothing)', ''))");
     press(browser, {"\uE009"}, "s");
-    EXPECT_TRUE(browser.comes("!document.querySelector('.failed, .failure, .mistake')"));
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('.failed, .failure, .mistake')"));
 }
 
 TEST_F(preview_editor, shift_enter_saves_runs_the_cell_and_goes_to_the_next) {
@@ -149,10 +149,10 @@ TEST_F(preview_editor, the_cells_above_run_alone) {
     type(browser, " x = 1");
     go_to(browser, "print(\"third");
     browser.click("#run-above");
-    EXPECT_TRUE(browser.comes("document.getElementById('state').innerText === 'stopped: 2 of 3 cells were run'"))
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText === 'stopped: 2 of 3 cells were run'"))
         << browser.evaluate("return document.getElementById('state').innerText");
     browser.click("#anew");
-    EXPECT_TRUE(browser.comes("document.getElementById('state').innerText.startsWith('3 cells')"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText.startsWith('3 cells')"));
 }
 
 TEST_F(preview_editor, text_cells_look_like_text_until_they_are_edited) {
@@ -173,13 +173,13 @@ TEST_F(preview_editor, text_cells_look_like_text_until_they_are_edited) {
                                 {{"type", "pointerDown"}, {"button", 0}},
                                 {{"type", "pointerUp"}, {"button", 0}}}}}})
                     .dump());
-    EXPECT_TRUE(browser.comes("!document.querySelector('.text-cell')"));
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('.text-cell')"));
     browser.evaluate("window.cm = document.querySelector('.CodeMirror').CodeMirror");
     EXPECT_THAT(line_of_cursor(browser), HasSubstr("Question 1"));
     go_to(browser, "-- **Question 1");
     type(browser, " Really?");
     press(browser, {kShift}, kEnter);
-    EXPECT_TRUE(browser.comes("document.querySelector('.text-cell')?.innerText.includes('so? Really?')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.text-cell')?.innerText.includes('so? Really?')"));
     EXPECT_THAT(read_text(file()), HasSubstr("-- **Question 1.** Why is $x^2$ so? Really?\n"));
     // The outline leads to it.
     EXPECT_EQ(json::parse(browser.evaluate("return [...document.querySelectorAll('#outline option')].slice(1).map(o => "
@@ -198,7 +198,7 @@ TEST_F(preview_editor, the_variables_of_the_script_are_listed_and_what_was_typed
         const std::string rows =
             "[...document.querySelectorAll('#variable-rows tr')].map(r => r.innerText.split('\\t').map(t "
             "=> t.trim()))";
-        EXPECT_TRUE(browser.comes("document.querySelectorAll('#variable-rows tr').length === 2"))
+        EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('#variable-rows tr').length === 2"))
             << browser.evaluate("return " + rows);
         const json listed = json::parse(browser.evaluate("return " + rows));
         EXPECT_EQ(listed[0][0], "G");
@@ -210,7 +210,7 @@ TEST_F(preview_editor, the_variables_of_the_script_are_listed_and_what_was_typed
         go_to(browser, "print(\"third");
         type(browser, " y = 5");
         press(browser, {"\uE009"}, "s");
-        EXPECT_TRUE(browser.comes("document.getElementById('save').disabled"));
+        EXPECT_TRUE(browser.becomes_true("document.getElementById('save').disabled"));
         browser.open("about:blank");
     }
     const Preview preview(file(), true, {"--edit"});
@@ -232,11 +232,11 @@ TEST_F(preview_editor, the_code_of_a_figure_draws_the_same_figure) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelector('div.plot')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('div.plot')"));
     const std::string code =
         json::parse(browser.evaluate("return dynlabCopies.lua(document.querySelector('div.plot').plot)"));
     write(kHead + figure + "\n-- %% id=again\n" + code);
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('div.plot').length === 2"))
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('div.plot').length === 2"))
         << code << browser.evaluate("return document.getElementById('document').innerText");
     EXPECT_EQ(
         browser.evaluate(

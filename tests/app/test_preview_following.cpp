@@ -24,11 +24,11 @@ TEST_F(preview_following, follows_files_that_editors_replace_and_that_come_back)
     fs::rename(file(".analysis.lua.new"), file());
     EXPECT_TRUE(shows(browser, "x is 33"));
     fs::remove(file());
-    EXPECT_TRUE(browser.comes("!document.getElementById('complaints').hidden"));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('complaints').hidden"));
     EXPECT_TRUE(shows(browser, "x is 33"));
     write(kHead + kFirst);
     EXPECT_TRUE(shows(browser, "x is 20"));
-    EXPECT_TRUE(browser.comes("document.getElementById('complaints').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('complaints').hidden"));
 }
 
 TEST_F(preview_following, follows_data_and_template_of_a_report) {
@@ -85,10 +85,10 @@ TEST_F(preview_following, follows_pictures_that_come_later) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("!document.getElementById('complaints').hidden"));
+    ASSERT_TRUE(browser.becomes_true("!document.getElementById('complaints').hidden"));
     write("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"120\" height=\"40\"></svg>", "rig.svg");
-    EXPECT_TRUE(browser.comes("document.querySelector('figure img')?.naturalWidth === 120"));
-    EXPECT_TRUE(browser.comes("document.getElementById('complaints').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('figure img')?.naturalWidth === 120"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('complaints').hidden"));
 }
 
 TEST_F(preview_following, follows_pictures_and_literature) {
@@ -106,12 +106,12 @@ TEST_F(preview_following, follows_pictures_and_literature) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelector('figure img')?.naturalWidth === 200"));
-    EXPECT_TRUE(browser.comes("document.body.innerText.includes('Systems')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('figure img')?.naturalWidth === 200"));
+    EXPECT_TRUE(browser.becomes_true("document.body.innerText.includes('Systems')"));
     draw("100");
-    EXPECT_TRUE(browser.comes("document.querySelector('figure img')?.naturalWidth === 100"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('figure img')?.naturalWidth === 100"));
     cite("Circuits");
-    EXPECT_TRUE(browser.comes("document.body.innerText.includes('Circuits')"));
+    EXPECT_TRUE(browser.becomes_true("document.body.innerText.includes('Circuits')"));
 }
 
 /// A picture that nobody can read is told of; the page goes on.
@@ -140,12 +140,12 @@ TEST_F(preview_following, what_a_run_still_gives_is_not_complained_of) {
         R"('[data-cell=second][data-state=running]') && !!document.querySelector('figure .plot') && )"
         R"(!document.querySelector('td'); }).observe(document, {childList: true, attributes: true, subtree: true});"})");
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('stop').hidden"));
     write(kHead + "-- %% id=first\nreport.figure(\"both\", plot({1, 2}, {1, 4}), \"A figure\")\n" + slow +
           "\n-- %% id=second\n" + slow + "report.table(\"both\", {{\"a\"}, {\"1.5\"}})\n\n-- %% [markdown]\n" +
           "-- ![A figure](figure:both){#fig:both}\n--\n-- ::: {.table name=both #tbl:both}\n-- A table.\n-- :::\n--\n"
           "-- See @fig:both and @tbl:both.\n");
-    ASSERT_TRUE(browser.comes("document.querySelector('td')?.innerText === '1.5'"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('td')?.innerText === '1.5'"));
     EXPECT_EQ(browser.evaluate("return window.half"), "true");
     EXPECT_EQ(browser.evaluate("return window.ever"), "\"\"");
 }
@@ -167,17 +167,17 @@ TEST_F(preview_following, a_long_call_shows_how_far_it_is) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('stop').hidden"));
     write(kHead +
           "-- %% id=study\nlocal M = montecarlo{system = tf({2}, {1, 4, 3}), input = prbs(4, 100), Ts = 0.01, sigma = "
           "0.2, "
           "runs = 400000, estimators = {{\"lssvf\", {2, 1, 0}, 3}}}\n");
     const std::string share = "Number(document.querySelector('[data-cell=study]')?.style.getPropertyValue('--done'))";
-    ASSERT_TRUE(
-        browser.comes("document.querySelector('[data-state=running]') && " + share + " > 0.001 && " + share + " < 1"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('[data-state=running]') && " + share + " > 0.001 && " +
+                                     share + " < 1"));
     const double early = std::stod(browser.evaluate("return " + share));
-    EXPECT_TRUE(browser.comes("/study, [0-9]+ %/.test(document.getElementById('state').innerText)"));
-    EXPECT_TRUE(browser.comes(share + " > " + std::to_string(early)));
+    EXPECT_TRUE(browser.becomes_true("/study, [0-9]+ %/.test(document.getElementById('state').innerText)"));
+    EXPECT_TRUE(browser.becomes_true(share + " > " + std::to_string(early)));
     browser.click("#stop");
 }
 

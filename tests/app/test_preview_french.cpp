@@ -31,7 +31,7 @@ class preview_french : public preview_page {
         EXPECT_FALSE(std::regex_search(words, found, english)) << found.str() << " in " << words;
     }
     bool says(Browser& browser, const std::string& id, const std::string& pattern, double seconds = 30) const {
-        return browser.comes("/" + pattern + "/.test(document.getElementById('" + id + "').innerText)", seconds);
+        return browser.becomes_true("/" + pattern + "/.test(document.getElementById('" + id + "').innerText)", seconds);
     }
 };
 
@@ -48,7 +48,7 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
     Browser browser;
     browser.open(preview.address());
     ASSERT_TRUE(shows(browser, "k vaut 2.5"));
-    ASSERT_TRUE(browser.comes("document.querySelector('.editing .CodeMirror')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.editing .CodeMirror')"));
     EXPECT_EQ(browser.evaluate("return document.documentElement.lang"), "\"fr\"");
     EXPECT_TRUE(says(browser, "state", "^\\d cellules, \\d+,\\d s$"));
     EXPECT_TRUE(says(browser, "anew", "^Tout exécuter$"));
@@ -57,8 +57,8 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
               "\"Exécuter de nouveau toutes les cellules\"");
     EXPECT_EQ(browser.evaluate("return document.getElementById('editor').getAttribute('aria-label')"),
               "\"Texte source\"");
-    EXPECT_TRUE(browser.comes("document.querySelector('.slider output').innerText.startsWith('2,5')"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.slider button').textContent === 'Réinitialiser'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.slider output').innerText.startsWith('2,5')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.slider button').textContent === 'Réinitialiser'"));
     for (const char* part : {"#bar", "#editor-bar", "#conflict", "#draft", "#question", "#hand-in"})
         expect_no_english(all_words(browser, part));
 
@@ -75,7 +75,7 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
 
     write(kHead + kFirst);  // English from here on
     EXPECT_TRUE(shows(browser, "x is 20"));
-    EXPECT_TRUE(browser.comes("document.documentElement.lang === 'en'"));
+    EXPECT_TRUE(browser.becomes_true("document.documentElement.lang === 'en'"));
     EXPECT_TRUE(says(browser, "anew", "^Run all$"));
 }
 
@@ -86,8 +86,8 @@ TEST_F(preview_french, the_editor_s_search_speaks_it_too) {
     Browser browser;
     browser.open(preview.address());
     ASSERT_TRUE(shows(browser, "k vaut 2.5"));
-    ASSERT_TRUE(
-        browser.comes("document.querySelector('.editing .CodeMirror')?.CodeMirror.getValue().includes('k vaut')"));
+    ASSERT_TRUE(browser.becomes_true(
+        "document.querySelector('.editing .CodeMirror')?.CodeMirror.getValue().includes('k vaut')"));
     const auto key_in_field = [](int code) {
         return "field?.dispatchEvent(new KeyboardEvent('keydown', {keyCode: " + std::to_string(code) +
                ", bubbles: true, cancelable: true}));";
@@ -116,25 +116,25 @@ TEST_F(preview_french, the_editor_s_search_speaks_it_too) {
 
     write(kHead + kFirst);  // English from here on
     EXPECT_TRUE(shows(browser, "x is 20"));
-    EXPECT_TRUE(browser.comes("document.documentElement.lang === 'en'"));
+    EXPECT_TRUE(browser.becomes_true("document.documentElement.lang === 'en'"));
     EXPECT_THAT(asked("find"), testing::AllOf(HasSubstr("Search:"), HasSubstr("(Use /re/ syntax for regexp search)")));
 }
 
-TEST_F(preview_french, a_stranger_s_document_asks_in_french) {
+TEST_F(preview_french, an_untrusted_document_asks_in_french) {
     write(kFrench + kSome);
     const Preview preview(file(), false);
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("!document.getElementById('question').hidden"));
+    ASSERT_TRUE(browser.becomes_true("!document.getElementById('question').hidden"));
     EXPECT_TRUE(says(browser, "question", "Ce document exécute des programmes. L.exécuter.\\?"));
     EXPECT_TRUE(says(browser, "allow", "^L.exécuter$"));
     browser.evaluate("fetch('document.pdf').then(async r => { window.refused = r.status + await r.text() })");
-    EXPECT_TRUE(browser.comes("/^403Ce document n.a pas encore le droit/.test(window.refused)"));
+    EXPECT_TRUE(browser.becomes_true("/^403Ce document n.a pas encore le droit/.test(window.refused)"));
     browser.click("#allow");
     EXPECT_TRUE(shows(browser, "x vaut 20"));
 }
 
-TEST_F(preview_french, findings_and_what_is_handed_in_are_told_in_french) {
+TEST_F(preview_french, findings_and_what_is_submitted_are_reported_in_french) {
     fs::create_directory(folder.path() / "mine");
     write(
         "-- ---\n-- title: Un rapport\n-- language: fr\n-- template: lesson\n-- answers:\n--   gain: number\n-- ---\n\n"
@@ -162,14 +162,14 @@ TEST_F(preview_french, findings_and_what_is_handed_in_are_told_in_french) {
     EXPECT_TRUE(says(browser, "made", "dynlab fait le rapport à partir du script enregistré"));
     browser.click("#make-report");
     EXPECT_TRUE(says(browser, "made", "mine\\/report.pdf", 60));
-    EXPECT_TRUE(browser.comes("!document.getElementById('make-pack').disabled"));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('make-pack').disabled"));
     browser.click("#make-pack");
     EXPECT_TRUE(says(browser, "made", "mine\\.zip.: \\d fichiers, SHA-256", 60))
         << browser.evaluate("return document.getElementById('made').innerText");
 }
 
 /// What the document's own scripts add to the page: they are there before its language is known.
-TEST_F(preview_french, questions_and_rigs_speak_it_too) {
+TEST_F(preview_french, questions_and_plants_speak_it_too) {
     write(
         kFrench +
         "-- %% [markdown]\n-- ::: choice\n-- Combien font deux et deux ?\n--\n-- - [ ] Trois.\n--\n--   Il en manque.\n"
@@ -178,11 +178,11 @@ TEST_F(preview_french, questions_and_rigs_speak_it_too) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelectorAll('.option').length === 2"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.asked [aria-label=\"Choisissez une réponse.\"]')"));
-    ASSERT_TRUE(browser.comes("document.querySelector('.motion button')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.option').length === 2"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.asked [aria-label=\"Choisissez une réponse.\"]')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.motion button')"));
     EXPECT_EQ(browser.evaluate("return document.querySelector('.motion button').innerText"), "\"Lecture\"");
-    EXPECT_TRUE(browser.comes("/mesuré .* N, . simulé .* N/.test(document.querySelector('.motion').innerText)"));
+    EXPECT_TRUE(browser.becomes_true("/mesuré .* N, . simulé .* N/.test(document.querySelector('.motion').innerText)"));
 }
 
 }  // namespace test_preview_french

@@ -40,30 +40,31 @@ TEST_F(preview_hand_in, report_and_zip_are_made_on_the_page) {
     ASSERT_TRUE(shows(browser, "Which gain?"));
     browser.click("#show-hand-in");
     browser.click("#make-report");
-    EXPECT_TRUE(browser.comes(kMade + ".innerText.includes('mine/report.pdf')", 60));
-    EXPECT_TRUE(browser.comes("!document.getElementById('make-report').disabled"));
+    EXPECT_TRUE(browser.becomes_true(kMade + ".innerText.includes('mine/report.pdf')", 60));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('make-report').disabled"));
     ASSERT_TRUE(fs::exists(mine() / "report.pdf"));
     EXPECT_EQ(read_file(mine() / "report.pdf").substr(0, 5), "%PDF-");
     browser.click("#make-pack");
-    EXPECT_TRUE(browser.comes(kMade + ".innerText.includes('mine.zip')", 60));
+    EXPECT_TRUE(browser.becomes_true(kMade + ".innerText.includes('mine.zip')", 60));
     EXPECT_THAT(browser.evaluate("return " + kMade + ".innerText"), testing::HasSubstr("report.pdf"));
     EXPECT_EQ(read_file(folder.path() / "mine.zip").substr(0, 2), "PK");
 }
 
-TEST_F(preview_hand_in, what_goes_wrong_is_told) {
+TEST_F(preview_hand_in, what_goes_wrong_is_reported) {
     make_folder();
     const Preview preview(mine(), true, {"--edit"});
     Browser browser;
     browser.open(preview.address());
     ASSERT_TRUE(shows(browser, "Which gain?"));
-    ASSERT_TRUE(browser.comes("document.querySelector('.CodeMirror')?.CodeMirror.getValue().includes('Which gain?')"));
+    ASSERT_TRUE(
+        browser.becomes_true("document.querySelector('.CodeMirror')?.CodeMirror.getValue().includes('Which gain?')"));
     browser.evaluate(
         "const m = document.querySelector('.CodeMirror').CodeMirror; m.setValue(m.getValue() + "
         "'\\n-- %%\\nprint(nothing)\\n')");
     browser.click("#show-hand-in");
     browser.click("#make-report");  // saves first
-    EXPECT_TRUE(
-        browser.comes(kMade + ".classList.contains('broken') && " + kMade + ".innerText.includes('nothing')", 60));
+    EXPECT_TRUE(browser.becomes_true(
+        kMade + ".classList.contains('broken') && " + kMade + ".innerText.includes('nothing')", 60));
     EXPECT_THAT(read_text(mine() / "analysis.lua"), testing::HasSubstr("print(nothing)"));
 }
 
@@ -78,7 +79,7 @@ TEST_F(preview_hand_in, nothing_is_made_of_what_was_not_allowed_to_run) {
         browser.evaluate(
             std::string("window.refused = 0; fetch('") + what +
             "', {method: 'POST', headers: {'X-Dynlab': '1'}}).then(reply => { window.refused = reply.status })");
-        EXPECT_TRUE(browser.comes("window.refused === 403"));
+        EXPECT_TRUE(browser.becomes_true("window.refused === 403"));
     }
     EXPECT_FALSE(fs::exists(mine() / "report.pdf"));
     EXPECT_FALSE(fs::exists(folder.path() / "mine.zip"));
@@ -93,13 +94,15 @@ TEST_F(preview_hand_in, the_checks_are_followed) {
     const Preview preview(mine());
     Browser browser;
     browser.open(preview.address());
-    const std::string told = "document.getElementById('show-findings').innerText";
-    EXPECT_TRUE(browser.comes("/3 of 3 points/.test(" + told + ")", 120)) << browser.evaluate("return " + told);
+    const std::string reported = "document.getElementById('show-findings').innerText";
+    EXPECT_TRUE(browser.becomes_true("/3 of 3 points/.test(" + reported + ")", 120))
+        << browser.evaluate("return " + reported);
     std::string checks = read_text(mine() / "checks.lua");
     checks.replace(checks.find("points = 3"), 10, "points = 5");
     checks.replace(checks.find("a.gain, 2"), 9, "a.gain, 4");
     write(checks, "mine/checks.lua");
-    EXPECT_TRUE(browser.comes("/0 of 5 points/.test(" + told + ")", 120)) << browser.evaluate("return " + told);
+    EXPECT_TRUE(browser.becomes_true("/0 of 5 points/.test(" + reported + ")", 120))
+        << browser.evaluate("return " + reported);
 }
 
 /// A question with two blanks is one; an answer that is not given is not told a second and a third time.
@@ -108,9 +111,9 @@ TEST_F(preview_hand_in, each_thing_is_counted_once_and_points_are_shown) {
     const Preview preview(mine());
     Browser browser;
     browser.open(preview.address());
-    const std::string told = "document.getElementById('show-findings').innerText";
-    EXPECT_TRUE(browser.comes("/1 answer open, 2 rules violated.*0 of 3 points/.test(" + told + ")", 120))
-        << browser.evaluate("return " + told);
+    const std::string reported = "document.getElementById('show-findings').innerText";
+    EXPECT_TRUE(browser.becomes_true("/1 answer open, 2 rules violated.*0 of 3 points/.test(" + reported + ")", 120))
+        << browser.evaluate("return " + reported);
     browser.click("#show-findings");
     const std::string panel = browser.evaluate("return document.getElementById('findings').innerText");
     EXPECT_THAT(panel, testing::HasSubstr("Question 1 is open"));
@@ -118,11 +121,11 @@ TEST_F(preview_hand_in, each_thing_is_counted_once_and_points_are_shown) {
     EXPECT_THAT(panel, testing::HasSubstr("Checks of the lesson: 0 of 3 points"));
     // Each place is a button: to the question's line, and to where the answer is asked for.
     browser.evaluate("[...document.querySelectorAll('#findings button')].find(b => b.innerText === 'gain').click()");
-    EXPECT_TRUE(browser.comes("document.querySelector('.chosen')?.innerText.includes('Which gain?')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.chosen')?.innerText.includes('Which gain?')"));
     browser.evaluate(
         "[...document.querySelectorAll('#findings button')].find(b => "
         "/analysis.lua:1[0-9]/.test(b.innerText)).click()");
-    EXPECT_TRUE(browser.comes("document.querySelector('.chosen')?.dataset.cell === 'asked'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.chosen')?.dataset.cell === 'asked'"));
 }
 
 /// Nothing is cut off or out of reach where the window is narrow, with everything that the bar can hold.
@@ -132,14 +135,14 @@ TEST_F(preview_hand_in, all_buttons_are_within_narrow_windows) {
     const Preview preview(mine(), true, {"--edit"});
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelector('.editing .CodeMirror')"));
-    ASSERT_TRUE(browser.comes("!document.getElementById('to-mistake').hidden"));
-    ASSERT_TRUE(browser.comes("!document.getElementById('show-findings').hidden", 120));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.editing .CodeMirror')"));
+    ASSERT_TRUE(browser.becomes_true("!document.getElementById('to-mistake').hidden"));
+    ASSERT_TRUE(browser.becomes_true("!document.getElementById('show-findings').hidden", 120));
     for (const char* width : {"1280", "800", "360"}) {
         browser.devtools(
             "Emulation.setDeviceMetricsOverride",
             std::string(R"({"height": 740, "deviceScaleFactor": 1, "mobile": false, "width": )") + width + "}");
-        EXPECT_TRUE(browser.comes(std::string("innerWidth === ") + width)) << width;
+        EXPECT_TRUE(browser.becomes_true(std::string("innerWidth === ") + width)) << width;
         EXPECT_EQ(browser.evaluate("return document.documentElement.scrollWidth <= innerWidth"), "true") << width;
         EXPECT_EQ(
             browser.evaluate("return [...document.querySelectorAll('#bar button, #editor-bar button')].filter(node => "
@@ -161,15 +164,15 @@ TEST_F(preview_hand_in, code_that_is_not_printed_can_be_reached_beside_the_edito
     const Preview preview(mine(), true, {"--edit"});
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelector('.editing .CodeMirror')"));
-    ASSERT_TRUE(browser.comes("document.querySelector('.unseen')?.offsetHeight > 0"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.editing .CodeMirror')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.unseen')?.offsetHeight > 0"));
     EXPECT_EQ(
         browser.evaluate("return [...document.querySelectorAll('.piece')].map(n => n.dataset.cell).filter(c => c)"),
         "[\"asked\",\"hidden\"]");
     browser.click(".unseen button");
     EXPECT_TRUE(
-        browser.comes("(m => m.getLine(m.getCursor().line).includes('Not printed'))("
-                      "document.querySelector('.CodeMirror').CodeMirror)"));
+        browser.becomes_true("(m => m.getLine(m.getCursor().line).includes('Not printed'))("
+                             "document.querySelector('.CodeMirror').CodeMirror)"));
 }
 
 }  // namespace test_preview_hand_in

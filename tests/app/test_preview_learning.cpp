@@ -23,18 +23,18 @@ TEST_F(preview_learning, questions_answer_and_stay_answered_while_the_document_c
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelectorAll('.option').length === 2"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.option').length === 2"));
     browser.click(".option");
     const std::string verdict = "document.querySelector('.verdict').innerText === 'Wrong. One is missing.'";
-    EXPECT_TRUE(browser.comes(verdict));
+    EXPECT_TRUE(browser.becomes_true(verdict));
     EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.chosen').length"), "0") << "no place was chosen";
     std::string changed = kQuestion;
     changed.replace(changed.find("Count them"), 10, "Count again");
     write(kHead + changed + kFirst);
-    ASSERT_TRUE(browser.comes("document.getElementById('document').innerHTML.includes('Count again')"));
-    EXPECT_TRUE(browser.comes(verdict));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('document').innerHTML.includes('Count again')"));
+    EXPECT_TRUE(browser.becomes_true(verdict));
     browser.evaluate("document.querySelectorAll('.option')[1].click()");
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('.verdict')[1].innerText === 'Right. Count again.'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('.verdict')[1].innerText === 'Right. Count again.'"));
 }
 
 /// As a lesson has them: behind its literature.
@@ -48,25 +48,25 @@ TEST_F(preview_learning, questions_below_the_literature_answer_too) {
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelectorAll('.option').length === 2"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.option').length === 2"));
     browser.click(".option");
-    EXPECT_TRUE(browser.comes("document.querySelector('.verdict').innerText === 'Wrong. One is missing.'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.verdict').innerText === 'Wrong. One is missing.'"));
     write(read_text(file()) + kFirst);
-    ASSERT_TRUE(browser.comes("document.body.innerText.includes('Words at the beginning.')"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.verdict').innerText === 'Wrong. One is missing.'"));
+    ASSERT_TRUE(browser.becomes_true("document.body.innerText.includes('Words at the beginning.')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.verdict').innerText === 'Wrong. One is missing.'"));
 }
 
-TEST_F(preview_learning, rigs_move_above_their_figure) {
+TEST_F(preview_learning, plants_move_above_their_figure) {
     write(kHead + kFirst + kMotion);
     const Preview preview(file());
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("document.querySelector('.motion .stage')?.width > 100"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.motion .stage')?.width > 100"));
     EXPECT_EQ(browser.evaluate("return document.querySelector('.motion').motion.now"), "0");
     browser.click(".motion button");
-    EXPECT_TRUE(browser.comes("document.querySelector('.motion').motion.now > 0.2"));
-    EXPECT_TRUE(
-        browser.comes("/force: . measured .* N, . simulated .* N/.test(document.querySelector('.motion').innerText)"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.motion').motion.now > 0.2"));
+    EXPECT_TRUE(browser.becomes_true(
+        "/force: . measured .* N, . simulated .* N/.test(document.querySelector('.motion').innerText)"));
 }
 
 }  // namespace test_preview_learning

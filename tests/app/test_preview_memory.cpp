@@ -37,34 +37,34 @@ TEST_F(preview_memory, is_whole_at_once_when_it_is_opened_again) {
         const Preview preview(file(), true, {}, cache);
         Browser browser;
         browser.open(preview.address());
-        ASSERT_TRUE(browser.comes(whole + " && " + at_rest));
+        ASSERT_TRUE(browser.becomes_true(whole + " && " + at_rest));
         first = browser.evaluate(pieces);
     }
     const Preview preview(file(), true, {}, cache);
     preview.hold();
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes(whole));
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('[data-state=recalled]').length > 2"));
+    ASSERT_TRUE(browser.becomes_true(whole));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('[data-state=recalled]').length > 2"));
     EXPECT_EQ(browser.evaluate(pieces), first);
-    EXPECT_TRUE(browser.comes("document.getElementById('state').innerText.startsWith('of the previous run')"));
-    EXPECT_TRUE(browser.comes(
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText.startsWith('of the previous run')"));
+    EXPECT_TRUE(browser.becomes_true(
         "!document.getElementById('stop').hidden && document.getElementById('state').innerText === 'of the previous "
         "run; running again' && document.querySelectorAll('[data-state=recalled]').length > 2"));
     browser.evaluate("for (const node of document.querySelectorAll('.piece')) node.seen = true");
     preview.go_on();
-    EXPECT_TRUE(browser.comes(at_rest));
+    EXPECT_TRUE(browser.becomes_true(at_rest));
     EXPECT_EQ(browser.evaluate("return [...document.querySelectorAll('.piece')].filter(n => !n.seen).length"), "0");
 
     std::string changed = slow;
     changed.replace(changed.find("x = 20"), 6, "x = 21");
     write(changed);
     EXPECT_TRUE(shows(browser, "x is 21"));
-    EXPECT_TRUE(browser.comes("!document.getElementById('state').innerText.includes('before')"));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('state').innerText.includes('before')"));
 }
 
 /// Changes made while the page is that of the run before, or while nobody looked, are not hidden by it.
-TEST_F(preview_memory, remembered_pages_do_not_hide_changes) {
+TEST_F(preview_memory, cached_pages_do_not_hide_changes) {
     const auto written = [&](const std::string& x) {
         write(kHead + "-- %% id=slow\nlocal s = 0 for i = 1, 5e7 do s = s + 1 end\nprint(\"it is \" .. s)\n\n" +
               "-- %% id=one\nlocal x = " + x + "\nprint(\"x is \" .. x)\n");
@@ -77,20 +77,20 @@ TEST_F(preview_memory, remembered_pages_do_not_hide_changes) {
         Browser browser;
         browser.open(preview.address());
         ASSERT_TRUE(shows(browser, "x is 20"));
-        ASSERT_TRUE(browser.comes(at_rest));
+        ASSERT_TRUE(browser.becomes_true(at_rest));
     }
     {
         const Preview preview(file(), true, {}, cache);
         preview.hold();
         Browser browser;
         browser.open(preview.address());
-        ASSERT_TRUE(browser.comes("document.getElementById('state').innerText.includes('of the previous run')"));
+        ASSERT_TRUE(browser.becomes_true("document.getElementById('state').innerText.includes('of the previous run')"));
         written("21");
         preview.go_on();
         EXPECT_TRUE(shows(browser, "x is 21"));
         EXPECT_EQ(browser.evaluate("return document.getElementById('document').innerText.includes('x is 20')"),
                   "false");
-        EXPECT_TRUE(browser.comes(at_rest));
+        EXPECT_TRUE(browser.becomes_true(at_rest));
     }
     written("22");
     const Preview preview(file(), true, {}, cache);
@@ -103,7 +103,7 @@ TEST_F(preview_memory, remembered_pages_do_not_hide_changes) {
     EXPECT_EQ(browser.evaluate("return /x is 2[01]/.test(window.ever)"), "false");
 }
 
-TEST_F(preview_memory, a_run_behind_a_remembered_page_can_be_stopped) {
+TEST_F(preview_memory, a_run_behind_a_cached_page_can_be_stopped) {
     write(kHead + kFirst + "-- %% id=slow\nlocal s = 0 for i = 1, 5e7 do s = s + 1 end\nprint(\"ov\" .. \"er\")\n");
     const fs::path cache = folder.path() / "cache";
     {
@@ -111,24 +111,24 @@ TEST_F(preview_memory, a_run_behind_a_remembered_page_can_be_stopped) {
         Browser browser;
         browser.open(preview.address());
         ASSERT_TRUE(
-            browser.comes("document.getElementById('document').innerText.includes('over') && "
-                          "document.getElementById('stop').hidden",
-                          60));
+            browser.becomes_true("document.getElementById('document').innerText.includes('over') && "
+                                 "document.getElementById('stop').hidden",
+                                 60));
     }
     const Preview preview(file(), true, {}, cache);
     preview.hold();
     Browser browser;
     browser.open(preview.address());
-    ASSERT_TRUE(browser.comes("!document.getElementById('stop').hidden"));
+    ASSERT_TRUE(browser.becomes_true("!document.getElementById('stop').hidden"));
     EXPECT_TRUE(shows(browser, "over"));
     browser.click("#stop");
     preview.go_on();
-    EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('stop').hidden"));
     EXPECT_EQ(browser.evaluate("return document.getElementById('state').innerText"), "\"of the previous run\"");
     EXPECT_TRUE(shows(browser, "over"));
 }
 
-TEST_F(preview_memory, remembered_pages_are_not_shown_for_other_data) {
+TEST_F(preview_memory, cached_pages_are_not_shown_for_other_data) {
     write("a\n1\n2\n", "numbers.csv");
     write(kHead +
           "-- %% id=one\nprint(\"last \" .. load(\"numbers.csv\").a[2])\n\n"
@@ -141,7 +141,7 @@ TEST_F(preview_memory, remembered_pages_are_not_shown_for_other_data) {
         browser.open(preview.address());
         EXPECT_TRUE(shows(browser, shown));
         EXPECT_TRUE(shows(browser, "over"));
-        EXPECT_TRUE(browser.comes("document.getElementById('stop').hidden"));
+        EXPECT_TRUE(browser.becomes_true("document.getElementById('stop').hidden"));
         EXPECT_EQ(browser.evaluate("return window.ever.includes('" + shown + "')"), "true");
         EXPECT_EQ(browser.evaluate("return window.ever.includes('" + not_shown + "')"), "false");
     };

@@ -34,7 +34,7 @@ TEST_F(record_choice, orders_that_are_no_records_are_refused) {
     write("plant.csv", "# Ts: 0.1\nu,y\n1,2\n0,3\n1,2\n");
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(folder.path());
-    const RecordOrder good = suggested_order(look_at_record("plant.csv"));
+    const RecordOrder good = suggested_order(summarize_record("plant.csv"));
     EXPECT_THAT(record_lines(good), HasSubstr("data = iddata(data_file.y, data_file.u, "));
     RecordOrder code = good, word = good, without_input = good, without_output = good;
     word.name = "end";
@@ -50,7 +50,7 @@ TEST_F(record_choice, orders_that_are_no_records_are_refused) {
 TEST_F(record_choice, all_channels_of_one_experiment_are_offered) {
     const auto channels = [&](const std::string& head) {
         write("plant.csv", "# Ts: 0.1\n" + head + "\n1,2,5,3,4,6\n0,3,4,7,5,3\n1,2,6,4,8,4\n");
-        const RecordOrder order = suggested_order(look_at_record(file("plant.csv").string(), false));
+        const RecordOrder order = suggested_order(summarize_record(file("plant.csv").string(), false));
         return std::pair(order.inputs, order.outputs);
     };
     using Names = std::vector<std::string>;

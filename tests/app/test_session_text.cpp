@@ -65,18 +65,18 @@ TEST_F(session_text, a_slider_that_is_held_is_one_step_and_is_saved_when_it_is_l
 TEST_F(session_text, takes_what_another_program_wrote_but_not_its_own) {
     SessionText text(file);
     text.put("a = 1\n");
-    EXPECT_FALSE(text.look_at_file());
+    EXPECT_FALSE(text.read_changed_file());
     std::ofstream(file) << "b = 7\n";
-    EXPECT_TRUE(text.look_at_file());
+    EXPECT_TRUE(text.read_changed_file());
     EXPECT_EQ(text.text(), "b = 7\n");
-    EXPECT_FALSE(text.look_at_file());
+    EXPECT_FALSE(text.read_changed_file());
     std::ofstream(file).flush();  // as an editor that writes in place begins
-    EXPECT_FALSE(text.look_at_file());
+    EXPECT_FALSE(text.read_changed_file());
     EXPECT_EQ(text.text(), "b = 7\n");
     text.undo();
     EXPECT_EQ(on_disk(), "a = 1\n");
     std::filesystem::remove(file);
-    EXPECT_FALSE(text.look_at_file());
+    EXPECT_FALSE(text.read_changed_file());
 }
 
 /// Where nobody tells of it, as on a network drive that another machine writes to.

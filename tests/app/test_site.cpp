@@ -121,7 +121,7 @@ void check_examples(const Workbench& bench, const std::map<std::string, std::str
     const std::string printed = bench.dynlab({"run", "example.lua"}).output;
     EXPECT_THAT(printed, HasSubstr("1896"));
     EXPECT_EQ(bare(output_on(pages.at("functions/load.html"))), bare(printed));
-    for (const MethodEntry& method : method_catalogue())
+    for (const MethodEntry& method : method_catalog())
         EXPECT_THAT(bare_text_of(pages.at("guides/methods.html")), HasSubstr(bare(method.reference))) << method.file;
     EXPECT_THAT(bare_text_of(pages.at("guides/methods.html")), HasSubstr(bare("taught in: 06_physics")));
     EXPECT_GT(attributes(pages.at("gallery/index.html"), "src").size(), 60u);
@@ -145,7 +145,7 @@ class Reader {
     json value(const std::string& expression) { return json::parse(browser_.evaluate("return " + expression)); }
     void begin_search() {
         browser_.evaluate("window.dynlabLoadSearch().then(() => { window.ready = true })");
-        EXPECT_TRUE(browser_.comes("window.ready"));
+        EXPECT_TRUE(browser_.becomes_true("window.ready"));
     }
     /// Files that the search gives, best first.
     std::vector<std::string> found(const std::string& words) {
@@ -176,15 +176,15 @@ void check_search(Reader& reader) {
         "const field = document.getElementById('search'); window.there = document.activeElement === field;"
         "field.value = 'bode'; field.dispatchEvent(new Event('input'))");
     EXPECT_EQ(reader.value("window.there"), true);
-    ASSERT_TRUE(reader.browser().comes("document.querySelectorAll('#found a').length > 2"));
+    ASSERT_TRUE(reader.browser().becomes_true("document.querySelectorAll('#found a').length > 2"));
     EXPECT_THAT(reader.value("document.querySelector('#found a').innerText").get<std::string>(), HasSubstr("Function"));
     reader.browser().evaluate("document.getElementById('search').form.requestSubmit()");
-    EXPECT_TRUE(reader.browser().comes("location.href.endsWith('functions/bode.html')"));
+    EXPECT_TRUE(reader.browser().becomes_true("location.href.endsWith('functions/bode.html')"));
 }
 
 void check_pages_in_browser(Reader& reader) {
     // Figures are alive, from files and under the page's own policy.
-    EXPECT_TRUE(reader.browser().comes("document.querySelectorAll('.plot canvas').length > 0"));
+    EXPECT_TRUE(reader.browser().becomes_true("document.querySelectorAll('.plot canvas').length > 0"));
     EXPECT_EQ(reader.value("document.querySelectorAll('nav.site .theme').length"), 1);
     reader.browser().click("nav.site .theme");
     EXPECT_NE(reader.value("getComputedStyle(document.body).backgroundColor"), "rgb(255, 255, 255)");
@@ -280,7 +280,7 @@ TEST(site, pages_lead_to_what_their_code_names) {
 }
 
 // Oracle: 90 characters a line, shared by hand.
-TEST(site, columns_of_wide_tables_are_as_wide_as_what_stands_in_them) {
+TEST(site, columns_of_wide_tables_are_as_wide_as_their_content) {
     const std::string words(60, 'w'), more(120, 'm');
     const auto rule = [](const std::string& table) {
         return table.substr(table.find("\n|-"), table.rfind("\n| ") - table.find("\n|-"));

@@ -19,10 +19,10 @@ class try_pages : public testing::Test {
         const std::filesystem::path page = page_of_lesson(lesson);
         EXPECT_LT(std::filesystem::file_size(page), 3u << 20);
         browser_.open("file://" + page.string());
-        ASSERT_TRUE(browser_.comes("document.querySelector('img[alt*=\"" + figure + "\"]')"));
+        ASSERT_TRUE(browser_.becomes_true("document.querySelector('img[alt*=\"" + figure + "\"]')"));
         browser_.evaluate("window.image = document.querySelector('img[alt*=\"" + figure +
                           "\"]'); image.scrollIntoView({block: 'center'})");
-        ASSERT_TRUE(browser_.comes("window.box = image.closest('.piece').querySelector('div.plot')"));
+        ASSERT_TRUE(browser_.becomes_true("window.box = image.closest('.piece').querySelector('div.plot')"));
     }
     json value(const std::string& expression) { return json::parse(browser_.evaluate("return " + expression)); }
     double number(const std::string& slider) {

@@ -301,18 +301,18 @@ TEST_F(web_attacks, pages_of_other_sites_achieve_nothing_in_a_browser) {
     Browser browser;
     const std::string address = server.address();
     browser.open(address);
-    ASSERT_TRUE(browser.comes("document.title === 'ours'"));
+    ASSERT_TRUE(browser.becomes_true("document.title === 'ours'"));
     for (const std::string& attack : attacks_of_pages()) {
         const OtherSite site("window.onload = () => { try { " + attack +
                              " } finally { setTimeout(() => window.tried = 1, 50) } }");
         for (const char* name : {"127.0.0.1", "localhost"}) {
             browser.open(site.address(name));
-            browser.comes("window.tried || document.title !== 'evil'", 2);
+            browser.becomes_true("window.tried || document.title !== 'evil'", 2);
             browser.open(address);
-            ASSERT_TRUE(browser.comes("document.title === 'ours'")) << attack;
+            ASSERT_TRUE(browser.becomes_true("document.title === 'ours'")) << attack;
             browser.evaluate(
                 "window.asked = 0; for (let i = 0; i < 3; ++i) fetch('page.css').then(() => ++window.asked)");
-            ASSERT_TRUE(browser.comes("window.asked === 3")) << attack;
+            ASSERT_TRUE(browser.becomes_true("window.asked === 3")) << attack;
             ASSERT_EQ(orders, 0) << attack;
         }
     }
@@ -399,17 +399,17 @@ TEST_F(web_attacks, a_service_worker_that_was_left_at_the_port_rules_no_page) {
     std::thread thread([&] { site.listen_after_bind(); });
     const std::string there = fmt::format("127.0.0.1:{}", port);
     browser.open("http://" + there + "/");
-    EXPECT_TRUE(browser.comes("document.title === 'left'"));
+    EXPECT_TRUE(browser.becomes_true("document.title === 'left'"));
     site.stop();
     thread.join();
     browser.open("http://" + there + "/anything");
-    EXPECT_TRUE(browser.comes("document.title === 'evil'")) << "the worker works";
+    EXPECT_TRUE(browser.becomes_true("document.title === 'evil'")) << "the worker works";
 
     WebServer ours({.port = port});
     ours.on_get("/", [](const PageRequest&) { return PageReply{"<!DOCTYPE html><title>ours</title>"}; });
     ours.start();
     browser.open(ours.address());
-    EXPECT_TRUE(browser.comes("document.title === 'ours' && navigator.serviceWorker.controller === null"));
+    EXPECT_TRUE(browser.becomes_true("document.title === 'ours' && navigator.serviceWorker.controller === null"));
 }
 
 }  // namespace test_web_attacks

@@ -82,15 +82,15 @@ TEST_F(web_server, a_visit_with_a_token_leads_to_the_pages_once) {
     EXPECT_EQ(status(visit, known), 200) << "a tab that is loaded again";
 }
 
-TEST_F(web_server, a_visit_that_comes_late_is_told_by_a_new_address) {
-    std::promise<std::string> told;
+TEST_F(web_server, a_visit_that_comes_late_gets_a_new_address) {
+    std::promise<std::string> reported;
     WebServer other({.port = 0});
-    other.on_late_visit([&] { told.set_value(other.address()); });
+    other.on_late_visit([&] { reported.set_value(other.address()); });
     other.start();
     const std::string address = other.address();
     const PageClient first(address);
     EXPECT_ANY_THROW(PageClient{address});
-    auto next = told.get_future();
+    auto next = reported.get_future();
     ASSERT_EQ(next.wait_for(std::chrono::seconds(10)), std::future_status::ready);
     EXPECT_EQ(PageClient(next.get()).host(), first.host());
 }
@@ -171,7 +171,7 @@ TEST_F(web_server, other_sites_may_not_ask) {
     EXPECT_EQ(orders, 1);
 }
 
-TEST_F(web_server, tells_browsers_to_take_nothing_from_elsewhere) {
+TEST_F(web_server, makes_browsers_take_nothing_from_elsewhere) {
     const auto reply = page().get("/");
     ASSERT_TRUE(reply);
     EXPECT_THAT(reply->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'self'"));
@@ -240,7 +240,7 @@ TEST_F(web_server, sends_things_as_they_are) {
     }
 }
 
-TEST_F(web_server, a_port_that_is_taken_is_told) {
+TEST_F(web_server, a_port_that_is_taken_is_reported) {
     try {
         const WebServer second({.port = server.port()});
         ADD_FAILURE() << "two servers share a port";
@@ -250,7 +250,7 @@ TEST_F(web_server, a_port_that_is_taken_is_told) {
 }
 
 /// Browsers ask at ::1, too, for a name of this machine: another user's server there would get the address's token.
-TEST_F(web_server, nobody_else_gets_its_port_at_the_other_address_of_this_machine) {
+TEST_F(web_server, no_other_program_gets_its_port_at_the_other_address_of_this_machine) {
     const FileDescriptor other(::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0));
     sockaddr_in6 address{};
     address.sin6_family = AF_INET6;
@@ -267,15 +267,15 @@ TEST_F(web_server, nobody_else_gets_its_port_at_the_other_address_of_this_machin
     }
 }
 
-/// Reads a stream in a thread of its own until it has seen `wanted`.
+/// Reads a stream in a thread of its own until it has seen `expected`.
 class Listener {
   public:
-    Listener(const PageClient& page, std::string wanted)
-        : thread_([this, page, wanted = std::move(wanted)] {
+    Listener(const PageClient& page, std::string expected)
+        : thread_([this, page, expected = std::move(expected)] {
               const auto reply = page.get("/events", [&](const char* data, std::size_t length) {
                   text_.append(data, length);
                   open = true;
-                  return text_.find(wanted) == std::string::npos;
+                  return text_.find(expected) == std::string::npos;
               });
               if (reply) status = reply->status;
               over = true;
@@ -333,13 +333,13 @@ TEST(web_server_streams, begin_before_the_news_that_follow) {
         return std::string("old");
     });
     server.start();
-    std::string told;
+    std::string reported;
     PageClient(server.address()).get("/events", [&](const char* bytes, std::size_t count) {
-        told.append(bytes, count);
-        return told.find("new") == std::string::npos || told.find("old") == std::string::npos;
+        reported.append(bytes, count);
+        return reported.find("new") == std::string::npos || reported.find("old") == std::string::npos;
     });
     sender.join();
-    EXPECT_LT(told.find("old"), told.find("new")) << told;
+    EXPECT_LT(reported.find("old"), reported.find("new")) << reported;
 }
 
 }  // namespace test_web_server

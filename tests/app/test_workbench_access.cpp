@@ -34,7 +34,7 @@ class workbench_access : public workbench_page {
         return false;
     }
     static void wait(Browser& browser) {
-        browser.comes("document.getElementById('state').textContent === 'computing'", 0.3);
+        browser.becomes_true("document.getElementById('state').textContent === 'computing'", 0.3);
         ASSERT_TRUE(is_ready(browser));
     }
     std::string script() const { return text_of("plant_session.lua"); }
@@ -45,19 +45,19 @@ TEST_F(workbench_access, keys_alone_lead_from_a_file_to_a_model_and_its_figure_i
     const auto program = app("");
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(browser.comes("document.querySelectorAll('#steps select option').length > 1"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('#steps select option').length > 1"));
     ASSERT_TRUE(tab_to(browser, "course data and files here"));
     key(browser, "z");  // the only name that begins so
     ASSERT_TRUE(says(browser, "Use these data"));
     ASSERT_TRUE(tab_to(browser, "Use these data"));
     key(browser, kEnter);
-    ASSERT_TRUE(view_comes(browser, "record"));
+    ASSERT_TRUE(view_appears(browser, "record"));
     wait(browser);
     ASSERT_TRUE(tab_to(browser, "Divide 60 : 40"));
     key(browser, kSpace);
     ASSERT_TRUE(script_has(browser, "prepared:range(1, 480)"));
     wait(browser);
-    EXPECT_TRUE(browser.comes("document.activeElement.textContent === 'Divide 60 : 40'")) << "focus stays";
+    EXPECT_TRUE(browser.becomes_true("document.activeElement.textContent === 'Divide 60 : 40'")) << "focus stays";
     ASSERT_TRUE(tab_to(browser, "New model"));
     key(browser, kEnter);
     ASSERT_TRUE(script_has(browser, "G1 = tfsrivc(estimation, 2, 0)"));
@@ -75,8 +75,8 @@ TEST_F(workbench_access, keys_alone_lead_from_a_file_to_a_model_and_its_figure_i
     EXPECT_THAT(text_of("session.lua"), HasSubstr("-- %% id=bode echo=false\nreport.figure(\"bode\", bode(G1), "));
     ASSERT_TRUE(tab_to(browser, "Close: Bode"));
     key(browser, kEnter);
-    EXPECT_TRUE(browser.comes("!document.querySelector('.tile[data-view=bode]')"));
-    EXPECT_TRUE(browser.comes("document.activeElement.closest('#views')")) << "not at the page's beginning";
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('.tile[data-view=bode]')"));
+    EXPECT_TRUE(browser.becomes_true("document.activeElement.closest('#views')")) << "not at the page's beginning";
     ASSERT_TRUE(tab_to(browser, "Undo"));
     for (int i = 0; i < 20 && browser.evaluate("return document.getElementById('undo').disabled") == "false"; ++i) {
         key(browser, kEnter);
@@ -104,8 +104,8 @@ TEST_F(workbench_access, every_control_has_a_name) {
     Browser browser;
     browser.open(program->address());
     ASSERT_TRUE(is_ready(browser));
-    for (const char* view : {"record", "bode", "study", "reading"}) ASSERT_TRUE(view_comes(browser, view)) << view;
-    ASSERT_TRUE(browser.comes("document.querySelector('button.order')"));
+    for (const char* view : {"record", "bode", "study", "reading"}) ASSERT_TRUE(view_appears(browser, view)) << view;
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('button.order')"));
     browser.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })");
     std::set<std::string> kinds;
     for (const std::string chosen : {"G1", "G2"}) {
@@ -137,7 +137,7 @@ TEST_F(workbench_access, a_name_that_cannot_be_is_refused_in_words) {
     Browser browser;
     const auto program = open(browser);
     ASSERT_TRUE(press(browser, "New model"));
-    ASSERT_TRUE(view_comes(browser, "bode"));
+    ASSERT_TRUE(view_appears(browser, "bode"));
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(script_has(browser, "G2 ="));
     wait(browser);
@@ -152,14 +152,14 @@ TEST_F(workbench_access, a_name_that_cannot_be_is_refused_in_words) {
          {std::pair("best model", "letters, digits"), std::pair("end", "Lua keyword"),
           std::pair("G1", "is already used in the script"), std::pair("bode", "a function")}) {
         rename(name);
-        EXPECT_TRUE(
-            browser.comes("document.getElementById('name-trouble').textContent.includes('" + std::string(words) + "')"))
+        EXPECT_TRUE(browser.becomes_true("document.getElementById('name-trouble').textContent.includes('" +
+                                         std::string(words) + "')"))
             << name;
     }
     EXPECT_EQ(script(), before);
     rename("best");
     ASSERT_TRUE(script_has(browser, "best = tfsrivc(estimation, 2, 0)"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.chosen h3').textContent === 'best'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.chosen h3').textContent === 'best'"));
 }
 
 TEST_F(workbench_access, help_is_formatted_and_its_text_is_no_markup) {
@@ -190,7 +190,7 @@ TEST_F(workbench_access, options_and_columns_say_what_they_are) {
     Browser browser;
     const auto program = open(browser);
     ASSERT_TRUE(press(browser, "New model"));
-    ASSERT_TRUE(view_comes(browser, "bode"));
+    ASSERT_TRUE(view_appears(browser, "bode"));
     EXPECT_EQ(browser.evaluate("return [...document.querySelectorAll('.option small')].filter((one) => "
                                "one.textContent.length < 8).length"),
               "0");
@@ -210,7 +210,7 @@ TEST_F(workbench_access, the_report_comes_as_a_file_of_the_session_s_name) {
         "HTMLAnchorElement.prototype.click = function () { window.given = this.download; }; window.open = () "
         "=> { window.opened = true; }");
     ASSERT_TRUE(press(browser, "Report (PDF)"));
-    EXPECT_TRUE(browser.comes("window.given", 60));
+    EXPECT_TRUE(browser.becomes_true("window.given", 60));
     EXPECT_EQ(browser.evaluate("return [window.given, window.opened ?? false]"), R"(["plant_session.pdf",false])");
 }
 
@@ -218,14 +218,14 @@ TEST_F(workbench_access, after_the_end_nothing_can_be_pressed_and_nothing_fails)
     Browser browser;
     const auto program = open(browser);
     ASSERT_TRUE(press(browser, "New model"));
-    ASSERT_TRUE(view_comes(browser, "bode"));
+    ASSERT_TRUE(view_appears(browser, "bode"));
     program->end();
-    ASSERT_TRUE(browser.comes("document.getElementById('state').textContent.startsWith('dynlab has exited')"));
+    ASSERT_TRUE(browser.becomes_true("document.getElementById('state').textContent.startsWith('dynlab has exited')"));
     EXPECT_EQ(
         browser.evaluate("return [...document.querySelectorAll('#bench-bar button:enabled')].map((one) => one.id)"),
         R"(["show-script"])");
     browser.evaluate("[...document.querySelectorAll('#steps button, .actions button')].forEach((one) => one.click())");
-    EXPECT_FALSE(browser.comes("document.body.innerText.includes('Failed to fetch')", 1));
+    EXPECT_FALSE(browser.becomes_true("document.body.innerText.includes('Failed to fetch')", 1));
 }
 
 TEST_F(workbench_access, files_that_come_and_go_beside_the_session_end_nothing) {
@@ -240,7 +240,7 @@ TEST_F(workbench_access, files_that_come_and_go_beside_the_session_end_nothing) 
     EXPECT_THAT(script(), HasSubstr("detrend(prepared, \"mean\")"));
 }
 
-TEST_F(workbench_access, more_models_than_a_picture_takes_are_told) {
+TEST_F(workbench_access, more_models_than_a_picture_takes_are_reported) {
     std::string text = "data = iddata(lsim(tf({2}, {1, 3}), prbs(6, 4), 0.1), prbs(6, 4), 0.1)\n";
     for (int k = 1; k <= 10; ++k) text += "G" + std::to_string(k) + " = tf({1}, {1, " + std::to_string(k) + "})\n";
     write("many.lua", text);
@@ -251,7 +251,7 @@ TEST_F(workbench_access, more_models_than_a_picture_takes_are_told) {
     ASSERT_TRUE(is_ready(browser));
     browser.evaluate(
         "for (let k = 0; k < 2; ++k) document.querySelectorAll('.models input[type=checkbox]')[k].click()");
-    EXPECT_TRUE(browser.comes("!document.querySelector('.models .warning')"));
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('.models .warning')"));
 }
 
 TEST_F(workbench_access, a_record_that_begins_in_a_movement_is_answered_by_an_option_of_the_model) {
@@ -271,8 +271,8 @@ TEST_F(workbench_access, a_record_that_begins_in_a_movement_is_answered_by_an_op
     ASSERT_TRUE(press(browser, "G1: InitialState = \"estimate\""));
     EXPECT_TRUE(script_has(browser, "G1 = tfsrivc(estimation, 2, 0, {InitialState = \"estimate\"})"));
     EXPECT_TRUE(
-        browser.comes("![...document.querySelectorAll('button')].some((one) => one.textContent.startsWith('G1: "
-                      "InitialState'))"));
+        browser.becomes_true("![...document.querySelectorAll('button')].some((one) => one.textContent.startsWith('G1: "
+                             "InitialState'))"));
 }
 
 TEST_F(workbench_access, a_file_without_a_sampling_time_is_answered_for_who_asks) {
@@ -284,13 +284,14 @@ TEST_F(workbench_access, a_file_without_a_sampling_time_is_answered_for_who_asks
     Browser browser;
     browser.open(program->address());
     EXPECT_TRUE(says(browser, "enter the sampling time below"));
-    EXPECT_FALSE(browser.comes("document.body.innerText.includes('--Ts')", 0.1));
+    EXPECT_FALSE(browser.becomes_true("document.body.innerText.includes('--Ts')", 0.1));
     ASSERT_TRUE(press(browser, "Use these data"));
     EXPECT_TRUE(says(browser, "enter the sampling time below"));
     const Workbench shell;
     shell.write("plain.csv", text);
-    const ChildResult told = shell.dynlab({"identify", "plain.csv", "--input", "u", "--output", "y", "--poles", "2"});
-    EXPECT_THAT(told.error_output, HasSubstr("give --Ts SECONDS or --time NAME"));
+    const ChildResult reported =
+        shell.dynlab({"identify", "plain.csv", "--input", "u", "--output", "y", "--poles", "2"});
+    EXPECT_THAT(reported.error_output, HasSubstr("give --Ts SECONDS or --time NAME"));
 }
 
 }  // namespace test_workbench_access

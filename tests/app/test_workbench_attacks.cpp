@@ -24,14 +24,14 @@ class Asker : public PageClient {
     using PageClient::PageClient;
     /// All that a page shows: the event with which a stream begins.
     json page() const {
-        std::string told;
+        std::string reported;
         get("/events", [&](const char* bytes, std::size_t count) {
-            told.append(bytes, count);
-            return told.find("\n\n") == std::string::npos;
+            reported.append(bytes, count);
+            return reported.find("\n\n") == std::string::npos;
         });
-        const std::size_t from = told.find("data: ");
+        const std::size_t from = reported.find("data: ");
         return from == std::string::npos ? json()
-                                         : json::parse(told.substr(from + 6, told.find('\n', from) - from - 6));
+                                         : json::parse(reported.substr(from + 6, reported.find('\n', from) - from - 6));
     }
     /// Puts this text in the script's place.
     httplib::Result write(const std::string& text, bool held = false) const {
@@ -47,7 +47,7 @@ class Asker : public PageClient {
         return post("/look", json{{"variables", variables}, {"settings", settings.dump()}, {"data_until", 0}}.dump());
     }
     template <class Holds>
-    bool comes(const Holds& holds) const {
+    bool becomes_true(const Holds& holds) const {
         for (int i = 0; i < 200; ++i) {
             const json now = page();
             if (now.is_object() && holds(now)) return true;
@@ -57,13 +57,13 @@ class Asker : public PageClient {
         return false;
     }
     bool tells(const std::string& words) const {
-        return comes([&](const json& page) {
+        return becomes_true([&](const json& page) {
             return page.contains("error") &&
                    page["error"]["message"].get<std::string>().find(words) != std::string::npos;
         });
     }
     bool prints(const std::string& cell, const std::string& text) const {
-        return comes([&](const json& page) { return page["printed"].value(cell, "") == text; });
+        return becomes_true([&](const json& page) { return page["printed"].value(cell, "") == text; });
     }
 };
 
@@ -92,7 +92,7 @@ TEST_F(workbench_attacks, a_script_that_is_too_long_is_refused_and_ends_nothing)
     const auto program = allowed("s.lua", kPrints);
     const Asker page(program->address());
     ASSERT_TRUE(page.prints("a", "2\n"));
-    const std::string most = "--" + std::string(kMostSourceBytes - 2, 'x');
+    const std::string most = "--" + std::string(kMaxSourceSize - 2, 'x');
     EXPECT_EQ(page.write(most + "x")->status, kFailed);
     EXPECT_EQ(text_of("s.lua"), kPrints);
     write("s.lua", most + "x");
@@ -120,7 +120,7 @@ TEST_F(workbench_attacks, settings_that_are_nested_deep_are_refused) {
 }
 
 /// The script's place is a folder for a while: nothing can be written there, whoever runs the test.
-TEST_F(workbench_attacks, what_is_not_saved_is_told_until_it_is) {
+TEST_F(workbench_attacks, what_is_not_saved_is_reported_until_it_is) {
     const auto program = allowed("s.lua", kPrints);
     const Asker page(program->address());
     ASSERT_TRUE(page.prints("a", "2\n"));
@@ -130,10 +130,10 @@ TEST_F(workbench_attacks, what_is_not_saved_is_told_until_it_is) {
     const std::string mine = "-- %% id=a\nprint(7)\n";
     ASSERT_TRUE(page.write(mine));
     ASSERT_TRUE(page.prints("a", "7\n"));
-    EXPECT_TRUE(page.comes(is_unsaved)) << "also when it has run";
+    EXPECT_TRUE(page.becomes_true(is_unsaved)) << "also when it has run";
     fs::remove(file("s.lua"));
     page.write(mine + "-- more\n");
-    EXPECT_TRUE(page.comes(std::not_fn(is_unsaved)));
+    EXPECT_TRUE(page.becomes_true(std::not_fn(is_unsaved)));
     EXPECT_EQ(text_of("s.lua"), mine + "-- more\n");
 }
 
@@ -160,13 +160,13 @@ TEST_F(workbench_attacks, a_data_file_that_changes_goes_and_comes_is_noticed) {
     EXPECT_TRUE(page.prints("a", "60\n"));
 }
 
-TEST_F(workbench_attacks, processes_that_are_killed_are_replaced_or_told) {
+TEST_F(workbench_attacks, processes_that_are_killed_are_replaced_or_reported) {
     const std::string work = "local s = 0\nfor i = 1, 1e6 do s = s + i end\n";
     const std::string script = "-- %% id=a\n" + work + "-- %% id=b\n" + work + "-- %% id=c\n" + work;
     const auto program = allowed("s.lua", script + "print(1)\n");
     const Asker page(program->address());
     ASSERT_TRUE(page.prints("c", "1\n"));
-    ASSERT_TRUE(page.comes([](const json& now) { return !now["running"]; }));
+    ASSERT_TRUE(page.becomes_true([](const json& now) { return !now["running"]; }));
     std::vector<pid_t> all = program->processes();
     ASSERT_GE(all.size(), 3u) << "the program, the first, and one that keeps a state";
     ::kill(all[2], SIGKILL);
@@ -203,7 +203,7 @@ TEST_F(workbench_attacks, a_yes_is_for_this_script_as_it_was) {
     EXPECT_TRUE(asks("mine.lua"));
 }
 
-TEST_F(workbench_attacks, what_is_refused_is_told_in_the_script_s_language) {
+TEST_F(workbench_attacks, what_is_refused_is_reported_in_the_script_s_language) {
     const std::string mistake = "-- %% id=a\npritn(1 + 1)\n";
     const auto refuses = [&](const std::string& name, const std::string& forbidden, const std::string& stops,
                              const std::string& conflict) {
@@ -299,7 +299,7 @@ TEST_F(workbench_attacks, records_are_those_of_the_folder_and_of_the_course) {
     EXPECT_EQ(Asker(named->address()).get("/columns?data=" + outside)->status, kOk) << "what the session is of";
 }
 
-TEST_F(workbench_attacks, what_is_missing_or_senseless_in_an_order_is_told) {
+TEST_F(workbench_attacks, what_is_missing_or_senseless_in_an_order_is_reported) {
     const auto program = allowed("s.lua", "-- %% id=a\ndata = iddata(prbs(6, 4), prbs(6, 4), 0.1)\n");
     const Asker page(program->address());
     EXPECT_THAT(page.get("/columns")->body, HasSubstr("\"data\""));
@@ -308,7 +308,7 @@ TEST_F(workbench_attacks, what_is_missing_or_senseless_in_an_order_is_told) {
                          {"raw", "data"},
                          {"sizes", {{"record", {0, 1e9, 1e9}}}},
                          {"save", {{"what", "data"}, {"name", "data"}, {"format", "csv"}}}});
-    EXPECT_TRUE(page.comes([](const json& now) {
+    EXPECT_TRUE(page.becomes_true([](const json& now) {
         const json& views = now["views"];
         return views.contains("variables") && views["variables"].contains("data") &&
                views.value("record", json::object()).contains("error") &&
@@ -317,7 +317,7 @@ TEST_F(workbench_attacks, what_is_missing_or_senseless_in_an_order_is_told) {
     EXPECT_FALSE(page.page().contains("error"));
 }
 
-TEST_F(workbench_attacks, cells_that_are_gone_are_not_told_of) {
+TEST_F(workbench_attacks, cells_that_are_gone_are_not_reported) {
     const auto program = allowed("s.lua", kPrints);
     const Asker page(program->address());
     ASSERT_TRUE(page.prints("a", "2\n"));

@@ -16,9 +16,9 @@ class workbench_channels : public workbench_page {
   protected:
     /// Clicks what hands reach: a summary, a button, or an option of a list.
     static bool take(Browser& browser, const std::string& find, const std::string& act) {
-        return browser.comes("(() => { const found = " + find +
-                             "; if (!found || found.disabled || !found.offsetParent) return false; " + act +
-                             "; return true; })()");
+        return browser.becomes_true("(() => { const found = " + find +
+                                    "; if (!found || found.disabled || !found.offsetParent) return false; " + act +
+                                    "; return true; })()");
     }
     static bool unfold(Browser& browser, const std::string& words) {
         return take(
@@ -37,7 +37,7 @@ class workbench_channels : public workbench_page {
     }
     /// Whether all of a view is inside the window, below the bar at the top.
     static bool is_in_sight(Browser& browser, const std::string& view) {
-        return browser.comes(
+        return browser.becomes_true(
             "(() => { const box = document.querySelector('.tile[data-view=" + view +
                 "] canvas')?.closest('.tile').getBoundingClientRect(); return box && box.top >= "
                 "document.getElementById('bench-bar').getBoundingClientRect().bottom - 1 && box.bottom <= innerHeight "
@@ -46,7 +46,7 @@ class workbench_channels : public workbench_page {
     }
     /// What the data say is there, which a busy machine computes for long.
     static bool rests(Browser& browser) {
-        return browser.comes("document.getElementById('state').textContent === 'up to date'", 120);
+        return browser.becomes_true("document.getElementById('state').textContent === 'up to date'", 120);
     }
     /// Nothing tells of the program's inside, and no view is a heap of nothing.
     static void expect_no_dead_end(Browser& browser) {
@@ -70,7 +70,7 @@ TEST_F(workbench_channels, the_crane_with_both_outputs_is_reported_with_validati
     const auto program = app("crane");
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(view_comes(browser, "record"));
+    ASSERT_TRUE(view_appears(browser, "record"));
     ASSERT_TRUE(rests(browser));
     EXPECT_TRUE(says(browser, "u → theta, x"));
     ASSERT_TRUE(unfold(browser, "Open data"));
@@ -81,8 +81,8 @@ TEST_F(workbench_channels, the_crane_with_both_outputs_is_reported_with_validati
     ASSERT_TRUE(rests(browser));
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(script_has(browser, "G1 = tfsrivc(estimation, 3, 1, {TdMax = 0})")) << "the motor is a lag, no delay";
-    for (const char* view : {"compare", "residuals", "step", "bode"}) ASSERT_TRUE(view_comes(browser, view)) << view;
-    ASSERT_TRUE(browser.comes("document.querySelectorAll('.models tbody tr').length === 2"));
+    for (const char* view : {"compare", "residuals", "step", "bode"}) ASSERT_TRUE(view_appears(browser, view)) << view;
+    ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.models tbody tr').length === 2"));
     ASSERT_TRUE(rests(browser));
     expect_no_dead_end(browser);
     const std::string script = text_of("crane_session.lua");
@@ -99,7 +99,7 @@ TEST_F(workbench_channels, the_crane_with_both_outputs_is_reported_with_validati
                                "'residuals'].map((view) => session.views[view].figure.panels.length))"),
               "[2,2,4,4]");
     ASSERT_TRUE(press(browser, "Report (PDF)"));
-    EXPECT_TRUE(browser.comes("!document.getElementById('make-pdf').disabled", 60));
+    EXPECT_TRUE(browser.becomes_true("!document.getElementById('make-pdf').disabled", 60));
     expect_no_dead_end(browser);
     EXPECT_THAT(text_of("crane_session.lua"), HasSubstr("report.figure(\"compare\", compare(validation, G1"));
 }
@@ -108,7 +108,7 @@ TEST_F(workbench_channels, orders_are_searched_for_one_output_and_a_structure_ch
     const auto program = app("crane");
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(view_comes(browser, "record"));
+    ASSERT_TRUE(view_appears(browser, "record"));
     ASSERT_TRUE(rests(browser));
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(script_has(browser, "G1 = tfsrivc("));
@@ -120,7 +120,8 @@ TEST_F(workbench_channels, orders_are_searched_for_one_output_and_a_structure_ch
     ASSERT_TRUE(rests(browser));
     ASSERT_TRUE(
         take(browser, "document.querySelector('.tile[data-view=orders] button[aria-label^=Delete]')", "found.click()"));
-    EXPECT_TRUE(browser.comes("!document.querySelector('.CodeMirror').CodeMirror.getValue().includes('orders1')"));
+    EXPECT_TRUE(
+        browser.becomes_true("!document.querySelector('.CodeMirror').CodeMirror.getValue().includes('orders1')"));
     EXPECT_THAT(text_of("crane_session.lua"), AllOf(Not(HasSubstr("srivcstruc")), HasSubstr("G2 = ")));
 }
 
@@ -140,8 +141,8 @@ TEST_F(workbench_channels, a_search_left_over_from_other_channels_is_fixed_or_de
         browser.open(program->address());
         ASSERT_TRUE(says(browser, "orders1 compares structures of one output, but data has near, far."));
         ASSERT_TRUE(press(browser, fixes ? "Search for far" : "Delete: orders1"));
-        EXPECT_TRUE(browser.comes("document.getElementById('trouble').hidden"));
-        EXPECT_TRUE(view_comes(browser, "compare")) << "the steps behind it are made";
+        EXPECT_TRUE(browser.becomes_true("document.getElementById('trouble').hidden"));
+        EXPECT_TRUE(view_appears(browser, "compare")) << "the steps behind it are made";
         const std::string script = text_of("mine.lua");
         if (fixes)
             EXPECT_THAT(script, HasSubstr("srivcstruc(data:select(2), {poles"));
@@ -158,7 +159,7 @@ TEST_F(workbench_channels, models_of_some_outputs_are_shown_where_they_belong) {
     const auto program = app("mine.lua", {"--run"});
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(view_comes(browser, "compare"));
+    ASSERT_TRUE(view_appears(browser, "compare"));
     ASSERT_TRUE(rests(browser));
     EXPECT_TRUE(says(browser, "Not shown: H."));
     const auto labels = [&](const std::string& view) {
@@ -182,7 +183,7 @@ TEST_F(workbench_channels, the_first_model_has_a_delay_only_where_no_lag_explain
         const auto program = app(name + ".lua", {"--run"});
         Browser browser;
         browser.open(program->address());
-        EXPECT_TRUE(view_comes(browser, "record"));
+        EXPECT_TRUE(view_appears(browser, "record"));
         EXPECT_TRUE(rests(browser));
         EXPECT_TRUE(press(browser, "New model"));
         EXPECT_TRUE(script_has(browser, "G1 = "));
@@ -201,14 +202,14 @@ TEST_F(workbench_channels, a_view_that_was_asked_for_is_in_sight) {
     const auto program = app("step.lua", {"--run"});
     Browser browser(1280, 800);
     browser.open(program->address());
-    ASSERT_TRUE(view_comes(browser, "bode"));
+    ASSERT_TRUE(view_appears(browser, "bode"));
     ASSERT_TRUE(rests(browser));
     ASSERT_TRUE(unfold(browser, "Read by hand"));
     ASSERT_TRUE(press(browser, "First order"));
     EXPECT_TRUE(is_in_sight(browser, "reading"));
-    EXPECT_TRUE(
-        browser.comes("/63 % of the change after [\\d.]+ s\\. /.test(document.querySelector('.tile[data-view=reading] "
-                      ".told').textContent)"));
+    EXPECT_TRUE(browser.becomes_true(
+        "/63 % of the change after [\\d.]+ s\\. /.test(document.querySelector('.tile[data-view=reading] "
+        ".told').textContent)"));
     for (const auto& [words, view] : {std::pair("Spectrum", "spectrum"), std::pair("Nyquist", "nyquist")}) {
         ASSERT_TRUE(press(browser, words));
         EXPECT_TRUE(is_in_sight(browser, view)) << view;
@@ -217,13 +218,13 @@ TEST_F(workbench_channels, a_view_that_was_asked_for_is_in_sight) {
         browser.evaluate(
             std::string("[...document.querySelectorAll('.why')].find((one) => one.title === 'dynlab help ") + name +
             "').click()");
-        ASSERT_TRUE(browser.comes("document.getElementById('page-of-help').open")) << name;
+        ASSERT_TRUE(browser.becomes_true("document.getElementById('page-of-help').open")) << name;
         EXPECT_TRUE(
-            browser.comes("(() => { const box = document.getElementById('close-help').getBoundingClientRect(); "
-                          "return box.top > 0 && box.bottom < innerHeight; })()"));
+            browser.becomes_true("(() => { const box = document.getElementById('close-help').getBoundingClientRect(); "
+                                 "return box.top > 0 && box.bottom < innerHeight; })()"));
         EXPECT_TRUE(
-            browser.comes("document.querySelector('#help-text > p') && document.querySelector('#help-text > "
-                          "details:not([open])')"));
+            browser.becomes_true("document.querySelector('#help-text > p') && document.querySelector('#help-text > "
+                                 "details:not([open])')"));
         browser.click("#close-help");
     }
 }
@@ -236,21 +237,21 @@ TEST_F(workbench_channels, the_spectrum_goes_into_the_report) {
     const auto program = app("sine.lua", {"--run"});
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(view_comes(browser, "spectrum"));
+    ASSERT_TRUE(view_appears(browser, "spectrum"));
     ASSERT_TRUE(rests(browser));
     browser.click(".tile[data-view=spectrum] .into");
     ASSERT_TRUE(script_has(browser, "report.figure(\"spectrum\""));
     ASSERT_TRUE(rests(browser));
-    EXPECT_TRUE(browser.comes("document.getElementById('trouble').hidden"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('trouble').hidden"));
     std::string script = text_of("sine.lua");
     script.replace(script.find("report.figure(\"spectrum\", "), std::string("report.figure(\"spectrum\", ").size(),
                    "F = (function(f) return f end)(");
-    const std::string told =
+    const std::string reported =
         run(script +
             "-- %% id=peaks\nfor _, one in ipairs(F.curves) do local best = 1 for k = 1, #one.y do if one.y[k] > "
             "one.y[best] then best = k end "
             "end print(string.format(\"peak at %.2f\", one.x[best])) end\n");
-    EXPECT_THAT(told, HasSubstr("peak at 2.00\npeak at 2.00"));
+    EXPECT_THAT(reported, HasSubstr("peak at 2.00\npeak at 2.00"));
 }
 
 }  // namespace test_workbench_channels

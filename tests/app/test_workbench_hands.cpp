@@ -28,8 +28,8 @@ class workbench_hands : public workbench_page {
         write_record();
         program = app("plant.csv");
         browser.open(program->address());
-        ASSERT_TRUE(view_comes(browser, "record"));
-        ASSERT_TRUE(browser.comes("document.querySelector('.CodeMirror')"));
+        ASSERT_TRUE(view_appears(browser, "record"));
+        ASSERT_TRUE(browser.becomes_true("document.querySelector('.CodeMirror')"));
         ASSERT_TRUE(is_ready(browser));
     }
     std::string evaluate(const std::string& script) {
@@ -43,7 +43,7 @@ class workbench_hands : public workbench_page {
         EXPECT_NE(script(), before);
     }
     /// Whether the file on disk comes to hold all of these texts.
-    bool file_comes(const std::vector<std::string>& texts) const {
+    bool file_contains(const std::vector<std::string>& texts) const {
         for (int i = 0; i < 500; ++i) {
             const std::string now = script();
             if (std::all_of(texts.begin(), texts.end(),
@@ -63,7 +63,7 @@ class workbench_hands : public workbench_page {
 TEST_F(workbench_hands, four_clicks_at_once_are_four_steps) {
     const std::string before = script();
     evaluate("for (const words of ['+ Level', '+ Trend', '+ Outliers', '+ Resample']) named(words).click()");
-    EXPECT_TRUE(file_comes({"\"mean\"", "\"linear\"", "filloutliers(", "resample("})) << script();
+    EXPECT_TRUE(file_contains({"\"mean\"", "\"linear\"", "filloutliers(", "resample("})) << script();
     ASSERT_TRUE(is_ready(browser));
     for (int i = 0; i < 4; ++i) undo();
     EXPECT_EQ(script(), before) << "each is a step of the history";
@@ -74,10 +74,10 @@ TEST_F(workbench_hands, a_click_that_meets_the_edit_of_another_tab_is_done_behin
         "window.fetch = async (path, how) => { if (path !== 'script') return plain(path, how); window.fetch = plain; "
         "await order(JSON.parse(how.body).revision, 1, 0, '-- theirs'); return plain(path, how); }; "
         "named('New model').click();");
-    EXPECT_TRUE(file_comes({"-- theirs\n", "\nG1 = tfsrivc("})) << script();
+    EXPECT_TRUE(file_contains({"-- theirs\n", "\nG1 = tfsrivc("})) << script();
 }
 
-TEST_F(workbench_hands, a_click_that_never_gets_through_is_told) {
+TEST_F(workbench_hands, a_click_that_never_gets_through_is_reported) {
     evaluate(
         "window.fetch = async (path, how) => (path === 'script' ? new Response('', { status: 409 }) : plain(path, "
         "how)); named('New model').click();");
@@ -90,12 +90,12 @@ TEST_F(workbench_hands, a_drag_is_one_step_of_the_history_even_where_its_first_m
     const std::string slider =
         "[...document.querySelectorAll('.chosen label')].find((one) => one.textContent.startsWith('IODelay'))"
         "?.querySelector('input[type=range]')";
-    ASSERT_TRUE(browser.comes(slider));
+    ASSERT_TRUE(browser.becomes_true(slider));
     ASSERT_TRUE(is_ready(browser));
     evaluate("const slider = " + slider +
              "; named('+ Level').click(); for (const at of [0.1, 0.2, 0.3]) { slider.value = at; "
              "slider.dispatchEvent(new Event('input')); } slider.dispatchEvent(new Event('change'));");
-    ASSERT_TRUE(file_comes({"\"mean\"", "{IODelay = 0.277}"})) << script();
+    ASSERT_TRUE(file_contains({"\"mean\"", "{IODelay = 0.277}"})) << script();
     ASSERT_TRUE(is_ready(browser));
     undo();
     EXPECT_THAT(script(), AllOf(HasSubstr("\"mean\""), HasSubstr("{IODelay = 0.1}"))) << "the click stays";
@@ -103,9 +103,9 @@ TEST_F(workbench_hands, a_drag_is_one_step_of_the_history_even_where_its_first_m
 
 // Typing.
 
-TEST_F(workbench_hands, what_is_typed_stands_before_a_click_behind_it) {
+TEST_F(workbench_hands, what_is_typed_is_saved_before_a_click_behind_it) {
     evaluate("atEnd('-- typed\\n'); await pause(100); named('New model').click();");
-    EXPECT_TRUE(file_comes({"-- typed\n", "\nG1 = tfsrivc("})) << script();
+    EXPECT_TRUE(file_contains({"-- typed\n", "\nG1 = tfsrivc("})) << script();
     ASSERT_TRUE(is_ready(browser));
     undo();
     EXPECT_THAT(script(), AllOf(HasSubstr("-- typed\n"), Not(HasSubstr("G1"))));
@@ -116,7 +116,7 @@ TEST_F(workbench_hands, what_is_typed_stands_before_a_click_behind_it) {
 TEST_F(workbench_hands, what_is_typed_in_one_go_is_one_step_of_the_history) {
     const std::string before = script();
     evaluate("for (const letter of '-- typed') { atEnd(letter); await pause(500); }");
-    ASSERT_TRUE(file_comes({"-- typed"})) << script();
+    ASSERT_TRUE(file_contains({"-- typed"})) << script();
     ASSERT_TRUE(is_ready(browser));
     undo();
     EXPECT_EQ(script(), before);
@@ -139,11 +139,11 @@ TEST_F(workbench_hands, what_is_typed_into_a_field_is_one_step_until_something_e
     type("np", "3");
     type("nz", "1");
     type("np", "4");
-    ASSERT_TRUE(file_comes({"tfsrivc(estimation, 4, 1)"})) << script();
+    ASSERT_TRUE(file_contains({"tfsrivc(estimation, 4, 1)"})) << script();
     undo();
     EXPECT_THAT(script(), HasSubstr("tfsrivc(estimation, 3, 1)")) << "another field had the focus between";
     type("np", "2");
-    ASSERT_TRUE(file_comes({"tfsrivc(estimation, 2, 1)"})) << script();
+    ASSERT_TRUE(file_contains({"tfsrivc(estimation, 2, 1)"})) << script();
     undo();
     EXPECT_THAT(script(), HasSubstr("tfsrivc(estimation, 3, 1)")) << "it was undone between";
     undo();
@@ -155,13 +155,15 @@ TEST_F(workbench_hands, what_is_typed_into_a_field_is_one_step_until_something_e
 TEST_F(workbench_hands, undo_behind_typing_undoes_what_was_typed) {
     const std::string before = script();
     evaluate("named('+ Level').click();");
-    ASSERT_TRUE(file_comes({"\"mean\""}));
-    ASSERT_TRUE(browser.comes("!document.getElementById('undo').disabled")) << "the page hears of it after the file";
+    ASSERT_TRUE(file_contains({"\"mean\""}));
+    ASSERT_TRUE(browser.becomes_true("!document.getElementById('undo').disabled"))
+        << "the page hears of it after the file";
     ASSERT_TRUE(is_ready(browser));
     evaluate("atEnd('-- typed\\n'); document.getElementById('undo').click();");
-    ASSERT_TRUE(browser.comes("!document.getElementById('redo').disabled"));
+    ASSERT_TRUE(browser.becomes_true("!document.getElementById('redo').disabled"));
     EXPECT_THAT(script(), AllOf(HasSubstr("\"mean\""), Not(HasSubstr("typed"))));
-    EXPECT_FALSE(browser.comes("document.querySelector('.CodeMirror').CodeMirror.getValue().includes('typed')", 1));
+    EXPECT_FALSE(
+        browser.becomes_true("document.querySelector('.CodeMirror').CodeMirror.getValue().includes('typed')", 1));
     undo();
     EXPECT_EQ(script(), before);
 }
@@ -170,14 +172,14 @@ TEST_F(workbench_hands, typing_and_the_edits_of_others_are_put_together) {
     evaluate(
         "const { session } = await import('./bench_session.js'); atEnd('-- typed\\n'); "
         "await order(session.revision, 1, 0, '-- theirs');");
-    EXPECT_TRUE(file_comes({"-- theirs\n", "-- typed\n"})) << script();
+    EXPECT_TRUE(file_contains({"-- theirs\n", "-- typed\n"})) << script();
     EXPECT_TRUE(script_has(browser, "-- theirs")) << "and in the editor";
     write("plant_session.lua", "-- a program\n" + script());  // somebody's own editor
     evaluate("atEnd('-- more\\n');");
-    EXPECT_TRUE(file_comes({"-- a program\n", "-- theirs\n", "-- typed\n", "-- more\n"})) << script();
+    EXPECT_TRUE(file_contains({"-- a program\n", "-- theirs\n", "-- typed\n", "-- more\n"})) << script();
 }
 
-TEST_F(workbench_hands, lines_that_others_change_while_they_are_typed_are_told_and_can_be_had_again) {
+TEST_F(workbench_hands, lines_that_others_change_while_they_are_typed_are_reported_and_can_be_had_again) {
     evaluate(
         "const { session } = await import('./bench_session.js'); mirror.replaceRange('-- mine\\n', {line: 0, ch: 0}, "
         "{line: 1, ch: 0}); "
@@ -192,14 +194,14 @@ TEST_F(workbench_hands, keys_that_come_while_text_is_sent_follow_it) {
     evaluate(
         "window.fetch = async (path, how) => { if (path === 'script') await pause(700); return plain(path, how); }; "
         "for (const letter of 'abcdefghij') { atEnd(letter); await pause(150); } await pause(600); atEnd('klm');");
-    EXPECT_TRUE(file_comes({"abcdefghijklm"})) << script();
+    EXPECT_TRUE(file_contains({"abcdefghijklm"})) << script();
     EXPECT_TRUE(script_has(browser, "abcdefghijklm"));
 }
 
 TEST_F(workbench_hands, what_is_typed_before_the_page_is_left_is_there) {
     evaluate("atEnd('-- typed\\n');");
     browser.open("about:blank");
-    EXPECT_TRUE(file_comes({"-- typed\n"})) << script();
+    EXPECT_TRUE(file_contains({"-- typed\n"})) << script();
 }
 
 TEST_F(workbench_hands, ten_tabs_are_heard_and_each_hears) {
@@ -208,19 +210,20 @@ TEST_F(workbench_hands, ten_tabs_are_heard_and_each_hears) {
     for (int i = 0; i < 10; ++i) {
         if (i > 0) whole.new_tab();
         whole.open(address);
-        ASSERT_TRUE(whole.comes("document.querySelector('.CodeMirror')", 10)) << "tab " << i;
+        ASSERT_TRUE(whole.becomes_true("document.querySelector('.CodeMirror')", 10)) << "tab " << i;
         ASSERT_TRUE(press(whole, "+ Level")) << "tab " << i;
-        ASSERT_TRUE(whole.comes("document.querySelectorAll('.preparing li').length === " + std::to_string(i + 1), 10));
+        ASSERT_TRUE(
+            whole.becomes_true("document.querySelectorAll('.preparing li').length === " + std::to_string(i + 1), 10));
     }
 }
 
 TEST_F(workbench_hands, what_is_typed_in_a_tab_that_is_hidden_then_is_there) {
     Browser whole(1280, 900, Browser::Kind::kWhole);
     whole.open(program->next_address());
-    ASSERT_TRUE(whole.comes("document.querySelector('.CodeMirror')"));
+    ASSERT_TRUE(whole.becomes_true("document.querySelector('.CodeMirror')"));
     whole.evaluate("document.querySelector('.CodeMirror').CodeMirror.replaceRange('-- typed\\n', {line: 1e9, ch: 0})");
     whole.new_tab();
-    EXPECT_TRUE(file_comes({"-- typed\n"})) << script();
+    EXPECT_TRUE(file_contains({"-- typed\n"})) << script();
 }
 
 // What is written into a script that has the like already.
@@ -229,10 +232,10 @@ TEST_F(workbench_hands, parts_find_an_id_beside_cells_that_are_called_so) {
     evaluate(
         "mirror.setValue(mirror.getValue().replace('estimation = prepared\\nvalidation = prepared\\n', "
         "'x = 1\\n\\n-- %% id=estimation\\nx = 2\\n'));");
-    ASSERT_TRUE(file_comes({"id=estimation"}));
+    ASSERT_TRUE(file_contains({"id=estimation"}));
     ASSERT_TRUE(is_ready(browser));
     ASSERT_TRUE(press(browser, "Divide 60 : 40"));
-    EXPECT_TRUE(file_comes({"-- %% id=parts1\nestimation = prepared:range(1, 480)\n"})) << script();
+    EXPECT_TRUE(file_contains({"-- %% id=parts1\nestimation = prepared:range(1, 480)\n"})) << script();
     EXPECT_TRUE(says(browser, "(480)")) << "its samples, once it has run";
     EXPECT_TRUE(is_ready(browser));
     undo();
@@ -241,7 +244,7 @@ TEST_F(workbench_hands, parts_find_an_id_beside_cells_that_are_called_so) {
         "const edge = document.querySelectorAll('.brush.estimation .edge')[1]; edge.dispatchEvent(new "
         "KeyboardEvent('keydown', {key: "
         "'PageDown', bubbles: true}));");
-    EXPECT_TRUE(file_comes({"-- %% id=estimation1\nestimation = prepared:range(1, "})) << script();
+    EXPECT_TRUE(file_contains({"-- %% id=estimation1\nestimation = prepared:range(1, "})) << script();
 }
 
 TEST_F(workbench_hands, a_step_over_two_lines_that_is_switched_off_is_one_remark) {
@@ -249,14 +252,14 @@ TEST_F(workbench_hands, a_step_over_two_lines_that_is_switched_off_is_one_remark
         "mirror.setValue(mirror.getValue().replace('prepared = data\\n', 'prepared = data\\nprepared = "
         "idfilt(prepared, {0,\\n  12})\\n'));");
     const std::string box = "document.querySelector('.preparing input[type=checkbox]')";
-    ASSERT_TRUE(browser.comes(box));
+    ASSERT_TRUE(browser.becomes_true(box));
     ASSERT_TRUE(is_ready(browser));
     evaluate(box + ".click();");
-    EXPECT_TRUE(file_comes({"= data\n-- off: prepared = idfilt(prepared, {0, 12})\n"})) << script();
-    ASSERT_TRUE(browser.comes("!" + box + ".checked"));
-    EXPECT_TRUE(browser.comes("document.getElementById('state').textContent === 'up to date'"));
+    EXPECT_TRUE(file_contains({"= data\n-- off: prepared = idfilt(prepared, {0, 12})\n"})) << script();
+    ASSERT_TRUE(browser.becomes_true("!" + box + ".checked"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').textContent === 'up to date'"));
     evaluate(box + ".click();");
-    EXPECT_TRUE(file_comes({"= data\nprepared = idfilt(prepared, {0, 12})\n"})) << script();
+    EXPECT_TRUE(file_contains({"= data\nprepared = idfilt(prepared, {0, 12})\n"})) << script();
 }
 
 // A study whose runs grow behind a hand.
@@ -269,12 +272,12 @@ TEST_F(workbench_hands, a_study_comes_to_all_its_runs_however_often_it_is_altere
         "one.textContent.startsWith(name))"
         ".querySelector('input'); const put = (name, value) => { const box = field(name); box.value = value; "
         "box.dispatchEvent(new Event('change')); };";
-    ASSERT_TRUE(browser.comes(
+    ASSERT_TRUE(browser.becomes_true(
         "[...document.querySelectorAll('#steps label')].some((one) => one.textContent.startsWith('noise'))"));
     evaluate(field + "put('noise', 0.2); await pause(100); put('noise', 0.3); await pause(1500);");
-    EXPECT_TRUE(file_comes({"sigma = 0.3", "runs = 200"})) << script();
+    EXPECT_TRUE(file_contains({"sigma = 0.3", "runs = 200"})) << script();
     evaluate(field + "put('noise', 0.4); await pause(100); put('runs', 60); await pause(1500);");
-    EXPECT_TRUE(file_comes({"sigma = 0.4", "runs = 60"})) << script();
+    EXPECT_TRUE(file_contains({"sigma = 0.4", "runs = 60"})) << script();
 }
 
 // A hand that the system takes away.
@@ -287,7 +290,7 @@ TEST_F(workbench_hands, a_part_stays_where_it_was_when_the_system_takes_the_poin
         "PointerEvent(name, { pointerId, bubbles: true, "
         "button: 0, clientX: box.left + share * box.width, clientY: box.top + 2 }));";
     evaluate(hand + "at('pointerdown', 1); at('pointermove', 0.7, 8); at('pointermove', 0.5); at('pointercancel', 0);");
-    ASSERT_TRUE(file_comes({"estimation = prepared:range(1, 40"})) << script();
+    ASSERT_TRUE(file_contains({"estimation = prepared:range(1, 40"})) << script();
     ASSERT_TRUE(is_ready(browser));
     const std::string before = script();
     evaluate(hand + "at('pointermove', 0.2); at('pointerup', 0.2); await pause(500);");

@@ -17,12 +17,12 @@ class workbench_lessons : public workbench_page {
   protected:
     fs::path lesson(const std::string& name) const { return fs::path(DYNLAB_SOURCE_DIR) / "lessons" / name; }
     /// Clicks what the lesson prints in bold.
-    void press_as_told(Browser& browser, const std::string& text, const std::string& words) const {
+    void press_as_described(Browser& browser, const std::string& text, const std::string& words) const {
         EXPECT_THAT(text, HasSubstr("**" + words + "**"));
         ASSERT_TRUE(press(browser, words)) << words;
         ASSERT_TRUE(is_ready(browser)) << words;
     }
-    void open_as_told(Browser& browser, const std::string& text, const std::string& words) const {
+    void open_as_described(Browser& browser, const std::string& text, const std::string& words) const {
         EXPECT_THAT(text, HasSubstr("**" + words + "**"));
         browser.evaluate(
             "[...document.querySelectorAll('#steps summary')].filter((one) => one.textContent.startsWith('" + words +
@@ -79,24 +79,24 @@ TEST_F(workbench_lessons, the_heat_exchanger_of_lesson_1) {
     Browser browser(760, 780);
     as_on_paper(browser, 760, 780);
     browser.open(program->address());
-    ASSERT_TRUE(view_comes(browser, "record"));
-    open_as_told(browser, text, "Read by hand");
-    press_as_told(browser, text, "First order");
+    ASSERT_TRUE(view_appears(browser, "record"));
+    open_as_described(browser, text, "Read by hand");
+    press_as_described(browser, text, "First order");
     EXPECT_THAT(text, HasSubstr("**Method**"));
     choose(browser, text, "procsrivc", kMethod);
-    press_as_told(browser, text, "New model");
+    press_as_described(browser, text, "New model");
     ASSERT_TRUE(script_has(browser, "procsrivc(estimation, \"P2D\")"));
     choose(browser, text, "P1", "document.querySelector('.chosen .orders select')");
     EXPECT_THAT(text, HasSubstr("`D`"));
     ASSERT_TRUE(script_has(browser, "\"P1D\""));
     browser.evaluate("document.querySelector('.chosen .orders input[type=checkbox]').click()");
     ASSERT_TRUE(script_has(browser, "procsrivc(estimation, \"P1\")"));
-    open_as_told(browser, text, "Options");
+    open_as_described(browser, text, "Options");
     choose(browser, text, "steady",
            "[...document.querySelectorAll('.chosen label')].find((one) => "
            "one.textContent.startsWith('InitialState')).querySelector('select')");
     EXPECT_TRUE(script_has(browser, "G1 = procsrivc(estimation, \"P1\", {InitialState = \"steady\"})"));
-    ASSERT_TRUE(view_comes(browser, "compare"));
+    ASSERT_TRUE(view_appears(browser, "compare"));
     ASSERT_TRUE(is_ready(browser));
     browser.evaluate(
         "[...document.querySelectorAll('#steps summary')].find((one) => one.textContent.startsWith('Read by "
@@ -111,9 +111,9 @@ TEST_F(workbench_lessons, the_known_system_of_lesson_4) {
     as_on_paper(browser, 760, 740);
     browser.open(program->address());
     ASSERT_TRUE(is_ready(browser));
-    open_as_told(browser, text, "Known system");
-    press_as_told(browser, text, "Start study");
-    ASSERT_TRUE(view_comes(browser, "study"));
+    open_as_described(browser, text, "Known system");
+    press_as_described(browser, text, "Start study");
+    ASSERT_TRUE(view_appears(browser, "study"));
     for (const char* words : {"noise", "estimators"}) EXPECT_THAT(text, HasSubstr("**" + std::string(words) + "**"));
     EXPECT_THAT(text, HasSubstr("`lssvf = {{2, 1, 0}, 3}`"));
     browser.evaluate(
@@ -121,7 +121,8 @@ TEST_F(workbench_lessons, the_known_system_of_lesson_4) {
         "one.textContent.trim().startsWith('estimators')).querySelector('textarea');"
         "field.value = '{lssvf = {{2, 1, 0}, 3}, srivc = {{1, 2, 0}, {lambda = 3}}}'; field.dispatchEvent(new "
         "Event('change'))");
-    ASSERT_TRUE(browser.comes("document.querySelector('.tile[data-view=study] table')?.textContent.includes('lssvf')"));
+    ASSERT_TRUE(
+        browser.becomes_true("document.querySelector('.tile[data-view=study] table')?.textContent.includes('lssvf')"));
     ASSERT_TRUE(is_ready(browser));
     browser.evaluate(
         "[...document.querySelectorAll('#steps summary')].find((one) => one.textContent === 'Known "
@@ -133,7 +134,7 @@ TEST_F(workbench_lessons, the_record_of_a_lesson_is_opened_by_the_lesson_s_name)
     const auto program = app("03_crane");
     Browser browser;
     browser.open(program->address());
-    EXPECT_TRUE(view_comes(browser, "record"));
+    EXPECT_TRUE(view_appears(browser, "record"));
     EXPECT_THAT(text_of("03_crane_session.lua"), HasSubstr("load(\"crane"));
 }
 

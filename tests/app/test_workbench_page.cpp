@@ -16,7 +16,7 @@ class workbench_page_parts : public workbench_page {
     static void press_all(Browser& browser, const std::vector<std::string>& words) {
         for (const std::string& one : words) {
             ASSERT_TRUE(press(browser, one)) << one;
-            browser.comes("document.getElementById('state').textContent === 'computing'", 0.2);
+            browser.becomes_true("document.getElementById('state').textContent === 'computing'", 0.2);
             ASSERT_TRUE(is_ready(browser)) << one;
         }
     }
@@ -27,7 +27,7 @@ class workbench_page_parts : public workbench_page {
             "`, `" + after + "`))");
     }
     static bool stops(Browser& browser) {
-        return browser.comes("document.getElementById('state').textContent === 'stopped at an error'");
+        return browser.becomes_true("document.getElementById('state').textContent === 'stopped at an error'");
     }
     std::string script() const { return text_of("plant_session.lua"); }
 };
@@ -57,7 +57,7 @@ TEST_F(workbench_page_parts, a_phone_scrolls_the_page_and_has_all_of_the_bar) {
               "[]");
     browser.act(R"([{"type": "wheel", "id": "w", "actions": [{"type": "scroll", "x": 100, "y": 300, "deltaX": 0,
                     "deltaY": 700, "duration": 0}]}])");
-    EXPECT_TRUE(browser.comes("document.scrollingElement.scrollTop > 600", 5));
+    EXPECT_TRUE(browser.becomes_true("document.scrollingElement.scrollTop > 600", 5));
 }
 
 TEST_F(workbench_page_parts, titles_and_the_table_of_models_are_whole) {
@@ -75,15 +75,15 @@ TEST_F(workbench_page_parts, titles_and_the_table_of_models_are_whole) {
         "const list = document.getElementById('language'); list.value = 'fr'; list.dispatchEvent(new "
         "Event('change'))");
     ASSERT_TRUE(
-        browser.comes("document.querySelector('.tile[data-view=residuals] h2').textContent === 'Résidus de "
-                      "simulation'"));
+        browser.becomes_true("document.querySelector('.tile[data-view=residuals] h2').textContent === 'Résidus de "
+                             "simulation'"));
     EXPECT_EQ(browser.evaluate(cut), "[]");
     EXPECT_TRUE(script_has(browser, "-- language: fr"));
     EXPECT_TRUE(says(browser, "Données")) << "buttons of pictures, too";
     EXPECT_FALSE(
-        browser.comes("[...document.querySelectorAll('.plot, .plot *')].some((one) => "
-                      "/Show or hide|Arrows/.test(one.ariaLabel ?? ''))",
-                      0.1));
+        browser.becomes_true("[...document.querySelectorAll('.plot, .plot *')].some((one) => "
+                             "/Show or hide|Arrows/.test(one.ariaLabel ?? ''))",
+                             0.1));
 }
 
 TEST_F(workbench_page_parts, buttons_of_views_show_what_is_shown_and_bring_it_into_sight) {
@@ -98,8 +98,8 @@ TEST_F(workbench_page_parts, buttons_of_views_show_what_is_shown_and_bring_it_in
     EXPECT_TRUE(says(browser, "No model yet")) << "an empty picture says why";
     press_all(browser, {"New model", "Nyquist"});
     EXPECT_TRUE(
-        browser.comes("(() => { const box = document.querySelector('.tile[data-view=nyquist]')"
-                      ".getBoundingClientRect(); return box.top >= 0 && box.top < innerHeight - 100; })()"));
+        browser.becomes_true("(() => { const box = document.querySelector('.tile[data-view=nyquist]')"
+                             ".getBoundingClientRect(); return box.top >= 0 && box.top < innerHeight - 100; })()"));
 }
 
 // What a mistake leaves.
@@ -108,24 +108,24 @@ TEST_F(workbench_page_parts, a_misspelt_method_keeps_table_controls_and_pictures
     Browser browser;
     const auto program = open(browser);
     press_all(browser, {"Divide 60 : 40", "New model"});
-    ASSERT_TRUE(view_comes(browser, "bode"));
+    ASSERT_TRUE(view_appears(browser, "bode"));
     const std::string fit = browser.evaluate("return document.querySelectorAll('.models td.number')[3].textContent");
     type(browser, "G1 = tfsrivc", "G1 = tfsirvc");
     ASSERT_TRUE(stops(browser));
-    ASSERT_TRUE(browser.comes("document.querySelector('.models tr.broken')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('.models tr.broken')"));
     EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.models td.number')[3].textContent"), fit);
     EXPECT_EQ(browser.evaluate("return [...document.querySelectorAll('.tile.older')].map((one) => one.dataset.view)"),
               R"(["compare","residuals","step","bode"])")
         << "all that show the model, and the record not";
     EXPECT_TRUE(
-        browser.comes("document.querySelector('.tile[data-view=bode] .told').textContent.includes('before the "
-                      "error')"));
+        browser.becomes_true("document.querySelector('.tile[data-view=bode] .told').textContent.includes('before the "
+                             "error')"));
     browser.evaluate(
         "const field = document.querySelector('.chosen input[type=text]'); field.value = "
         "'tfsrivc(estimation, 1, 0)'; field.dispatchEvent(new Event('change'))");
     EXPECT_TRUE(
-        browser.comes("document.getElementById('state').textContent === 'up to date' && "
-                      "!document.querySelector('.tile.older, .models tr.broken')"));
+        browser.becomes_true("document.getElementById('state').textContent === 'up to date' && "
+                             "!document.querySelector('.tile.older, .models tr.broken')"));
     EXPECT_THAT(script(), HasSubstr("G1 = tfsrivc(estimation, 1, 0)\n"));
 }
 
@@ -133,17 +133,17 @@ TEST_F(workbench_page_parts, a_step_of_preparation_that_fails_keeps_the_parts_an
     Browser browser;
     const auto program = open(browser);
     press_all(browser, {"Divide 60 : 40", "+ Level", "New model"});
-    ASSERT_TRUE(view_comes(browser, "bode"));
+    ASSERT_TRUE(view_appears(browser, "bode"));
     type(browser, "\"mean\"", "\"meen\"");
     ASSERT_TRUE(stops(browser));
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('.tile.older canvas').length >= 4"));
-    EXPECT_TRUE(browser.comes("document.body.innerText.includes('Divide 60 : 40')"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.models td.number')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('.tile.older canvas').length >= 4"));
+    EXPECT_TRUE(browser.becomes_true("document.body.innerText.includes('Divide 60 : 40')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.models td.number')"));
     browser.evaluate(
         "const list = document.querySelector('.preparing select'); list.value = '\"linear\"'; "
         "list.dispatchEvent(new Event('change'))");
-    EXPECT_TRUE(browser.comes("document.getElementById('state').textContent === 'up to date'"));
-    EXPECT_TRUE(browser.comes("!document.querySelector('.tile.older')"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').textContent === 'up to date'"));
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('.tile.older')"));
 }
 
 TEST_F(workbench_page_parts, a_bracket_that_is_open_is_marked_where_it_was_opened) {
@@ -154,10 +154,10 @@ TEST_F(workbench_page_parts, a_bracket_that_is_open_is_marked_where_it_was_opene
     type(browser, "G1 = tfsrivc(estimation, 2, 0)", "G1 = tfsrivc((estimation, 2, 0");
     ASSERT_TRUE(stops(browser));
     EXPECT_TRUE(
-        browser.comes("[...document.querySelectorAll('.CodeMirror .broken-line')].map((one) => "
-                      "one.textContent).join().includes('G1 = tfsrivc((')"));
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('.models tbody tr').length === 1"));
-    EXPECT_TRUE(browser.comes("document.querySelectorAll('.chosen input[type=number]').length >= 2"))
+        browser.becomes_true("[...document.querySelectorAll('.CodeMirror .broken-line')].map((one) => "
+                             "one.textContent).join().includes('G1 = tfsrivc((')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('.models tbody tr').length === 1"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('.chosen input[type=number]').length >= 2"))
         << "the controls of what it was";
     ASSERT_TRUE(press(browser, "Report (PDF)"));
     EXPECT_TRUE(says(browser, "A report cannot be made from a script with an error"));
@@ -171,7 +171,7 @@ TEST_F(workbench_page_parts, a_field_with_an_open_bracket_stays_and_writes_nothi
     EXPECT_EQ(browser.evaluate("return document.getElementById('make-pdf').disabled"), "true");
     browser.evaluate("document.querySelectorAll('#steps details').forEach((one) => { one.open = true; })");
     ASSERT_TRUE(press(browser, "Start study"));
-    ASSERT_TRUE(view_comes(browser, "study"));
+    ASSERT_TRUE(view_appears(browser, "study"));
     ASSERT_TRUE(is_ready(browser));
     const std::string before = text_of("session.lua"),
                       field =
@@ -185,13 +185,13 @@ TEST_F(workbench_page_parts, a_field_with_an_open_bracket_stays_and_writes_nothi
     browser.evaluate("const field = " + field + "; field.value = '2/'; field.dispatchEvent(new Event('change'))");
     ASSERT_TRUE(stops(browser));
     EXPECT_EQ(browser.evaluate("return " + field + ".value"), "\"2/\"") << "to be finished";
-    EXPECT_TRUE(browser.comes("document.querySelector('.tile[data-view=study].older canvas')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.tile[data-view=study].older canvas')"));
     browser.evaluate("const field = " + field +
                      "; field.value = '3/(s + 1)'; field.dispatchEvent(new Event('change'))");
-    EXPECT_TRUE(browser.comes("!document.querySelector('.tile.older')"));
-    std::string wanted = before;
-    wanted.replace(wanted.find("2/(s^2 + 4*s + 3)"), 17, "3/(s + 1)");
-    EXPECT_EQ(text_of("session.lua"), wanted);
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('.tile.older')"));
+    std::string expected = before;
+    expected.replace(expected.find("2/(s^2 + 4*s + 3)"), 17, "3/(s + 1)");
+    EXPECT_EQ(text_of("session.lua"), expected);
 }
 
 // What follows from an edit.
@@ -216,10 +216,10 @@ TEST_F(workbench_page_parts, a_model_that_is_deleted_leaves_nothing_that_names_i
     ASSERT_TRUE(script_has(browser, "bode(G1), "));
     EXPECT_THAT(script(), Not(HasSubstr("G2")));
     EXPECT_THAT(script(), Not(HasSubstr("residuals"))) << "nor the text that showed it";
-    EXPECT_TRUE(browser.comes("document.activeElement.closest('.models')")) << "focus stays near";
-    EXPECT_TRUE(browser.comes("document.getElementById('state').textContent === 'up to date'"));
+    EXPECT_TRUE(browser.becomes_true("document.activeElement.closest('.models')")) << "focus stays near";
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').textContent === 'up to date'"));
     type(browser, "G1 = tfsrivc(estimation, 2, 0)", "G1 = tfsrivc(estimation, 2, 0)\nG3 = tfsrivc(estimation, G1)");
-    ASSERT_TRUE(browser.comes("document.querySelectorAll('.models tbody tr').length === 2"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.models tbody tr').length === 2"));
     ASSERT_TRUE(is_ready(browser));
     browser.evaluate(
         "[...document.querySelectorAll('.models td button')].find((one) => one.textContent === 'G1').click()");
@@ -233,12 +233,12 @@ TEST_F(workbench_page_parts, a_cell_of_the_map_becomes_the_model_whose_controls_
     Browser browser;
     const auto program = open(browser);
     press_all(browser, {"New model", "Search orders"});
-    ASSERT_TRUE(browser.comes("document.querySelectorAll('button.order').length >= 9"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('button.order').length >= 9"));
     browser.evaluate("document.querySelector('.models td button').click()");  // G1 was chosen by hand
     browser.evaluate("document.querySelectorAll('button.order')[4].click()");
     ASSERT_TRUE(script_has(browser, "G2 = tfsrivc"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.chosen h3').textContent === 'G2'"));
-    EXPECT_TRUE(browser.comes("document.querySelector('.models tr.chosen button').textContent === 'G2'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.chosen h3').textContent === 'G2'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.models tr.chosen button').textContent === 'G2'"));
 }
 
 TEST_F(workbench_page_parts, parts_keep_their_place_in_time_when_the_record_is_resampled_or_shortened) {
@@ -253,14 +253,14 @@ TEST_F(workbench_page_parts, parts_keep_their_place_in_time_when_the_record_is_r
     press_all(browser, {"+ Range"});
     ASSERT_TRUE(script_has(browser, "prepared = prepared:range(1, 800)"));
     EXPECT_TRUE(
-        browser.comes("[...document.querySelectorAll('.preparing code')].map((one) => one.textContent).join() "
-                      "=== 'resample,range'"));
+        browser.becomes_true("[...document.querySelectorAll('.preparing code')].map((one) => one.textContent).join() "
+                             "=== 'resample,range'"));
     browser.evaluate(
         "const box = document.querySelectorAll('.preparing li:last-child input[type=number]')[0]; box.value "
         "= 101; box.dispatchEvent(new Event('change'))");
     ASSERT_TRUE(script_has(browser, "prepared:range(101, 800)"));
     EXPECT_THAT(script(), HasSubstr("estimation = prepared:range(1, 380)\nvalidation = prepared:range(381, 700)\n"));
-    EXPECT_TRUE(browser.comes("document.getElementById('state').textContent === 'up to date'"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').textContent === 'up to date'"));
 }
 
 TEST_F(workbench_page_parts, a_second_record_is_prepared_alike_and_shown) {
@@ -273,9 +273,9 @@ TEST_F(workbench_page_parts, a_second_record_is_prepared_alike_and_shown) {
         "list.dispatchEvent(new Event('change'))");
     ASSERT_TRUE(press(browser, "Use for validation only"));
     ASSERT_TRUE(script_has(browser, "validation = second1\nvalidation = detrend(validation, \"mean\")\n"));
-    EXPECT_TRUE(view_comes(browser, "second"));
+    EXPECT_TRUE(view_appears(browser, "second"));
     ASSERT_TRUE(is_ready(browser));
-    EXPECT_FALSE(browser.comes("document.body.innerText.includes('evaluated on its estimation data')", 0.2));
+    EXPECT_FALSE(browser.becomes_true("document.body.innerText.includes('evaluated on its estimation data')", 0.2));
     EXPECT_EQ(browser.evaluate("return document.querySelector('.brush.validation').hidden"), "true")
         << "no part of the first record";
     press_all(browser, {"+ Resample"});
@@ -284,7 +284,7 @@ TEST_F(workbench_page_parts, a_second_record_is_prepared_alike_and_shown) {
     press_all(browser, {"Divide 60 : 40 (without second1)"});
     EXPECT_THAT(script(), Not(HasSubstr("second")));
     EXPECT_THAT(script(), HasSubstr("validation = prepared:range(241, 400)\n"));
-    EXPECT_TRUE(browser.comes("document.getElementById('state').textContent === 'up to date'"));
+    EXPECT_TRUE(browser.becomes_true("document.getElementById('state').textContent === 'up to date'"));
 }
 
 }  // namespace test_workbench_page

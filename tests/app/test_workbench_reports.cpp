@@ -20,13 +20,13 @@ class workbench_reports : public workbench_page {
     }
     /// Chooses in the list whose name for screen readers, or whose label, ends so.
     static void choose(Browser& browser, const std::string& list, const std::string& option) {
-        ASSERT_TRUE(
-            browser.comes("(() => { const list = [...document.querySelectorAll('#steps select')].find((one) => "
-                          "(one.ariaLabel ?? one.closest('label')?.textContent ?? '').trim().endsWith('" +
-                          list + "') || one.closest('label')?.textContent.trim().startsWith('" + list +
-                          "')); const wanted = list && [...list.options].find((one) => one.textContent === '" + option +
-                          "'); if (!wanted) return false; list.value = wanted.value; list.dispatchEvent(new "
-                          "Event('change', {bubbles: true})); return true; })()"))
+        ASSERT_TRUE(browser.becomes_true(
+            "(() => { const list = [...document.querySelectorAll('#steps select')].find((one) => "
+            "(one.ariaLabel ?? one.closest('label')?.textContent ?? '').trim().endsWith('" +
+            list + "') || one.closest('label')?.textContent.trim().startsWith('" + list +
+            "')); const wanted = list && [...list.options].find((one) => one.textContent === '" + option +
+            "'); if (!wanted) return false; list.value = wanted.value; list.dispatchEvent(new "
+            "Event('change', {bubbles: true})); return true; })()"))
             << list;
     }
     static void open_crane(Browser& browser) {
@@ -34,7 +34,7 @@ class workbench_reports : public workbench_page {
             "[...document.querySelectorAll('#steps summary')].filter((one) => one.textContent.startsWith('Open data') "
             "&& !one.parentNode.open).forEach((one) => one.click())");
         choose(browser, "course data and files here", "crane");
-        ASSERT_TRUE(browser.comes("document.querySelectorAll('#steps .chip').length > 3"));
+        ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('#steps .chip').length > 3"));
     }
     const Workbench shell;
 };
@@ -44,7 +44,7 @@ TEST_F(workbench_reports, the_crane_is_identified_by_clicks_with_both_outputs_an
     const auto program = app("03_crane");
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(view_comes(browser, "record"));
+    ASSERT_TRUE(view_appears(browser, "record"));
     open_crane(browser);
     choose(browser, ": estimation.x", "output");
     browser.evaluate(
@@ -62,10 +62,10 @@ TEST_F(workbench_reports, the_crane_is_identified_by_clicks_with_both_outputs_an
     ASSERT_TRUE(is_ready(browser));
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(script_has(browser, "G1 = tfsrivc(estimation, 3, 1, {TdMax = 0})"));
-    ASSERT_TRUE(view_comes(browser, "compare"));
+    ASSERT_TRUE(view_appears(browser, "compare"));
     ASSERT_TRUE(is_ready(browser));
     ASSERT_TRUE(press(browser, "Report (PDF)"));
-    ASSERT_TRUE(browser.comes("!document.getElementById('make-pdf').disabled", 60));
+    ASSERT_TRUE(browser.becomes_true("!document.getElementById('make-pdf').disabled", 60));
     const ChildResult report = dynlab("report 03_crane_session.lua -o crane.pdf && pdftotext -layout crane.pdf -");
     EXPECT_EQ(report.exit_code, 0) << report.error_output;
     EXPECT_THAT(report.output, AllOf(HasSubstr("Figure 1."), HasSubstr("Table 1."), HasSubstr("x (m)"),
@@ -78,9 +78,9 @@ TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_
     const auto program = app("plant.csv");
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(view_comes(browser, "record"));
+    ASSERT_TRUE(view_appears(browser, "record"));
     ASSERT_TRUE(press(browser, "New model"));
-    ASSERT_TRUE(view_comes(browser, "compare"));
+    ASSERT_TRUE(view_appears(browser, "compare"));
     ASSERT_TRUE(is_ready(browser));
     for (const char* view : {"compare", "step"}) {
         browser.click(std::string(".tile[data-view=") + view + "] .into");
@@ -109,14 +109,14 @@ TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_
               HasSubstr("-- ![Réponse indicielle, avec sa bande de confiance là où elle est connue](figure:step)"),
               HasSubstr("-- @fig:step shows how it settles.\n"), Not(HasSubstr("Measured output"))));
     EXPECT_TRUE(
-        browser.comes("[...document.querySelectorAll('#steps option')].some((one) => "
-                      "one.textContent.includes('chacune avec D, I ou Z au choix'))"))
+        browser.becomes_true("[...document.querySelectorAll('#steps option')].some((one) => "
+                             "one.textContent.includes('chacune avec D, I ou Z au choix'))"))
         << "what is said of the methods";
     turn_to("en");
     EXPECT_EQ(text_of("plant_session.lua"), english);
     EXPECT_TRUE(
-        browser.comes("[...document.querySelectorAll('#steps option')].some((one) => "
-                      "one.textContent.includes('each with any of D, I, Z'))"));
+        browser.becomes_true("[...document.querySelectorAll('#steps option')].some((one) => "
+                             "one.textContent.includes('each with any of D, I, Z'))"));
 }
 
 /// What a run tells is in its script's language: a page in another would be half and half.
@@ -127,7 +127,7 @@ TEST_F(workbench_reports, a_new_session_is_in_the_language_of_the_browser_and_an
     browser.devtools("Network.setUserAgentOverride", R"({"userAgent": "Chromium", "acceptLanguage": "fr-FR"})");
     browser.open(program->address());
     ASSERT_TRUE(script_has(browser, "-- language: fr\n"));
-    EXPECT_TRUE(browser.comes("document.documentElement.lang === 'fr'"));
+    EXPECT_TRUE(browser.becomes_true("document.documentElement.lang === 'fr'"));
     write("other.lua", "x = 1\n");
     const auto other = app("other.lua", {"--run"});
     browser.open(other->address());
@@ -156,13 +156,13 @@ TEST_F(workbench_reports, a_session_goes_through_run_report_check_and_pack_as_it
         ASSERT_TRUE(press(browser, "Divide 60 : 40"));
         ASSERT_TRUE(is_ready(browser));
         ASSERT_TRUE(press(browser, "New model"));
-        ASSERT_TRUE(view_comes(browser, "compare"));
+        ASSERT_TRUE(view_appears(browser, "compare"));
         ASSERT_TRUE(press(browser, "Report (PDF)"));
-        ASSERT_TRUE(browser.comes("!document.getElementById('make-pdf').disabled", 60));
+        ASSERT_TRUE(browser.becomes_true("!document.getElementById('make-pdf').disabled", 60));
         ASSERT_TRUE(script_has(browser, "report.figure(\"compare\""));
         ASSERT_TRUE(press(browser, "Undo"));  // the lines of the report are one step
-        ASSERT_TRUE(
-            browser.comes("!document.querySelector('.CodeMirror').CodeMirror.getValue().includes('report.figure')"));
+        ASSERT_TRUE(browser.becomes_true(
+            "!document.querySelector('.CodeMirror').CodeMirror.getValue().includes('report.figure')"));
         ASSERT_TRUE(press(browser, "Redo"));
         ASSERT_TRUE(script_has(browser, "report.figure(\"compare\""));
     }
@@ -191,16 +191,17 @@ TEST_F(workbench_reports, traps_are_shown_and_not_forbidden) {
     const auto program = app("traps.lua", {"--run"});
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(view_comes(browser, "compare"));
+    ASSERT_TRUE(view_appears(browser, "compare"));
     EXPECT_TRUE(says(browser, "prediction error"));
-    EXPECT_FALSE(browser.comes("document.body.innerText.includes('the sum of both')", 0.1));
+    EXPECT_FALSE(browser.becomes_true("document.body.innerText.includes('the sum of both')", 0.1));
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(script_has(browser, "G2 = tfsrivc("));
     EXPECT_TRUE(says(browser, "shifted the input by 3 samples"));
-    EXPECT_FALSE(browser.comes("document.body.innerText.includes('minimizes the one-step prediction error')", 0.1));
+    EXPECT_FALSE(
+        browser.becomes_true("document.body.innerText.includes('minimizes the one-step prediction error')", 0.1));
 }
 
-TEST_F(workbench_reports, a_script_that_is_not_there_or_stops_is_told) {
+TEST_F(workbench_reports, a_script_that_is_not_there_or_stops_is_reported) {
     EXPECT_THAT(dynlab("pack nothing.lua").error_output, HasSubstr("nothing.lua"));
     write("stops.lua", "-- ---\n-- title: It's \"mine\"\n-- ---\nlocal file = load('away.csv')\n");
     const ChildResult checked = dynlab("check stops.lua");

@@ -102,7 +102,7 @@ TEST(architecture, layers_include_only_layers_above_them) {
 }
 
 // The order of the rooms is the one in which engine/README.md names them.
-TEST(architecture, rooms_include_only_rooms_of_their_layer_named_before_them) {
+TEST(architecture, modules_include_only_modules_of_their_layer_named_before_them) {
     const std::string readme = text_of(kRoot / "engine/README.md");
     std::vector<std::string> offences;
     std::set<std::string> all = {"cli"};  // a program, no layer
@@ -175,7 +175,7 @@ TEST(architecture, every_source_is_in_the_namespace_of_its_layer) {
     EXPECT_THAT(offences, IsEmpty());
 }
 
-TEST(architecture, folders_are_rooms_one_can_overlook) {
+TEST(architecture, folders_are_modules_of_limited_size) {
     std::map<fs::path, int> files;
     for (const fs::path& file : sources_below(kRoot / "engine")) ++files[file.parent_path()];
     ASSERT_GE(files.size(), 20u);
@@ -294,7 +294,7 @@ std::set<std::string> functions_declared_in(const std::string& header) {
 }
 
 // What an early room declares and a later one defines would be an include upward that the linker hides.
-TEST(architecture, what_a_room_declares_no_later_room_defines) {
+TEST(architecture, declarations_of_a_module_are_not_defined_in_a_later_one) {
     const std::string readme = text_of(kRoot / "engine/README.md");
     std::vector<std::string> offences;
     std::size_t compared = 0;
@@ -330,7 +330,7 @@ TEST(architecture, what_a_room_declares_no_later_room_defines) {
 // Where is srivc? In srivc.cpp. A family of methods in one file has its first function there.
 TEST(architecture, an_estimator_is_defined_in_the_file_of_its_name) {
     std::map<std::string, std::string> first_of_family;
-    for (const dynlab::MethodEntry& method : dynlab::method_catalogue())
+    for (const dynlab::MethodEntry& method : dynlab::method_catalog())
         first_of_family[fs::path(method.file).filename().string()] = method.lua_names.front();
     std::vector<std::string> offences;
     for (const fs::path& file : files_below(kRoot / "engine/numerics/estimators", {".cpp"})) {
@@ -345,7 +345,7 @@ TEST(architecture, an_estimator_is_defined_in_the_file_of_its_name) {
     EXPECT_THAT(offences, IsEmpty());
 }
 
-TEST(architecture, every_room_of_the_core_has_its_own_test) {
+TEST(architecture, every_module_of_the_core_has_its_own_test) {
     std::vector<std::string> untested;
     for (const char* room : {"statistics", "filters", "criteria", "fit", "estimators"}) {
         for (const fs::path& file : files_below(kRoot / "engine/numerics" / room, {".cpp"})) {
@@ -377,8 +377,8 @@ std::vector<std::string> undocumented_functions(const std::string& header) {
 
 // What a caller must know of numerics: what a function is for, what it refuses, in which unit it wants and gives what
 // has one.
-TEST(architecture, headers_of_numerics_tell_purpose_errors_and_units) {
-    const std::regex refuses("\\bthrow |\\brequire\\w*\\("), told("[Tt]hrow|InvalidArgument|[Rr]efuse");
+TEST(architecture, headers_of_numerics_state_purpose_errors_and_units) {
+    const std::regex refuses("\\bthrow |\\brequire\\w*\\("), reported("[Tt]hrow|InvalidArgument|[Rr]efuse");
     const std::regex dimensioned(
         "\\b(Ts|delay|duration|cutoff|frequency|frequencies|period|lambda|time)\\b(?= ?[,)=;])");
     const std::regex unit("\\b(s|rad/s|Hz|samples?|seconds|time unit|rad|unit)\\b");
@@ -391,7 +391,7 @@ TEST(architecture, headers_of_numerics_tell_purpose_errors_and_units) {
         for (const std::string& function : undocumented_functions(header))
             offences.push_back(place_of(file) + ": no comment on " + function);
         const fs::path source = fs::path(file).replace_extension(".cpp");
-        if (fs::exists(source) && std::regex_search(text_of(source), refuses) && !std::regex_search(comments, told))
+        if (fs::exists(source) && std::regex_search(text_of(source), refuses) && !std::regex_search(comments, reported))
             offences.push_back(place_of(file) + ": no word on what is refused");
         if (std::regex_search(code, dimensioned) && !std::regex_search(comments, unit))
             offences.push_back(place_of(file) + ": no unit");
@@ -429,7 +429,7 @@ std::set<std::string> option_words_of_lua() {
     const std::set<std::string> symbols = {"Kp", "Td",   "Ts",       "Tw",
                                            "Tz", "Zeta", "Reference"};  // "Reference: Ljung ..."
     std::set<std::string> words;
-    for (const dynlab::FunctionEntry& function : dynlab::catalogue_of_functions())
+    for (const dynlab::FunctionEntry& function : dynlab::catalog_of_functions())
         for (const std::string& word : dynlab::option_names(function.options))
             if (std::regex_match(word, std::regex("[A-Z][A-Za-z]+")) && !symbols.contains(word)) words.insert(word);
     return words;
@@ -552,7 +552,7 @@ TEST(architecture, files_stay_readable) {
     EXPECT_THAT(long_files, IsEmpty());
 }
 
-TEST(architecture, every_data_set_tells_its_source) {
+TEST(architecture, every_data_set_names_its_source) {
     for (const auto& entry : fs::directory_iterator(kRoot / "data")) {
         if (!entry.is_directory()) continue;
         EXPECT_TRUE(fs::exists(entry.path() / "SOURCE.md")) << entry.path().filename();
@@ -561,8 +561,8 @@ TEST(architecture, every_data_set_tells_its_source) {
 
 TEST(architecture, every_method_has_its_files_test_and_lua_name) {
     std::set<std::string> lua_names;
-    for (const dynlab::FunctionEntry& function : dynlab::catalogue_of_functions()) lua_names.insert(function.name);
-    for (const dynlab::MethodEntry& method : dynlab::method_catalogue()) {
+    for (const dynlab::FunctionEntry& function : dynlab::catalog_of_functions()) lua_names.insert(function.name);
+    for (const dynlab::MethodEntry& method : dynlab::method_catalog()) {
         const fs::path source = kRoot / "engine/numerics/estimators" / method.file;
         EXPECT_TRUE(fs::exists(source.string() + ".h")) << method.file;
         EXPECT_TRUE(fs::exists(source.string() + ".cpp")) << method.file;
@@ -575,13 +575,13 @@ TEST(architecture, every_method_has_its_files_test_and_lua_name) {
 TEST(architecture, every_method_has_its_invariances_tested) {
     std::string properties;
     for (const fs::path& file : sources_below(kRoot / "tests/properties")) properties += text_of(file);
-    for (const dynlab::MethodEntry& method : dynlab::method_catalogue())
+    for (const dynlab::MethodEntry& method : dynlab::method_catalog())
         EXPECT_THAT(properties, HasSubstr("\"numerics/estimators/" + method.file + ".h\"")) << method.file;
 }
 
 TEST(architecture, every_function_has_a_help_page) {
     std::vector<std::string> missing;
-    for (const dynlab::FunctionEntry& function : dynlab::catalogue_of_functions()) {
+    for (const dynlab::FunctionEntry& function : dynlab::catalog_of_functions()) {
         if (!dynlab::find_help_page(function.name)) missing.push_back(function.name);
     }
     EXPECT_THAT(missing, IsEmpty());

@@ -27,13 +27,13 @@ TEST(help_prose, uses_the_words_of_the_glossary_and_short_sentences) {
         const auto sentences = sentences_of(page_text(page, find_function(std::string(page.name))));
         for (const auto& sentence : sentences) {
             count += sentence.size() > 1;
-            too_long += sentence.size() > kLongestSentence;
+            too_long += sentence.size() > kMaxSentenceLength;
         }
         for (const std::string& phrase : refused_in(sentences)) ADD_FAILURE() << page.name << ": " << phrase;
     }
     EXPECT_GT(count, 3000u);
     EXPECT_LE(100.0 * static_cast<double>(too_long), kShareOfLongSentences * static_cast<double>(count))
-        << too_long << " of " << count << " sentences have more than " << kLongestSentence << " words";
+        << too_long << " of " << count << " sentences have more than " << kMaxSentenceLength << " words";
 }
 
 TEST(help_prose, has_american_spelling) {

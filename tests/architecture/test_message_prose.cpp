@@ -154,10 +154,10 @@ TEST(message_prose, messages_have_short_sentences) {
     for (const std::string& id : message_ids()) {
         ++count;
         too_long += std::ranges::any_of(
-            sentences_of(id), [](const std::vector<std::string>& words) { return words.size() > kLongestSentence; });
+            sentences_of(id), [](const std::vector<std::string>& words) { return words.size() > kMaxSentenceLength; });
     }
     EXPECT_LE(100.0 * static_cast<double>(too_long), kShareOfLongMessages * static_cast<double>(count))
-        << too_long << " of " << count << " messages have a sentence of more than " << kLongestSentence << " words";
+        << too_long << " of " << count << " messages have a sentence of more than " << kMaxSentenceLength << " words";
 }
 
 }  // namespace test_message_prose

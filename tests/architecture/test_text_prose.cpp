@@ -74,12 +74,12 @@ TEST(text_prose, uses_the_words_of_the_glossary_and_short_sentences) {
         std::string which;
         for (const auto& sentence : sentences) {
             count += sentence.size() > 1;
-            if (sentence.size() <= kLongestSentence) continue;
+            if (sentence.size() <= kMaxSentenceLength) continue;
             ++here;
             which += "\n  " + beginning_of(sentence);
         }
         too_long += here;
-        EXPECT_LE(here, recorded[place]) << place << " has more sentences of more than " << kLongestSentence
+        EXPECT_LE(here, recorded[place]) << place << " has more sentences of more than " << kMaxSentenceLength
                                          << " words than long_sentences.txt records:" << which;
         recorded.erase(place);
         for (const std::string& phrase : refused_in(sentences)) ADD_FAILURE() << place << ": " << phrase;
@@ -87,7 +87,7 @@ TEST(text_prose, uses_the_words_of_the_glossary_and_short_sentences) {
     for (const auto& [place, number] : recorded) ADD_FAILURE() << "long_sentences.txt names no page: " << place;
     EXPECT_GT(count, 4000u);
     EXPECT_LE(100.0 * static_cast<double>(too_long), kShareOfLongSentences * static_cast<double>(count))
-        << too_long << " of " << count << " sentences have more than " << kLongestSentence << " words";
+        << too_long << " of " << count << " sentences have more than " << kMaxSentenceLength << " words";
 }
 
 TEST(text_prose, has_american_spelling) {

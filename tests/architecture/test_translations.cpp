@@ -73,11 +73,11 @@ TEST(translations, take_the_arguments_of_their_messages) {
         EXPECT_GT(entries.size(), 3000u) << file.name;
         for (const Entry& entry : entries)
             for (const std::string& form : entry.forms) {
-                const std::size_t wanted = std::ranges::count(slots_of(entry.id), std::string());
+                const std::size_t expected = std::ranges::count(slots_of(entry.id), std::string());
                 const std::multiset<std::string> given = slots_of(form);
                 const std::set<std::string> numbers(given.begin(), given.end());
-                const bool in_order = given.count("") == wanted;
-                const bool by_number = !given.contains("") && given.size() == wanted && numbers.size() == wanted;
+                const bool in_order = given.count("") == expected;
+                const bool by_number = !given.contains("") && given.size() == expected && numbers.size() == expected;
                 EXPECT_TRUE(entry.id.empty() || in_order || by_number) << file.name << ": " << entry.id << "\n" << form;
             }
     }

@@ -24,10 +24,10 @@ void count_wrong(const char* what, const test::CorpusKind& kind, Judge right, do
         const Advice advice = advise(kind.record(seed));
         if (right(advice, kind)) return;
         ++wrong;
-        std::string told;
-        for (const RecordFinding& finding : advice.findings)
-            if (finding.weight == Weight::kWarning) told += " " + finding.code;
-        std::printf("%s, record %u: %s; told:%s\n", kind.name.c_str(), seed, what, told.c_str());
+        std::string reported;
+        for (const DataIssue& issue : advice.findings)
+            if (issue.weight == Weight::kWarning) reported += " " + issue.code;
+        std::printf("%s, record %u: %s; told:%s\n", kind.name.c_str(), seed, what, reported.c_str());
     });
     report.results.push_back({"advice, " + kind.name + ": " + what, "all records", static_cast<double>(wrong),
                               static_cast<double>(kRecords), bar, 0});

@@ -158,16 +158,16 @@ void measure_growth(const std::string& what, Method method, const Record& ten_mi
 
 /// Five realisations of four periods, noise and distortion included.
 void measure_response(Report& report) {
-    constexpr Index kPeriod = 50'000, kPeriods = 4, kRealisations = 5;
+    constexpr Index kPeriod = 50'000, kPeriods = 4, kRealizations = 5;
     RandomStream random(1);
     Vector u(kLong);
-    for (Index m = 0; m < kRealisations; ++m)
+    for (Index m = 0; m < kRealizations; ++m)
         u.segment(m * kPeriods * kPeriod, kPeriods * kPeriod) =
             random_phase_multisine(kPeriod, {}, random).u.replicate(kPeriods, 1);
     const Vector x = lsim(TransferFunction(Vector::Constant(1, 2.0), Eigen::Vector3d(1, 4, 3)), u, kSamplingTime);
     const IdData data(Matrix(x + kNoise * random.normal(kLong)), Matrix(u), kSamplingTime);
     BlaOptions options;
-    options.period = kPeriod, options.realisations = kRealisations;
+    options.period = kPeriod, options.realizations = kRealizations;
     double check = 0;
     const double measured = median_seconds(11, [&] { check += bla(data, options).variance.sum(); });
     if (!(check > 0)) throw std::logic_error("nothing was estimated");

@@ -48,7 +48,7 @@ std::string watch(const std::string& expression) {
 }
 
 double painted(Browser& browser) {
-    if (!browser.comes("window.painted > 1")) throw std::runtime_error("the page does not show what was saved");
+    if (!browser.becomes_true("window.painted > 1")) throw std::runtime_error("the page does not show what was saved");
     return std::stod(browser.evaluate("return window.painted"));
 }
 
@@ -58,7 +58,7 @@ double edit_seconds(Browser& browser, const std::string& expression, const std::
     const double saved = now();
     edit();
     const double seconds = painted(browser) - saved;
-    if (!browser.comes(kComplete)) throw std::runtime_error("the page does not come to rest");
+    if (!browser.becomes_true(kComplete)) throw std::runtime_error("the page does not come to rest");
     return seconds;
 }
 
@@ -73,7 +73,7 @@ double opening_seconds(Browser& browser, const fs::path& file, const fs::path& c
 /// From opening a file until the first picture of its page.
 double first_paint(Browser& browser, const fs::path& file) {
     browser.open("file://" + file.string());
-    if (!browser.comes("performance.getEntriesByName('first-contentful-paint').length > 0"))
+    if (!browser.becomes_true("performance.getEntriesByName('first-contentful-paint').length > 0"))
         throw std::runtime_error("the page of lesson 4 is never painted");
     return std::stod(browser.evaluate("return performance.getEntriesByName('first-contentful-paint')[0].startTime")) /
            1000;
@@ -107,7 +107,7 @@ void measure_live(Report& report) {
     {
         const Preview preview(file, true, {}, bench.path("cache"));
         browser.open(preview.address());
-        if (!browser.comes(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
+        if (!browser.becomes_true(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
         std::vector<double> prose, last, kilobytes;
         for (int i = 1; i <= kEdits; ++i) {
             const std::string shown = fmt::format("document.body.textContent.includes('Edit number {}.')", i);
@@ -116,12 +116,12 @@ void measure_live(Report& report) {
         const CutLine line(preview.address());
         Browser distant;
         distant.open(line.address(preview.next_address()));
-        if (!distant.comes(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
+        if (!distant.becomes_true(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
         for (int i = kEdits + 1; i <= 2 * kEdits; ++i) {
             const std::size_t before = line.bytes_from_server();
             save(i);
             const std::string shown = fmt::format("document.body.textContent.includes('Edit number {}.')", i);
-            if (!distant.comes(shown)) throw std::runtime_error("the page does not show what was saved");
+            if (!distant.becomes_true(shown)) throw std::runtime_error("the page does not show what was saved");
             std::this_thread::sleep_for(std::chrono::milliseconds(500));
             kilobytes.push_back(static_cast<double>(line.bytes_from_server() - before) / 1000);
         }
@@ -141,7 +141,7 @@ void measure_live(Report& report) {
     {
         const Preview preview(file, true, {}, bench.path("cache"));
         browser.open(preview.address());
-        if (!browser.comes(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
+        if (!browser.becomes_true(kComplete, 60)) throw std::runtime_error("lesson 4 is never complete");
         std::this_thread::sleep_for(std::chrono::seconds(3));  // in which the page is remembered
     }
     browser.devtools("Page.addScriptToEvaluateOnNewDocument", "{\"source\": \"" + watch(kComplete) + "\"}");

@@ -32,10 +32,10 @@ constexpr char kSimulation[] = "x = lsim(G, u, Ts)";
 /// Of a first call, repeated until two seconds are over: one of many seconds is made once and a short one often.
 double seconds_of(LuaSession& session, const std::string& line) {
     constexpr double kEnough = 2;
-    constexpr std::size_t kMost = 15;
+    constexpr std::size_t kMax = 15;
     std::vector<double> times;
-    for (double sum = 0; times.size() < kMost && sum < kEnough; sum += times.back()) {
-        session.forget_results();
+    for (double sum = 0; times.size() < kMax && sum < kEnough; sum += times.back()) {
+        session.clear_results();
         times.push_back(median_seconds(1, [&] { session.run(line); }));
     }
     return median(times);
@@ -73,7 +73,7 @@ void measure_against_numpy(LuaSession& session, Report& report) {
         const Vector u = session.numbers(record + ".u"), y = session.numbers(record + ".y");
         const std::string line = fmt::format("for _ = 1, {} do E = {} end", call.calls, call.line);
         const auto work = [&] {
-            session.forget_results();
+            session.clear_results();
             session.run(line);
             return session.numbers("E.param");
         };

@@ -23,7 +23,7 @@ double slowest_search(const std::filesystem::path& index) {
     test::Browser browser;
     browser.open("file://" + index.string());
     browser.evaluate("window.dynlabLoadSearch().then(() => { window.ready = true })");
-    browser.comes("window.ready");
+    browser.becomes_true("window.ready");
     const std::string milliseconds = browser.evaluate(
         "let most = 0; for (const asked of ['s', 'identification of a system', 'a b c d e', 'delay', 'th']) {"
         "  const begin = performance.now(); dynlabSearch(asked); most = Math.max(most, performance.now() - begin); }"

@@ -34,7 +34,7 @@ double now() {
 }
 
 void wait(Browser& browser, const std::string& expression) {
-    if (!browser.comes(expression, 60)) throw std::runtime_error("the workbench never shows: " + expression);
+    if (!browser.becomes_true(expression, 60)) throw std::runtime_error("the workbench never shows: " + expression);
 }
 const std::string kRest = "document.getElementById('state')?.textContent === 'up to date'";
 const std::string kRecord = "document.querySelector('.tile[data-view=record] canvas')";

@@ -23,7 +23,7 @@ Cache LuaSession::cache_below(const std::filesystem::path& folder) {
     return cache;
 }
 
-void LuaSession::forget_results() {
+void LuaSession::clear_results() {
     std::filesystem::remove_all(cache_.root());
 }
 

@@ -15,7 +15,7 @@ class LuaSession {
   public:
     LuaSession();
     void run(const std::string& line);              ///< throws std::runtime_error with the script's error
-    void forget_results();                          ///< of long calls, so that each is a first one
+    void clear_results();                           ///< of long calls, so that each is a first one
     Vector numbers(const std::string& expression);  ///< of a vector
 
   private:

@@ -11,13 +11,13 @@
 namespace dynlab::test {
 
 /// The class's submissions: `count` honest ones that count to `turns` first, two in three right, and these attacks.
-inline void hand_in_class(GradingBench& bench, int count, int turns, std::span<const Attack> attacks) {
+inline void submit_class(GradingBench& bench, int count, int turns, std::span<const Attack> attacks) {
     bench.bench().write("secret", "the course's secret");
-    for (const Attack& attack : attacks) bench.hand_in(attack.name, attack.script);
+    for (const Attack& attack : attacks) bench.submit_file(attack.name, attack.script);
     for (int i = 0; i < count; ++i)
-        bench.hand_in(fmt::format("s{:03}", i),
-                      fmt::format("local k = 0\nfor i = 1, {} do k = k + i % 7 end\nanswer('x', {})\n", turns,
-                                  i % 3 == 0 ? i : 42));
+        bench.submit_file(fmt::format("s{:03}", i),
+                          fmt::format("local k = 0\nfor i = 1, {} do k = k + i % 7 end\nanswer('x', {})\n", turns,
+                                      i % 3 == 0 ? i : 42));
 }
 
 /// Of two folders of results: the gradebook, and each submission's result and feedback. The kept run of the worked

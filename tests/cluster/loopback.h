@@ -16,7 +16,7 @@
 namespace dynlab::test {
 
 /// What a shell says, its errors too.
-inline std::string told_by_shell(const std::string& command) {
+inline std::string shell_output(const std::string& command) {
     ChildOptions child;
     child.command = {"/bin/bash", "-c", command + " 2>&1"};
     child.timeout = std::chrono::seconds(60);
@@ -53,7 +53,7 @@ class LoopbackHosts {
     LoopbackHosts() : reason_(lacking_program({"/usr/sbin/sshd", "ssh", "ssh-keygen", "parallel"})) {
         if (!reason_.empty()) return;
         const std::string place = folder_.path().string();
-        told_by_shell(
+        shell_output(
             fmt::format("cd {} && ssh-keygen -q -t ed25519 -N '' -f host && ssh-keygen -q -t ed25519 -N '' -f "
                         "user && mkdir -p /run/sshd",
                         place));
@@ -71,7 +71,7 @@ class LoopbackHosts {
         daemon_ = std::make_unique<Daemon>(
             std::vector<std::string>{"/usr/sbin/sshd", "-D", "-f", place + "/sshd", "-E", place + "/log"});
         for (int i = 0; i < 100 && !answers(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        if (!answers()) reason_ = "sshd does not answer: " + told_by_shell("cat " + place + "/log");
+        if (!answers()) reason_ = "sshd does not answer: " + shell_output("cat " + place + "/log");
     }
     const std::string& reason_to_skip() const { return reason_; }
     /// For a shell, before a command. GNU parallel keeps notes in a home of its own.
@@ -82,12 +82,10 @@ class LoopbackHosts {
     void restart_what_ended() {
         if (daemon_->ended()) daemon_->start();
     }
-    std::string pids() const { return told_by_shell("pgrep -f " + folder_.path().string() + "/sshd"); }
+    std::string pids() const { return shell_output("pgrep -f " + folder_.path().string() + "/sshd"); }
 
   private:
-    bool answers() const {
-        return told_by_shell("ssh -F " + folder_.path().string() + "/ssh n1 echo here") == "here\n";
-    }
+    bool answers() const { return shell_output("ssh -F " + folder_.path().string() + "/ssh n1 echo here") == "here\n"; }
     TemporaryFolder folder_;
     std::string reason_;
     std::unique_ptr<Daemon> daemon_;
@@ -98,7 +96,7 @@ class LoopbackSlurm {
   public:
     LoopbackSlurm() : reason_(lacking_program({"slurmctld", "slurmd", "sbatch"})) {
         if (!reason_.empty()) return;
-        const std::string host = told_by_shell("printf %s \"$(hostname)\"");
+        const std::string host = shell_output("printf %s \"$(hostname)\"");
         std::string nodes;
         for (int k = 1; k <= 2; ++k)
             nodes += fmt::format(
@@ -123,7 +121,7 @@ class LoopbackSlurm {
             nodes_.push_back(
                 std::make_unique<Daemon>(std::vector<std::string>{"slurmd", "-D", "-N", node, "-f", file().string()}));
         for (int i = 0; i < 200 && !idle(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        if (!idle()) reason_ = "Slurm does not start: " + told_by_shell("tail -5 " + folder_.path().string() + "/log*");
+        if (!idle()) reason_ = "Slurm does not start: " + shell_output("tail -5 " + folder_.path().string() + "/log*");
     }
     const std::string& reason_to_skip() const { return reason_; }
     std::string environment() const { return "SLURM_CONF=" + file().string(); }
@@ -132,13 +130,11 @@ class LoopbackSlurm {
         for (const auto& node : nodes_)
             if (node->ended()) node->start();
     }
-    std::string pids() const { return told_by_shell("pgrep -f 'slurmd -D -N .*" + folder_.path().string() + "'"); }
+    std::string pids() const { return shell_output("pgrep -f 'slurmd -D -N .*" + folder_.path().string() + "'"); }
 
   private:
     std::filesystem::path file() const { return folder_.path() / "slurm.conf"; }
-    bool idle() const {
-        return told_by_shell(environment() + " sinfo --noheader --Node --format=%T") == "idle\nidle\n";
-    }
+    bool idle() const { return shell_output(environment() + " sinfo --noheader --Node --format=%T") == "idle\nidle\n"; }
     TemporaryFolder folder_;
     std::string reason_;
     std::unique_ptr<Daemon> controller_;

@@ -42,7 +42,7 @@ class loopback : public testing::Test {
             before, out, GradingBench::level(), more);
     }
     void hand_in_and_grade_alone(int turns) {
-        hand_in_class(bench_, kClass, turns, {});
+        submit_class(bench_, kClass, turns, {});
         ASSERT_EQ(grade("alone", "").exit_code, 0);
     }
     /// Until no job is queued; then the class must be joined.
@@ -156,7 +156,7 @@ TEST_F(loopback, a_cancelled_array_can_be_continued) {
 TEST_F(loopback, slurm_that_is_down_and_partitions_unknown_are_named) {
     LoopbackSlurm slurm;
     if (!slurm.reason_to_skip().empty()) GTEST_SKIP() << slurm.reason_to_skip();
-    hand_in_class(bench_, 1, 100, {});
+    submit_class(bench_, 1, 100, {});
     EXPECT_THAT(grade("o1", "--on slurm:partition=none", slurm.environment()).error_output,
                 HasSubstr("the partitions of this cluster are short"));
     slurm.end_controller();
@@ -165,7 +165,7 @@ TEST_F(loopback, slurm_that_is_down_and_partitions_unknown_are_named) {
 }
 
 TEST_F(loopback, programs_that_lack_are_named_with_their_package) {
-    hand_in_class(bench_, 1, 100, {});
+    submit_class(bench_, 1, 100, {});
     bench_.bench().hide_program("sbatch");
     const ChildResult refused = grade("o1", "--on slurm:tasks=1");
     EXPECT_EQ(refused.exit_code, 3);

@@ -93,7 +93,7 @@ class gust : public testing::Test {
 
 TEST_F(gust, over_processes) {
     if (const std::string lacking = lacking_program({"parallel"}); !lacking.empty()) GTEST_SKIP() << lacking;
-    hand_in_class(bench_, 80, 5'000'000, {});
+    submit_class(bench_, 80, 5'000'000, {});
     endure(
         "processes:2", "", {20, 0.3}, [this] { return workers_of(work()); }, [] {}, [] { return false; });
 }
@@ -101,10 +101,10 @@ TEST_F(gust, over_processes) {
 class storm : public gust {
   protected:
     storm() {
-        hand_in_class(bench_, 0, 0, kAttacks);
-        hand_in_class(bench_, 0, 0, kEndlessAttacks);
+        submit_class(bench_, 0, 0, kAttacks);
+        submit_class(bench_, 0, 0, kEndlessAttacks);
         const auto attacks = static_cast<int>(std::size(kAttacks) + std::size(kEndlessAttacks));
-        hand_in_class(bench_, kSubmissions - attacks, 15'000'000, {});
+        submit_class(bench_, kSubmissions - attacks, 15'000'000, {});
     }
 };
 

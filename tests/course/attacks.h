@@ -11,7 +11,7 @@ inline constexpr const char* kAttackChecks =
 struct Attack {
     const char *name, *script;
     double score;
-    const char* told;  ///< part of what the student or the instructor reads of it; "" where nothing need be said
+    const char* reported;  ///< part of what the student or the instructor reads of it; "" where nothing need be said
 };
 
 /// Every one hands in the right answer where it can, so that a verdict of zero is the attack's own doing.

@@ -89,18 +89,18 @@ class CheckTest : public DocumentTest {
 
     static std::vector<std::string> ids(const CheckResult& result) {
         std::vector<std::string> found;
-        expect_told_in_french(result.findings);
-        for (const Finding& finding : result.findings) {
-            EXPECT_TRUE(message_text(finding.what).ends_with('.')) << message_text(finding.what);
-            EXPECT_TRUE(message_text(finding.remedy).ends_with('.')) << message_text(finding.remedy);
-            found.push_back(finding.id);
+        expect_french_text(result.findings);
+        for (const Issue& issue : result.findings) {
+            EXPECT_TRUE(message_text(issue.what).ends_with('.')) << message_text(issue.what);
+            EXPECT_TRUE(message_text(issue.remedy).ends_with('.')) << message_text(issue.remedy);
+            found.push_back(issue.id);
         }
         return found;
     }
 
-    static Finding only(const CheckResult& result, const std::string& id) {
+    static Issue only(const CheckResult& result, const std::string& id) {
         EXPECT_EQ(ids(result), std::vector<std::string>{id});
-        return result.findings.empty() ? Finding() : result.findings.front();
+        return result.findings.empty() ? Issue() : result.findings.front();
     }
 
     std::optional<DocumentStandard> standard_;

@@ -59,8 +59,8 @@ class CourseBench {
         words.insert(words.begin(), {"course", "--course", "k"});
         return bench_.dynlab(words);
     }
-    ChildResult hand_in(const std::string& file, const std::string& content, const std::string& at,
-                        std::vector<std::string> more = {}) const {
+    ChildResult submit_file(const std::string& file, const std::string& content, const std::string& at,
+                            std::vector<std::string> more = {}) const {
         bench_.write(file, content);
         std::vector<std::string> words = {"submit", file, "--at", at, "--isolation", level()};
         words.insert(words.end(), more.begin(), more.end());

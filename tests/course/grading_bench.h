@@ -43,7 +43,7 @@ class GradingBench {
     }
 
     Workbench& bench() { return bench_; }
-    void hand_in(const std::string& name, const std::string& script) {
+    void submit_file(const std::string& name, const std::string& script) {
         bench_.write("in/" + name + "/analysis.lua", script);
     }
     ChildResult grade(std::vector<std::string> more = {}) {
@@ -58,7 +58,7 @@ class GradingBench {
         return nlohmann::json::parse(read_file(bench_.path("out/results/" + name + "/results.json")));
     }
     static double score(const nlohmann::json& result) { return result.value("score", -1.0); }
-    static std::string trouble(const nlohmann::json& result) {
+    static std::string error_reason(const nlohmann::json& result) {
         return result.at("extra_data").at("dynlab").at("trouble").get<std::string>();
     }
 

@@ -58,19 +58,19 @@ class LeakCorpus : public CheckTest {
 
     /// What is found about names, as "id page"; hints in brackets.
     std::vector<std::string> found(const std::filesystem::path& pdf) const {
-        CheckOptions wishes;
-        wishes.standard = standard_;
-        wishes.names = names_;
+        CheckOptions check_options;
+        check_options.standard = standard_;
+        check_options.names = names_;
         std::vector<std::string> result;
-        for (const Finding& finding : check_pdf(pdf, wishes).findings) {
-            const bool of_names = finding.id.starts_with("name") || finding.id == "author-named" ||
-                                  finding.id.starts_with("not-search") || finding.id == "damaged";
+        for (const Issue& issue : check_pdf(pdf, check_options).findings) {
+            const bool of_names = issue.id.starts_with("name") || issue.id == "author-named" ||
+                                  issue.id.starts_with("not-search") || issue.id == "damaged";
             if (!of_names) continue;
-            expect_told_in_french({finding});
-            EXPECT_TRUE(message_text(finding.what).ends_with('.')) << message_text(finding.what);
-            EXPECT_TRUE(message_text(finding.remedy).ends_with('.')) << message_text(finding.remedy);
-            const std::string words = finding.id + " " + std::to_string(finding.page);
-            result.push_back(finding.severity == Severity::kRule ? words : "(" + words + ")");
+            expect_french_text({issue});
+            EXPECT_TRUE(message_text(issue.what).ends_with('.')) << message_text(issue.what);
+            EXPECT_TRUE(message_text(issue.remedy).ends_with('.')) << message_text(issue.remedy);
+            const std::string words = issue.id + " " + std::to_string(issue.page);
+            result.push_back(issue.severity == Severity::kRule ? words : "(" + words + ")");
         }
         return result;
     }

@@ -53,7 +53,7 @@ class anonymous_copies : public LeakCorpus {
                                    HasSubstr(wide("randtner"))))
             << channel << ": the test itself";
         const AnonymousCopy copy = anonymous_copy(own, file("copy.pdf"), setup());
-        ASSERT_TRUE(copy.made) << channel << message_text(copy.trouble)
+        ASSERT_TRUE(copy.made) << channel << message_text(copy.error_reason)
                                << (copy.findings.empty() ? "" : message_text(copy.findings.front().what));
         const std::string bytes = laid_open("copy.pdf");
         for (const std::string& name :
@@ -133,7 +133,7 @@ TEST_F(anonymous_copies, layers_that_are_off_and_earlier_revisions) {
     const std::string named = read(page_with(std::string(kHello) + "BT /F1 9 Tf 72 600 Td (by Brandtner) Tj ET"));
     write("own.pdf", updated(named, 4, stream_of(kHello)));
     const AnonymousCopy copy = anonymous_copy(file("own.pdf"), file("copy.pdf"), setup());
-    ASSERT_TRUE(copy.made) << message_text(copy.trouble);
+    ASSERT_TRUE(copy.made) << message_text(copy.error_reason);
     EXPECT_THAT(read(file("own.pdf")), HasSubstr("Brandtner"));
     EXPECT_THAT(laid_open("copy.pdf"), Not(HasSubstr("Brandtner")));
     const std::string plain = read(page_with(kHello));
@@ -203,7 +203,7 @@ TEST_F(anonymous_copies, pages_links_and_bookmarks_stay) {
               "\\section{Model}\\label{model} The gain is $k = \\frac{1}{2}$. The fi and ffl of waffle.");
     run({"pdflatex", "-interaction=batchmode", "own.tex"});
     const AnonymousCopy copy = anonymous_copy(file("own.pdf"), file("copy.pdf"), setup());
-    ASSERT_TRUE(copy.made) << message_text(copy.trouble);
+    ASSERT_TRUE(copy.made) << message_text(copy.error_reason);
     EXPECT_FALSE(copy.rebuilt);
     EXPECT_THAT(copy.findings, IsEmpty());
     run({"qpdf", "--check", "copy.pdf"});
@@ -227,7 +227,7 @@ TEST_F(anonymous_copies, equal_input_gives_equal_bytes) {
                                "\\includegraphics[width=3cm]{plain.jpg}\\url{https://example.org}");
     const AnonymousCopy copy = anonymous_copy(own, file("copy.pdf"), setup());
     const AnonymousCopy again = anonymous_copy(own, file("again.pdf"), setup());
-    ASSERT_TRUE(copy.made) << message_text(copy.trouble);
+    ASSERT_TRUE(copy.made) << message_text(copy.error_reason);
     EXPECT_EQ(copy.hash, again.hash);
     EXPECT_EQ(read(file("copy.pdf")), read(file("again.pdf")));
 }
@@ -263,7 +263,7 @@ TEST_F(anonymous_copies, unreadable_files_and_missing_or_slow_programs_are_repor
     write("broken.pdf", "%PDF-1.4\nnothing\n%%EOF\n");
     const AnonymousCopy broken = anonymous_copy(file("broken.pdf"), file("none.pdf"), setup());
     EXPECT_FALSE(broken.made);
-    EXPECT_THAT(message_text(broken.trouble), HasSubstr("damaged"));
+    EXPECT_THAT(message_text(broken.error_reason), HasSubstr("damaged"));
     const auto own = page_with(kHello);
     try {
         distilled_pdf(own, {strongest_isolation(), {std::chrono::milliseconds(1)}, {}});
@@ -301,8 +301,7 @@ TEST_F(anonymous_copies, of_a_lesson_in_a_course_of_99_groups_with_surnames_from
     run({DYNLAB_PROGRAM, "report", DYNLAB_SOURCE_DIR "/lessons/02_least_squares", "-o", file("lesson.pdf").string()});
     const AnonymousCopy copy = anonymous_copy(file("lesson.pdf"), file("copy.pdf"), setup);
     EXPECT_TRUE(copy.made);
-    for (const Finding& finding : copy.findings)
-        EXPECT_EQ(finding.id, "name-ordinary-word") << message_text(finding.what);
+    for (const Issue& issue : copy.findings) EXPECT_EQ(issue.id, "name-ordinary-word") << message_text(issue.what);
     EXPECT_LE(copy.findings.size(), 1u);
 }
 
@@ -314,7 +313,7 @@ TEST_F(anonymous_copies, copies_are_made_again_from_the_source) {
     write("work/group.toml", "members = [\"Zoé Brandtner\"]\n");
     write("work/report.pdf", read(prose_with("by Brandtner")));
     const AnonymousCopy copy = anonymous_copy(file("work"), file("copy.pdf"), setup);
-    ASSERT_TRUE(copy.made) << message_text(copy.trouble)
+    ASSERT_TRUE(copy.made) << message_text(copy.error_reason)
                            << (copy.findings.empty() ? "" : message_text(copy.findings.front().what));
     EXPECT_TRUE(copy.rebuilt);
     EXPECT_THAT(text_of("copy.pdf"), HasSubstr("The gain is 2.5."));
@@ -325,10 +324,10 @@ TEST_F(anonymous_copies, copies_are_made_again_from_the_source) {
     EXPECT_FALSE(fallen_back.rebuilt);
     EXPECT_EQ(fallen_back.findings.front().id, "name-in-text");
     std::filesystem::remove(file("work/report.pdf"));
-    EXPECT_THAT(message_text(anonymous_copy(file("work"), file("other.pdf"), setup).trouble),
+    EXPECT_THAT(message_text(anonymous_copy(file("work"), file("other.pdf"), setup).error_reason),
                 HasSubstr("cannot be made again"));
     write("work/analysis.lua", "x = 1\nprint(meen({1, 2}))\n");
-    EXPECT_THAT(message_text(anonymous_copy(file("work"), file("other.pdf"), setup).trouble),
+    EXPECT_THAT(message_text(anonymous_copy(file("work"), file("other.pdf"), setup).error_reason),
                 testing::AllOf(testing::StartsWith("The report cannot be made again: analysis.lua:2: "),
                                testing::EndsWith("did you mean 'mean'?")));
 }
@@ -350,16 +349,16 @@ TEST_F(anonymous_copies, names_of_all_scripts_are_found_in_reports_that_are_made
     write("work/analysis.lua", "report.value('x', 1)\n");
     write("work/report.md", text);
     const AnonymousCopy copy = anonymous_copy(file("work"), file("copy.pdf"), named);
-    EXPECT_TRUE(copy.rebuilt) << message_text(copy.not_rebuilt) << message_text(copy.trouble);
+    EXPECT_TRUE(copy.rebuilt) << message_text(copy.not_rebuilt) << message_text(copy.error_reason);
     EXPECT_FALSE(copy.made);
-    std::string told;
-    for (const Finding& finding : copy.findings)
-        if (finding.severity == Severity::kRule) told += message_text(finding.what) + "\n";
-    for (const char* name : kNames) EXPECT_THAT(told, HasSubstr(std::string("The name of ") + name));
+    std::string reported;
+    for (const Issue& issue : copy.findings)
+        if (issue.severity == Severity::kRule) reported += message_text(issue.what) + "\n";
+    for (const char* name : kNames) EXPECT_THAT(reported, HasSubstr(std::string("The name of ") + name));
 }
 
 /// Oracle: the mistake in the script.
-TEST_F(anonymous_copies, why_a_report_was_not_made_again_is_told) {
+TEST_F(anonymous_copies, why_a_report_was_not_made_again_is_reported) {
     write("work/analysis.lua", "local x = nothing + 1\n");
     write("work/report.md", "---\ntitle: A\n---\n\nText.\n");
     prose_with("The gain is known.");
@@ -380,13 +379,13 @@ TEST_F(anonymous_copies, a_report_made_again_fills_no_disk) {
     write("work/analysis.lua", header +
                                    "local big = {}\nfor i = 1, 20 do big['c' .. i] = randn(200000) end\n"
                                    "save_csv(\"big.csv\", big, {digits = 17})\n");
-    EXPECT_THAT(message_text(anonymous_copy(file("work"), file("none.pdf"), setup).trouble),
+    EXPECT_THAT(message_text(anonymous_copy(file("work"), file("none.pdf"), setup).error_reason),
                 HasSubstr("a file of more than 64 MB"));
     if (setup.isolation != Isolation::kFull) return;
     write("work/analysis.lua", header + "save_csv(\"/box/submission/fill.csv\", {t = zeros(3)})\n");
     const AnonymousCopy copy = anonymous_copy(file("work"), file("none.pdf"), setup);
     EXPECT_FALSE(copy.made);
-    EXPECT_THAT(message_text(copy.trouble), HasSubstr("read-only file system (in /box/submission)"));
+    EXPECT_THAT(message_text(copy.error_reason), HasSubstr("read-only file system (in /box/submission)"));
 }
 
 }  // namespace test_anonymous_copies

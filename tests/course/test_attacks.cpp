@@ -73,7 +73,7 @@ std::string outside_of(const Workbench& work) {
 /// is the one that was expected. Returns the exit code.
 int grade_attacks(GradingBench& bench, std::span<const Attack> attacks, std::size_t others, int timeout) {
     const Workbench& work = bench.bench();
-    for (const Attack& attack : attacks) bench.hand_in(attack.name, attack.script);
+    for (const Attack& attack : attacks) bench.submit_file(attack.name, attack.script);
     work.write("secret.csv", "y\n42\n");
     const std::string before = outside_of(work);
     const auto start = std::chrono::steady_clock::now();
@@ -86,9 +86,9 @@ int grade_attacks(GradingBench& bench, std::span<const Attack> attacks, std::siz
     for (const Attack& attack : attacks) {
         const auto result = bench.result(attack.name);
         EXPECT_EQ(GradingBench::score(result), attack.score) << attack.name << ": " << result.dump(1);
-        const std::string told =
-            GradingBench::trouble(result) + " " + result.at("tests").at(0).at("output").get<std::string>();
-        EXPECT_THAT(told, tells(attack.told)) << attack.name;
+        const std::string reported =
+            GradingBench::error_reason(result) + " " + result.at("tests").at(0).at("output").get<std::string>();
+        EXPECT_THAT(reported, tells(attack.reported)) << attack.name;
     }
     return graded.exit_code;
 }
@@ -100,16 +100,16 @@ TEST(attacks, without_an_end_are_ended) {
 }
 
 // oracle: what stood there before, the clock, the verdicts expected
-TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
+TEST(attacks, none_leaves_its_sandbox_stops_the_batch_or_changes_a_mark) {
     GradingBench bench(kAttackAnswers, kAttackChecks, kAttackSolution);
-    bench.hand_in("honest", kAttackSolution);
+    bench.submit_file("honest", kAttackSolution);
     write_odd_submissions(bench.bench());
     ASSERT_EQ(grade_attacks(bench, kAttacks, 24, kLongEnough), 1);  // some cannot be read
     for (const char* name :
          {"honest", "it's \"quoted\"", "=1+1 🎉", "-rf", "new\nline", "in a folder", "a_pipe", "upwards", "absolute",
           "through_link", "devices", "good", "Zoe Zip_5_assignsubmission_file_"})
         EXPECT_EQ(GradingBench::score(bench.result(name)), 1) << name << bench.result(name).dump(1);
-    for (const auto& [name, told] :
+    for (const auto& [name, reported] :
          {std::pair("two of them", "Several folders"), std::pair("no script", "contains no analysis.lua"),
           std::pair("bytecode", "not a text"), std::pair("damaged", "cannot be unpacked"),
           std::pair("empty", "cannot be unpacked"), std::pair("script is a folder", "contains no analysis.lua"),
@@ -117,15 +117,15 @@ TEST(attacks, none_leaves_its_box_stops_the_batch_or_changes_a_mark) {
           std::pair("bomb", "exceeds 200 MB when unpacked"), std::pair("many_files", "contains more than")}) {
         EXPECT_EQ(GradingBench::score(bench.result(name)), name == std::string("linked") ? 0 : -1)
             << name << bench.result(name).dump(1);
-        EXPECT_THAT(GradingBench::trouble(bench.result(name)), HasSubstr(told)) << name;
+        EXPECT_THAT(GradingBench::error_reason(bench.result(name)), HasSubstr(reported)) << name;
     }
 }
 
 // oracle: the kernel refuses paths of more than 4096 letters; the others' marks
-TEST(attacks, a_folder_that_cannot_even_be_read_stops_nobody_else) {
+TEST(attacks, a_folder_that_cannot_even_be_read_stops_no_other) {
     GradingBench bench(kAttackAnswers, kAttackChecks, kAttackSolution);
-    bench.hand_in("bottomless", kAttackSolution);
-    bench.hand_in("honest", kAttackSolution);
+    bench.submit_file("bottomless", kAttackSolution);
+    bench.submit_file("honest", kAttackSolution);
     const Workbench& work = bench.bench();
     work.shell(
         "cd in/bottomless; n=$(printf 'd%.0s' $(seq 250)); for i in $(seq 24); do mkdir $n && cd $n; done; echo x > y");
@@ -158,10 +158,10 @@ TEST(attacks, reports_read_no_files_and_run_no_commands) {
         {"endless_macro", "$$ \\def\\x{\\x}\\x $$\n"},
     };
     for (const auto& [name, text] : reports) {
-        bench.hand_in(name, "answer('x', 42)\nreport.value('x', 42)\n");
+        bench.submit_file(name, "answer('x', 42)\nreport.value('x', 42)\n");
         work.write("in/" + std::string(name) + "/report.md", "---\ntitle: Mine\n---\n\n" + text);
     }
-    bench.hand_in("includes", "answer('x', 42)\n");
+    bench.submit_file("includes", "answer('x', 42)\n");
     work.write("in/includes/report.md", "---\ntitle: Mine\nheader-includes: \\input{" + canary + "}\n---\n\nText.\n");
     const ChildResult graded = bench.grade();
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
@@ -176,7 +176,7 @@ TEST(attacks, names_and_messages_of_students_reach_no_terminal_as_commands) {
     GradingBench bench(kAttackAnswers, kAttackChecks, kAttackSolution);
     Workbench& work = bench.bench();
     const std::string red = "\x1B[31m", name = "pi" + red + "pe", turned = "\u202Egpj.exe";
-    const auto told = [&work, &red](const std::vector<std::string>& words, const std::string& shown) {
+    const auto reported = [&work, &red](const std::vector<std::string>& words, const std::string& shown) {
         const ChildResult result = work.dynlab(words);
         const std::string all = result.output + result.error_output;
         EXPECT_THAT(all, HasSubstr(shown)) << words.front();
@@ -186,15 +186,15 @@ TEST(attacks, names_and_messages_of_students_reach_no_terminal_as_commands) {
     work.write("mine/report.md", "---\ntitle: Mine\n---\n\nText.\n");
     work.write("mine/" + turned, "x");
     work.shell("mkfifo 'mine/" + name + "'");
-    told({"pack", "mine"}, "pi?[31mpe");
-    told({"pack", "mine"}, "?gpj.exe");
-    told({"report", "mine"}, "bad?[31m");
-    told({"run", "mine/analysis.lua"}, "bad?[31m");
+    reported({"pack", "mine"}, "pi?[31mpe");
+    reported({"pack", "mine"}, "?gpj.exe");
+    reported({"report", "mine"}, "bad?[31m");
+    reported({"run", "mine/analysis.lua"}, "bad?[31m");
     work.write("in/one" + red + "/report.md", "no analysis");
     work.write("out/results/one" + red + "/results.json", "no result of ours");
-    told({"grade", "in", "--lesson", "99", "--out", "out", "--isolation", GradingBench::level(), "--no-pdf", "--only",
-          "two" + red},
-         "two?[31m");
+    reported({"grade", "in", "--lesson", "99", "--out", "out", "--isolation", GradingBench::level(), "--no-pdf",
+              "--only", "two" + red},
+             "two?[31m");
 }
 
 }  // namespace test_attacks

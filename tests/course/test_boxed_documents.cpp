@@ -25,7 +25,7 @@ class boxed_documents : public testing::Test {
 
     const EnvironmentVariable home_{"DYNLAB_HOME", DYNLAB_SOURCE_DIR};
     const TemporaryFolder folder_;
-    const BoxedDocuments documents_{strongest_isolation(), DYNLAB_PROGRAM};
+    const SandboxedDocuments documents_{strongest_isolation(), DYNLAB_PROGRAM};
 };
 
 TEST_F(boxed_documents, print_names_in_all_scripts_and_say_so_once) {

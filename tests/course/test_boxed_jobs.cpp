@@ -49,7 +49,7 @@ ChecksJob sample_checks() {
 template <class T>
 void expect_to_come_back(const T& value) {
     const std::string bytes = cbor_of(value);
-    EXPECT_TRUE(cbor_of(from_cbor<T>(bytes, boxed_limits())) == bytes);
+    EXPECT_TRUE(cbor_of(from_cbor<T>(bytes, sandbox_limits())) == bytes);
 }
 
 TEST(boxed_jobs, come_back) {
@@ -62,7 +62,7 @@ TEST(boxed_jobs, come_back) {
         Unpacked{{Message("\"{}\" points outside the archive", "../x")}, Message("the archive is damaged")});
     expect_to_come_back(VersionJob{"/box/submission", "/box/made", true});
     const CheckDescription check{"a", "about", "hint", 2, "seed", true, true, "rubric", false};
-    const TriedCheck tried{check, 0.5, Message("no"), Message("why")};
+    const EvaluatedCheck tried{check, 0.5, Message("no"), Message("why")};
     expect_to_come_back(CheckResults{{tried},
                                      {{{tried}, {}, 0.5}, {{}, Message("the run crashed (signal {})", 11), 60}},
                                      {"rc"},
@@ -82,25 +82,26 @@ TEST(boxed_jobs, come_back) {
 }
 
 // oracle: written by hand
-TEST(boxed_jobs, message_from_a_box_names_files_of_the_work_and_keeps_its_id) {
+TEST(boxed_jobs, message_from_a_sandbox_names_files_of_the_work_and_keeps_its_id) {
     const Message said("{}: file not found: {}", "/box/submission/analysis.lua:3", "/box/submission/data/x.csv");
-    EXPECT_EQ(told_outside(said, "/box/submission"), Message("{}: file not found: {}", "analysis.lua:3", "data/x.csv"));
-    EXPECT_EQ(shortened_trouble(said), said);
+    EXPECT_EQ(without_sandbox_paths(said, "/box/submission"),
+              Message("{}: file not found: {}", "analysis.lua:3", "data/x.csv"));
+    EXPECT_EQ(shortened_error(said), said);
     const auto as_capitals = [](const std::string& text) { return text == "b" ? "B" : replaced(text, "a b", "A B"); };
     EXPECT_EQ(with_changed_text(Message("a {}", "b"), as_capitals), Message::verbatim("A B"))
         << "its format changes too";
 }
 
-TEST(boxed_jobs, texts_from_a_box_are_utf8) {
+TEST(boxed_jobs, texts_from_a_sandbox_are_utf8) {
     GradedRun run = sample_run();
     run.printed = "a\xFF";
     run.error = Message::verbatim("\xC3");
-    const GradedRun back = from_cbor<GradedRun>(cbor_of(run), boxed_limits());
+    const GradedRun back = from_cbor<GradedRun>(cbor_of(run), sandbox_limits());
     EXPECT_EQ(back.printed, "a\xEF\xBF\xBD");
     EXPECT_EQ(back.error, Message::verbatim("\xEF\xBF\xBD"));
 }
 
-TEST(boxed_jobs, any_bytes_from_a_box_are_a_result_or_refused) {
+TEST(boxed_jobs, any_bytes_from_a_sandbox_are_a_result_or_refused) {
     std::mt19937 random(5);
     const std::string bytes = cbor_of(sample_run());
     int refused = 0;
@@ -108,20 +109,20 @@ TEST(boxed_jobs, any_bytes_from_a_box_are_a_result_or_refused) {
         std::string wrong = bytes;
         for (unsigned k = 0; k <= random() % 4; ++k) wrong[random() % wrong.size()] = static_cast<char>(random());
         try {
-            from_cbor<GradedRun>(wrong, boxed_limits(1u << 20));
+            from_cbor<GradedRun>(wrong, sandbox_limits(1u << 20));
         } catch (const ValueError&) {
             ++refused;
         }
     }
     EXPECT_GT(refused, 5000);
     EXPECT_LT(refused, 20000);
-    EXPECT_THROW(from_cbor<GradedRun>("{\"answers\": {}}", boxed_limits()), ValueError);
-    EXPECT_THROW(from_cbor<GradedRun>("", boxed_limits()), ValueError);
+    EXPECT_THROW(from_cbor<GradedRun>("{\"answers\": {}}", sandbox_limits()), ValueError);
+    EXPECT_THROW(from_cbor<GradedRun>("", sandbox_limits()), ValueError);
 }
 
 // oracle: the libraries that a run needs
 TEST(boxed_jobs, work_in_sandboxes_has_a_program_that_starts_quickly) {
-    const std::filesystem::path dynlab = DYNLAB_PROGRAM, small = dynlab.parent_path() / kBoxedProgram;
+    const std::filesystem::path dynlab = DYNLAB_PROGRAM, small = dynlab.parent_path() / kSandboxProgram;
     for (const char* work : {"run", "checks", "unpack", "document"}) EXPECT_EQ(program_for(work, dynlab), small);
     EXPECT_EQ(program_for("version", dynlab), dynlab.parent_path() / kCourseProgram);
     const test::Workbench work;

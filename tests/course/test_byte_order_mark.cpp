@@ -20,16 +20,16 @@ TEST(byte_order_mark, costs_no_points) {
                kByteOrderMark + GradingBench::header("--   x: number\n") + solution);
     work.write("more/extra.lua", kByteOrderMark + "check{id = 'half', test = function(a) return a.x == 42 end}\n");
     work.write("roster.csv", kByteOrderMark + "id,group\n1,marked\n");
-    bench.hand_in("marked", kByteOrderMark + solution);
-    bench.hand_in("stops", kByteOrderMark + "error('no more')\n");
-    bench.hand_in("slip", kByteOrderMark + "local = 3\n");
+    bench.submit_file("marked", kByteOrderMark + solution);
+    bench.submit_file("stops", kByteOrderMark + "error('no more')\n");
+    bench.submit_file("slip", kByteOrderMark + "local = 3\n");
     const ChildResult graded = bench.grade({"--checks", "more", "--roster", "roster.csv"});
     ASSERT_EQ(graded.exit_code, 1) << graded.error_output;  // two belong to nobody in the roster
     EXPECT_EQ(GradingBench::score(bench.result("marked")), 2);
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("marked,graded,2,2"));
-    EXPECT_THAT(GradingBench::trouble(bench.result("stops")), HasSubstr("analysis.lua:1: no more"));
-    EXPECT_THAT(GradingBench::trouble(bench.result("slip")), StartsWith("analysis.lua:1: "));
-    EXPECT_EQ(GradingBench::trouble(bench.result("slip")).find("239"), std::string::npos);
+    EXPECT_THAT(GradingBench::error_reason(bench.result("stops")), HasSubstr("analysis.lua:1: no more"));
+    EXPECT_THAT(GradingBench::error_reason(bench.result("slip")), StartsWith("analysis.lua:1: "));
+    EXPECT_EQ(GradingBench::error_reason(bench.result("slip")).find("239"), std::string::npos);
 }
 
 // oracle: iconv, and the points of the same script in UTF-8
@@ -49,7 +49,7 @@ TEST(byte_order_mark, of_utf_16_costs_no_points_either) {
     bench.grade();
     for (const char* order : {"LE", "BE"}) EXPECT_EQ(GradingBench::score(bench.result(order)), 1) << order;
     EXPECT_FALSE(bench.result("half").contains("score"));
-    EXPECT_THAT(GradingBench::trouble(bench.result("half")), HasSubstr("analysis.lua is not a text"));
+    EXPECT_THAT(GradingBench::error_reason(bench.result("half")), HasSubstr("analysis.lua is not a text"));
 }
 
 /// A student's folder, each of its texts with `start` before it.

@@ -63,7 +63,7 @@ TEST(check_command, what_needs_more_than_the_folder_fails_from_a_clean_copy) {
 }
 
 // Field case 03 and its like. Oracle: what the script names lies beside it.
-TEST(check_command, what_a_script_that_stands_alone_names_goes_with_it) {
+TEST(check_command, what_a_script_outside_a_folder_names_goes_with_it) {
     const Workbench bench;
     bench.shell(
         "gnuplot -e \"set terminal jpeg size 90,60; set output 'rig.jpg'; plot x\"; mkdir -p img/deep records lib;"
@@ -88,13 +88,13 @@ TEST(check_command, what_a_script_that_stands_alone_names_goes_with_it) {
                              "bare.csv", "lib/tools.lua"})
         EXPECT_THAT(names, HasSubstr(name));
     bench.write("gone.lua", "-- %% [markdown]\n-- # A\n-- ![The rig](none.jpg)\n\n-- %%\nprint(1)\n");
-    const std::string told = bench.dynlab({"check", "gone.lua"}).output;
-    EXPECT_THAT(told, AllOf(HasSubstr("the picture \"none.jpg\"\n    is not in the folder"), HasSubstr("of this file"),
-                            Not(HasSubstr("/box/"))));
+    const std::string reported = bench.dynlab({"check", "gone.lua"}).output;
+    EXPECT_THAT(reported, AllOf(HasSubstr("the picture \"none.jpg\"\n    is not in the folder"),
+                                HasSubstr("of this file"), Not(HasSubstr("/box/"))));
 }
 
 // Field case 17: a pasted picture is a gap of the report, not the end of it.
-TEST(check_command, a_picture_that_was_pasted_into_a_notebook_is_told_with_the_remedy) {
+TEST(check_command, a_picture_that_was_pasted_into_a_notebook_is_reported_with_the_remedy) {
     const Workbench bench;
     bench.write(
         "pasted.ipynb",
@@ -106,8 +106,8 @@ TEST(check_command, a_picture_that_was_pasted_into_a_notebook_is_told_with_the_r
 }, {"cell_type": "code", "id": "c", "metadata": {}, "outputs": [],
  "execution_count": null, "source": ["print(1)"]}], "metadata": {}, "nbformat": 4, "nbformat_minor": 5
 })json");
-    const std::string told = bench.dynlab({"check", "pasted.ipynb"}).output;
-    EXPECT_THAT(told,
+    const std::string reported = bench.dynlab({"check", "pasted.ipynb"}).output;
+    EXPECT_THAT(reported,
                 AllOf(HasSubstr("was pasted into the notebook"), HasSubstr("Save it as a"), Not(HasSubstr("/box/"))));
 }
 
@@ -123,7 +123,7 @@ TEST(check_command, a_copied_cell_and_lost_stars_are_hints) {
 }
 
 // oracle: the same load that grade refuses, and what stands in the file
-TEST(check_command, a_file_outside_the_folder_is_told_with_its_line) {
+TEST(check_command, a_file_outside_the_folder_is_reported_with_its_line) {
     const Workbench bench;
     bench.write("roster.csv", "name\n424242\n");
     const std::string absolute = bench.path("roster.csv").string();
@@ -141,7 +141,7 @@ TEST(check_command, a_file_outside_the_folder_is_told_with_its_line) {
     EXPECT_THAT(bench.dynlab({"report", "mine", "-o", "own.pdf"}).error_output, HasSubstr("424242"));
 }
 
-TEST(check_command, of_whom_no_number_is_looked_for_is_told) {
+TEST(check_command, students_without_a_searched_number_are_reported) {
     const Workbench bench;
     make_folder(bench);
     bench.write("short.csv", "id,name\ns1,Ada King\n20214711,Bo Ek\n7,Cy Orr\n");
@@ -224,18 +224,18 @@ TEST(check_command, a_question_with_several_blanks_is_one_finding) {
                            "-- YOUR CODE HERE\n\n-- %% [markdown]\n-- *Your answer:*\n--\n-- **Question 2.** Why?\n--\n"
                            "-- *Your answer:*\n--\n-- # Learnt\n--\n-- *Your answer:*\n");
     const auto json = nlohmann::json::parse(bench.dynlab({"check", "mine", "--json"}).output);
-    std::vector<std::string> told;
-    for (const auto& finding : json.at("findings"))
-        if (finding.at("id") == "answer-open") told.push_back(finding.at("what"));
+    std::vector<std::string> reported;
+    for (const auto& issue : json.at("findings"))
+        if (issue.at("id") == "answer-open") reported.push_back(issue.at("what"));
     EXPECT_THAT(
-        told,
+        reported,
         ElementsAre("Question 1 is open: the lines \"YOUR CODE HERE\" and \"Your answer:\" are still in the text.",
                     "Question 2 is open: the line \"Your answer:\" is still in the text.",
                     "The line \"Your answer:\" is still in the text."));
 }
 
 // oracle: the worked solution has all points, and percent instead of a ratio lose those of their check
-TEST(check_command, tells_what_the_checks_of_the_lesson_say) {
+TEST(check_command, reports_what_the_checks_of_the_lesson_say) {
     const Workbench bench;
     ASSERT_EQ(bench.dynlab({"new", "01", "mine"}).exit_code, 0);
     bench.shell("cp " DYNLAB_SOURCE_DIR "/lessons/01_process_models/lesson.lua mine/analysis.lua");
@@ -250,7 +250,7 @@ TEST(check_command, tells_what_the_checks_of_the_lesson_say) {
     EXPECT_THAT(percent.output, HasSubstr("This is in percent; give a ratio below 1"));
 }
 
-TEST(check_command, tells_whether_the_pdf_in_the_folder_is_that_of_the_analysis) {
+TEST(check_command, reports_whether_the_pdf_in_the_folder_is_that_of_the_analysis) {
     const Workbench bench;
     make_folder(bench);
     ASSERT_EQ(bench.dynlab({"report", "mine", "-o", "mine/report.pdf"}).exit_code, 0);
@@ -265,7 +265,7 @@ TEST(check_command, tells_whether_the_pdf_in_the_folder_is_that_of_the_analysis)
     EXPECT_THAT(bench.dynlab({"check", "mine"}).output, HasSubstr("pdf-differs"));
 }
 
-TEST(check_command, a_students_untouched_copy_is_told_what_is_open) {
+TEST(check_command, a_students_untouched_copy_gets_a_list_of_open_items) {
     const Workbench bench;
     ASSERT_EQ(bench.dynlab({"new", "02", "mine"}).exit_code, 0);
     const ChildResult result = bench.dynlab({"check", "mine"});
@@ -284,7 +284,7 @@ TEST(check_command, a_folder_without_analysis_breaks_a_rule) {
 }
 
 /// The language asks nothing of files that cannot be read.
-TEST(check_command, french_work_without_a_readable_analysis_is_told_of_it) {
+TEST(check_command, french_work_without_a_readable_analysis_gets_a_message) {
     const Workbench bench;
     bench.write("mine/report.md", "---\ntitle: A\nlang: fr\n---\n\nLe gain.\n");
     const ChildResult missing = bench.dynlab({"check", "mine"});

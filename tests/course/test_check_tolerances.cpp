@@ -80,7 +80,7 @@ class check_tolerances : public ::testing::TestWithParam<std::string> {};
 
 void expect_fair_marks(const Grade& grade, bool inside, const std::vector<std::string>& untouched) {
     SCOPED_TRACE(grade.submission);
-    EXPECT_EQ(message_text(grade.trouble), "");
+    EXPECT_EQ(message_text(grade.error_reason), "");
     for (const CheckGrade& check : grade.checks) {
         const bool looks_elsewhere =
             check.id == "figures" || std::find(untouched.begin(), untouched.end(), check.id) != untouched.end();

@@ -25,14 +25,14 @@ std::string said(const nlohmann::json& result, std::size_t check) {
 // oracle: the points of the answers that are right
 TEST(checks_of_ones_own, an_answer_that_cannot_be_taken_costs_no_other) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("kind", "answer('x', {42})\nanswer('v', vector{1, 2})\n");
-    bench.hand_in("twice", "answer('x', 42)\nanswer('x', 43)\nanswer('v', vector{1, 2})\n");
-    bench.hand_in("name", "answer('xx', 42)\nanswer('v', vector{1, 2})\n");
-    bench.hand_in("function", "answer('x', print)\nanswer('v', vector{1, 2})\n");
+    bench.submit_file("kind", "answer('x', {42})\nanswer('v', vector{1, 2})\n");
+    bench.submit_file("twice", "answer('x', 42)\nanswer('x', 43)\nanswer('v', vector{1, 2})\n");
+    bench.submit_file("name", "answer('xx', 42)\nanswer('v', vector{1, 2})\n");
+    bench.submit_file("function", "answer('x', print)\nanswer('v', vector{1, 2})\n");
     ASSERT_EQ(bench.grade().exit_code, 0);
     for (const char* name : {"kind", "twice", "name", "function"}) {
         const auto result = bench.result(name);
-        EXPECT_EQ(GradingBench::trouble(result), "") << name;
+        EXPECT_EQ(GradingBench::error_reason(result), "") << name;
         EXPECT_EQ(earned(result, 0), 0) << name;
         EXPECT_EQ(earned(result, 1), 3) << name;
     }
@@ -48,12 +48,13 @@ TEST(checks_of_ones_own, an_answer_that_cannot_be_taken_costs_no_other) {
 // Field case 18. Oracle: the points of the same script without the copies.
 TEST(checks_of_ones_own, a_copied_cell_and_an_answer_given_twice_cost_nothing) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("cell", "-- %% id=one\nanswer('x', 42)\n-- %% id=one\nanswer('v', vector{1, 2})\n");
-    bench.hand_in("answer", "answer('x', 42)\nanswer('x', 42)\nanswer('v', vector{1, 2})\nanswer('v', vector{1, 2})\n");
+    bench.submit_file("cell", "-- %% id=one\nanswer('x', 42)\n-- %% id=one\nanswer('v', vector{1, 2})\n");
+    bench.submit_file("answer",
+                      "answer('x', 42)\nanswer('x', 42)\nanswer('v', vector{1, 2})\nanswer('v', vector{1, 2})\n");
     ASSERT_EQ(bench.grade().exit_code, 0);
     for (const char* name : {"cell", "answer"}) {
         const auto result = bench.result(name);
-        EXPECT_EQ(GradingBench::trouble(result), "") << name;
+        EXPECT_EQ(GradingBench::error_reason(result), "") << name;
         EXPECT_GT(earned(result, 0), 0) << name;
         EXPECT_EQ(earned(result, 1), 3) << name;
     }
@@ -62,7 +63,7 @@ TEST(checks_of_ones_own, a_copied_cell_and_an_answer_given_twice_cost_nothing) {
 // oracle: the marks that the instructor wrote
 TEST(checks_of_ones_own, marked_by_hand_wait_for_their_points) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", kSolution);
+    bench.submit_file("a", kSolution);
     bench.bench().write(
         "own/text.lua",
         "check{id = 'text', points = 4, about = 'Question 3', by_hand = true, rubric = 'two reasons'}\n");
@@ -88,7 +89,7 @@ TEST(checks_of_ones_own, marked_by_hand_wait_for_their_points) {
 
 TEST(checks_of_ones_own, change_and_drop_those_of_the_lesson) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", "answer('x', 42)\n");
+    bench.submit_file("a", "answer('x', 42)\n");
     bench.bench().write("own/weights.lua", "change_check{id = 'x', points = 10}\ndrop_check('v')\n");
     ASSERT_EQ(bench.grade({"--checks", "own"}).exit_code, 0);
     EXPECT_EQ(bench.result("a").at("score"), 10);
@@ -119,8 +120,8 @@ TEST(checks_of_ones_own, see_what_the_script_calls) {
         {"local t = {lssvf = 1}\nprint(t.lssvf)\n", false},
     };
     for (std::size_t k = 0; k < scripts.size(); ++k)
-        bench.hand_in("s" + std::to_string(k), scripts[k].first + "answer('x', 1)\n");
-    bench.hand_in("value", "report.value('n', 3)\nanswer('x', 1)\n");
+        bench.submit_file("s" + std::to_string(k), scripts[k].first + "answer('x', 1)\n");
+    bench.submit_file("value", "report.value('n', 3)\nanswer('x', 1)\n");
     ASSERT_EQ(bench.grade({"--checks", "own"}).exit_code, 0);
     for (std::size_t k = 0; k < scripts.size(); ++k) {
         EXPECT_EQ(earned(bench.result("s" + std::to_string(k)), 1), scripts[k].second ? 0 : 1) << scripts[k].first;
@@ -154,8 +155,8 @@ TEST(checks_of_ones_own, rerun_on_records_in_files) {
         "check{id = 'follows', points = 2, rerun = 'rc', test = function(a, b) return near(b.K, 5) end}\n"
         "check{id = 'hidden', points = 1, test = function(a)\n"
         "  local d = hidden('other') return near(a.K*mean(d.u), mean(d.y)) end}\n");
-    bench.hand_in("computes", kComputes);
-    bench.hand_in("types", "answer('K', 2)\n");
+    bench.submit_file("computes", kComputes);
+    bench.submit_file("types", "answer('K', 2)\n");
     const ChildResult graded = bench.grade({"--checks", "own"});
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     EXPECT_EQ(bench.result("computes").at("score"), 4);
@@ -185,7 +186,7 @@ TEST(checks_of_ones_own, read_several_hidden_records_of_the_newer_matlab_format)
     bench.bench().write("own/more.lua",
                         "check{id = 'sum', test = function(a) return near(hidden('one').u + hidden('two').u, 7) end}\n"
                         "check{id = 'again', test = function(a) return near(hidden('one').u, 3) end}\n");
-    bench.hand_in("computes", kComputes);
+    bench.submit_file("computes", kComputes);
     const ChildResult graded = bench.grade({"--checks", "own"});
     ASSERT_EQ(graded.exit_code, 0) << graded.output << graded.error_output;
     EXPECT_EQ(bench.result("computes").at("score"), 3) << bench.result("computes").dump();
@@ -198,8 +199,8 @@ TEST(checks_of_ones_own, zeros_differ_from_other_numbers_and_have_no_share) {
                        "check{id = 'same', test = function(a) return differs(0, a.x - 40) end}\n"
                        "check{id = 'share', test = function(a) return near(a.x - 42, 0) end}\n",
                        kSolution);
-    bench.hand_in("right", kSolution);
-    bench.hand_in("off", "answer('x', 43)\n");
+    bench.submit_file("right", kSolution);
+    bench.submit_file("off", "answer('x', 43)\n");
     bench.grade();
     EXPECT_EQ(earned(bench.result("right"), 0), 1);
     EXPECT_EQ(earned(bench.result("off"), 0), 1);
@@ -209,7 +210,7 @@ TEST(checks_of_ones_own, zeros_differ_from_other_numbers_and_have_no_share) {
 }
 
 // oracle: the law by which the rig in the file makes its records
-TEST(checks_of_ones_own, rerun_on_records_of_a_rig_in_lua) {
+TEST(checks_of_ones_own, rerun_on_records_of_a_plant_in_lua) {
     GradingBench bench(kGain, kNearTwo, kComputes);
     add_record(bench, "u,y\n1,2\n2,4\n3,6\n");
     bench.bench().write(
@@ -221,8 +222,8 @@ TEST(checks_of_ones_own, rerun_on_records_of_a_rig_in_lua) {
         "check{id = 'follows', points = 2, rerun = 'rc', test = function(a, b) return near(b.K, truth(b).K) end}\n"
         "check{id = 'hidden', points = 1, test = function(a)\n"
         "  local d = hidden('rc') return near(mean(d.y)/mean(d.u), truth('rc').K) end}\n");
-    bench.hand_in("computes", kComputes);
-    bench.hand_in("types", "answer('K', 2)\n");
+    bench.submit_file("computes", kComputes);
+    bench.submit_file("types", "answer('K', 2)\n");
     // With this secret the gain of the rerun is not 2.
     bench.bench().write("secret", "chosen by a test");
     const ChildResult graded = bench.grade({"--checks", "own", "--secret", "secret"});
@@ -231,9 +232,9 @@ TEST(checks_of_ones_own, rerun_on_records_of_a_rig_in_lua) {
     EXPECT_EQ(bench.result("types").at("score"), 2);
 }
 
-TEST(checks_of_ones_own, mistakes_in_them_are_told_with_file_and_line) {
+TEST(checks_of_ones_own, mistakes_in_them_are_reported_with_file_and_line) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", kSolution);
+    bench.submit_file("a", kSolution);
     const auto complaint = [&](const std::string& check) {
         bench.bench().write("own/mine.lua", check);
         return bench.grade({"--checks", "own", "--again"}).error_output;
@@ -281,11 +282,11 @@ TEST(checks_of_ones_own, what_theory_says_earns_no_points_where_scripts_are_grad
         kGain, "check{id = 'K', test = function(a) return near(a.K, truth(a, 'suspension').gain, {rel = 0.01}) end}\n",
         "local d = load('suspension')\nlocal theory = rig_truth('suspension').gain\n"
         "answer('K', mean(d.y:range(300, #d.y)))\n");
-    bench.hand_in("peeks", "answer('K', rig_truth('suspension').gain)\n");
-    bench.hand_in("computes", "local d = load('suspension')\nanswer('K', mean(d.y:range(300, #d.y)))\n");
+    bench.submit_file("peeks", "answer('K', rig_truth('suspension').gain)\n");
+    bench.submit_file("computes", "local d = load('suspension')\nanswer('K', mean(d.y:range(300, #d.y)))\n");
     const ChildResult graded = bench.grade();
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
-    EXPECT_EQ(GradingBench::trouble(bench.result("peeks")), "");
+    EXPECT_EQ(GradingBench::error_reason(bench.result("peeks")), "");
     EXPECT_EQ(bench.result("peeks").at("score"), 0);
     EXPECT_EQ(bench.result("computes").at("score"), 1);
 }

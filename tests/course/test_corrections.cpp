@@ -51,7 +51,7 @@ class corrections_of_reviews : public corrections {
 };
 
 TEST_F(corrections, a_time_of_receipt_is_corrected_by_a_further_receipt) {
-    course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 19:00", {"--no-checks"});
+    course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 19:00", {"--no-checks"});
     EXPECT_THAT(status(), HasSubstr("v1 late 7 h"));
     const std::string before = signed_rows();
     EXPECT_THAT(course({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", ""}).error_output,
@@ -74,7 +74,7 @@ TEST_F(corrections, a_time_of_receipt_is_corrected_by_a_further_receipt) {
 
 // Oracle: the whole store. Who repeats a command after it was killed does not know whether it was done.
 TEST_F(corrections, a_repeated_command_is_recorded_once) {
-    course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 19:00", {"--no-checks"});
+    course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 19:00", {"--no-checks"});
     using Words = std::vector<std::string>;
     for (const Words& words : {Words{"extend", "crane", "group-01", "2026-03-01 15:00", "--reason", "illness"},
                                Words{"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "by mail"},
@@ -120,8 +120,8 @@ TEST_F(corrections, times_come_from_the_archive) {
 }
 
 TEST_F(corrections, lateness_follows_deadlines_and_extensions) {
-    course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 14:00", {"--no-checks"});
-    course_.hand_in("group-02.pdf", small_pdf("two"), "2026-03-01 14:00", {"--no-checks"});
+    course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 14:00", {"--no-checks"});
+    course_.submit_file("group-02.pdf", small_pdf("two"), "2026-03-01 14:00", {"--no-checks"});
     done({"extend", "crane", "group-01", "2026-03-01 15:00", "--reason", "illness"});
     EXPECT_THAT(status(), AllOf(ContainsRegex("extended +group-01, first version: Sun 2026-03-01 15:00"),
                                 ContainsRegex("group-01 +1 +v1  "), ContainsRegex("group-02 +1 +v1 late 2 h")));
@@ -140,12 +140,12 @@ TEST_F(corrections, lateness_follows_deadlines_and_extensions) {
 
 TEST_F(corrections, a_version_with_the_content_of_an_earlier_one_is_as_late_as_that) {
     done({"assignment", "crane", "--costs", "late-day:10", "--reason", "rules"});
-    const auto hand_in = [&](const std::string& text, const std::string& at) {
-        return course_.hand_in("group-01.pdf", small_pdf(text), at, {"--no-checks"}).output;
+    const auto submit_file = [&](const std::string& text, const std::string& at) {
+        return course_.submit_file("group-01.pdf", small_pdf(text), at, {"--no-checks"}).output;
     };
-    hand_in("one", "2026-03-01 10:00");
-    EXPECT_THAT(hand_in("two", "2026-03-01 20:00"), HasSubstr("late by 8 h"));
-    EXPECT_THAT(hand_in("one", "2026-03-02 06:00"),
+    submit_file("one", "2026-03-01 10:00");
+    EXPECT_THAT(submit_file("two", "2026-03-01 20:00"), HasSubstr("late by 8 h"));
+    EXPECT_THAT(submit_file("one", "2026-03-02 06:00"),
                 AllOf(HasSubstr("1 file accepted, 0 late"), ContainsRegex("v3 +in time +the same file as v1 of ")));
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3  "));
     EXPECT_THAT(shell("cat k/receipts/crane/00003-*"), HasSubstr("late: 18 h\n"));  // when this version came
@@ -158,13 +158,13 @@ TEST_F(corrections, a_version_with_the_content_of_an_earlier_one_is_as_late_as_t
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v3 late 2 h  "));
 }
 
-TEST_F(corrections, a_version_is_withdrawn_and_stands_again) {
-    course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
-    course_.hand_in("group-01.pdf", small_pdf("two"), "2026-03-01 14:00", {"--no-checks"});
+TEST_F(corrections, a_version_is_withdrawn_and_is_reinstated) {
+    course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
+    course_.submit_file("group-01.pdf", small_pdf("two"), "2026-03-01 14:00", {"--no-checks"});
     const std::string before = signed_rows();
     done({"withdraw", "crane", "group-01", "--reason", "somebody else's file"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v1  "));
-    EXPECT_THAT(course_.hand_in("group-01.pdf", small_pdf("two"), "2026-03-01 15:00", {"--no-checks"}).output,
+    EXPECT_THAT(course_.submit_file("group-01.pdf", small_pdf("two"), "2026-03-01 15:00", {"--no-checks"}).output,
                 HasSubstr("already received and withdrawn; dynlab course restore"));
     done({"withdraw", "crane", "group-01", "--reason", "this one too"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +-  "));
@@ -173,7 +173,7 @@ TEST_F(corrections, a_version_is_withdrawn_and_stands_again) {
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v2 late 2 h"));
     EXPECT_EQ(signed_rows(), before);
     // The next one is the third, withdrawn or not.
-    EXPECT_THAT(course_.hand_in("group-01.pdf", small_pdf("three"), "2026-03-01 11:00", {"--no-checks"}).output,
+    EXPECT_THAT(course_.submit_file("group-01.pdf", small_pdf("three"), "2026-03-01 11:00", {"--no-checks"}).output,
                 HasSubstr("v3"));
 }
 
@@ -194,7 +194,7 @@ TEST_F(corrections, an_assignment_is_removed_while_nothing_hangs_on_it) {
     done({"assignment", "--remove", "talk", "--reason", "mistyped"});
     EXPECT_THAT(done({"status"}), Not(HasSubstr("talk")));
     EXPECT_THAT(done({"history"}), HasSubstr("assignment talk removed"));
-    course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
+    course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
     EXPECT_THAT(course({"assignment", "--remove", "crane", "--reason", "x"}).error_output,
                 HasSubstr("other data depend on it (its versions)"));
 }
@@ -203,7 +203,7 @@ TEST_F(corrections, an_assignment_is_removed_while_nothing_hangs_on_it) {
 TEST_F(corrections, changes_of_an_assignment_are_recorded_or_refused) {
     done({"assignment", "crane", "--reviews", "3"});
     EXPECT_THAT(done({"history"}), HasSubstr("assignment crane changed: reviews 3 instead of 2"));
-    course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
+    course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
     EXPECT_THAT(course({"assignment", "crane", "--reviews", "1"}).error_output, HasSubstr("give --reason"));
     done({"assignment", "crane", "--reviews", "1", "--criteria", "form:10,method:20", "--reason", "few came"});
     EXPECT_THAT(done({"history"}),
@@ -221,7 +221,7 @@ TEST_F(corrections, changes_of_an_assignment_are_recorded_or_refused) {
 // oracle: two days begun at 30 points each, only once the instructor says that the time is right
 TEST_F(corrections, a_penalty_of_half_the_points_waits_for_the_instructor) {
     done({"assignment", "crane", "--costs", "late-day:30"});
-    const ChildResult late = course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-03 11:00", {"--no-checks"});
+    const ChildResult late = course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-03 11:00", {"--no-checks"});
     EXPECT_EQ(late.exit_code, 1);
     EXPECT_THAT(late.error_output, HasSubstr("group-01 is late by 1 d 23 h; the penalty of 60 % is not applied until"));
     course_.bench().write("s.csv", "reviewer,report,data\ninstructor,group-01,5\n");
@@ -230,7 +230,7 @@ TEST_F(corrections, a_penalty_of_half_the_points_waits_for_the_instructor) {
     EXPECT_THAT(marks(),
                 AllOf(HasSubstr("100.0"), HasSubstr("60 for a first version late by 1 d 23 h are not applied until")));
     const ChildResult confirmed =
-        course_.hand_in("group-01.pdf", small_pdf("one"), "2026-03-04 11:00", {"--no-checks", "--accept-late"});
+        course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-04 11:00", {"--no-checks", "--accept-late"});
     EXPECT_EQ(confirmed.exit_code, 0) << confirmed.error_output;
     EXPECT_THAT(confirmed.output, HasSubstr("-corrected-1.txt"));
     EXPECT_THAT(marks(), AllOf(HasSubstr("40.0"), Not(HasSubstr("wait"))));
@@ -239,7 +239,7 @@ TEST_F(corrections, a_penalty_of_half_the_points_waits_for_the_instructor) {
 
 TEST_F(corrections_of_reviews, a_newer_version_goes_out_again_or_is_held_back) {
     const std::string sent = shell("cat k/outbox/crane/to-review/*/*.pdf | sha256sum");
-    course_.hand_in("group-01.pdf", small_pdf("better"), "2026-03-02 12:00", {"--no-checks"});
+    course_.submit_file("group-01.pdf", small_pdf("better"), "2026-03-02 12:00", {"--no-checks"});
     EXPECT_THAT(status(), AllOf(HasSubstr("a newer version than was sent: review send"),
                                 HasSubstr("Next: dynlab course review send crane")));
     done({"withhold", "crane", "group-01", "--reason", "to be read first"});
@@ -308,7 +308,7 @@ TEST_F(corrections_of_reviews, who_joins_the_authors_reviews_them_no_more) {
                 HasSubstr("they share a member"));
 }
 
-TEST_F(corrections, the_same_bytes_of_two_groups_are_told_and_a_team_s_copies_are_one) {
+TEST_F(corrections, the_same_bytes_of_two_groups_are_reported_and_a_team_s_copies_are_one) {
     course_.bench().write("in/group-01.pdf", small_pdf("one"));
     course_.bench().write("in/group-02.pdf", small_pdf("one"));
     EXPECT_THAT(done({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}),

@@ -84,7 +84,7 @@ TEST(course_conversion, keeps_the_full_history_and_the_old_file) {
     for (int i = 1; i <= 3; ++i) {
         const std::string file = CourseBench::group(i) + ".pdf";
         CourseBench::expect_done(
-            bench.hand_in(file, small_pdf(file), "2026-02-27 12:00", {"--assignment", "crane", "--no-checks"}));
+            bench.submit_file(file, small_pdf(file), "2026-02-27 12:00", {"--assignment", "crane", "--no-checks"}));
     }
     done({"review", "assign", "crane", "--at", "2026-03-02 10:00"});
     done({"extend", "crane", "group-02", "2026-03-20 12:00", "--stage", "final", "--reason", "illness"});
@@ -106,7 +106,7 @@ TEST(course_conversion, keeps_the_full_history_and_the_old_file) {
         ASSERT_NE(kind, std::string::npos);
         after.replace(kind, 6, "|presentation|");
         EXPECT_EQ(after, before);
-        EXPECT_THAT(check_store(course).troubles, IsEmpty());
+        EXPECT_THAT(check_store(course).error_list, IsEmpty());
         EXPECT_TRUE(assignment_named(course, "slides").is_talk());
         EXPECT_EQ(assignment_named(course, "slides").costs.late_day, 10);
         EXPECT_EQ(assignment_named(course, "crane").weight, 1);
@@ -129,8 +129,8 @@ TEST(course_conversion, scores_and_overrides_of_all_kinds_become_marks) {
     const auto done = [&](std::vector<std::string> words) { CourseBench::expect_done(bench.course(std::move(words))); };
     done({"assignment", "slides", "--kind", "talk", "--first", "2026-04-01 12:00"});
     for (int i = 1; i <= 3; ++i)
-        CourseBench::expect_done(bench.hand_in(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)),
-                                               "2026-02-27 12:00", {"--assignment", "crane", "--no-checks"}));
+        CourseBench::expect_done(bench.submit_file(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)),
+                                                   "2026-02-27 12:00", {"--assignment", "crane", "--no-checks"}));
     done({"review", "assign", "crane", "--at", "2026-03-02 10:00"});
     const std::filesystem::path folder = bench.bench().path("k");
     make_old(folder);

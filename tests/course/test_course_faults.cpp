@@ -168,11 +168,11 @@ TEST_F(course_faults, leftovers_of_killed_runs_are_removed_and_reported) {
     const std::string other = "k/files/.0123.dynlab-" + machine_in_names() + "x-1-0";  // of another machine
     bench_.bench().write(other, "half");
     bench_.bench().write("k/receipts/.00001-group-01-first-report.txt.4711-0", "of an earlier, interrupted dynlab");
-    const ChildResult told = bench_.course({"verify"});
-    EXPECT_EQ(told.exit_code, 0) << told.error_output;
-    EXPECT_THAT(told.output,
+    const ChildResult reported = bench_.course({"verify"});
+    EXPECT_EQ(reported.exit_code, 0) << reported.error_output;
+    EXPECT_THAT(reported.output,
                 ContainsRegex("removed [^\n]*/k/files/\\.[0-9a-f]+\\.dynlab-[^\n]*, left by an interrupted run\n"));
-    EXPECT_THAT(told.output, HasSubstr("report.txt.4711-0 is a temporary file of an earlier, interrupted dynlab"));
+    EXPECT_THAT(reported.output, HasSubstr("report.txt.4711-0 is a temporary file of an earlier, interrupted dynlab"));
     EXPECT_THAT(bench_.course({"verify"}).output, ::testing::Not(HasSubstr("removed")));
     EXPECT_TRUE(std::filesystem::exists(bench_.bench().path() / other));
     in_use.append("whole");
@@ -274,14 +274,14 @@ TEST(course_migration, of_a_fourth_version_keeps_pairs_and_pseudonyms_without_th
     database.run("INSERT INTO pairs (id, allocation, assignment, reviewer, author) VALUES (1, 1, 1, 2, 1)");
     database.run("INSERT INTO pseudonyms VALUES (1, 1, 'author', 17), (1, 2, 'reviewer', 64)");
     migrate_course(database, Database::Opening::kExisting, "k");
-    const auto told = [&](const std::string& query) {
+    const auto reported = [&](const std::string& query) {
         Rows rows = database.query(query);
         return rows.next() ? rows.text(0) : std::string();
     };
-    EXPECT_EQ(told("SELECT allocation || ' ' || reviewer || ' ' || author FROM pairs"), "1 2 1");
-    EXPECT_EQ(told("SELECT group_concat(number) FROM pseudonyms"), "17,64");
-    EXPECT_EQ(told("SELECT name || ' ' || reviews || ' ' || made_at FROM assignments"), "a 1 5");
-    EXPECT_EQ(told("SELECT made_at || ' ' || explanation FROM allocations"), "6 why");
+    EXPECT_EQ(reported("SELECT allocation || ' ' || reviewer || ' ' || author FROM pairs"), "1 2 1");
+    EXPECT_EQ(reported("SELECT group_concat(number) FROM pseudonyms"), "17,64");
+    EXPECT_EQ(reported("SELECT name || ' ' || reviews || ' ' || made_at FROM assignments"), "a 1 5");
+    EXPECT_EQ(reported("SELECT made_at || ' ' || explanation FROM allocations"), "6 why");
     for (const char* table : {"assignments", "allocations"})
         EXPECT_THROW(database.query(std::string("SELECT seed FROM ") + table), EnvironmentError) << table;
     EXPECT_FALSE(database.query("PRAGMA foreign_key_check").next());
@@ -304,7 +304,7 @@ TEST(course_migration, of_a_first_version_keeps_its_students) {
 }
 
 // oracle: what came in time, came again or came late, by hand
-TEST(course_migration, of_a_third_version_keeps_what_stands) {
+TEST(course_migration, of_a_third_version_keeps_the_valid_versions) {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "course.db";
     Database database(file, Database::Opening::kNew);

@@ -173,7 +173,7 @@ TEST(course_labs, total_weighs_the_assignments) {
 }
 
 // oracle: what the store knows of the student
-TEST(course_labs, who_tells_all_of_a_student_by_any_name) {
+TEST(course_labs, who_reports_all_of_a_student_by_any_name) {
     LabCourse course;
     course.grade(course.submit(1, "2026-03-01 13:00"), 4, 6);
     course.mark({course.group(1), "", "x", 1, "see me"});
@@ -245,9 +245,9 @@ TEST(course_labs, every_file_of_a_folder_leaves_a_trace) {
     unpack_submission(course.course().file(pack.text(0)), folder.path() / "p", Isolation::kProcess, DYNLAB_PROGRAM);
     for (const char* name : {"analysis.lua", "notes.txt", "report.pdf", "empty.csv"})
         EXPECT_TRUE(std::filesystem::exists(folder.path() / "p" / name)) << name;
-    const HandedInParts parts = newest_versions(course.course(), course.lab())[course.group(1)]["first"];
+    const SubmittedParts parts = newest_versions(course.course(), course.lab())[course.group(1)]["first"];
     EXPECT_EQ(parts.size(), 1u) << "what lies beside the script needs nobody";
-    EXPECT_TRUE(check_store(course.course()).troubles.empty());
+    EXPECT_TRUE(check_store(course.course()).error_list.empty());
 }
 
 // oracle: the files that came: each is a version, in the order of their times; the same files again add none
@@ -298,7 +298,7 @@ TEST(course_labs, unreadable_file_is_graded_as_unreadable_until_another_comes) {
     // A link is unreadable where its sender gave nothing else.
     EXPECT_EQ(newest_versions(course.course(), course.lab())[course.group(2)]["first"].size(), 0u);
     course.take_link(2, "2026-02-28 12:00");
-    EXPECT_EQ(newest_versions(course.course(), course.lab())[course.group(2)]["first"].at(kUnreadable).trouble,
+    EXPECT_EQ(newest_versions(course.course(), course.lab())[course.group(2)]["first"].at(kUnreadable).error_reason,
               "other-kind");
 }
 
@@ -309,10 +309,10 @@ TEST(course_labs, surname_of_one_group_s_members_is_enough) {
                         "id,name,group\np1,Luc Petit,group-01\np2,Lea Petit,group-01\nm1,Hans Moser,group-02\nm2,Julia "
                         "Moser,group-03\n");
     CourseBench::expect_done(bench.course({"import", "roster.csv"}));
-    const ChildResult taken = bench.hand_in("Petit.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
+    const ChildResult taken = bench.submit_file("Petit.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
     CourseBench::expect_done(taken);
     EXPECT_THAT(taken.output, HasSubstr("group-01"));
-    const ChildResult asked = bench.hand_in("Moser.pdf", small_pdf("two"), "2026-03-01 10:00", {"--no-checks"});
+    const ChildResult asked = bench.submit_file("Moser.pdf", small_pdf("two"), "2026-03-01 10:00", {"--no-checks"});
     EXPECT_EQ(asked.exit_code, 1);
     EXPECT_THAT(asked.error_output, AllOf(HasSubstr("group-02"), HasSubstr("group-03")));
 }
@@ -366,11 +366,11 @@ TEST(course_labs, pdf_of_a_lab_is_no_report) {
     LabCourse course;
     const ReceiveOutcome taken = course.take({{"group-01.pdf", small_pdf("report")}}, "2026-02-28 12:00");
     EXPECT_EQ(taken.received.at(0).part, kUnreadable);
-    EXPECT_EQ(taken.received.at(0).trouble, "other-kind");
-    HandedInWanted wanted;
-    wanted.group = "group-01", wanted.part = "report";
+    EXPECT_EQ(taken.received.at(0).error_reason, "other-kind");
+    SubmissionSelection expected;
+    expected.group = "group-01", expected.part = "report";
     try {
-        withdraw(course.course(), course.lab(), wanted, true, "wrong file", course.at("2026-02-28 13:00"));
+        withdraw(course.course(), course.lab(), expected, true, "wrong file", course.at("2026-02-28 13:00"));
         FAIL() << "a lab has no report";
     } catch (const InvalidArgument& error) {
         EXPECT_EQ(message_text(error.message()), "lab4 has no part report: its parts are script, pack");
@@ -382,12 +382,12 @@ TEST(course_labs, corrections_are_of_the_script_or_pack_that_came_last) {
     LabCourse course;
     course.submit(1, "2026-02-01 12:00");
     const std::int64_t pack = course.submit(1, "2026-02-02 12:00", 1, "pack");
-    HandedInWanted wanted;
-    wanted.group = "group-01";
-    EXPECT_THAT(correct_arrival(course.course(), course.lab(), wanted, course.at("2026-02-03 12:00"), "log",
+    SubmissionSelection expected;
+    expected.group = "group-01";
+    EXPECT_THAT(correct_arrival(course.course(), course.lab(), expected, course.at("2026-02-03 12:00"), "log",
                                 course.at("2026-02-04 12:00")),
                 ::testing::ElementsAre(pack));
-    EXPECT_THAT(withdraw(course.course(), course.lab(), wanted, true, "wrong file", course.at("2026-02-04 12:00")),
+    EXPECT_THAT(withdraw(course.course(), course.lab(), expected, true, "wrong file", course.at("2026-02-04 12:00")),
                 ::testing::ElementsAre(pack));
 }
 

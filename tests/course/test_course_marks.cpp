@@ -205,7 +205,7 @@ TEST(course_marks, what_is_late_or_missing_costs_what_the_course_says) {
 }
 
 // oracle: the sheet
-TEST(course_marks, a_forgotten_cell_is_told) {
+TEST(course_marks, a_forgotten_cell_is_reported) {
     CourseBench bench(2);
     CourseBench::expect_done(bench.course({"assignment", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
     bench.bench().write("oral.csv", "group,content,slides,delivery,answers\ngroup-01,4,3,,5\ngroup-02,4,4,4,4\n");
@@ -304,7 +304,7 @@ TEST(course_marks, scores_come_with_the_reviews_packs) {
     EXPECT_TRUE(scores_in_script("scores = {" + std::string(3900, 'a') + "}").empty());
     CourseBench bench(2, 1);
     for (const char* group : {"group-01", "group-02"})
-        bench.hand_in(std::string(group) + ".pdf", small_pdf(group), "2026-03-01 10:00", {"--no-checks"});
+        bench.submit_file(std::string(group) + ".pdf", small_pdf(group), "2026-03-01 10:00", {"--no-checks"});
     CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-02 10:00"}));
     bench.bench().write("r/analysis.lua", script);
     bench.bench().write("r/review.pdf", small_pdf("a review"));

@@ -33,8 +33,8 @@ TEST(course_store, knows_genuine_receipts) {
                           1,   10,      0,          5,       6};
     const SigningKey key = SigningKey::derived("secret", "test"), other = SigningKey::derived("other", "test");
     const std::string text = signed_receipt(receipt, key);
-    const auto genuine = [](const std::string& told, const SigningKey& by) {
-        return verify_receipt(told, by.public_key()).genuine;
+    const auto genuine = [](const std::string& reported, const SigningKey& by) {
+        return verify_receipt(reported, by.public_key()).genuine;
     };
     EXPECT_TRUE(genuine(text, key));
     EXPECT_FALSE(genuine(text, other));
@@ -71,7 +71,7 @@ TEST(course_store, writes_receipts_and_outgoing_files_to_another_file_system) {
         return files;
     };
     for (int i = 0; i < 2; ++i) {  // the second time there is nothing to do
-        CourseBench::expect_done(bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
+        CourseBench::expect_done(bench.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
         const std::vector<std::filesystem::path> receipts = files_in(other.path());
         ASSERT_EQ(receipts.size(), 1u);
         EXPECT_THAT(bench.course({"verify", receipts[0].string()}).output, HasSubstr("genuine"));
@@ -99,15 +99,15 @@ TEST(course_store, reads_times_in_the_zone) {
 }
 
 // oracle: the rules of deadlines and versions
-TEST(course_store, keeps_versions_and_tells_lateness) {
+TEST(course_store, keeps_versions_and_reports_lateness) {
     const CourseBench bench(3);
-    EXPECT_THAT(bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 12:10").output,
+    EXPECT_THAT(bench.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 12:10").output,
                 HasSubstr("v1       in time"));
-    EXPECT_THAT(bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-02 12:10").output,
+    EXPECT_THAT(bench.submit_file("group-01.pdf", small_pdf("one"), "2026-03-02 12:10").output,
                 HasSubstr("already received"));
-    EXPECT_THAT(bench.hand_in("group-01.pdf", small_pdf("two"), "2026-03-01 12:10:01").output,
+    EXPECT_THAT(bench.submit_file("group-01.pdf", small_pdf("two"), "2026-03-01 12:10:01").output,
                 HasSubstr("v2       late by 10 min 1 s"));
-    EXPECT_THAT(bench.hand_in("Student 2.pdf", "%PDF-1.4\nnothing", "2026-03-01 10:00").output,
+    EXPECT_THAT(bench.submit_file("Student 2.pdf", "%PDF-1.4\nnothing", "2026-03-01 10:00").output,
                 AllOf(HasSubstr("group-02"), HasSubstr("damaged: ask for a readable file")));
     const std::string status = bench.course({"status", "crane", "--at", "2026-03-01 14:00"}).output;
     EXPECT_THAT(status, HasSubstr("v2 (v1 in time)"));
@@ -119,7 +119,7 @@ TEST(course_store, keeps_versions_and_tells_lateness) {
 // oracle: the store before; each kind of bad input
 TEST(course_store, refuses_bad_input_and_stays_untouched) {
     CourseBench bench(3);
-    bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00");
+    bench.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00");
     const std::string before = bench.dump();
     const auto refused = [&](const std::vector<std::string>& words, const std::string& message) {
         const ChildResult result = bench.course(words);
@@ -207,7 +207,7 @@ TEST(course_store, a_roster_changes_what_it_has_columns_for) {
 // oracle: nobody is in the groups that the mistaken roster made, and nothing came from them
 TEST(course_store, groups_of_a_mistaken_roster_do_not_count) {
     CourseBench bench(2);
-    bench.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00");
+    bench.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00");
     bench.bench().write("wrong.csv", "id,group\ns1,wrong-1\ns2,wrong-2\n");
     CourseBench::expect_done(bench.course({"import", "wrong.csv"}));
     EXPECT_THAT(bench.course({"status"}).output, AllOf(HasSubstr("3 groups"), HasSubstr("group-01")));  // has work

@@ -57,7 +57,7 @@ TEST_F(document_findings, own_wordings_of_headings_are_understood) {
 TEST_F(document_findings, a_missing_section_is_named_in_the_documents_language) {
     std::string text = english_report();
     text.erase(text.find("# Raw data"), text.find("# Pre-processing") - text.find("# Raw data"));
-    const Finding missing = only(check_report(text), "section-missing");
+    const Issue missing = only(check_report(text), "section-missing");
     EXPECT_THAT(message_text(missing.what), HasSubstr("\"Raw data\""));
     EXPECT_EQ(missing.severity, Severity::kRule);
 
@@ -66,10 +66,10 @@ TEST_F(document_findings, a_missing_section_is_named_in_the_documents_language) 
     EXPECT_THAT(message_text(only(check_report(text), "section-missing").what), HasSubstr("Données brutes"));
 }
 
-TEST_F(document_findings, empty_and_short_sections_are_told_apart) {
+TEST_F(document_findings, empty_and_short_sections_are_distinguished) {
     std::string text = english_report();
     const std::size_t start = text.find("# Raw data"), end = text.find("# Pre-processing");
-    const Finding empty =
+    const Issue empty =
         only(check_report(std::string(text).replace(start, end - start, "# Raw data\n\n")), "section-empty");
     EXPECT_EQ(empty.page, 1);
     EXPECT_THAT(message_text(empty.what), HasSubstr("\"Raw data\" is empty"));
@@ -99,7 +99,7 @@ TEST_F(document_findings, pages_beyond_the_limit_count_and_an_appendix_has_its_o
     };
     const int own = check_report(text).pages;
     EXPECT_THAT(ids(pages(6 - own)), IsEmpty());
-    const Finding seven = only(pages(7 - own), "pages");
+    const Issue seven = only(pages(7 - own), "pages");
     EXPECT_EQ(seven.page, 7);
     EXPECT_THAT(message_text(seven.what), HasSubstr("has 7 pages; at most 6 pages and 1 page of appendix"));
     EXPECT_THAT(message_text(seven.remedy), HasSubstr("heading \"Appendix\""));
@@ -112,10 +112,10 @@ TEST_F(document_findings, pages_beyond_the_limit_count_and_an_appendix_has_its_o
 
 TEST_F(document_findings, a_figure_that_is_never_mentioned_is_found_in_every_caption_style) {
     add_figure("raw", "A step", DocumentFormat::kPdf);
-    const Finding finding = only(check_report(english_report(kFigure)), "figure-not-mentioned");
-    EXPECT_EQ(message_text(finding.what), "The text does not mention figure 1.");
+    const Issue issue = only(check_report(english_report(kFigure)), "figure-not-mentioned");
+    EXPECT_EQ(message_text(issue.what), "The text does not mention figure 1.");
     const std::vector<std::string> pages = inspect_pdf(file("report.pdf")).pages;
-    EXPECT_THAT(pages.at(static_cast<std::size_t>(finding.page) - 1), HasSubstr("Figure"));
+    EXPECT_THAT(pages.at(static_cast<std::size_t>(issue.page) - 1), HasSubstr("Figure"));
 
     standard_ = DocumentStandard();
     std::string captions, mentions;
@@ -129,7 +129,7 @@ TEST_F(document_findings, a_figure_that_is_never_mentioned_is_found_in_every_cap
             every_figure.push_back("The text does not mention figure " + number + ".");
         }
     std::vector<std::string> unmentioned;
-    for (const Finding& one : check_latex("", kProse + captions + kProse).findings) {
+    for (const Issue& one : check_latex("", kProse + captions + kProse).findings) {
         EXPECT_EQ(one.id, "figure-not-mentioned");
         unmentioned.push_back(message_text(one.what));
     }
@@ -144,8 +144,8 @@ TEST_F(document_findings, lists_and_ranges_of_figures_mention_all_of_them) {
         captions += "\\begin{figure}[h]\\centering\\rule{2cm}{1cm}\\caption{A response}\\end{figure}\n\n";
     const auto found = [&](const std::string& sentence) {
         std::vector<std::string> missing;
-        for (const Finding& finding : check_latex("", kProse + sentence + "\n\n" + captions).findings)
-            missing.push_back(message_text(finding.what));
+        for (const Issue& issue : check_latex("", kProse + sentence + "\n\n" + captions).findings)
+            missing.push_back(message_text(issue.what));
         return missing;
     };
     EXPECT_THAT(found("See Figures 1, 2 and 3, Figs. 4--5 and figure~6."), IsEmpty());
@@ -173,9 +173,9 @@ TEST_F(document_findings, what_was_left_unfilled_is_quoted_with_its_page) {
         expected.push_back(std::string(id) + " " + std::to_string(expected.size() + 2));
     }
     std::vector<std::string> found;
-    for (const Finding& finding : check_latex("", body).findings) {
-        found.push_back(finding.id + " " + std::to_string(finding.page));
-        EXPECT_EQ(finding.severity, Severity::kRule);
+    for (const Issue& issue : check_latex("", body).findings) {
+        found.push_back(issue.id + " " + std::to_string(issue.page));
+        EXPECT_EQ(issue.severity, Severity::kRule);
     }
     EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected));
     EXPECT_THAT(ids(check_latex(
@@ -187,9 +187,9 @@ TEST_F(document_findings, guidance_of_the_template_must_not_be_printed) {
     standard_ = DocumentStandard{
         "mine", {}, guidance_of("# A\n\n<!-- What moves the process, and what is measured on it? Be brief. -->\n"), {}};
     const std::string sentence = "What moves the process, and what is measured on it?\n";
-    const Finding finding = only(check_latex("", kProse + ("\\newpage\n" + sentence)), "guidance-left");
-    EXPECT_THAT(message_text(finding.what), HasSubstr("What moves the process"));
-    EXPECT_EQ(finding.page, 2);
+    const Issue issue = only(check_latex("", kProse + ("\\newpage\n" + sentence)), "guidance-left");
+    EXPECT_THAT(message_text(issue.what), HasSubstr("What moves the process"));
+    EXPECT_EQ(issue.page, 2);
     for (const std::string& other : {std::string("Be brief. What moves it is measured.\n"), "Some" + sentence})
         EXPECT_THAT(ids(check_latex("", kProse + other)), IsEmpty()) << other;
 }
@@ -197,11 +197,11 @@ TEST_F(document_findings, guidance_of_the_template_must_not_be_printed) {
 // oracle: the same document, read before
 TEST_F(document_findings, a_process_that_is_prepared_for_many_documents_finds_the_same) {
     const auto found = [&] { return check_latex("", std::string(kProse) + "See figure ?? of \\textbf{all}.\n"); };
-    const std::string before = findings_as_json(found());
+    const std::string before = issues_as_json(found());
     EXPECT_THAT(before, HasSubstr("reference-unresolved"));
     prepare_to_read_pdfs();
     prepare_to_read_pdfs();
-    EXPECT_EQ(findings_as_json(found()), before);
+    EXPECT_EQ(issues_as_json(found()), before);
 }
 
 TEST_F(document_findings, guidance_of_the_french_template_must_not_be_printed_either) {
@@ -231,9 +231,9 @@ TEST_F(document_findings, guidance_of_the_french_template_must_not_be_printed_ei
 
 TEST_F(document_findings, a_passage_in_the_other_language_is_a_hint_with_its_page) {
     const CheckResult result = check_report(english_report(kFrenchProse));
-    const Finding finding = only(result, "language-mixed");
-    EXPECT_EQ(finding.severity, Severity::kHint);
-    EXPECT_THAT(message_text(finding.what), HasSubstr("looks French: \""));
+    const Issue issue = only(result, "language-mixed");
+    EXPECT_EQ(issue.severity, Severity::kHint);
+    EXPECT_THAT(message_text(issue.what), HasSubstr("looks French: \""));
     EXPECT_TRUE(result.passed());
     EXPECT_THAT(message_text(only(check_report(french_report() + kProse), "language-mixed").what),
                 HasSubstr("looks English"));
@@ -297,7 +297,7 @@ TEST_F(document_findings, slides_are_held_against_their_own_limits) {
     EXPECT_EQ(only(found(one, {"Validation", "\\tiny " + much}), "text-small").page, 2);
 }
 
-TEST_F(document_findings, without_a_wish_pages_and_headings_tell_the_kind) {
+TEST_F(document_findings, without_an_option_pages_and_headings_determine_the_kind) {
     const auto known = [](const std::string& name) {
         return std::filesystem::exists(DYNLAB_SOURCE_DIR "/report_templates/" + name + ".md") ? name : "";
     };

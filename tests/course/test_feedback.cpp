@@ -20,7 +20,7 @@ constexpr const char* kChecks =
 constexpr const char* kFrench =
     "-- ---\n-- title: T\n-- lesson: 99_small\n-- language: fr\n-- answers:\n--   x: number\n";
 
-TEST(feedback, is_in_the_language_of_what_was_handed_in) {
+TEST(feedback, is_in_the_language_of_what_was_submitted) {
     const Workbench bench;
     const auto language = [&] { return language_of_work(bench.path()); };
     EXPECT_EQ(language(), "");
@@ -41,10 +41,10 @@ TEST(feedback, is_in_the_language_of_what_was_handed_in) {
 TEST(feedback, is_titled_after_the_group_and_not_after_the_folder_of_a_platform) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     Workbench& work = bench.bench();
-    bench.hand_in("Zoé Lefèvre_900001_assignsubmission_file_", "answer('x', 1)\n");
+    bench.submit_file("Zoé Lefèvre_900001_assignsubmission_file_", "answer('x', 1)\n");
     work.write("in/Zoé Lefèvre_900001_assignsubmission_file_/report.md", "---\ntitle: T\nlang: fr\n---\n");
-    bench.hand_in("Ada Byron_900002_assignsubmission_file_", kSolution);
-    bench.hand_in("Ida Rhodes_900003_assignsubmission_file_", kSolution);
+    bench.submit_file("Ada Byron_900002_assignsubmission_file_", kSolution);
+    bench.submit_file("Ida Rhodes_900003_assignsubmission_file_", kSolution);
     work.write("roster.csv",
                "id,name,group,language\n1,Zoé Lefèvre,group-03,\n2,Ada Byron,,fr\n3,Ida Rhodes,group-04,\n");
     std::vector<std::string> words = {"grade", "in",          "--lesson",    "99",       "--out",
@@ -79,7 +79,7 @@ TEST(feedback, names_are_text_whatever_is_in_them) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     Workbench& work = bench.bench();
     const std::string link = "[x](javascript:alert(1))", tag = "<img src=x>", formula = "$x_2$ *y*";
-    for (const std::string& group : {link, tag, formula}) bench.hand_in(group, kSolution);
+    for (const std::string& group : {link, tag, formula}) bench.submit_file(group, kSolution);
     work.write("roster.csv", "id,name,group\n1,A\tB," + link + "\n2,C\x1B[31mD," + tag + "\n3,\"E\nF\"," + formula +
                                  "\n4,G\u0085H,\n");
     const ChildResult run = work.dynlab(
@@ -92,7 +92,7 @@ TEST(feedback, names_are_text_whatever_is_in_them) {
                                                HasSubstr("G?H"), HasSubstr(link), HasSubstr(tag)));
 }
 
-TEST(feedback, of_late_work_tells_the_reason_in_its_language) {
+TEST(feedback, of_late_work_reports_the_reason_in_its_language) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
     work.write("in/late/analysis.lua", std::string(kFrench) + "-- ---\n" + kSolution);
@@ -108,10 +108,10 @@ TEST(feedback, of_late_work_tells_the_reason_in_its_language) {
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1 d 14 h after the deadline of 2026-03-01 18:00 UTC"));
 }
 
-TEST(feedback, of_a_hand_in_that_does_not_count_says_so) {
+TEST(feedback, of_a_submission_that_does_not_count_says_so) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     Workbench& work = bench.bench();
-    bench.hand_in("Zoé Lefèvre_900001_assignsubmission_file_", "answer('x', 1)\n");
+    bench.submit_file("Zoé Lefèvre_900001_assignsubmission_file_", "answer('x', 1)\n");
     work.write("in/Ida Rhodes_900003_assignsubmission_file_/analysis.lua",
                std::string(kFrench) + "-- ---\n" + kSolution);
     work.write("roster.csv", "id,name,group\n1,Zoé Lefèvre,group-03\n3,Ida Rhodes,group-03\n");
@@ -138,13 +138,13 @@ TEST(feedback, of_a_hand_in_that_does_not_count_says_so) {
 }
 
 // oracle: French typography, which has no space within a place and none of its quotation marks in code
-TEST(feedback, in_french_tells_what_stopped_a_script_in_french) {
+TEST(feedback, in_french_reports_what_stopped_a_script_in_french) {
     GradingBench bench(kAnswers,
                        "check{id = 'x', about = 'The number', hint = 'damp(G, \"all\")',\n"
                        "  test = function(a) return near(a.x, 42) end}\n",
                        kSolution);
     const Workbench& work = bench.bench();
-    bench.hand_in("a", std::string(kFrench) + "-- ---\nanswer('x', maen({1}))\n");
+    bench.submit_file("a", std::string(kFrench) + "-- ---\nanswer('x', maen({1}))\n");
     const ChildResult run =
         work.dynlab({"grade", "in", "--lesson", "99", "--out", "out", "--isolation", bench.level()});
     ASSERT_EQ(run.exit_code, 0) << run.error_output;
@@ -161,7 +161,7 @@ TEST(feedback, in_french_tells_what_stopped_a_script_in_french) {
 TEST(feedback, is_set_again_only_where_its_text_has_changed) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     Workbench& work = bench.bench();
-    bench.hand_in("a", "answer('x', 41)\n");
+    bench.submit_file("a", "answer('x', 41)\n");
     const auto grade = [&](const std::string& own, const std::vector<std::string>& more) {
         work.write("own/own.lua", "check{id = 'own', about = 'Its size', test = function(a) " + own + " end}\n");
         std::vector<std::string> words = {"grade", "in",    "--lesson", "99",          "--checks",

@@ -25,12 +25,12 @@ CheckResult some_result() {
                        {"answer-open", Severity::kRule, 9, "", Message("Another."), Message("Write.")},
                        {"answer-open", Severity::kRule, 0, "analysis.lua:12",
                         Message("{} {}.", std::string(30, 'x'), std::string(80, 'y')), Message("Write.")}};
-    sort_findings(result.findings);
+    sort_issues(result.findings);
     return result;
 }
 
 TEST(findings_report, rules_come_before_hints_with_place_and_remedy) {
-    EXPECT_EQ(findings_in_words(some_result(), false),
+    EXPECT_EQ(issues_as_text(some_result(), false),
               "report.pdf: checked as lab_report: 7 pages of at most 6, unfilled slots\n"
               "\nRules violated (3)\n"
               "\n  answer-open\n    analysis.lua:12: " +
@@ -46,7 +46,7 @@ TEST(findings_report, answers_and_checks_of_the_lesson_are_counted_by_themselves
     CheckResult result = some_result();
     result.findings.push_back({"answer-missing", Severity::kRule, 0, "", Message("Missing."), Message("Give it.")});
     result.findings.push_back({"check-failed", Severity::kHint, 0, "", Message("Lost."), Message("Look.")});
-    const std::string words = findings_in_words(result, false);
+    const std::string words = issues_as_text(result, false);
     for (const char* const title : {"Answers open (1)", "Rules violated (3)", "Hints (1)", "Checks of the lesson (1)"})
         EXPECT_THAT(words, HasSubstr(std::string("\n") + title + "\n"));
 }
@@ -54,24 +54,24 @@ TEST(findings_report, answers_and_checks_of_the_lesson_are_counted_by_themselves
 TEST(findings_report, hints_alone_say_that_no_rule_is_broken) {
     CheckResult result = some_result();
     result.findings.erase(result.findings.begin(), result.findings.begin() + 3);
-    EXPECT_THAT(findings_in_words(result, false), HasSubstr("\nNo rule is violated.\n"));
-    EXPECT_THAT(findings_in_words(result, false), Not(HasSubstr("Rules violated")));
+    EXPECT_THAT(issues_as_text(result, false), HasSubstr("\nNo rule is violated.\n"));
+    EXPECT_THAT(issues_as_text(result, false), Not(HasSubstr("Rules violated")));
 }
 
 TEST(findings_report, a_pass_is_one_line_that_says_what_was_checked) {
     CheckResult result = some_result();
     result.findings.clear();
-    EXPECT_EQ(findings_in_words(result, false),
+    EXPECT_EQ(issues_as_text(result, false),
               "report.pdf: nothing to fix; checked as lab_report: 7 pages of at most 6, unfilled slots.\n");
 }
 
 TEST(findings_report, colour_only_when_asked_for) {
-    EXPECT_THAT(findings_in_words(some_result(), false), Not(HasSubstr("\033")));
-    EXPECT_THAT(findings_in_words(some_result(), true), HasSubstr("\033[31mRules violated (3)\033[0m"));
+    EXPECT_THAT(issues_as_text(some_result(), false), Not(HasSubstr("\033")));
+    EXPECT_THAT(issues_as_text(some_result(), true), HasSubstr("\033[31mRules violated (3)\033[0m"));
 }
 
 TEST(findings_report, json_holds_everything_and_null_where_nothing_is_known) {
-    const auto json = nlohmann::json::parse(findings_as_json(some_result()));
+    const auto json = nlohmann::json::parse(issues_as_json(some_result()));
     EXPECT_EQ(json.at("subject"), "report.pdf");
     EXPECT_EQ(json.at("template"), "lab_report");
     EXPECT_EQ(json.at("language"), "en");
@@ -85,17 +85,17 @@ TEST(findings_report, json_holds_everything_and_null_where_nothing_is_known) {
     EXPECT_EQ(json.at("findings").at(1).at("what"), "It is long.");
     EXPECT_EQ(json.at("findings").at(1).at("severity"), "rule");
     EXPECT_EQ(json.at("findings").at(3).at("severity"), "hint");
-    EXPECT_TRUE(nlohmann::json::parse(findings_as_json(CheckResult())).at("pages").is_null());
+    EXPECT_TRUE(nlohmann::json::parse(issues_as_json(CheckResult())).at("pages").is_null());
 }
 
 // Oracle: what was written; the form of files that earlier versions stored, with its members in another order.
 TEST(findings_report, json_comes_back_and_other_texts_are_refused) {
-    const CheckResult back = findings_from_json(findings_as_json(some_result()));
-    EXPECT_EQ(findings_in_words(back, false), findings_in_words(some_result(), false));
-    EXPECT_EQ(findings_as_json(back), findings_as_json(some_result()));
+    const CheckResult back = issues_from_json(issues_as_json(some_result()));
+    EXPECT_EQ(issues_as_text(back, false), issues_as_text(some_result(), false));
+    EXPECT_EQ(issues_as_json(back), issues_as_json(some_result()));
     EXPECT_EQ(back.checked, some_result().checked);
     EXPECT_EQ(back.findings.at(0).what, some_result().findings.at(0).what) << "the message, not its text alone";
-    const CheckResult stored = findings_from_json(
+    const CheckResult stored = issues_from_json(
         R"({"subject": "report.pdf", "template": null, "language": "en", "pages": null, "passed": false, "checked": [],
             "findings": [{"id": "damaged", "severity": "rule", "page": null, "place": null, "what": "w",
                           "remedy": "r"}]})");
@@ -105,7 +105,7 @@ TEST(findings_report, json_comes_back_and_other_texts_are_refused) {
     EXPECT_EQ(stored.findings.at(0).place, "");
     EXPECT_EQ(stored.findings.at(0).what, Message::verbatim("w"));
     for (const char* text : {"", "[]", R"({"subject": "x"})"})
-        EXPECT_THROW(findings_from_json(text), EnvironmentError) << text;
+        EXPECT_THROW(issues_from_json(text), EnvironmentError) << text;
 }
 
 }  // namespace test_findings_report

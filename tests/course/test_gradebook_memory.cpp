@@ -26,16 +26,16 @@ constexpr const char* kChecks =
     "check{id = 'x', points = 2, test = function(a) return near(a.x, 42, {rel = 0.01}) end}\n";
 constexpr const char* kOwn = "check{id = 'own', points = 3, test = function(a) return a.x > 0 end}\n";
 
-void expect_refused(const ChildResult& graded, const std::string& told) {
+void expect_refused(const ChildResult& graded, const std::string& reported) {
     EXPECT_EQ(graded.exit_code, 1) << graded.output;
-    EXPECT_THAT(graded.error_output, AllOf(HasSubstr("were made with other inputs"), HasSubstr(told)));
+    EXPECT_THAT(graded.error_output, AllOf(HasSubstr("were made with other inputs"), HasSubstr(reported)));
 }
 
 // oracle: a gradebook of one kind of marks
-TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
+TEST(gradebook_memory, marks_of_two_kinds_are_never_mixed) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
-    for (const char* name : {"a", "b"}) bench.hand_in(name, kSolution);
+    for (const char* name : {"a", "b"}) bench.submit_file(name, kSolution);
     work.write("own/more.lua", kOwn);
     work.write("secret.txt", "first");
     work.write("other.txt", "second");
@@ -88,7 +88,7 @@ TEST(gradebook_memory, marks_of_two_kinds_never_stand_side_by_side) {
 TEST(gradebook_memory, a_later_call_goes_on_with_the_options_of_the_first) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
-    bench.hand_in("group-1", "answer('x', 42)\nwhile true do end\n");
+    bench.submit_file("group-1", "answer('x', 42)\nwhile true do end\n");
     work.write("own/more.lua", kOwn);
     work.write("secret.txt", "first");
     work.write("roster.csv", "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n");
@@ -107,7 +107,7 @@ TEST(gradebook_memory, a_later_call_goes_on_with_the_options_of_the_first) {
     EXPECT_EQ(again.exit_code, 0) << again.error_output;
     EXPECT_THAT(again.output, HasSubstr("0 graded now, 1 unchanged"));
     EXPECT_EQ(work.read("out/gradebook.csv"), book);
-    bench.hand_in("group-2", kSolution);
+    bench.submit_file("group-2", kSolution);
     EXPECT_THAT(work.dynlab({"grade", "in", "--out", "out", "--no-pdf"}).output,
                 HasSubstr("1 graded now, 1 unchanged"));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("2,Zoë Ade,group-2,graded,5,5,0,"));
@@ -117,9 +117,9 @@ TEST(gradebook_memory, a_later_call_goes_on_with_the_options_of_the_first) {
 TEST(gradebook_memory, the_terminal_lists_what_the_summary_lists) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
-    bench.hand_in("group-1", "error('no')\n");
-    bench.hand_in("group-2", kSolution);
-    bench.hand_in("Zoë Ade", kSolution);
+    bench.submit_file("group-1", "error('no')\n");
+    bench.submit_file("group-2", kSolution);
+    bench.submit_file("Zoë Ade", kSolution);
     work.write("in/group-3/report.pdf", "%PDF");
     work.write("roster.csv",
                "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n3,Ben Lee,group-3\n4,Uma Kepler,group-4\n");
@@ -137,7 +137,7 @@ TEST(gradebook_memory, the_terminal_lists_what_the_summary_lists) {
 TEST(gradebook_memory, other_checks_need_no_other_run) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
-    bench.hand_in("loop", "answer('x', 42)\nwhile true do end\n");
+    bench.submit_file("loop", "answer('x', 42)\nwhile true do end\n");
     work.write("own/more.lua", kOwn);
     ASSERT_EQ(bench.grade({"--timeout", "2", "--checks", "own"}).exit_code, 0);
     EXPECT_THAT(work.read("out/logs/loop/log.txt"), HasSubstr("run main"));
@@ -159,7 +159,7 @@ TEST(gradebook_memory, other_checks_need_no_other_run) {
 TEST(gradebook_memory, the_worked_solution_is_run_again_when_it_has_changed) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
-    bench.hand_in("a", kSolution);
+    bench.submit_file("a", kSolution);
     ASSERT_EQ(bench.grade().exit_code, 0);
     const auto spoil = [&] {  // which ends in a form of the same length
         const std::string memory = "out/runs/.worked_solution.cbor";
@@ -181,7 +181,7 @@ TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
     const Workbench& work = bench.bench();
     for (const char* name :
          {"Anna Müller_900001_assignsubmission_file_", "group-2", "Ben Lee_900003_assignsubmission_file_"})
-        bench.hand_in(name, kSolution);
+        bench.submit_file(name, kSolution);
     work.write("roster.csv", "id;name;group\n1;Anna Müller;group-1\n2;Zoë Ade;group-2\n3;Ben Lee;group-3\n");
     const TemporaryFolder store;
     Course::create(store.path(), "k", "UTC");
@@ -209,7 +209,7 @@ TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
     EXPECT_THROW(chosen({"group-4"}), EnvironmentError);
     // The command takes the words, and reports those that are not graded now but would get other marks.
     ASSERT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 0);
-    bench.hand_in("group-2", "answer('x', 1)\n");
+    bench.submit_file("group-2", "answer('x', 1)\n");
     const ChildResult one = bench.grade({"--roster", "roster.csv", "--regrade", "--only", "3"});
     EXPECT_THAT(one.output, HasSubstr("1 graded now, 0 unchanged"));
     EXPECT_THAT(one.error_output, HasSubstr("the marks of \"group-2\" are from before"));
@@ -218,12 +218,12 @@ TEST(gradebook_memory, only_takes_a_name_a_group_an_id_or_a_student) {
 }
 
 // oracle: the roster, and who handed in what
-TEST(gradebook_memory, nobodys_work_is_told_and_a_list_gives_it_to_somebody) {
+TEST(gradebook_memory, unmatched_work_is_reported_and_a_list_assigns_it) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
-    bench.hand_in("my work", kSolution);
-    bench.hand_in("group-2", "answer('x', 7)\n");
-    bench.hand_in("Ben Lee", "answer('x', 7)\n");
+    bench.submit_file("my work", kSolution);
+    bench.submit_file("group-2", "answer('x', 7)\n");
+    bench.submit_file("Ben Lee", "answer('x', 7)\n");
     work.write("roster.csv",
                "Vorname;Nachname;ID-Nummer;E-Mail-Adresse;Gruppe\nJos\xE9;Garc\xED"
                "a;1;j@x;group-1\nZo\xEB;Ade;2;;group-2\nBen;Lee;3;;group-3\n");
@@ -240,7 +240,7 @@ TEST(gradebook_memory, nobodys_work_is_told_and_a_list_gives_it_to_somebody) {
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1,José García,my work,graded,2,2,"));
     // The course knows roster and owners from now on.
     std::filesystem::remove(work.path("roster.csv")), std::filesystem::remove(work.path("owners.csv"));
-    bench.hand_in("my work", "answer('x', 42.1)\n");
+    bench.submit_file("my work", "answer('x', 42.1)\n");
     ASSERT_EQ(work.dynlab({"grade", "in", "--out", "out", "--no-pdf"}).exit_code, 0);
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr("1,José García,my work,graded,2,2,"));
 }
@@ -249,7 +249,7 @@ TEST(gradebook_memory, nobodys_work_is_told_and_a_list_gives_it_to_somebody) {
 TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
-    for (const char* name : {"group-1", "group-2", "Ben Lee", "Uma Kepler"}) bench.hand_in(name, kSolution);
+    for (const char* name : {"group-1", "group-2", "Ben Lee", "Uma Kepler"}) bench.submit_file(name, kSolution);
     work.shell("touch -d '2026-03-01 17:20 UTC' in/*/analysis.lua; touch -d '2026-03-01 17:14 UTC' in/group-2/*");
     work.write("roster.csv",
                "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n3,Ben Lee,group-3\n4,Uma "
@@ -320,12 +320,12 @@ TEST(gradebook_memory, a_row_of_deadlines_may_give_only_what_differs) {
 }
 
 // oracle: of two hand-ins the better, or the one that came last
-TEST(gradebook_memory, the_better_or_the_newest_hand_in_counts) {
+TEST(gradebook_memory, the_better_or_the_newest_submission_counts) {
     for (const auto& [keep, points] : {std::pair("best", "2"), std::pair("newest", "0")}) {
         GradingBench bench(kAnswers, kChecks, kSolution);
         const Workbench& work = bench.bench();
-        bench.hand_in("Anna Müller", kSolution);
-        bench.hand_in("Zoë Ade", "answer('x', 1)\n");
+        bench.submit_file("Anna Müller", kSolution);
+        bench.submit_file("Zoë Ade", "answer('x', 1)\n");
         work.write("in/group-1/report.pdf", "%PDF");
         work.shell(
             "touch -d '2026-03-01 10:00' 'in/Anna Müller/analysis.lua'; touch -d '2026-03-01 12:00' 'in/Zoë "
@@ -345,7 +345,7 @@ TEST(gradebook_memory, the_better_or_the_newest_hand_in_counts) {
 TEST(gradebook_memory, one_run_at_a_time_and_results_are_no_submissions) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
-    bench.hand_in("a", kSolution);
+    bench.submit_file("a", kSolution);
     fs::create_directories(work.path("out"));
     {
         const FileLock lock(work.path("out/.lock"));

@@ -17,8 +17,9 @@ class graded_in_parts : public testing::Test {
     graded_in_parts()
         : bench_("--   x: number\n", "check{id = 'x', test = function(a) return near(a.x, 42, {rel = 0.01}) end}\n",
                  "answer('x', 42)\n") {
-        for (int i = 1; i <= 5; ++i) bench_.hand_in(fmt::format("s{}", i), fmt::format("answer('x', {})\n", 40 + i));
-        bench_.hand_in("broken", "error('no')\n");
+        for (int i = 1; i <= 5; ++i)
+            bench_.submit_file(fmt::format("s{}", i), fmt::format("answer('x', {})\n", 40 + i));
+        bench_.submit_file("broken", "error('no')\n");
         work().write("in/nothing/notes.txt", "no script");
     }
     const Workbench& work() { return bench_.bench(); }

@@ -36,11 +36,11 @@ std::string message(const nlohmann::json& result, std::size_t check) {
 // oracle: the checks' definition
 TEST(grading, gives_points_partial_credit_and_messages) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("right", kSolution);
-    bench.hand_in("near", "answer('x', 48)\nanswer('G', tf({4}, {1, 6}))\n");
-    bench.hand_in("sign", "answer('x', -42)\nanswer('G', tf({2}, {1, 4}))\n");
-    bench.hand_in("starter", "-- YOUR CODE HERE\n");
-    bench.hand_in("stops", "answer('x', 42)\nerror('no more')\n");
+    bench.submit_file("right", kSolution);
+    bench.submit_file("near", "answer('x', 48)\nanswer('G', tf({4}, {1, 6}))\n");
+    bench.submit_file("sign", "answer('x', -42)\nanswer('G', tf({2}, {1, 4}))\n");
+    bench.submit_file("starter", "-- YOUR CODE HERE\n");
+    bench.submit_file("stops", "answer('x', 42)\nerror('no more')\n");
     const ChildResult graded = bench.grade();
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     EXPECT_THAT(graded.output,
@@ -53,14 +53,14 @@ TEST(grading, gives_points_partial_credit_and_messages) {
     EXPECT_EQ(points(bench.result("starter")), (std::vector<double>{0, 0}));
     EXPECT_EQ(message(bench.result("starter"), 1), "The answer \"G\" was not submitted.");
     EXPECT_EQ(points(bench.result("stops")), (std::vector<double>{2, 0}));
-    EXPECT_THAT(GradingBench::trouble(bench.result("stops")), HasSubstr("analysis.lua:2: no more"));
+    EXPECT_THAT(GradingBench::error_reason(bench.result("stops")), HasSubstr("analysis.lua:2: no more"));
     EXPECT_EQ(bench.result("right").at("score"), 5);
     EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr(",near,graded,4,5,0,0,1,3\r\n"));
     EXPECT_THAT(bench.bench().read("out/results/near/feedback.md"), HasSubstr("*Six times seven.*"));
 }
 
 // What an author tries may be recalled; of a submission everything is computed, whatever others have kept.
-TEST(grading, recalls_nothing_and_keeps_nothing) {
+TEST(grading, reads_and_writes_no_cache) {
     const std::string solution =
         "local heat = load('heat_transfer')\n"
         "local found = srivcstruc(iddata(heat.y, heat.u, 1), {poles = {1, 4}})\n"
@@ -73,7 +73,7 @@ TEST(grading, recalls_nothing_and_keeps_nothing) {
             names.push_back(call.path());
         return names;
     };
-    bench.hand_in("right", solution);
+    bench.submit_file("right", solution);
     const ChildResult graded = bench.grade();
     ASSERT_EQ(graded.exit_code, 0) << graded.output << graded.error_output;
     EXPECT_THAT(kept_calls(), IsEmpty());
@@ -93,8 +93,8 @@ TEST(grading, french_scripts_print_what_they_estimate) {
     GradingBench bench(kAnswers, kChecks + again, kSolution);
     const std::string script = "print(iddata(range(1, 60), range(1, 60), 1))\n" + std::string(kSolution);
     const std::string header = GradingBench::header(kAnswers);
-    bench.hand_in("english", header + script);
-    bench.hand_in("french", replaced(header, "-- answers:", "-- language: fr\n-- answers:") + script);
+    bench.submit_file("english", header + script);
+    bench.submit_file("french", replaced(header, "-- answers:", "-- language: fr\n-- answers:") + script);
     const ChildResult graded = bench.grade();
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     EXPECT_EQ(points(bench.result("english")), (std::vector<double>{2, 3, 1}));
@@ -106,8 +106,8 @@ TEST(grading, french_scripts_print_what_they_estimate) {
 // oracle: the fingerprint's purpose
 TEST(grading, goes_on_where_it_was_and_keeps_manual_marks) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", kSolution);
-    bench.hand_in("b", "answer('x', 1)\n");
+    bench.submit_file("a", kSolution);
+    bench.submit_file("b", "answer('x', 1)\n");
     ASSERT_EQ(bench.grade().exit_code, 0);
     EXPECT_THAT(bench.grade().output, HasSubstr("0 graded now, 2 unchanged"));
     bench.bench().write("out/marks.csv", "who,check,points,reason\nb,x,1.5,\"good idea, wrong number\"\n");
@@ -119,7 +119,7 @@ TEST(grading, goes_on_where_it_was_and_keeps_manual_marks) {
     bench.bench().write("out/marks.csv", "who,check,points,reason\n");
     bench.grade();
     EXPECT_EQ(points(bench.result("b")), (std::vector<double>{0, 0}));
-    bench.hand_in("b", kSolution);
+    bench.submit_file("b", kSolution);
     EXPECT_THAT(bench.grade().output, HasSubstr("1 graded now, 1 unchanged"));
     EXPECT_THAT(bench.grade({"--only", "a", "--regrade"}).output, HasSubstr("1 graded now, 0 unchanged"));
     const ChildResult unknown = bench.grade({"--only", "c"});
@@ -130,8 +130,8 @@ TEST(grading, goes_on_where_it_was_and_keeps_manual_marks) {
 // oracle: the mark that the instructor gave
 TEST(grading, marks_of_submissions_that_are_not_chosen_reach_their_feedback) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", kSolution);
-    bench.hand_in("b", "answer('x', 1)\n");
+    bench.submit_file("a", kSolution);
+    bench.submit_file("b", "answer('x', 1)\n");
     ASSERT_EQ(bench.grade().exit_code, 0);
     bench.bench().write("out/marks.csv", "who,check,points,reason\nb,x,1.5,good idea\n");
     EXPECT_THAT(bench.grade({"--only", "a"}).output, HasSubstr("0 graded now, 1 unchanged"));
@@ -142,7 +142,7 @@ TEST(grading, marks_of_submissions_that_are_not_chosen_reach_their_feedback) {
 // oracle: the course's own commands on what grade made
 TEST(grading, results_are_of_a_course_with_every_version) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("group-1", kSolution);
+    bench.submit_file("group-1", kSolution);
     bench.bench().write("in/group-2/report.pdf", "%PDF");
     bench.bench().write("roster.csv", "id,name,group\n1,Anna Müller,group-1\n2,Zoë Ade,group-2\n");
     EXPECT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 1) << "one cannot be read";
@@ -154,7 +154,7 @@ TEST(grading, results_are_of_a_course_with_every_version) {
     };
     EXPECT_THAT(course({"marks"}), ContainsRegex("group-1 +v1 +5 of 5"));
     EXPECT_THAT(course({"who", "2"}), HasSubstr("v1"));
-    bench.hand_in("group-1", "answer('x', 1)\n");
+    bench.submit_file("group-1", "answer('x', 1)\n");
     bench.grade();
     EXPECT_THAT(bench.bench().read("out/gradebook.csv"), HasSubstr("1,Anna Müller,group-1,graded,0,"));
     EXPECT_THAT(course({"who", "1"}), HasSubstr("v2"));
@@ -162,17 +162,17 @@ TEST(grading, results_are_of_a_course_with_every_version) {
 }
 
 // oracle: the runs that do not end
-TEST(grading, tells_what_stopped_the_worked_solution_before_what_is_missing) {
+TEST(grading, reports_what_stopped_the_worked_solution_before_what_is_missing) {
     const std::string endless = "while true do end\nanswer('x', 42)\n";
     GradingBench bench(kAnswers, "check{id = 'x', test = function(a) return a.x == 42 end}\n", endless);
-    bench.hand_in("a", kSolution);
+    bench.submit_file("a", kSolution);
     EXPECT_THAT(bench.grade({"--timeout", "2"}).error_output,
                 ContainsRegex("the check \"x\", which is left ungraded: its run stopped: .*; The answer \"x\""));
     GradingBench other(kAnswers, "check{id = 'x', rerun = 'suspension', test = function(a, b) return b.x == 42 end}\n",
                        "local y = load('suspension').y\n"
                        "if math.abs(mean(y:range(300, #y)) - 10) > 0.05 then while true do end end\n"
                        "answer('x', 42)\n");
-    other.hand_in("a", kSolution);
+    other.submit_file("a", kSolution);
     EXPECT_THAT(other.grade({"--timeout", "2"}).error_output,
                 ContainsRegex("which is left ungraded: its run on suspension stopped: .*; "));
 }
@@ -181,7 +181,7 @@ TEST(grading, tells_what_stopped_the_worked_solution_before_what_is_missing) {
 TEST(grading, leaves_ungraded_what_the_worked_solution_does_not_pass) {
     GradingBench bench(kAnswers, std::string(kChecks) + "check{id = 'broken', test = function(a) return a.x.y.z end}\n",
                        kSolution);
-    bench.hand_in("a", kSolution);
+    bench.submit_file("a", kSolution);
     const ChildResult graded = bench.grade();
     EXPECT_EQ(graded.exit_code, 1);
     EXPECT_THAT(graded.error_output, HasSubstr("the reference solution does not pass the check \"broken\""));
@@ -199,7 +199,7 @@ TEST(grading, checks_that_cannot_be_read_stop_before_anything_is_written) {
           std::pair("check{id = 'x', rerun = 'hairdryer', test = function() end}", "hairdryer"),
           std::pair("check{id = 'x', points = 0, test = function() end}", "above 0")}) {
         GradingBench bench(kAnswers, checks, kSolution);
-        bench.hand_in("a", kSolution);
+        bench.submit_file("a", kSolution);
         const ChildResult graded = bench.grade();
         EXPECT_EQ(graded.exit_code, 1);
         EXPECT_THAT(graded.error_output, HasSubstr(fragment));
@@ -218,10 +218,10 @@ TEST(grading, typed_in_answers_do_not_follow_other_records) {
     const std::string computes =
         "local d = load('suspension')\nanswer('K', mean(d.y:range(300, #d.y)))\nanswer('r', randn(1)[1])\n";
     GradingBench bench("--   K: number\n--   r: number\n", checks, computes);
-    bench.hand_in("computes", computes);
-    bench.hand_in("typed", "answer('K', 10)\nanswer('r', -1)\n");
+    bench.submit_file("computes", computes);
+    bench.submit_file("typed", "answer('K', 10)\nanswer('r', -1)\n");
     // A file that stands in for the official data is not read.
-    bench.hand_in("own_data", computes);
+    bench.submit_file("own_data", computes);
     bench.bench().write("in/own_data/suspension.csv", "t,u,y\n0,1,10\n1,1,10\n");
     const ChildResult graded = bench.grade();
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
@@ -248,13 +248,13 @@ TEST(grading, groups_are_held_against_their_own_records) {
     };
     const double own = value("o1/record.json"), common = value("o2/record.json");
     EXPECT_NE(own, common);
-    bench.hand_in("group-7", "answer('K', " + fmt::format("{:.17g}", own) + ")\n");
-    bench.hand_in("group-8", "answer('K', " + fmt::format("{:.17g}", own) + ")\n");
-    bench.hand_in("others", "answer('K', " + fmt::format("{:.17g}", common) + ")\n");
+    bench.submit_file("group-7", "answer('K', " + fmt::format("{:.17g}", own) + ")\n");
+    bench.submit_file("group-8", "answer('K', " + fmt::format("{:.17g}", own) + ")\n");
+    bench.submit_file("others", "answer('K', " + fmt::format("{:.17g}", common) + ")\n");
     work.write("roster.csv", "id,group,seed\n1,group-7,7\n2,group-8,8\n3,others,\n");
     ASSERT_EQ(bench.grade({"--roster", "roster.csv"}).exit_code, 0);
     // Of twelve, three are judged in one box: these, which come last.
-    for (int i = 1; i <= 9; ++i) bench.hand_in("a" + std::to_string(i), computes);
+    for (int i = 1; i <= 9; ++i) bench.submit_file("a" + std::to_string(i), computes);
     bench.grade({"--roster", "roster.csv", "--jobs", "1", "--regrade"});
     EXPECT_EQ(bench.result("group-7").at("score"), 1);
     EXPECT_EQ(bench.result("group-8").at("score"), 0);
@@ -266,7 +266,7 @@ TEST(grading, hidden_checks_show_points_and_hint_only) {
     bench.bench().write(
         "more/extra.lua",
         "check{id = 'secret', hint = 'Think of poles.', test = function(a) return near(a.x, 42) end}\n");
-    bench.hand_in("a", "answer('x', 84)\n");
+    bench.submit_file("a", "answer('x', 84)\n");
     ASSERT_EQ(bench.grade({"--checks", "more"}).exit_code, 0);
     EXPECT_EQ(message(bench.result("a"), 2), "Think of poles.");
     EXPECT_THAT(bench.bench().read("out/results/a/feedback.md"), HasSubstr("Think of poles"));
@@ -275,10 +275,10 @@ TEST(grading, hidden_checks_show_points_and_hint_only) {
 
 TEST(grading, a_row_for_each_student_lateness_and_neutral_formulas) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("group-1", kSolution);
-    bench.hand_in("Ada Lovelace_77_assignsubmission_file_", kSolution);
-    bench.hand_in("hoppergrace_LATE_99_1234_work", kSolution);
-    bench.hand_in("=cmd()", kSolution);
+    bench.submit_file("group-1", kSolution);
+    bench.submit_file("Ada Lovelace_77_assignsubmission_file_", kSolution);
+    bench.submit_file("hoppergrace_LATE_99_1234_work", kSolution);
+    bench.submit_file("=cmd()", kSolution);
     bench.bench().write("roster.csv",
                         "ID;Name;Group\r\n001;A. Kalman;group-1\r\n002;R. Kalman;group-1\r\n003;Ada Lovelace;\r\n"
                         "99;Grace Hopper;\r\n005;Nobody;\r\n006;=1+1;=cmd()\r\n");
@@ -301,8 +301,8 @@ TEST(grading, marks_depend_on_neither_threads_nor_order) {
     const auto book_with = [](const char* jobs) {
         GradingBench bench(kAnswers, kChecks, kSolution);
         for (int i = 0; i < 12; ++i)
-            bench.hand_in("s" + std::to_string(i),
-                          i % 3 == 0 ? "error('broken')\n" : "answer('x', " + std::to_string(35 + i) + ")\n");
+            bench.submit_file("s" + std::to_string(i),
+                              i % 3 == 0 ? "error('broken')\n" : "answer('x', " + std::to_string(35 + i) + ")\n");
         EXPECT_EQ(bench.grade({"--jobs", jobs}).exit_code, 0);
         return bench.bench().read("out/gradebook.csv") + bench.bench().read("out/results/s4/results.json");
     };
@@ -310,7 +310,7 @@ TEST(grading, marks_depend_on_neither_threads_nor_order) {
 }
 
 // oracle: what the first of all would get; state that a check keeps would tell of others
-TEST(grading, what_is_judged_in_one_box_sees_nothing_of_the_others) {
+TEST(grading, what_is_graded_in_one_sandbox_sees_nothing_of_the_others) {
     GradingBench bench(kAnswers,
                        "seen, others = 0, {}\n"
                        "check{id = 'first', test = function(a) seen = seen + 1 return seen == 1 end}\n"
@@ -318,14 +318,14 @@ TEST(grading, what_is_judged_in_one_box_sees_nothing_of_the_others) {
                        "others[1] < 50 end}\n",
                        "answer('x', 42)\n");
     for (int i = 0; i < 12; ++i)
-        bench.hand_in(fmt::format("s{:02}", i), fmt::format("answer('x', {})\n", i == 4 ? 60 : 30 + i));
+        bench.submit_file(fmt::format("s{:02}", i), fmt::format("answer('x', {})\n", i == 4 ? 60 : 30 + i));
     ASSERT_EQ(bench.grade({"--jobs", "1"}).exit_code, 0);
     for (int i = 0; i < 12; ++i)
         EXPECT_EQ(points(bench.result(fmt::format("s{:02}", i))), (std::vector<double>{1, i == 4 ? 0.0 : 1.0})) << i;
 }
 
 // oracle: what each would get by itself
-TEST(grading, a_check_that_comes_to_no_end_costs_nobody_else) {
+TEST(grading, a_check_that_comes_to_no_end_costs_no_other) {
     GradingBench bench(kAnswers,
                        "check{id = 'x', test = function(a)\n"
                        "  if a.x == 1 then local t = {} while true do t[#t + 1] = zeros(1000000) end end\n"
@@ -333,7 +333,7 @@ TEST(grading, a_check_that_comes_to_no_end_costs_nobody_else) {
                        "check{id = 'other', test = function(a) return a.x > 0 end}\n",
                        "answer('x', 42)\n");
     for (int i = 0; i < 12; ++i)
-        bench.hand_in(fmt::format("s{:02}", i), fmt::format("answer('x', {})\n", i == 4 ? 1 : 42));
+        bench.submit_file(fmt::format("s{:02}", i), fmt::format("answer('x', {})\n", i == 4 ? 1 : 42));
     bench.grade({"--jobs", "1"});
     for (int i = 0; i < 12; ++i)
         EXPECT_EQ(points(bench.result(fmt::format("s{:02}", i))), (std::vector<double>{i == 4 ? 0.0 : 1.0, 1})) << i;
@@ -357,7 +357,7 @@ TEST(grading, a_class_of_sixty_with_one_in_ten_broken) {
     const auto graded = [](const char* jobs) {
         GradingBench bench(kAnswers, kChecks, kSolution);
         for (int i = 0; i < 60; ++i)
-            bench.hand_in(
+            bench.submit_file(
                 fmt::format("s{:03}", i),
                 i % 10 == 3 ? "answer('x', 42)\nlocal y = nothing.at_all\n"
                             : fmt::format("answer('x', {})\nanswer('G', tf({{2}}, {{1, 3}}))\n", i % 2 == 0 ? 42 : 48));
@@ -373,7 +373,7 @@ TEST(grading, a_class_of_sixty_with_one_in_ten_broken) {
 TEST(grading, the_same_class_gives_the_same_documents) {
     const auto graded = [] {
         GradingBench bench(kAnswers, kChecks, kSolution);
-        for (const char* name : {"first", "second"}) bench.hand_in(name, "answer('x', 42)\n");
+        for (const char* name : {"first", "second"}) bench.submit_file(name, "answer('x', 42)\n");
         const ChildResult run = bench.bench().dynlab(
             {"grade", "in", "--lesson", "99", "--out", "out", "--isolation", GradingBench::level()});
         EXPECT_EQ(run.exit_code, 0) << run.error_output;
@@ -389,7 +389,7 @@ TEST(grading, the_same_class_gives_the_same_documents) {
 TEST(grading, killed_at_any_moment_it_ends_with_the_same_gradebook) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     for (int i = 0; i < 10; ++i)
-        bench.hand_in("s" + std::to_string(i), "answer('x', " + std::to_string(38 + i) + ")\n");
+        bench.submit_file("s" + std::to_string(i), "answer('x', " + std::to_string(38 + i) + ")\n");
     ASSERT_EQ(bench.grade().exit_code, 0);
     const std::string whole = bench.bench().read("out/gradebook.csv");
     bench.bench().shell("rm -r out");

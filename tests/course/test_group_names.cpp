@@ -115,7 +115,7 @@ TEST(group_names, work_belongs_to_the_members_when_it_was_submitted) {
     CourseBench bench(3);
     const auto take = [&](int group, const std::string& at) {
         const std::string file = CourseBench::group(group) + ".pdf";
-        CourseBench::expect_done(bench.hand_in(file, small_pdf(file), at));
+        CourseBench::expect_done(bench.submit_file(file, small_pdf(file), at));
     };
     take(1, "2026-02-27 12:00");
     take(2, "2026-02-27 12:00");

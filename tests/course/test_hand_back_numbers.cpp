@@ -46,22 +46,22 @@ class hand_back_numbers : public testing::Test {
             .shell("python3 -c \"import zipfile; print('\\n'.join(zipfile.ZipFile('" + zip + "').namelist()))\"")
             .output;
     }
-    static std::string told(const std::vector<Message>& messages) {
+    static std::string reported(const std::vector<Message>& messages) {
         std::string text;
         for (const Message& message : messages) text += message_text(message) + "\n";
         return text;
     }
     TemporaryFolder folder_;
-    HandBackRequest request_;
+    GradeExportRequest request_;
 };
 
 TEST_F(hand_back_numbers, the_number_in_the_folder_s_name_takes_precedence) {
-    const HandedBack back = hand_back(request_);
+    const GradeExport back = write_grade_export(request_);
     EXPECT_THAT(read("moodle-grades.csv"), AllOf(HasSubstr("Participant 99345,Élise Lefèvre,13,17"),
                                                  Not(HasSubstr("12345")), Not(HasSubstr("12346"))));
-    EXPECT_THAT(told(back.notes), HasSubstr("1 participant number in the roster's column moodle differs"));
+    EXPECT_THAT(reported(back.notes), HasSubstr("1 participant number in the roster's column moodle differs"));
     // The partner's number in the roster is of the same other assignment.
-    EXPECT_THAT(told(back.complaints), AllOf(HasSubstr("Ravi Rao is missing"), HasSubstr("--worksheet")));
+    EXPECT_THAT(reported(back.complaints), AllOf(HasSubstr("Ravi Rao is missing"), HasSubstr("--worksheet")));
 }
 
 TEST_F(hand_back_numbers, a_worksheet_has_the_partner_s_number_too) {
@@ -70,9 +70,9 @@ TEST_F(hand_back_numbers, a_worksheet_has_the_partner_s_number_too) {
           "commentaires\nParticipant 99345;Élise Lefèvre;e@u.example;;17,00;-;\nParticipant 99999;Rao "
           "Ravi;;;17,00;-;\nParticipant 99400;Zoë K;;;17,00;-;\nParticipant 1;Nobody Else;;5,00;17,00;-;\n");
     request_.worksheet = folder_.path() / "sheet.csv";
-    const HandedBack back = hand_back(request_);
+    const GradeExport back = write_grade_export(request_);
     EXPECT_THAT(back.complaints, IsEmpty());
-    EXPECT_THAT(told(back.notes), HasSubstr("1 row of"));
+    EXPECT_THAT(reported(back.notes), HasSubstr("1 row of"));
     EXPECT_EQ(
         read("moodle-grades.csv"),
         "Identifiant;Nom complet;Adresse de courriel;Note;Note maximale;Dernière modification (note);Feedback par "
@@ -85,7 +85,7 @@ TEST_F(hand_back_numbers, a_worksheet_has_the_partner_s_number_too) {
 }
 
 TEST_F(hand_back_numbers, unreadable_submissions_get_their_feedback_through_moodle) {
-    hand_back(request_);
+    write_grade_export(request_);
     EXPECT_THAT(in_zip(), HasSubstr("Zoë K_99400_assignfeedback_file_/feedback.md"));
     EXPECT_THAT(read("moodle-grades.csv"), Not(HasSubstr("99400")));
 }
@@ -97,20 +97,20 @@ TEST_F(hand_back_numbers, a_look_leaves_feedback_new_until_it_is_delivered) {
     };
     EXPECT_THROW(record_delivery(folder_.path()), EnvironmentError);
     for (int i = 0; i < 2; ++i) {
-        hand_back(request_);
+        write_grade_export(request_);
         EXPECT_EQ(new_ones(), 3);
     }
     EXPECT_EQ(record_delivery(folder_.path()), 3);
-    const HandedBack again = hand_back(request_);
+    const GradeExport again = write_grade_export(request_);
     EXPECT_EQ(new_ones(), 0);
-    EXPECT_THAT(told(again.notes), HasSubstr("all feedback was delivered"));
+    EXPECT_THAT(reported(again.notes), HasSubstr("all feedback was delivered"));
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "handed_back/moodle-feedback.zip"));
     add("Zoë K_99400_assignsubmission_file_", "opened after all");
-    hand_back(request_);
+    write_grade_export(request_);
     EXPECT_EQ(new_ones(), 1);
     EXPECT_EQ(in_zip(), "Zoë K_99400_assignfeedback_file_/feedback.md\n");
     request_.all = true;
-    hand_back(request_);
+    write_grade_export(request_);
     EXPECT_THAT(in_zip(), HasSubstr("99345"));
 }
 

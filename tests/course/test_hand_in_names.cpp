@@ -166,7 +166,7 @@ TEST(hand_in_names, every_owner_is_found_in_what_platforms_and_systems_write) {
             const long place = place_of(submission);
             const bool theirs =
                 found.anybody() && found.students.size() == 1 && static_cast<long>(found.students[0]) == place;
-            EXPECT_TRUE(theirs) << submission.name << " is place " << place << ": " << message_text(found.trouble);
+            EXPECT_TRUE(theirs) << submission.name << " is place " << place << ": " << message_text(found.error_reason);
             right += theirs;
         }
         EXPECT_EQ(right, all.size());
@@ -190,7 +190,7 @@ std::vector<Student> small_class() {
 }
 
 // oracle: who is meant, as a person would read it
-TEST(hand_in_names, one_meaning_is_taken_and_two_are_told) {
+TEST(hand_in_names, one_meaning_is_taken_and_two_are_reported) {
     const std::vector<Student> students = small_class();
     const Owners owners(students, {"group-9"});
     const auto group = [&](const std::string& name) { return owners.find(called(name)).group; };
@@ -198,20 +198,22 @@ TEST(hand_in_names, one_meaning_is_taken_and_two_are_told) {
          {"group-1", "Group 1", "group_01_final", "ANNA MULLER", "Mueller Anna", "muelleranna_5_6_x", "lee ben",
           "Lab 4 - Anna Müller", "1002", "anna.mueller", "Default group-Ben Lee_7_assignsubmission_file_",
           "group-1-Ben Lee_8_assignsubmission_file_", "group-1_against_group-2"})
-        EXPECT_EQ(group(name), "group-1") << name << ": " << message_text(owners.find(called(name)).trouble);
+        EXPECT_EQ(group(name), "group-1") << name << ": " << message_text(owners.find(called(name)).error_reason);
     EXPECT_EQ(group("group-12_report"), "group-12");
     EXPECT_EQ(group("Participant_900003_assignsubmission_file_"), "group-12");
     EXPECT_EQ(group("group-9"), "group-9");
     EXPECT_EQ(group("José García"), "group-2");  // an accent tells them apart where it is written
     EXPECT_EQ(group("Jose Garcia"), "group-3");
-    const auto trouble = [&](const std::string& name) { return message_text(owners.find(called(name)).trouble); };
-    EXPECT_EQ(trouble("jose GARCIA"), "it matches several: group-2, group-3");
-    EXPECT_EQ(trouble("group-1-Zoë Ade_8_assignsubmission_file_"), "it matches several: group-1, group-12");
-    EXPECT_EQ(trouble("Ben Lee_900003_assignsubmission_file_"),
+    const auto error_reason = [&](const std::string& name) {
+        return message_text(owners.find(called(name)).error_reason);
+    };
+    EXPECT_EQ(error_reason("jose GARCIA"), "it matches several: group-2, group-3");
+    EXPECT_EQ(error_reason("group-1-Zoë Ade_8_assignsubmission_file_"), "it matches several: group-1, group-12");
+    EXPECT_EQ(error_reason("Ben Lee_900003_assignsubmission_file_"),
               "its number 900003 belongs to group-12, but its name matches group-1");
-    EXPECT_EQ(trouble("group-7"), "it matches no group and no student");
-    EXPECT_EQ(trouble("SYS26 group export"), "it matches no group and no student");
-    EXPECT_EQ(trouble("Anna"), "it matches no group and no student");
+    EXPECT_EQ(error_reason("group-7"), "it matches no group and no student");
+    EXPECT_EQ(error_reason("SYS26 group export"), "it matches no group and no student");
+    EXPECT_EQ(error_reason("Anna"), "it matches no group and no student");
 }
 
 // oracle: the platform's own part of the name, which stands first, and the list that the instructor wrote
@@ -243,10 +245,10 @@ with zipfile.ZipFile('all.zip', 'w') as z:
                               "--no-pdf", "--roster", "roster.csv"});
     EXPECT_EQ(graded.exit_code, 1);  // of one nobody knows whose it is
     EXPECT_THAT(graded.error_output + graded.output, HasSubstr("matches no student in the roster"));
-    std::string told;
+    std::string reported;
     for (int student = 1; student <= 7; ++student)
-        told += bench.bench().shell(fmt::format("grep '^{},' out/gradebook.csv | cut -d, -f4,5", student)).output;
-    EXPECT_EQ(told, "graded,0\ngraded,2\ngraded,0\ngraded,2\ngraded,0\ngraded,2\nnothing submitted,\n");
+        reported += bench.bench().shell(fmt::format("grep '^{},' out/gradebook.csv | cut -d, -f4,5", student)).output;
+    EXPECT_EQ(reported, "graded,0\ngraded,2\ngraded,0\ngraded,2\ngraded,0\ngraded,2\nnothing submitted,\n");
 }
 
 TEST(hand_in_names, the_instructors_list_goes_before_names) {
@@ -260,7 +262,7 @@ TEST(hand_in_names, the_instructors_list_goes_before_names) {
     EXPECT_EQ(owners.find(called("Eve_77_assignsubmission_file_")).group, "group-4");
     EXPECT_THAT(owners.unmatched_names({called("my work"), called("Eve_77_assignsubmission_file_")}),
                 ElementsAre("gone"));
-    for (const auto& [table, told] :
+    for (const auto& [table, reported] :
          {std::pair("name,group\n", "the columns submission and group"),
           std::pair("submission,group\nx,group-77\n", "line 2: unknown group \"group-77\""),
           std::pair("submission,id\nx,9\n", "line 2: no student has the id \"9\""),
@@ -268,9 +270,9 @@ TEST(hand_in_names, the_instructors_list_goes_before_names) {
         bench.write("bad.csv", table);
         try {
             Owners(students).read_list(bench.path("bad.csv"));
-            ADD_FAILURE() << told;
+            ADD_FAILURE() << reported;
         } catch (const std::exception& error) {
-            EXPECT_THAT(error.what(), HasSubstr(told));
+            EXPECT_THAT(error.what(), HasSubstr(reported));
         }
     }
 }
@@ -308,16 +310,17 @@ TEST(hand_in_names, a_worksheet_says_whose_a_participant_s_number_is) {
     const ChildResult blind = work.course({"submit", "all", "--at", "2026-03-01 10:00", "--no-checks"});
     EXPECT_EQ(blind.exit_code, 1);
     EXPECT_THAT(blind.error_output, HasSubstr("give the owner with"));
-    const ChildResult told =
+    const ChildResult reported =
         work.course({"submit", "all", "--at", "2026-03-01 10:00", "--no-checks", "--times", "sheet.csv"});
-    EXPECT_EQ(told.exit_code, 0) << told.error_output;
-    EXPECT_THAT(told.output, HasSubstr("group-03"));
+    EXPECT_EQ(reported.exit_code, 0) << reported.error_output;
+    EXPECT_THAT(reported.output, HasSubstr("group-03"));
 }
 
 // oracle: membership when the first version came; who moves later stays its author
 TEST(hand_in_names, a_final_version_is_of_the_group_of_the_first_one) {
     CourseBench bench(3);
-    CourseBench::expect_done(bench.hand_in("group-01.pdf", small_pdf("first"), "2026-02-27 12:00", {"--no-checks"}));
+    CourseBench::expect_done(
+        bench.submit_file("group-01.pdf", small_pdf("first"), "2026-02-27 12:00", {"--no-checks"}));
     bench.bench().write("moved.csv", "id,name,group\ns1,Student 1,group-02\n");
     CourseBench::expect_done(bench.course({"import", "moved.csv"}));
     bench.bench().write("final/Student 1.pdf", small_pdf("of both"));

@@ -20,9 +20,9 @@ constexpr const char* kChecks =
 TEST(handing_back, gives_platforms_what_they_import) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     Workbench& work = bench.bench();
-    bench.hand_in("Anna Lovelace_900001_assignsubmission_file_", kSolution);
-    bench.hand_in("Zoë_K_900002_assignsubmission_file_", "answer('x', 1)\n");
-    bench.hand_in("kalmanrudolf_LATE_31_77_work", kSolution);
+    bench.submit_file("Anna Lovelace_900001_assignsubmission_file_", kSolution);
+    bench.submit_file("Zoë_K_900002_assignsubmission_file_", "answer('x', 1)\n");
+    bench.submit_file("kalmanrudolf_LATE_31_77_work", kSolution);
     work.write("roster.csv",
                "id,name,email,moodle,canvas\n1,Anna Lovelace,anna@u.example,,\n2,Zoë K,,900002,\n"
                "3,Rudolf Kalman,rk@u.example,,31\n4,Nobody Here,,,\n");
@@ -69,10 +69,10 @@ TEST(handing_back, gives_platforms_what_they_import) {
 }
 
 // oracle: the help of the command, which says what 1 means
-TEST(handing_back, platforms_that_know_nobody_are_told) {
+TEST(handing_back, platforms_without_known_students_are_reported) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     Workbench& work = bench.bench();
-    bench.hand_in("1", kSolution);
+    bench.submit_file("1", kSolution);
     const auto back_with = [&](const std::string& columns, const std::string& numbers) {
         work.write("roster.csv", "id,name" + columns + "\n1,Anna Lovelace" + numbers + "\n");
         return work.dynlab({"export-grades", "out", "--roster", "roster.csv"});
@@ -100,8 +100,8 @@ TEST(handing_back, comments_are_in_the_language_of_the_feedback) {
     Workbench& work = bench.bench();
     work.write("home/lessons/99_small/checks.fr.po",
                "msgid \"The number\"\nmsgstr \"Le nombre\"\n\nmsgid \"Six times seven.\"\nmsgstr \"Six fois sept.\"\n");
-    bench.hand_in("Zoé_K_900002_assignsubmission_file_", "answer('x', 41)\n");
-    bench.hand_in("Anna_L_900003_assignsubmission_file_", "answer('x', 1)\n");
+    bench.submit_file("Zoé_K_900002_assignsubmission_file_", "answer('x', 41)\n");
+    bench.submit_file("Anna_L_900003_assignsubmission_file_", "answer('x', 1)\n");
     work.write("roster.csv", "id,name,moodle,language\n2,Zoé K,900002,fr\n3,Anna L,900003,en\n");
     bench.grade({"--roster", "roster.csv"});
     work.write("out/marks.csv", "who,check,points,reason\nZoé_K_900002_assignsubmission_file_,x,1.5,\n");
@@ -121,7 +121,7 @@ TEST(handing_back, model_answers_go_to_everybody_where_the_instructor_wants_it) 
                                "-- Six times seven is forty-two.\n-- END SOLUTION\n";
     GradingBench bench(kAnswers, kChecks, worked);
     Workbench& work = bench.bench();
-    bench.hand_in("Anna Lovelace_900001_assignsubmission_file_", kSolution);
+    bench.submit_file("Anna Lovelace_900001_assignsubmission_file_", kSolution);
     bench.grade();
     work.dynlab({"export-grades", "out"});
     EXPECT_THAT(work.read("out/handed_back/mail.csv"), Not(HasSubstr("model_answers")));

@@ -67,7 +67,7 @@ TEST_F(hostile_pdfs, changed_bytes_never_end_the_check) {
         for (std::size_t i = 0; i < 30; ++i)
             changed[(seed * 7919 + i * 104729) % changed.size()] ^= static_cast<char>(1 + seed % 255);
         const CheckResult result = check_bytes(changed);
-        EXPECT_FALSE(findings_in_words(result, false).empty());
+        EXPECT_FALSE(issues_as_text(result, false).empty());
     }
 }
 
@@ -124,10 +124,10 @@ TEST_F(hostile_pdfs, nothing_from_a_file_reaches_the_terminal_as_a_command) {
     const std::string name = "a\x1B[31m\n\"b\".pdf";
     write(name, "no PDF");
     const CheckResult result = check(file(name));
-    const std::string words = findings_in_words(result, false);
+    const std::string words = issues_as_text(result, false);
     EXPECT_THAT(words, Not(HasSubstr("\x1B")));
     EXPECT_THAT(words, HasSubstr("a?[31m?\"b\".pdf"));
-    EXPECT_EQ(nlohmann::json::parse(findings_as_json(result)).at("findings").at(0).at("id"), "not-pdf");
+    EXPECT_EQ(nlohmann::json::parse(issues_as_json(result)).at("findings").at(0).at("id"), "not-pdf");
 }
 
 }  // namespace test_hostile_pdfs

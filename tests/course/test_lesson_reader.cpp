@@ -28,23 +28,23 @@ namespace fs = std::filesystem;
 
 /// The texts that a checks.lua tells to students.
 std::set<std::string> told_by(const std::string& checks) {
-    std::set<std::string> told;
+    std::set<std::string> reported;
     const std::regex text(R"re((?:\b(?:say|hint|about|message)\s*=\s*|judge\()"((?:[^"\\]|\\.)*)")re");
     for (std::sregex_iterator at(checks.begin(), checks.end(), text), end; at != end; ++at)
-        told.insert(replaced((*at)[1].str(), "\\\"", "\""));
-    return told;
+        reported.insert(replaced((*at)[1].str(), "\\\"", "\""));
+    return reported;
 }
 
-TEST(lesson_catalogs, have_all_that_checks_of_lessons_tell_and_nothing_else) {
+TEST(lesson_catalogs, have_all_messages_of_lesson_checks_and_nothing_else) {
     int lessons_seen = 0;
     for (const Lesson& lesson : lessons()) {
         if (!fs::exists(lesson.folder / "checks.lua")) continue;
         ++lessons_seen;
-        const std::set<std::string> told = told_by(read_text(lesson.folder / "checks.lua"));
-        EXPECT_GT(told.size(), 20u);
+        const std::set<std::string> reported = told_by(read_text(lesson.folder / "checks.lua"));
+        EXPECT_GT(reported.size(), 20u);
         const Catalog authors(read_text(lesson.checks_in("fr")));
-        for (const std::string& sentence : told) EXPECT_NE(authors.translation(sentence), "") << sentence;
-        EXPECT_EQ(authors.size(), told.size()) << lesson.slug << ": a translation of what no check tells";
+        for (const std::string& sentence : reported) EXPECT_NE(authors.translation(sentence), "") << sentence;
+        EXPECT_EQ(authors.size(), reported.size()) << lesson.slug << ": a translation of what no check tells";
     }
     EXPECT_EQ(lessons_seen, 8);
 }
@@ -84,14 +84,14 @@ TEST_F(lesson_reader, names_file_and_line_of_a_catalog_that_cannot_be_read) {
 
 /// A folder of French work, its findings read in French; their ids.
 std::set<std::string> ids_told(const Workbench& bench, const FolderLimits& limits = {}, bool lesson_checks = false) {
-    CheckOptions wishes;
-    wishes.lesson_checks = lesson_checks;
-    const CheckResult result = check_folder(bench.path("mine"), DYNLAB_PROGRAM, wishes, limits);
+    CheckOptions check_options;
+    check_options.lesson_checks = lesson_checks;
+    const CheckResult result = check_folder(bench.path("mine"), DYNLAB_PROGRAM, check_options, limits);
     std::set<std::string> ids;
     for (const Message& part : result.checked)
-        if (!message_text(part).ends_with(".pdf")) expect_told_in_french(part);
-    for (const Finding& finding : result.findings) ids.insert(finding.id);
-    expect_told_in_french(result.findings);
+        if (!message_text(part).ends_with(".pdf")) expect_french_text(part);
+    for (const Issue& issue : result.findings) ids.insert(issue.id);
+    expect_french_text(result.findings);
     return ids;
 }
 
@@ -103,11 +103,11 @@ void write_french_folder(const Workbench& bench, const std::string& script, cons
 // oracle: the ids that folder_check.h lists, and the words of English that no French sentence has
 TEST(findings_in_french, of_folders_are_french_throughout) {
     const Workbench bench;
-    std::set<std::string> told;
+    std::set<std::string> reported;
     const auto tell = [&](const FolderLimits& limits = {}, bool lesson_checks = false) {
         const std::set<std::string> ids = ids_told(bench, limits, lesson_checks);
         EXPECT_FALSE(ids.empty());
-        told.insert(ids.begin(), ids.end());
+        reported.insert(ids.begin(), ids.end());
     };
     bench.write("mine/notes.txt", "");
     tell();
@@ -141,9 +141,10 @@ TEST(findings_in_french, of_folders_are_french_throughout) {
     tell();
     write_french_folder(bench, "print(1)\n");  // the value has no entry: the text of the report stops it
     tell();
-    EXPECT_THAT(told, testing::IsSupersetOf({"analysis-missing", "folder-too-large", "analysis-fails", "answer-open",
-                                             "answer-missing", "not-shown", "members-missing", "pdf-outdated",
-                                             "pdf-differs", "link-left-out", "check-failed", "file-outside"}));
+    EXPECT_THAT(reported,
+                testing::IsSupersetOf({"analysis-missing", "folder-too-large", "analysis-fails", "answer-open",
+                                       "answer-missing", "not-shown", "members-missing", "pdf-outdated", "pdf-differs",
+                                       "link-left-out", "check-failed", "file-outside"}));
 }
 
 TEST(findings_in_french, are_printed_by_check_and_stay_english_for_programs) {
@@ -153,11 +154,11 @@ TEST(findings_in_french, are_printed_by_check_and_stay_english_for_programs) {
     bench.write("mine/report.md",
                 "---\ntitle: A\nlang: fr\nsections: |\n  Process | Procédé\npages: 1\n---\n\n# Données\n\nLa valeur "
                 "est `x`{.value} et c'est ce que nous avons trouvé dans les données de la grue. TODO\n");
-    const std::string told = bench.dynlab({"check", "mine", "--document-only"}).output;
-    EXPECT_THAT(told, AllOf(HasSubstr("Règles enfreintes ("), HasSubstr("La section «\u00a0Procédé\u00a0» manque"),
-                            HasSubstr("-> Ajoutez un titre avec ces mots"), HasSubstr("Une note pour vous-même")));
+    const std::string reported = bench.dynlab({"check", "mine", "--document-only"}).output;
+    EXPECT_THAT(reported, AllOf(HasSubstr("Règles enfreintes ("), HasSubstr("La section «\u00a0Procédé\u00a0» manque"),
+                                HasSubstr("-> Ajoutez un titre avec ces mots"), HasSubstr("Une note pour vous-même")));
     for (const char* word : {" the ", " is ", " are ", " was ", "Write", "Hints", "Rules", " pages of"})
-        EXPECT_THAT(told, Not(HasSubstr(word)));
+        EXPECT_THAT(reported, Not(HasSubstr(word)));
     EXPECT_THAT(bench.dynlab({"check", "mine", "--document-only", "--json"}).output,
                 HasSubstr("The section \\\"Procédé\\\" is missing"))
         << "programs read one language";

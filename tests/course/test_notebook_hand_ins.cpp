@@ -29,11 +29,11 @@ std::string notebook_by(const std::string& script) {
     return notebook.dump();
 }
 
-TEST(notebook_hand_ins, are_graded_compared_and_told_of_by_cells) {
+TEST(notebook_hand_ins, are_graded_compared_and_reported_by_cells) {
     const std::string good = GradingBench::header(kAnswers) + "\n-- %%\nanswer(\"gain\", 2)\n",
                       bad = GradingBench::header(kAnswers) + "\n-- %%\nlocal x = 1\nprint(x + nil)\n";
     GradingBench bench(kAnswers, kChecks, "answer(\"gain\", 2)\n");
-    bench.hand_in("script", good);
+    bench.submit_file("script", good);
     bench.bench().write("in/notebook/analysis.ipynb", notebook_by(good));
     bench.bench().write("in/stopped/analysis.ipynb", notebook_by(bad));
     bench.bench().write("in/newer/analysis.lua", bad);
@@ -50,10 +50,10 @@ TEST(notebook_hand_ins, are_graded_compared_and_told_of_by_cells) {
     EXPECT_EQ(GradingBench::score(bench.result("newer")), 2);
     EXPECT_THAT(bench.result("stopped").dump(),
                 AllOf(HasSubstr("analysis.ipynb, cell 2, line 2: "), Not(HasSubstr(".lua:"))));
-    EXPECT_THAT(GradingBench::trouble(bench.result("both")), HasSubstr("it is unknown which one is newer"));
-    EXPECT_THAT(GradingBench::trouble(bench.result("broken")),
+    EXPECT_THAT(GradingBench::error_reason(bench.result("both")), HasSubstr("it is unknown which one is newer"));
+    EXPECT_THAT(GradingBench::error_reason(bench.result("broken")),
                 HasSubstr("analysis.ipynb cannot be read: the file is not a Jupyter"));
-    EXPECT_THAT(GradingBench::trouble(bench.result("named")), HasSubstr("under the name analysis.ipynb"));
+    EXPECT_THAT(GradingBench::error_reason(bench.result("named")), HasSubstr("under the name analysis.ipynb"));
     EXPECT_EQ(bench.bench().shell(std::string("grep -rl --exclude-dir=files '") + kName + "' out").output, "");
     const ChildResult similar = bench.bench().dynlab({"similar", "in", "--lesson", "99", "--out", "alike"});
     EXPECT_THAT(similar.output + similar.error_output,

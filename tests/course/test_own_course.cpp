@@ -103,7 +103,7 @@ TEST_F(own_course, brings_data_and_templates_that_come_before_the_installed_ones
 
 /// One change of a file of the skeleton, and what is told of it.
 struct Planted {
-    const char *file, *from, *to, *told;
+    const char *file, *from, *to, *reported;
 };
 
 std::string replaced_once(std::string text, const std::string& from, const std::string& to) {
@@ -112,13 +112,13 @@ std::string replaced_once(std::string text, const std::string& from, const std::
     return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-void expect_told(const Workbench& bench, const std::string& part, const Planted& planted) {
+void expect_reported(const Workbench& bench, const std::string& part, const Planted& planted) {
     bench.shell(std::string("rm -rf faulty && mkdir faulty && cp -r ") + kLesson + " faulty/08_springs");
     const std::string file = std::string("faulty/08_springs/") + planted.file;
     bench.write(file, replaced_once(bench.read(file), planted.from, planted.to));
     const ChildResult tested = bench.dynlab({"test-lesson", "faulty/08_springs", "--part", part});
-    EXPECT_EQ(tested.exit_code, 1) << planted.told;
-    EXPECT_THAT(tested.output, HasSubstr(std::string("/faulty/08_springs/") + planted.told)) << tested.error_output;
+    EXPECT_EQ(tested.exit_code, 1) << planted.reported;
+    EXPECT_THAT(tested.output, HasSubstr(std::string("/faulty/08_springs/") + planted.reported)) << tested.error_output;
 }
 
 TEST_F(own_course, texts_with_faults_are_named_with_file_and_line) {
@@ -139,14 +139,14 @@ TEST_F(own_course, texts_with_faults_are_named_with_file_and_line) {
               "checks.fr.po: line 19: expected text in quotation marks"},
              {"tasks.fr.lua", "-- %% [markdown]\n-- # Ce qu'on a appris", "-- # Ce qu'on a appris", "tasks.fr.lua: "},
          })
-        expect_told(bench(), "texts", planted);
+        expect_reported(bench(), "texts", planted);
     const ChildResult whole = bench().dynlab({"test-lesson", "faulty/08_springs"});
     EXPECT_THAT(whole.error_output, HasSubstr("1 error in 08_springs; nothing was run"));
     EXPECT_EQ(bench().dynlab({"test-lesson", "faulty/08_springs", "--part", "prose"}).exit_code, 2);
     EXPECT_EQ(bench().dynlab({"test-lesson", "nowhere"}).exit_code, 1);
 }
 
-TEST_F(own_course, checks_that_do_not_do_what_they_are_for_are_told) {
+TEST_F(own_course, checks_that_do_not_do_what_they_are_for_are_reported) {
     for (const Planted& planted : {
              Planted{"wrong_compliance.lua", "-- expects: stiffness: This is the compliance", "-- expects: noise: off",
                      "wrong_compliance.lua:1: the script passes the check \"noise\", which it must fail"},
@@ -163,19 +163,19 @@ TEST_F(own_course, checks_that_do_not_do_what_they_are_for_are_told) {
              {"checks.lua", "return near(a.noise,", "return near(nil,",
               "lesson.lua: the reference solution does not pass the check \"noise\""},
          })
-        expect_told(bench(), "checks", planted);
+        expect_reported(bench(), "checks", planted);
 }
 
-TEST_F(own_course, documents_with_gaps_and_copies_with_results_are_told) {
-    expect_told(bench(), "documents",
-                {"lesson.lua", "(@fig:record), in N/mm", "(@fig:recrod), in N/mm", "lesson.lua: "});
-    expect_told(bench(), "documents",
-                {"lesson.lua", "-- BEGIN SOLUTION\nlocal compliance",
-                 "report.value(\"given\", 2.5)\n-- BEGIN SOLUTION\nlocal compliance",
-                 "lesson.lua: the student's copy (en) contains values of the solution: given"});
+TEST_F(own_course, documents_with_gaps_and_copies_with_results_are_reported) {
+    expect_reported(bench(), "documents",
+                    {"lesson.lua", "(@fig:record), in N/mm", "(@fig:recrod), in N/mm", "lesson.lua: "});
+    expect_reported(bench(), "documents",
+                    {"lesson.lua", "-- BEGIN SOLUTION\nlocal compliance",
+                     "report.value(\"given\", 2.5)\n-- BEGIN SOLUTION\nlocal compliance",
+                     "lesson.lua: the student's copy (en) contains values of the solution: given"});
 }
 
-TEST_F(own_course, a_report_of_more_pages_than_its_header_allows_is_told) {
+TEST_F(own_course, a_report_of_more_pages_than_its_header_allows_is_reported) {
     bench().shell(std::string("rm -rf long && mkdir long && cp -r ") + kLesson + " long/08_springs");
     std::string report = "---\ntitle: A report\nlang: en\npages: 1\n---\n\n# Springs\n\n";
     for (int i = 0; i < 60; ++i) report += "The spring was loaded, and its elongation read off the scale by eye.\n\n";

@@ -22,12 +22,12 @@ class own_records_of_many : public ::testing::TestWithParam<GroupsOfLesson> {};
 
 /// A copy of the lesson whose checks want no runs on other records.
 Lesson with_own_records_alone(const Workbench& bench, const std::string& lesson) {
-    static const std::regex wanted(R"(rerun = "(?!seed")\w+",)");
+    static const std::regex expected(R"(rerun = "(?!seed")\w+",)");
     const std::filesystem::path folder = bench.path("alone") / lesson;
     std::filesystem::create_directories(folder.parent_path());
     std::filesystem::copy(lesson_folder(lesson), folder, std::filesystem::copy_options::recursive);
     const std::string checks = read_file(folder / "checks.lua");
-    bench.write(folder / "checks.lua", std::regex_replace(checks, wanted, ""));
+    bench.write(folder / "checks.lua", std::regex_replace(checks, expected, ""));
     bench.write(folder / "lesson.lua", quick_solution_of(lesson));  // it is run to see which records groups have
     return {lesson, folder};
 }
@@ -59,7 +59,7 @@ void expect_full_marks(const GroupsOfLesson& groups, Workbench::Memory memory,
         works.push_back({fmt::format("seed {}", seed), std::move(work), group, log});
     }
     for (const Grade& grade : rules.judged(works)) {
-        EXPECT_EQ(message_text(grade.trouble), "") << grade.submission;
+        EXPECT_EQ(message_text(grade.error_reason), "") << grade.submission;
         for (const CheckGrade& check : grade.checks)
             EXPECT_TRUE(check.graded && check.earned == check.points)
                 << grade.submission << ", " << message_text(check.about) << ": " << message_text(check.message);
@@ -133,9 +133,9 @@ TEST(own_records, truth_is_that_of_the_record_which_the_answers_came_from) {
         "'thrusters') end}\n";
     const auto script = [](int specimen) { return kComputesGain + fmt::format("answer('specimen', {})\n", specimen); };
     GradingBench bench("--   K: number\n--   specimen: number\n", checks, script(0));
-    bench.hand_in("group-7", script(7));
-    bench.hand_in("group-8", script(7));
-    bench.hand_in("others", script(0));
+    bench.submit_file("group-7", script(7));
+    bench.submit_file("group-8", script(7));
+    bench.submit_file("others", script(0));
     bench.bench().write("roster.csv", "id,group,seed\n1,group-7,7\n2,group-8,8\n3,others,\n");
     const ChildResult graded = bench.grade({"--roster", "roster.csv"});
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
@@ -156,7 +156,7 @@ TEST(own_records, check_promises_the_points_that_grade_gives) {
     ASSERT_EQ(work.dynlab({"new", "99", "in/group-7", "--group-seed", "7"}).exit_code, 0);
     ASSERT_EQ(work.dynlab({"new", "99", "in/all"}).exit_code, 0);
     for (const char* name : {"group-7", "all"}) {
-        bench.hand_in(name, GradingBench::header(kGainAnswer) + kComputesGain);
+        bench.submit_file(name, GradingBench::header(kGainAnswer) + kComputesGain);
         work.write(std::string("in/") + name + "/report.md", "The gain was read off the record of the experiment.\n");
         // The seed of the random numbers may be changed; the record does not change with it.
         work.write(std::string("in/") + name + "/group.toml", "seed = 4\n");
@@ -182,7 +182,7 @@ TEST(own_records, are_given_whatever_the_lesson_calls_its_data) {
          {"local d = load 'suspension'\n", "local name = [[suspension]]\nlocal d = load(name)\n"}) {
         GradingBench bench("--   K: number\n--   specimen: number\n", checks,
                            loading + std::string("answer('K', mean(d.y:range(300, #d.y)))\nanswer('specimen', 0)\n"));
-        bench.hand_in("group-7", kComputesGain + "answer('specimen', 7)\n");
+        bench.submit_file("group-7", kComputesGain + "answer('specimen', 7)\n");
         bench.bench().write("roster.csv", "id,group,seed\n1,group-7,7\n");
         const ChildResult graded = bench.grade({"--roster", "roster.csv"});
         ASSERT_EQ(graded.exit_code, 0) << graded.error_output;

@@ -112,7 +112,7 @@ TEST(packed_hand_ins, a_pdf_that_came_alone_holds) {
 TEST(packed_hand_ins, a_pack_is_a_review_only_with_a_pdf) {
     CourseBench bench(2, 1);
     for (const char* group : {"group-01", "group-02"})
-        bench.hand_in(std::string(group) + ".pdf", small_pdf(group), kInTime);
+        bench.submit_file(std::string(group) + ".pdf", small_pdf(group), kInTime);
     CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     pack(bench, "group-01", {}, "words", "error('stopped')\n");
     pack(bench, "group-02", {"remarks.pdf"});
@@ -128,12 +128,12 @@ TEST(packed_hand_ins, a_pack_is_a_review_only_with_a_pdf) {
 }
 
 // oracle: the rules of deadlines: a review is late when no version of it came in time
-TEST(packed_hand_ins, late_reviews_and_late_second_versions_are_told_apart) {
+TEST(packed_hand_ins, late_reviews_and_late_second_versions_are_distinguished) {
     CourseBench bench(3, 1);
-    for (int i = 1; i <= 3; ++i) bench.hand_in(CourseBench::group(i) + ".pdf", small_pdf("one"), kInTime);
-    bench.hand_in("group-01.pdf", small_pdf("two"), "2026-03-01 13:00");
+    for (int i = 1; i <= 3; ++i) bench.submit_file(CourseBench::group(i) + ".pdf", small_pdf("one"), kInTime);
+    bench.submit_file("group-01.pdf", small_pdf("two"), "2026-03-01 13:00");
     CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 14:00"}));
-    bench.hand_in("r.pdf", small_pdf("r1"), "2026-03-07 10:00", {"--assignment", "crane"});
+    bench.submit_file("r.pdf", small_pdf("r1"), "2026-03-07 10:00", {"--assignment", "crane"});
     const auto review = [&](const char* group, const char* text, const char* at) {
         bench.bench().write("r.pdf", small_pdf(text));
         CourseBench::expect_done(bench.course({"review", "collect", "r.pdf", "--from", group, "--at", at}));
@@ -154,18 +154,20 @@ TEST(packed_hand_ins, late_reviews_and_late_second_versions_are_told_apart) {
 TEST(packed_hand_ins, a_first_version_after_the_reviews_is_asked_about) {
     CourseBench bench(2, 1);
     for (const char* group : {"group-01", "group-02"})
-        bench.hand_in(std::string(group) + ".pdf", small_pdf(group), kInTime);
+        bench.submit_file(std::string(group) + ".pdf", small_pdf(group), kInTime);
     CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
-    CourseBench::expect_done(bench.hand_in("group-01.pdf", small_pdf("more"), "2026-03-09 10:00"));  // nobody reads it
+    CourseBench::expect_done(
+        bench.submit_file("group-01.pdf", small_pdf("more"), "2026-03-09 10:00"));  // nobody reads it
     bench.bench().shell(  // as review send and release record it
         "sqlite3 k/course.db \"INSERT INTO sendings (pair, way, version, hash, made_at) SELECT p.id, 'to reviewer', "
         "v.id, "
         "v.hash, 0 FROM pairs p JOIN versions v ON v.group_id = p.author WHERE v.number = 1\"");
-    CourseBench::expect_done(bench.hand_in("group-02.pdf", small_pdf("again"), "2026-03-07 10:00"));  // while they read
+    CourseBench::expect_done(
+        bench.submit_file("group-02.pdf", small_pdf("again"), "2026-03-07 10:00"));  // while they read
     EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-07 12:00"}).output,
                 HasSubstr("Next: dynlab course review send crane"));  // the newer one of group-02
     const std::string before = bench.dump();
-    const ChildResult late = bench.hand_in("group-02.pdf", small_pdf("last"), "2026-03-09 10:00");
+    const ChildResult late = bench.submit_file("group-02.pdf", small_pdf("last"), "2026-03-09 10:00");
     EXPECT_EQ(late.exit_code, 1);
     EXPECT_THAT(late.error_output, HasSubstr("the reviews of group-02 are due: did you mean dynlab course submit "
                                              "--stage final? --first submits a first version anyway"));
@@ -174,12 +176,12 @@ TEST(packed_hand_ins, a_first_version_after_the_reviews_is_asked_about) {
         "sqlite3 k/course.db \"INSERT INTO sendings (pair, way, version, hash, made_at) SELECT pair, 'to author', "
         "version, "
         "hash, 0 FROM sendings\"");
-    EXPECT_THAT(bench.hand_in("group-02.pdf", small_pdf("last"), "2026-03-07 10:00").error_output,
+    EXPECT_THAT(bench.submit_file("group-02.pdf", small_pdf("last"), "2026-03-07 10:00").error_output,
                 HasSubstr("the reviews of group-02 are released: did you mean dynlab course submit --stage final?"));
     EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-09 12:00"}).output,
                 HasSubstr("Next: dynlab course scores crane FILE.csv, then dynlab course marks crane"));
-    CourseBench::expect_done(bench.hand_in("group-02.pdf", small_pdf("again"), "2026-03-09 10:00"));  // known
-    CourseBench::expect_done(bench.hand_in("group-02.pdf", small_pdf("last"), "2026-03-09 10:00", {"--first"}));
+    CourseBench::expect_done(bench.submit_file("group-02.pdf", small_pdf("again"), "2026-03-09 10:00"));  // known
+    CourseBench::expect_done(bench.submit_file("group-02.pdf", small_pdf("last"), "2026-03-09 10:00", {"--first"}));
     CourseBench::expect_done(receive(bench, {"group-02.pdf"}, "2026-03-10 10:00", {"final"}));
 }
 

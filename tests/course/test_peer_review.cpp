@@ -10,7 +10,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-void hand_in_all(CourseBench& bench, int groups) {
+void submit_all(CourseBench& bench, int groups) {
     for (int i = 1; i <= groups; ++i)
         bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
     CourseBench::expect_done(bench.course({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
@@ -37,14 +37,15 @@ TEST(peer_review, marks_by_median_and_distance) {
 // oracle: the rules; nothing is sent while names cannot be searched for
 TEST(peer_review, allots_mends_and_takes_reviews) {
     CourseBench bench(6);
-    hand_in_all(bench, 6);
+    submit_all(bench, 6);
     EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-01 11:00"}).error_output, HasSubstr("--early"));
     const ChildResult assigned = bench.course({"review", "assign", "--at", "2026-03-01 13:00"});
     EXPECT_THAT(assigned.output, HasSubstr("6 groups, 12 reviews: 12 new, 0 withdrawn."));
     const std::string before = bench.dump();
     EXPECT_THAT(bench.course({"review", "assign", "--at", "2026-03-01 14:00"}).output, HasSubstr("0 new, 0 withdrawn"));
     EXPECT_EQ(bench.dump(), before);
-    const ChildResult stray = bench.hand_in("stray.pdf", small_pdf("x"), "2026-03-02 10:00", {"--from", "group-01"});
+    const ChildResult stray =
+        bench.submit_file("stray.pdf", small_pdf("x"), "2026-03-02 10:00", {"--from", "group-01"});
     CourseBench::expect_done(stray);
     bench.bench().write("r.pdf", small_pdf("a review"));
     const std::string report =
@@ -127,7 +128,7 @@ TEST(peer_review, seeks_the_groups_that_a_student_was_in_before) {
 // oracle: the deadline of the reviews, with its ten minutes of grace
 TEST(peer_review, releases_reviews_after_their_deadline) {
     CourseBench bench(4);
-    hand_in_all(bench, 4);
+    submit_all(bench, 4);
     CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-01 13:00"}));
     const ChildResult early = bench.course({"review", "release", "--at", "2026-03-08 12:10"});
     EXPECT_EQ(early.exit_code, 1);
@@ -141,7 +142,7 @@ TEST(peer_review, releases_reviews_after_their_deadline) {
 // oracle: equality of stores
 TEST(peer_review, exports_and_imports_an_equal_store) {
     CourseBench bench(4, 1);
-    hand_in_all(bench, 4);
+    submit_all(bench, 4);
     bench.course({"review", "assign", "--at", "2026-03-01 13:00"});
     bench.bench().write("s.csv", "reviewer,data,steps,conclusions,strength,suggestions\ngroup-01,5,4,3,4.5,2\n");
     CourseBench::expect_done(bench.course({"scores", "crane", "s.csv"}));
@@ -179,26 +180,26 @@ TEST(peer_review, exports_and_imports_an_equal_store) {
 }
 
 // oracle: the story: every group that stayed writes two reviews and gets two
-TEST(peer_review, tells_a_whole_course) {
+TEST(peer_review, runs_a_whole_course) {
     const Workbench bench;
-    const ChildResult told =
+    const ChildResult reported =
         bench.shell("DYNLAB=$DYNLAB " + std::string(DYNLAB_SOURCE_DIR) + "/scripts/course_demo story");
-    EXPECT_EQ(told.exit_code, 0) << told.output << told.error_output;
-    EXPECT_THAT(told.output, HasSubstr("12 groups: 11 submitted, 1 late, 1 missing."));
+    EXPECT_EQ(reported.exit_code, 0) << reported.output << reported.error_output;
+    EXPECT_THAT(reported.output, HasSubstr("12 groups: 11 submitted, 1 late, 1 missing."));
     EXPECT_THAT(
-        told.output,
+        reported.output,
         HasSubstr("12 groups: 11 submitted; 0 reviews outstanding; 8 final versions."));  // both late ones corrected
-    EXPECT_THAT(told.output, HasSubstr("report of group-08 was not sent: page 1: The mail address"));
-    EXPECT_THAT(told.output, HasSubstr("20 sent now, 0 before, 2 stopped, 0 outstanding"));
-    EXPECT_THAT(told.output, HasSubstr("2 sent now, 20 before, 0 stopped, 0 outstanding"));
-    EXPECT_THAT(told.output, HasSubstr("21 sent now, 0 before, 0 stopped, 0 outstanding, 1 withheld"));
-    EXPECT_THAT(told.output, HasSubstr("1 sent now, 21 before, 0 stopped, 0 outstanding"));
-    EXPECT_THAT(told.output, ::testing::ContainsRegex("group-01 +1 +[1-9][0-9]* % +[0-9]+ +[0-9]+ +1 of 1 +2"));
-    EXPECT_THAT(told.output, ::testing::ContainsRegex("group-02 +1 +[1-9][0-9]* % +[0-9]+ +[0-9]+ +- +2"));
-    EXPECT_THAT(told.output, ::testing::ContainsRegex("group-04 +1 +0 % +0 +0 +- +2 +the text is unchanged"));
-    EXPECT_THAT(told.output, HasSubstr("8 of 12 groups have a final version."));
+    EXPECT_THAT(reported.output, HasSubstr("report of group-08 was not sent: page 1: The mail address"));
+    EXPECT_THAT(reported.output, HasSubstr("20 sent now, 0 before, 2 stopped, 0 outstanding"));
+    EXPECT_THAT(reported.output, HasSubstr("2 sent now, 20 before, 0 stopped, 0 outstanding"));
+    EXPECT_THAT(reported.output, HasSubstr("21 sent now, 0 before, 0 stopped, 0 outstanding, 1 withheld"));
+    EXPECT_THAT(reported.output, HasSubstr("1 sent now, 21 before, 0 stopped, 0 outstanding"));
+    EXPECT_THAT(reported.output, ::testing::ContainsRegex("group-01 +1 +[1-9][0-9]* % +[0-9]+ +[0-9]+ +1 of 1 +2"));
+    EXPECT_THAT(reported.output, ::testing::ContainsRegex("group-02 +1 +[1-9][0-9]* % +[0-9]+ +[0-9]+ +- +2"));
+    EXPECT_THAT(reported.output, ::testing::ContainsRegex("group-04 +1 +0 % +0 +0 +- +2 +the text is unchanged"));
+    EXPECT_THAT(reported.output, HasSubstr("8 of 12 groups have a final version."));
     EXPECT_EQ(bench.shell("grep -rlaE 's[0-9]{3}@|Student' story/signals/outbox").output, "");
-    EXPECT_THAT(told.output, HasSubstr("complete and unaltered"));
+    EXPECT_THAT(reported.output, HasSubstr("complete and unaltered"));
 }
 
 // oracle: the store's own check, after kill -9 at random moments; the repeated command completes

@@ -49,10 +49,10 @@ TEST_F(platform_sheet, moodle_keeps_every_other_byte) {
     EXPECT_EQ(elise.name, "Élise Lefèvre");
     moodle.set_grade(elise, "13.5");
     moodle.set_comment(elise, "13.5 of 20, see \"x\"");
-    std::string wanted = before;
-    wanted.replace(wanted.find("Submitted,,20.00"), 16, "Submitted,13.5,20.00");
-    wanted.replace(wanted.find("-,\n"), 3, "-,\"13.5 of 20, see \"\"x\"\"\"\n");
-    EXPECT_EQ(moodle.text(), wanted);
+    std::string expected = before;
+    expected.replace(expected.find("Submitted,,20.00"), 16, "Submitted,13.5,20.00");
+    expected.replace(expected.find("-,\n"), 3, "-,\"13.5 of 20, see \"\"x\"\"\"\n");
+    EXPECT_EQ(moodle.text(), expected);
 }
 
 TEST_F(platform_sheet, moodle_in_french_keeps_semicolons_commas_and_byte_order_mark) {
@@ -60,13 +60,13 @@ TEST_F(platform_sheet, moodle_in_french_keeps_semicolons_commas_and_byte_order_m
         "\xEF\xBB\xBFIdentifiant;Nom complet;Statut;Note;Note maximale;Dernière modification (travail remis);Dernière "
         "modification (note);Feedback par commentaires\r\nParticipant 7;Anna Müller;Remis;;20,00;-;-;\r\n";
     PlatformSheet moodle = sheet(before);
-    EXPECT_TRUE(moodle.unrecognised().empty());
+    EXPECT_TRUE(moodle.unrecognized().empty());
     moodle.set_grade(moodle.people()[0], "1.5");
     moodle.set_comment(moodle.people()[0], "bien; oui");
-    std::string wanted = before;
-    wanted.replace(wanted.find(";;20,00"), 7, ";1,5;20,00");
-    wanted.replace(wanted.rfind(";\r\n"), 3, ";\"bien; oui\"\r\n");
-    EXPECT_EQ(moodle.text(), wanted);
+    std::string expected = before;
+    expected.replace(expected.find(";;20,00"), 7, ";1,5;20,00");
+    expected.replace(expected.rfind(";\r\n"), 3, ";\"bien; oui\"\r\n");
+    EXPECT_EQ(moodle.text(), expected);
 }
 
 // oracle: a header in words that nobody listed, and the places of Moodle's columns
@@ -77,8 +77,8 @@ TEST_F(platform_sheet, columns_of_an_unknown_language_are_found_by_their_content
     ASSERT_EQ(moodle.people().size(), 2u);
     EXPECT_EQ(moodle.people()[1].number, "13");
     EXPECT_EQ(moodle.people()[1].name, "Bo M");
-    ASSERT_EQ(moodle.unrecognised().size(), 1u);
-    EXPECT_THAT(message_text(moodle.unrecognised()[0]), HasSubstr("no column of feedback comments"));
+    ASSERT_EQ(moodle.unrecognized().size(), 1u);
+    EXPECT_THAT(message_text(moodle.unrecognized()[0]), HasSubstr("no column of feedback comments"));
     moodle.set_grade(moodle.people()[1], "9");
     EXPECT_THAT(moodle.text(), HasSubstr("Συμμετέχων 13,Bo M,9,10.00,\n"));
 }
@@ -102,9 +102,9 @@ TEST_F(platform_sheet, canvas_fills_the_column_of_the_assignment) {
     EXPECT_EQ(canvas.people()[0].number, "31");
     EXPECT_EQ(canvas.people()[0].id, "s1");
     canvas.set_grade(canvas.people()[0], "9.5");
-    std::string wanted = before;
-    wanted.replace(wanted.find("A,8,,80"), 7, "A,8,9.5,80");
-    EXPECT_EQ(canvas.text(), wanted);
+    std::string expected = before;
+    expected.replace(expected.find("A,8,,80"), 7, "A,8,9.5,80");
+    EXPECT_EQ(canvas.text(), expected);
     EXPECT_THAT(refusal(before), AllOf(HasSubstr("--assignment must name the column"), HasSubstr("Lab 3 (1233)")));
 }
 

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// Every group has a report.
-void hand_in_all(CourseBench& bench, int groups) {
+void submit_all(CourseBench& bench, int groups) {
     for (int i = 1; i <= groups; ++i)
         bench.bench().write("in/" + CourseBench::group(i) + ".pdf", small_pdf("report " + std::to_string(i)));
     CourseBench::expect_done(bench.course({"submit", "in", "--at", "2026-03-01 10:00", "--no-checks"}));
@@ -43,7 +43,7 @@ Secrets secrets_of(Course& course) {
 TEST(pseudonyms, a_copy_of_a_course_draws_other_numbers_and_pairs) {
     for (const int groups : {12, 30, 60}) {
         CourseBench bench(groups);
-        hand_in_all(bench, groups);
+        submit_all(bench, groups);
         bench.bench().shell("cp -r k twin");
         const std::filesystem::path folder = bench.bench().path();
         std::vector<Secrets> drawn;
@@ -87,7 +87,7 @@ TEST(pseudonyms, any_two_reports_are_as_likely_for_a_reviewer) {
 // reviewer
 TEST(pseudonyms, numbers_are_equally_frequent_and_independent) {
     CourseBench bench(12);
-    hand_in_all(bench, 12);
+    submit_all(bench, 12);
     Course course(bench.bench().path() / "k");
     Database& db = course.database();
     db.execute("PRAGMA synchronous = OFF");
@@ -111,8 +111,8 @@ TEST(pseudonyms, numbers_are_equally_frequent_and_independent) {
 // oracle: the words and the tables themselves
 TEST(pseudonyms, no_seed_is_stored_printed_or_accepted) {
     CourseBench bench(3, 1);
-    hand_in_all(bench, 3);
-    std::string told;
+    submit_all(bench, 3);
+    std::string reported;
     for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"review", "assign", "--at", "2026-03-02 10:00"},
                                                {"review", "send", "--at", "2026-03-02 11:00"},
@@ -122,11 +122,11 @@ TEST(pseudonyms, no_seed_is_stored_printed_or_accepted) {
                                                {"assignment", "--help"},
                                                {"export", "--json"}}) {
         const ChildResult result = bench.course(words);
-        told += result.output + result.error_output;
+        reported += result.output + result.error_output;
     }
-    told += bench.dump() + bench.bench().shell("cat k/receipts/*/*").output;
-    EXPECT_THAT(told, HasSubstr("3 groups, 3 reviews: 3 new"));
-    EXPECT_THAT(told, Not(HasSubstr("seed")));
+    reported += bench.dump() + bench.bench().shell("cat k/receipts/*/*").output;
+    EXPECT_THAT(reported, HasSubstr("3 groups, 3 reviews: 3 new"));
+    EXPECT_THAT(reported, Not(HasSubstr("seed")));
     EXPECT_EQ(
         bench.course({"assignment", "next", "--kind", "talk", "--first", "2026-04-01 12:00", "--seed", "7"}).exit_code,
         2);
@@ -135,7 +135,7 @@ TEST(pseudonyms, no_seed_is_stored_printed_or_accepted) {
 // oracle: the pairs as the earlier version stored and showed them
 TEST(pseudonyms, of_a_store_with_a_seed_stay_as_they_were_drawn) {
     CourseBench bench(6);
-    hand_in_all(bench, 6);
+    submit_all(bench, 6);
     CourseBench::expect_done(bench.course({"review", "assign", "--at", "2026-03-02 10:00"}));
     const std::string before = bench.course({"review", "pairs"}).output;
     CourseBench::expect_done(bench.bench().shell(

@@ -17,7 +17,7 @@ class receipts : public testing::Test {
     static const CourseBench& begun() {
         static const CourseBench bench = [] {
             CourseBench made(2);
-            CourseBench::expect_done(made.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
+            CourseBench::expect_done(made.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
             CourseBench::expect_done(made.bench().shell(
                 "mkdir mine && cp k/receipts/crane/*-group-01-first-report.txt mine/r.txt && cp k/course.pub mine"));
             return made;
@@ -56,13 +56,13 @@ TEST_F(receipts, are_verified_without_the_course) {
 
 // Oracle: OpenSSL verifies the lines above the signature with the key of course.pub.
 TEST_F(receipts, are_signed_by_ed25519_as_other_programs_know_it) {
-    const ChildResult told = shell(
+    const ChildResult reported = shell(
         "cd mine && sed '/^public key:/,$d' r.txt > text && sed -n 's/^signature: //p' r.txt | xxd -r -p > signature "
         "&& "
         "(echo 302a300506032b6570032100; sed -n 's/^ed25519: //p' course.pub) | xxd -r -p > key.der && "
         "openssl pkeyutl -verify -pubin -keyform DER -inkey key.der -rawin -in text -sigfile signature");
-    EXPECT_EQ(told.exit_code, 0) << told.error_output;
-    EXPECT_THAT(told.output, HasSubstr("Signature Verified Successfully"));
+    EXPECT_EQ(reported.exit_code, 0) << reported.error_output;
+    EXPECT_THAT(reported.output, HasSubstr("Signature Verified Successfully"));
 }
 
 TEST_F(receipts, forged_and_altered_ones_are_refused) {
@@ -98,7 +98,7 @@ TEST_F(receipts, forged_and_altered_ones_are_refused) {
 
 TEST_F(receipts, of_another_course_are_refused) {
     CourseBench other(3);  // courses of equal size share a key
-    CourseBench::expect_done(other.hand_in("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
+    CourseBench::expect_done(other.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00"));
     write("theirs.pub", other.bench().read("k/course.pub"));
     EXPECT_NE(read("theirs.pub"), read("mine/course.pub"));
     const ChildResult result = verify({"mine/r.txt", "--key", "theirs.pub"});
@@ -110,9 +110,9 @@ TEST_F(receipts, of_another_course_are_refused) {
 TEST_F(receipts, that_are_shown_again_are_compared_with_what_came_after) {
     const auto verdict = [&](const std::string& file) { return course_.course({"verify", file}).output; };
     EXPECT_EQ(verdict("mine/r.txt"), "mine/r.txt: genuine\n");
-    CourseBench::expect_done(course_.hand_in("group-02.pdf", small_pdf("two"), "2026-03-01 10:00"));
+    CourseBench::expect_done(course_.submit_file("group-02.pdf", small_pdf("two"), "2026-03-01 10:00"));
     EXPECT_EQ(verdict("mine/r.txt"), "mine/r.txt: genuine\n");
-    CourseBench::expect_done(course_.hand_in("group-01.pdf", small_pdf("newer"), "2026-03-01 11:00"));
+    CourseBench::expect_done(course_.submit_file("group-01.pdf", small_pdf("newer"), "2026-03-01 11:00"));
     EXPECT_THAT(verdict("mine/r.txt"), HasSubstr("genuine, but a newer version was submitted"));
     CourseBench::expect_done(course_.course({"withdraw", "crane", "group-01", "--reason", "the wrong file"}));
     EXPECT_THAT(verdict("k/receipts/crane/00003-group-01-first-report.txt"), HasSubstr("but the file was withdrawn"));
@@ -133,7 +133,7 @@ TEST_F(receipts, are_for_one_file) {
     EXPECT_THAT(wrong.output, HasSubstr("genuine, but NOT for other.pdf: that file has another SHA-256"));
 }
 
-TEST_F(receipts, bad_keys_and_words_are_told) {
+TEST_F(receipts, bad_keys_and_words_are_reported) {
     for (const std::string& bad :
          {std::string("nothing\n"), std::string(), "dynlab receipt key 1\ned25519: 12\n" + std::string(64, '0'),
           "dynlab receipt key 1\ned25519: " + std::string(64, 'x') + "\n"}) {
@@ -184,7 +184,7 @@ TEST_F(receipts, of_courses_of_before_are_still_known_to_the_course) {
     write("altered.txt", altered);
     EXPECT_THAT(course_.course({"verify", "altered.txt"}).output, HasSubstr("NOT genuine"));
     // What comes from now on is signed, and the key is there again, the same.
-    CourseBench::expect_done(course_.hand_in("group-02.pdf", small_pdf("two"), "2026-03-01 10:00"));
+    CourseBench::expect_done(course_.submit_file("group-02.pdf", small_pdf("two"), "2026-03-01 10:00"));
     EXPECT_EQ(read("k/course.pub"), read("mine/course.pub"));
     CourseBench::expect_done(shell("cp k/receipts/crane/*-group-02-first-report.txt new.txt"));
     EXPECT_EQ(verify({"new.txt", "--key", "mine/course.pub"}).exit_code, 0);

@@ -60,7 +60,7 @@ class received_class : public testing::Test {
     std::optional<Course> course_;
 };
 
-TEST_F(received_class, without_a_roster_has_submissions_and_nobody) {
+TEST_F(received_class, without_a_roster_has_submissions_without_owners) {
     const ClassWork all = work(receive());
     EXPECT_FALSE(all.roster);
     ASSERT_EQ(all.items.size(), 3u);
@@ -124,7 +124,7 @@ TEST_F(received_class, equal_folder_adds_nothing_and_a_changed_one_a_version) {
     write("in/group-1/analysis.lua", "-- better");
     EXPECT_GT(item(work(receive()), "group-1").version, first);
     EXPECT_EQ(count("versions"), 4);
-    EXPECT_THAT(check_store(*course_).troubles, IsEmpty());
+    EXPECT_THAT(check_store(*course_).error_list, IsEmpty());
 }
 
 // oracle: unzip, another program
@@ -170,12 +170,12 @@ TEST_F(received_class, was_received_as_the_platform_s_table_says) {
     write("times.csv", "id,time\n3,2026-03-09 17:50\n");
     import();
     const std::string times = (folder_.path() / "times.csv").string();
-    const Instant told = 1773078600;  // date -u -d '2026-03-09 17:50' +%s
-    EXPECT_EQ(item(work(receive(ArrivalTimes(times))), "Ben Lee").received, told);
+    const Instant reported = 1773078600;  // date -u -d '2026-03-09 17:50' +%s
+    EXPECT_EQ(item(work(receive(ArrivalTimes(times))), "Ben Lee").received, reported);
     write("times.csv", "id,time\n3,2026-03-09 18:50\n");
-    EXPECT_EQ(item(work(receive(ArrivalTimes(times))), "Ben Lee").received, told + 3600);
-    EXPECT_EQ(item(work(receive()), "Ben Lee").received, told + 3600);
-    EXPECT_GT(item(work(receive()), "group-1").received, told);
+    EXPECT_EQ(item(work(receive(ArrivalTimes(times))), "Ben Lee").received, reported + 3600);
+    EXPECT_EQ(item(work(receive()), "Ben Lee").received, reported + 3600);
+    EXPECT_GT(item(work(receive()), "group-1").received, reported);
 }
 
 }  // namespace test_receive_class

@@ -13,18 +13,18 @@ using ::testing::HasSubstr;
 
 class recognised_file : public testing::Test {
   protected:
-    RecognisedFile seen(const std::string& name, const std::string& content, const std::string& stage = "first") const {
+    RecognizedFile seen(const std::string& name, const std::string& content, const std::string& stage = "first") const {
         write_file_atomically(folder_.path() / name, content);
         IncomingFile file;
         file.file = folder_.path() / name, file.name = name;
-        return recognise(file, Assignment{}, stage);
+        return recognize(file, Assignment{}, stage);
     }
     TemporaryFolder folder_;
 };
 
 TEST_F(recognised_file, content_says_what_it_is) {
     EXPECT_EQ(seen("a.pdf", small_pdf("a")).part, "report");
-    const RecognisedFile named = seen("review-report-78.docx", small_pdf("a"), "review");
+    const RecognizedFile named = seen("review-report-78.docx", small_pdf("a"), "review");
     EXPECT_EQ(named.part, "review");
     EXPECT_EQ(named.name, "review-report-78.docx.pdf");
     EXPECT_EQ(message_text(named.remark), "a PDF, although its name ends in \".docx\"");
@@ -32,20 +32,22 @@ TEST_F(recognised_file, content_says_what_it_is) {
     EXPECT_EQ(seen("c.zip", "PK\x03\x04 files").part, "pack");
 }
 
-TEST_F(recognised_file, what_nobody_can_read_has_its_reason) {
+TEST_F(recognised_file, what_no_one_can_read_has_its_reason) {
     const std::string empty_zip("PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 22);
-    for (const auto& [name, content, trouble, reason] :
+    for (const auto& [name, content, error_reason, reason] :
          {std::tuple("a.zip", empty_zip, "empty", "The zip file is empty"),
           std::tuple("b.pdf", std::string(), "empty", "The file is empty"),
           std::tuple("c.zip", std::string("Rar!\x1A\x07"), "closed-archive", "a RAR archive"),
           std::tuple("d.7z", std::string("7z\xBC\xAF\x27\x1C"), "closed-archive", "a 7z archive"),
           std::tuple("e.xlsx", std::string("PK\x03\x04 table"), "other-kind", "neither a PDF nor a pack"),
           std::tuple("f.lua", std::string("print(1)"), "other-kind", "neither a PDF nor a pack")}) {
-        const RecognisedFile found = seen(name, content);
+        const RecognizedFile found = seen(name, content);
         EXPECT_EQ(found.part, kUnreadable) << name;
-        EXPECT_EQ(found.trouble, trouble) << name;
+        EXPECT_EQ(found.error_reason, error_reason) << name;
         EXPECT_THAT(message_text(found.reason), HasSubstr(reason)) << name;
-        EXPECT_EQ(inspection_from(unreadable_inspection(found.trouble, found.reason).json).trouble, trouble) << name;
+        EXPECT_EQ(inspection_from(unreadable_inspection(found.error_reason, found.reason).json).error_reason,
+                  error_reason)
+            << name;
     }
 }
 
@@ -60,8 +62,8 @@ class every_incoming_file : public testing::Test {
         request.program = DYNLAB_PROGRAM;
         return receive(course_, request);
     }
-    std::map<std::string, HandedInParts> parts_of_first_group() {
-        std::map<std::string, HandedInParts> found;
+    std::map<std::string, SubmittedParts> parts_of_first_group() {
+        std::map<std::string, SubmittedParts> found;
         for (const auto& [group, stages] : newest_versions(course_, assignment_named(course_, "crane")))
             for (const Group& one : groups_of(course_))
                 if (one.id == group && stages.contains("first")) found[one.name] = stages.at("first");
@@ -79,12 +81,12 @@ TEST_F(every_incoming_file, leaves_a_trace_with_a_receipt_and_replaces_nothing) 
     const ReceiveOutcome taken = take({"group-01.zip"}, noon_ + 60);
     ASSERT_EQ(taken.received.size(), 1u);
     EXPECT_EQ(taken.received[0].part, kUnreadable);
-    EXPECT_EQ(taken.received[0].trouble, "closed-archive");
+    EXPECT_EQ(taken.received[0].error_reason, "closed-archive");
     EXPECT_TRUE(taken.refused.empty());
-    const HandedInParts parts = parts_of_first_group()["group-01"];
+    const SubmittedParts parts = parts_of_first_group()["group-01"];
     EXPECT_EQ(parts.at("report").version, 1);
-    EXPECT_EQ(parts.at("report").trouble, "");
-    EXPECT_EQ(parts.at(kUnreadable).trouble, "closed-archive");
+    EXPECT_EQ(parts.at("report").error_reason, "");
+    EXPECT_EQ(parts.at(kUnreadable).error_reason, "closed-archive");
     EXPECT_THAT(bench_.bench().shell("ls k/receipts/crane").output, HasSubstr("group-01-first-unreadable"));
     EXPECT_TRUE(take({"group-01.zip"}, noon_ + 120).received[0].known);
 }
@@ -98,7 +100,7 @@ TEST_F(every_incoming_file, several_pdfs_are_kept_until_one_of_them_comes_alone)
         ASSERT_EQ(taken.received.size(), 2u);
         EXPECT_EQ(taken.refused.size(), 2u);
         for (const Received& one : taken.received) {
-            EXPECT_EQ(one.trouble, "several");
+            EXPECT_EQ(one.error_reason, "several");
             EXPECT_EQ(one.known, i == 1);
         }
         EXPECT_FALSE(parts_of_first_group()["group-02"].contains("report"));

@@ -29,13 +29,13 @@ TEST(returns, bring_what_is_new_for_whom) {
     const auto shell = [&](const std::string& command) { return course.bench().shell(command).output; };
     done({"import", "roster.csv"});
     for (int i = 1; i <= 3; ++i)
-        course.hand_in(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)), "2026-03-01 10:00",
-                       {"--no-checks"});
+        course.submit_file(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)), "2026-03-01 10:00",
+                           {"--no-checks"});
     done({"review", "assign", "--at", "2026-03-02 10:00"});
     done({"review", "send", "--at", "2026-03-02 11:00"});
-    const std::string told = done({"deliver", "crane", "--out", "monday", "--moodle"});
-    EXPECT_THAT(told, AllOf(HasSubstr("group-01: 00001-group-01-first-report.txt, report-"),
-                            HasSubstr("For 3 groups, in monday"), HasSubstr("the mail address of group-02")));
+    const std::string reported = done({"deliver", "crane", "--out", "monday", "--moodle"});
+    EXPECT_THAT(reported, AllOf(HasSubstr("group-01: 00001-group-01-first-report.txt, report-"),
+                                HasSubstr("For 3 groups, in monday"), HasSubstr("the mail address of group-02")));
     EXPECT_EQ(shell("ls monday/*/report-*.pdf | wc -l"), "3\n");
     EXPECT_EQ(
         shell("for f in monday/*/report-*.pdf; do cmp $f k/outbox/crane/to-review/${f#monday/} || echo differs; done"),
@@ -49,7 +49,7 @@ TEST(returns, bring_what_is_new_for_whom) {
     EXPECT_THAT(done({"deliver", "crane", "--out", "tuesday"}), HasSubstr("No new files to deliver."));
     EXPECT_EQ(shell("ls -d tuesday 2>/dev/null"), "");
     // A newer version is new for its reviewer, and its receipt for the group; nothing else.
-    course.hand_in("group-01.pdf", small_pdf("better"), "2026-03-02 12:00", {"--no-checks"});
+    course.submit_file("group-01.pdf", small_pdf("better"), "2026-03-02 12:00", {"--no-checks"});
     done({"review", "send", "--at", "2026-03-02 13:00"});
     done({"deliver", "crane", "--out", "wednesday"});
     EXPECT_EQ(shell("find wednesday -name '*.pdf' | wc -l"), "1\n");
@@ -64,8 +64,8 @@ TEST(returns, bring_what_is_new_for_whom) {
 TEST(returns, two_deliveries_into_one_folder_are_one) {
     CourseBench course(12, 2);
     for (int i = 1; i <= 12; ++i)
-        course.hand_in(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)), "2026-03-01 10:00",
-                       {"--no-checks"});
+        course.submit_file(CourseBench::group(i) + ".pdf", small_pdf(std::to_string(i)), "2026-03-01 10:00",
+                           {"--no-checks"});
     ASSERT_EQ(course.course({"review", "assign", "--at", "2026-03-02 10:00"}).exit_code, 0);
     ASSERT_EQ(course.course({"review", "send", "--at", "2026-03-02 11:00"}).exit_code, 0);
     for (int round = 1; round <= 4; ++round) {

@@ -154,8 +154,8 @@ TEST_F(review_rules, pairs_that_change_while_copies_are_made_are_sent_as_they_ar
         [&](const CopyRequest& request) {
             if (!std::exchange(changed, true)) {  // what a second terminal does meanwhile
                 const ReviewPair taken = term.pair_of(request.group == "group-01" ? "group-02" : "group-01");
-                wish_pair(term.course_, term.crane_, taken.reviewer_name, taken.author_name, "forbid",
-                          "they share a flat", term.at("2026-03-02 11:00"));
+                constrain_pair(term.course_, term.crane_, taken.reviewer_name, taken.author_name, "forbid",
+                               "they share a flat", term.at("2026-03-02 11:00"));
                 assign_reviews(term.course_, term.crane_, term.at("2026-03-02 11:00"), true);
                 EXPECT_TRUE(term.pair_of(taken.reviewer_name, true).ended);
             }
@@ -163,13 +163,13 @@ TEST_F(review_rules, pairs_that_change_while_copies_are_made_are_sent_as_they_ar
             return CopyOutcome{true, {}, {}};
         },
         true);
-    std::set<std::string> wanted, sent;
+    std::set<std::string> expected, sent;
     for (const ReviewPair& pair : term.pairs())
-        if (!pair.ended) wanted.insert(pair.reviewer_name + "/" + pair.report_pseudonym() + ".pdf");
+        if (!pair.ended) expected.insert(pair.reviewer_name + "/" + pair.report_pseudonym() + ".pdf");
     const std::filesystem::path outbox = term.course_.folder() / "outbox/crane/to-review";
     for (const auto& entry : std::filesystem::recursive_directory_iterator(outbox))
         if (entry.is_regular_file()) sent.insert(entry.path().lexically_relative(outbox).string());
-    EXPECT_EQ(sent, wanted);
+    EXPECT_EQ(sent, expected);
 }
 
 // oracle: the next version has no scores until they are given
@@ -348,7 +348,7 @@ TEST_F(review_rules, a_pair_is_not_set_for_a_report_that_does_not_exist) {
     withdraw(course_, crane_, {"group-04", "first", "", "", {}}, true, "wrong file", at("2026-03-03 10:00"));
     const auto set = [&](const std::string& author) {
         return refusal(
-            [&] { wish_pair(course_, crane_, "group-01", author, "set", "agreed", at("2026-03-03 11:00")); });
+            [&] { constrain_pair(course_, crane_, "group-01", author, "set", "agreed", at("2026-03-03 11:00")); });
     };
     EXPECT_THAT(set("group-04"), HasSubstr("group-04 has submitted no report for crane"));
     EXPECT_EQ(set("group-02"), "");

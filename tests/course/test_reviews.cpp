@@ -40,8 +40,8 @@ std::vector<std::string> ids(const ChildResult& checked) {
     std::vector<std::string> found;
     const nlohmann::json report = nlohmann::json::parse(checked.output, nullptr, false);
     if (report.is_discarded()) return {checked.output + checked.error_output};
-    for (const auto& finding : report.at("findings"))
-        if (found.empty() || found.back() != finding.at("id")) found.push_back(finding.at("id"));
+    for (const auto& issue : report.at("findings"))
+        if (found.empty() || found.back() != issue.at("id")) found.push_back(issue.at("id"));
     return found;
 }
 
@@ -73,7 +73,7 @@ TEST(reviews, the_form_is_checked_by_its_own_rules) {
 }
 
 // oracle: the roster; a review that names somebody is told of at once and never released
-TEST(reviews, that_name_somebody_are_told_of_at_receipt) {
+TEST(reviews, that_contain_a_name_are_reported_at_receipt) {
     CourseBench course(3, 2);
     const Workbench& bench = course.bench();
     for (int i = 1; i <= 3; ++i)
@@ -84,7 +84,7 @@ TEST(reviews, that_name_somebody_are_told_of_at_receipt) {
     CourseBench::expect_done(course.course({"review", "assign", "--at", "2026-03-02 10:00"}));
     make_review(bench, "fair", kAnswer);
     make_review(bench, "loose", std::string(kAnswer) + "Student 3 of group-03 told us more.");
-    const auto hand_in = [&](const std::string& file, int place) {
+    const auto submit_file = [&](const std::string& file, int place) {
         const std::string report =
             bench
                 .shell("$DYNLAB course --course k review pairs | awk '$1 == \"group-01\" {print $2}' | sed -n " +
@@ -95,8 +95,8 @@ TEST(reviews, that_name_somebody_are_told_of_at_receipt) {
                      "--at", "2026-03-03 10:00"})
             .output;
     };
-    EXPECT_THAT(hand_in("fair.pdf", 1), AllOf(HasSubstr("in time"), Not(HasSubstr("broken"))));
-    EXPECT_THAT(hand_in("loose.pdf", 2), HasSubstr("rules violated: a name was found"));
+    EXPECT_THAT(submit_file("fair.pdf", 1), AllOf(HasSubstr("in time"), Not(HasSubstr("broken"))));
+    EXPECT_THAT(submit_file("loose.pdf", 2), HasSubstr("rules violated: a name was found"));
     const ChildResult findings = course.course({"findings", "group-01", "--stage", "review"});
     EXPECT_EQ(findings.exit_code, 1);
     EXPECT_THAT(findings.output,
@@ -114,9 +114,9 @@ TEST(reviews, that_name_somebody_are_told_of_at_receipt) {
 // oracle: what dynlab check says of the same file
 TEST(reviews, findings_of_stored_versions_are_shown_as_check_shows_them) {
     CourseBench bench(2);
-    bench.hand_in("group-01.pdf", small_pdf("one TODO"), "2026-03-01 10:00");
-    bench.hand_in("group-01.pdf", small_pdf("two"), "2026-03-01 11:00");
-    bench.hand_in("group-02.pdf", small_pdf("unseen"), "2026-03-01 11:00", {"--no-checks"});
+    bench.submit_file("group-01.pdf", small_pdf("one TODO"), "2026-03-01 10:00");
+    bench.submit_file("group-01.pdf", small_pdf("two"), "2026-03-01 11:00");
+    bench.submit_file("group-02.pdf", small_pdf("unseen"), "2026-03-01 11:00", {"--no-checks"});
     const std::string checked = bench.bench().dynlab({"check", "group-01.pdf", "--template", "lab_report"}).output;
     const ChildResult newest = bench.course({"findings", "group-01"});
     EXPECT_EQ(newest.exit_code, 1);

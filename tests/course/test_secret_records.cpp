@@ -25,7 +25,7 @@ std::vector<std::string> levels() {
 }
 
 // oracle: numbers that stand in a file which the script must not read, and in the records of this and the other run
-TEST(secret_records, a_data_set_that_was_handed_in_names_no_files_of_others) {
+TEST(secret_records, a_data_set_that_was_submitted_names_no_files_of_others) {
     for (const std::string& level : levels()) {
         GradingBench bench("--   x: number\n",
                            "check{id = 'x', rerun = 'suspension', test = function(a, b) return b.x == 42 end}\n",
@@ -39,17 +39,17 @@ TEST(secret_records, a_data_set_that_was_handed_in_names_no_files_of_others) {
             {"upwards", "../../../home" + std::string(kOfficialMat)},
         };
         for (const auto& [name, place] : places) {
-            bench.hand_in(name, "error('it was read: ' .. load('mine').y[1])\n");
+            bench.submit_file(name, "error('it was read: ' .. load('mine').y[1])\n");
             work.write("in/" + std::string(name) + "/data/mine/SOURCE.md", "Mine.\nCourse file: " + place + "\n");
         }
         const ChildResult graded =
             work.dynlab({"grade", "in", "--lesson", "99", "--out", "out", "--isolation", level, "--no-pdf"});
         ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
         for (const auto& [name, place] : places) {
-            const std::string trouble = GradingBench::trouble(bench.result(name));
-            EXPECT_THAT(trouble, Not(HasSubstr("dynlab read"))) << level;
+            const std::string error_reason = GradingBench::error_reason(bench.result(name));
+            EXPECT_THAT(error_reason, Not(HasSubstr("dynlab read"))) << level;
             EXPECT_THAT(
-                trouble,
+                error_reason,
                 HasSubstr(
                     "mine/SOURCE.md: \"Course file:\" must be followed by file names in that folder, but the path \"" +
                     place + "\" was given"))
@@ -73,7 +73,7 @@ TEST(secret_records, messages_quote_neither_hidden_records_nor_answers_of_reruns
         "  return a.t.right or near(dcgain('sample ' .. hidden('suspension').y[9]), 1) end}\n"
         "check{id = 'missing', rerun = 'suspension', test = function(a, b) return b.t.right or b.u end}\n",
         solution);
-    bench.hand_in("quoting", computes + "answer('t', {text = text, judgement = {share = 0, message = text}})\n");
+    bench.submit_file("quoting", computes + "answer('t', {text = text, judgement = {share = 0, message = text}})\n");
     const ChildResult graded = bench.grade();
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     const auto result = bench.result("quoting");
@@ -100,7 +100,7 @@ TEST(secret_records, are_asked_for_inside_the_test_that_looks_at_them) {
     for (const char* use : {"hidden('suspension')", "truth('suspension')"}) {
         GradingBench bench("--   x: number\n",
                            "local secret = " + std::string(use) + "\ncheck{id = 'x', test = function() end}\n", "");
-        bench.hand_in("a", "answer('x', 42)\n");
+        bench.submit_file("a", "answer('x', 42)\n");
         const ChildResult graded = bench.grade();
         EXPECT_EQ(graded.exit_code, 1);
         EXPECT_THAT(graded.error_output, HasSubstr("inside the test")) << use;
@@ -160,7 +160,7 @@ class secret_records_box : public ::testing::Test {
         const Workbench& work = bench_.bench();
         work.write("dynlab-boxed", program());
         work.shell("chmod +x dynlab-boxed && cp dynlab-boxed dynlab");
-        bench_.hand_in("a", "answer('x', 42)\n");
+        bench_.submit_file("a", "answer('x', 42)\n");
         GradingSetup setup;
         setup.lesson = {"99_small", work.path("home/lessons/99_small")};
         setup.secret = "chosen by a test";
@@ -181,7 +181,7 @@ class secret_records_box : public ::testing::Test {
 TEST_F(secret_records_box, holds_the_data_of_its_run_alone) {
     if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << message_text(*obstacle);
     const Grade grade = graded(Isolation::kFull);
-    EXPECT_EQ(message_text(grade.trouble),
+    EXPECT_EQ(message_text(grade.error_reason),
               "records: " + sum_of("suspension.csv") + sum_of("suspension.mat") + " left: .");
     EXPECT_THAT(grade.log, HasSubstr("  records: /box/home/data/suspension/suspension.mat "));
     EXPECT_THAT(grade.log, Not(HasSubstr("/box/suspension")));
@@ -190,7 +190,7 @@ TEST_F(secret_records_box, holds_the_data_of_its_run_alone) {
 TEST_F(secret_records_box, begins_with_an_empty_scratch_folder) {
     for (const std::string& level : levels()) {
         const Grade grade = graded(level == "full" ? Isolation::kFull : Isolation::kProcess);
-        EXPECT_THAT(message_text(grade.trouble), HasSubstr(" left: ."));
+        EXPECT_THAT(message_text(grade.error_reason), HasSubstr(" left: ."));
         EXPECT_THAT(grade.log, HasSubstr("run suspension: ")) << level;
         EXPECT_THAT(grade.log, Not(HasSubstr("was_here"))) << level;
     }

@@ -227,7 +227,7 @@ std::vector<ComparedScript> independent(unsigned count, unsigned seed) {
 constexpr double kLine = 0.6;
 
 // oracle: each script was made by itself
-TEST(similarity, fifty_who_work_alone_are_not_told) {
+TEST(similarity, fifty_who_work_alone_are_not_reported) {
     for (const unsigned seed : {1u, 1000u, 2000u, 3000u}) {
         const auto scripts = independent(50, seed);
         const auto pairs = similar_pairs(scripts, kStarter, kLine);
@@ -258,7 +258,7 @@ TEST(similarity, copies_are_found_whatever_they_are_called_and_laid_out) {
 }
 
 // oracle: as above; a class that copied from one source is told in spite of having everything in common
-TEST(similarity, a_class_of_copies_and_copies_of_the_worked_solution_are_told) {
+TEST(similarity, a_class_of_copies_and_copies_of_the_worked_solution_are_reported) {
     const std::string solution = Author(77).script();
     std::vector<ComparedScript> scripts;
     for (int k = 0; k < 10; ++k) scripts.push_back({fmt::format("{}", k), renamed(solution)});
@@ -358,9 +358,9 @@ TEST(similarity, the_command_compares_a_class_with_a_former_year) {
     GradingBench bench("--   x: number\n", "check{id = 'x', test = function(a) return true end}\n",
                        "-- BEGIN SOLUTION\n" + Author(9).script().substr(kStarter.find('\n') + 1) +
                            "-- END SOLUTION\nanswer('x', 1)\n");
-    bench.hand_in("a", Author(1).script());
-    bench.hand_in("b", renamed(Author(1).script()));
-    bench.hand_in("c", Author(2).script());
+    bench.submit_file("a", Author(1).script());
+    bench.submit_file("b", renamed(Author(1).script()));
+    bench.submit_file("c", Author(2).script());
     bench.bench().write("in/d/notes.txt", "no script");
     bench.bench().write("2025/old/analysis.lua", laid_out_anew(Author(2).script()));
     std::map<std::string, std::string> files;  // as a platform exports them

@@ -40,7 +40,7 @@ wait $grade; echo "code $?, stopped:$stopped"
 
 TEST(time_of_submissions, runs_that_wait_for_the_processor_pass) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", kSolution);
+    bench.submit_file("a", kSolution);
     std::string script = kGradeWithPauses;
     script.replace(script.find("LEVEL"), 5, GradingBench::level());
     const ChildResult graded = bench.bench().shell(script);
@@ -48,9 +48,9 @@ TEST(time_of_submissions, runs_that_wait_for_the_processor_pass) {
     EXPECT_EQ(GradingBench::score(bench.result("a")), 1);
 }
 
-TEST(time_of_submissions, a_machine_with_more_work_than_processors_fails_nobody) {
+TEST(time_of_submissions, a_machine_with_more_work_than_processors_fails_no_submission) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", kSolution);
+    bench.submit_file("a", kSolution);
     std::vector<ChildProcess> busy;
     for (unsigned i = 0; i < 2 * std::thread::hardware_concurrency(); ++i) {
         ChildOptions spin;
@@ -61,25 +61,26 @@ TEST(time_of_submissions, a_machine_with_more_work_than_processors_fails_nobody)
     EXPECT_EQ(GradingBench::score(bench.result("a")), 1);
 }
 
-TEST(time_of_submissions, the_limit_that_ended_one_is_told_with_its_figure) {
+TEST(time_of_submissions, the_limit_that_ended_one_is_reported_with_its_figure) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", "while true do end\n");
+    bench.submit_file("a", "while true do end\n");
     bench.grade({"--timeout", "1"});
-    EXPECT_THAT(GradingBench::trouble(bench.result("a")), HasSubstr("the script used more than 1 s of processor time"));
+    EXPECT_THAT(GradingBench::error_reason(bench.result("a")),
+                HasSubstr("the script used more than 1 s of processor time"));
 }
 
 // oracle: the same answer in a script that is stopped in Lua's own code
 TEST(time_of_submissions, answers_before_a_long_call_of_lua_s_functions_count) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const std::string work = "local s = string.rep('a', 2e8) for i = 1, 100 do s:upper() end";
-    bench.hand_in("loop", "answer('x', 42) while true do end\n");
-    bench.hand_in("upper", "answer('x', 42) " + work + "\n");
-    bench.hand_in("coroutine", "answer('x', 42) coroutine.wrap(function() " + work + " end)()\n");
-    bench.hand_in("caught", "answer('x', 42) " + work + " pcall(function() " + work + " end)\n");
+    bench.submit_file("loop", "answer('x', 42) while true do end\n");
+    bench.submit_file("upper", "answer('x', 42) " + work + "\n");
+    bench.submit_file("coroutine", "answer('x', 42) coroutine.wrap(function() " + work + " end)()\n");
+    bench.submit_file("caught", "answer('x', 42) " + work + " pcall(function() " + work + " end)\n");
     ASSERT_EQ(bench.grade({"--timeout", "2"}).exit_code, 0);
     for (const char* name : {"loop", "upper", "coroutine", "caught"}) {
         EXPECT_EQ(GradingBench::score(bench.result(name)), 1) << name;
-        EXPECT_THAT(GradingBench::trouble(bench.result(name)),
+        EXPECT_THAT(GradingBench::error_reason(bench.result(name)),
                     HasSubstr("the script used more than 2 s of processor time"));
     }
 }
@@ -89,11 +90,11 @@ TEST(time_of_submissions, a_run_that_the_clock_ended_is_known_from_one_that_used
     const Workbench bench;
     bench.write("in/analysis.lua", "while true do end\n");
     const auto run = [&](const TimeLimits& limits) {
-        Box box(strongest_isolation());
+        Sandbox sandbox(strongest_isolation());
         RunJob job;
-        job.script = box.add(bench.path("in"), "/box/submission") / "analysis.lua";
+        job.script = sandbox.add(bench.path("in"), "/box/submission") / "analysis.lua";
         job.time_ms = 60000, job.memory_bytes = 1ull << 30;
-        return run_boxed(box, DYNLAB_PROGRAM, job, limits);
+        return run_in_sandbox(sandbox, DYNLAB_PROGRAM, job, limits);
     };
     EXPECT_TRUE(run({std::chrono::milliseconds(60000), 0}).waited);
     const auto used = run({std::chrono::milliseconds(100), 100});
@@ -102,11 +103,11 @@ TEST(time_of_submissions, a_run_that_the_clock_ended_is_known_from_one_that_used
 }
 
 // oracle: the worked solution's own run, which is not made again for the second submission
-TEST(time_of_submissions, are_compared_with_the_worked_solution_also_where_it_is_remembered) {
+TEST(time_of_submissions, are_compared_with_the_worked_solution_also_where_it_is_cached) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", kSolution);
+    bench.submit_file("a", kSolution);
     ASSERT_EQ(bench.grade().exit_code, 0);
-    bench.hand_in("b", kSolution);
+    bench.submit_file("b", kSolution);
     ASSERT_EQ(bench.grade().exit_code, 0);
     for (const char* name : {"a", "b"})
         EXPECT_THAT(bench.bench().read("out/logs/" + std::string(name) + "/log.txt"),
@@ -114,7 +115,7 @@ TEST(time_of_submissions, are_compared_with_the_worked_solution_also_where_it_is
                           Not(HasSubstr("solution: 0.000 s"))));
 }
 
-TEST(time_of_submissions, a_worked_solution_that_uses_most_of_the_time_is_told) {
+TEST(time_of_submissions, a_worked_solution_that_uses_most_of_the_time_is_reported) {
     GradingSetup setup;
     setup.lesson = {"02_least_squares", lesson_folder("02_least_squares")};
     setup.isolation = strongest_isolation();

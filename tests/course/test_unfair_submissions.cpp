@@ -33,7 +33,7 @@ std::string row_of(GradingBench& bench, const std::string& id) {
 }
 
 // oracle: the platform's own part of a name, which stands first
-TEST(unfair_submissions, nobody_hands_in_for_another_by_the_name_of_a_file) {
+TEST(unfair_submissions, no_student_submits_for_another_by_the_name_of_a_file) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
     work.write("roster.csv", "id,name,canvas,moodle\n1002,Bob Victim,502,502\n1003,Eve Evil,503,503\n");
@@ -53,7 +53,7 @@ TEST(unfair_submissions, nobody_hands_in_for_another_by_the_name_of_a_file) {
 }
 
 // oracle: the instructor's view; of two submissions the better one counts, and that there are two is said
-TEST(unfair_submissions, two_of_one_student_are_told_and_typed_text_is_passed_over) {
+TEST(unfair_submissions, two_of_one_student_are_reported_and_typed_text_is_passed_over) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
     work.write("roster.csv", "id,name,moodle\n1002,Bob Victim,502\n1003,Eve Evil,503\n");
@@ -76,7 +76,7 @@ TEST(unfair_submissions, two_of_one_student_are_told_and_typed_text_is_passed_ov
 // oracle: the other answers, which are right
 TEST(unfair_submissions, an_empty_vector_spoils_no_other_check) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", "answer('x', 42)\nanswer('v', zeros(0))\n");
+    bench.submit_file("a", "answer('x', 42)\nanswer('v', zeros(0))\n");
     ASSERT_EQ(bench.grade().exit_code, 0);
     const auto tests = bench.result("a").at("tests");
     EXPECT_EQ(tests[0].value("score", -1.0), 2);
@@ -87,7 +87,7 @@ TEST(unfair_submissions, an_empty_vector_spoils_no_other_check) {
 // oracle: a comparison with NaN is false, its contrary true
 TEST(unfair_submissions, what_is_no_number_passes_no_comparison) {
     GradingBench bench(kAnswers, kChecks, kSolution);
-    bench.hand_in("a", "answer('x', 0/0)\nanswer('v', vector{1, 2, math.huge})\n");
+    bench.submit_file("a", "answer('x', 0/0)\nanswer('v', vector{1, 2, math.huge})\n");
     ASSERT_EQ(bench.grade().exit_code, 0);
     const auto tests = bench.result("a").at("tests");
     for (const auto& test : tests) EXPECT_EQ(test.value("score", -1.0), 0) << test;
@@ -100,14 +100,14 @@ TEST(unfair_submissions, answers_that_are_too_large_together_cost_no_other) {
                        "check{id = 'a', test = function(a) return near(a.a, 1) end}\n"
                        "check{id = 'v4', test = function(a) return #a.v4 == 2 end}\n",
                        "answer('a', 1)\nfor i = 1, 4 do answer('v' .. i, vector{1, 2}) end\n");
-    bench.hand_in("a", "answer('a', 1)\nfor i = 1, 4 do answer('v' .. i, rand(50000, 1)) end\n");
+    bench.submit_file("a", "answer('a', 1)\nfor i = 1, 4 do answer('v' .. i, rand(50000, 1)) end\n");
     const ChildResult graded = bench.grade();
     EXPECT_THAT(bench.result("a").dump(), HasSubstr("\\\"v3\\\" is too large")) << graded.output;
     EXPECT_EQ(bench.result("a").at("tests")[0].value("score", -1.0), 1);
 }
 
 // oracle: digits, of which a message that gives nothing away has none
-TEST(unfair_submissions, feedback_tells_no_distance_on_records_that_nobody_has_seen) {
+TEST(unfair_submissions, feedback_reports_no_distance_on_records_that_no_one_has_seen) {
     GradingBench bench(
         kAnswers,
         "check{id = 'own', test = function(a) return near(a.K, 1) end}\n"
@@ -115,7 +115,7 @@ TEST(unfair_submissions, feedback_tells_no_distance_on_records_that_nobody_has_s
         "check{id = 'hidden', test = function(a) return points_between(a.K/max(hidden('suspension').y), 1e8, "
         "1e9) end}\n",
         kSolution);
-    bench.hand_in("a", "answer('K', 1e3)\n");
+    bench.submit_file("a", "answer('K', 1e3)\n");
     ASSERT_EQ(bench.grade().exit_code, 1);
     const auto tests = bench.result("a").at("extra_data").at("dynlab").at("checks");
     EXPECT_THAT(tests[0].at("message").get<std::string>(), HasSubstr("The error is"));
@@ -133,16 +133,16 @@ TEST(unfair_submissions, documents_are_held_against_the_lessons_rules) {
                        "check{id = 'document', document = true, test = function() return no_finding('section-missing', "
                        "'pages') end}\n",
                        "answer('x', 42)\n");
-    bench.hand_in("own_template", "-- ---\n-- title: T\n-- template: lesson\n-- ---\nanswer('x', 42)\n");
+    bench.submit_file("own_template", "-- ---\n-- title: T\n-- template: lesson\n-- ---\nanswer('x', 42)\n");
     bench.bench().write("in/own_template/report.md", "---\ntitle: T\n---\n\nNothing.\n");
-    bench.hand_in("no_report", "answer('x', 42)\n");
+    bench.submit_file("no_report", "answer('x', 42)\n");
     std::string sections;
     for (const char* title : {"Process", "Experiment design", "Raw data", "Pre-processing",
                               "Choice of the model structure", "Parameter estimation", "Validation", "Conclusion"})
         sections += std::string("# ") + title + "\n\nWords.\n\n";
     const std::string whole = "---\ntitle: T\n---\n\n" + sections;
     bench.bench().write("home/lessons/99_small/report.en.md", whole);
-    bench.hand_in("whole", "answer('x', 42)\n");
+    bench.submit_file("whole", "answer('x', 42)\n");
     bench.bench().write("in/whole/report.md", whole);
     const ChildResult graded = bench.grade();
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
@@ -152,7 +152,7 @@ TEST(unfair_submissions, documents_are_held_against_the_lessons_rules) {
 }
 
 // oracle: the times that zip keeps
-TEST(unfair_submissions, an_export_keeps_the_times_of_what_was_handed_in) {
+TEST(unfair_submissions, an_export_keeps_the_times_of_what_was_submitted) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
     work.shell(zip_of("answer('x', 42)\\n", "in/early.zip"));
@@ -177,8 +177,8 @@ TEST(unfair_submissions, an_export_keeps_the_times_of_what_was_handed_in) {
 TEST(unfair_submissions, names_that_are_no_text_and_endless_messages_stop_nothing) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
-    bench.hand_in("honest", kRight);
-    bench.hand_in("talks", "error(string.rep('x ', 2000000))\n");
+    bench.submit_file("honest", kRight);
+    bench.submit_file("talks", "error(string.rep('x ', 2000000))\n");
     work.shell("mkdir \"$(printf 'in/latin\\351')\" && cp in/honest/analysis.lua \"$(printf 'in/latin\\351')\"/");
     work.shell("mkdir in/loop && ln -s loop in/loop/loop && cp in/honest/analysis.lua in/loop/");
     work.shell("mkdir in/sparse && cp in/honest/analysis.lua in/sparse/ && truncate -s 50G in/sparse/big");
@@ -189,7 +189,7 @@ TEST(unfair_submissions, names_that_are_no_text_and_endless_messages_stop_nothin
     EXPECT_EQ(GradingBench::score(bench.result("honest")), 5);
     EXPECT_EQ(GradingBench::score(bench.result("loop")), 5);
     EXPECT_EQ(GradingBench::score(bench.result("latiné")), 5);
-    EXPECT_THAT(GradingBench::trouble(bench.result("sparse")),
+    EXPECT_THAT(GradingBench::error_reason(bench.result("sparse")),
                 HasSubstr("too large: dynlab examines at most 2000 files and 200 MB"));
     EXPECT_THAT(graded.output,
                 AllOf(HasSubstr("need"), HasSubstr(" attention:\n"), HasSubstr("  \"sparse\" cannot be read")));
@@ -202,22 +202,22 @@ TEST(unfair_submissions, names_that_are_no_text_and_endless_messages_stop_nothin
 TEST(unfair_submissions, scripts_load_nothing_from_outside_their_folder_at_either_level) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     bench.bench().write("secret.csv", "a\n42\n");
-    bench.hand_in("absolute", "answer('x', load('" + bench.bench().path("secret.csv").string() + "').a[1])\n");
-    bench.hand_in("up", "answer('x', load('../../secret.csv').a[1])\n");
-    bench.hand_in("own", "answer('x', load('mine.csv').a[1])\n");
+    bench.submit_file("absolute", "answer('x', load('" + bench.bench().path("secret.csv").string() + "').a[1])\n");
+    bench.submit_file("up", "answer('x', load('../../secret.csv').a[1])\n");
+    bench.submit_file("own", "answer('x', load('mine.csv').a[1])\n");
     bench.bench().write("in/own/mine.csv", "a\n42\n");
     const ChildResult graded =
         bench.bench().dynlab({"grade", "in", "--lesson", "99", "--out", "out", "--isolation", "process", "--no-pdf"});
     ASSERT_EQ(graded.exit_code, 0) << graded.error_output;
     for (const char* name : {"absolute", "up"}) {
         EXPECT_EQ(GradingBench::score(bench.result(name)), 0) << name;
-        EXPECT_THAT(GradingBench::trouble(bench.result(name)), HasSubstr("is outside the folder"));
+        EXPECT_THAT(GradingBench::error_reason(bench.result(name)), HasSubstr("is outside the folder"));
     }
     EXPECT_EQ(GradingBench::score(bench.result("own")), 3);
 }
 
 // oracle: what the instructor is told
-TEST(unfair_submissions, the_instructor_is_told_of_slips_and_of_scripts_without_an_end) {
+TEST(unfair_submissions, the_instructor_gets_messages_about_slips_and_scripts_without_an_end) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
     work.write("roster.csv", "id,name,group,moodle\n1,Student One,g1,111\n2,Student Two,g1,112\n");

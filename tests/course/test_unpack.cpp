@@ -138,7 +138,7 @@ open('all.zip', 'wb').write(data)
     EXPECT_THAT(graded.output, HasSubstr("2 submissions: 2 graded now"));
     for (const char* name :
          {"Chloé Lefèvre_900001_assignsubmission_file_", "Jörg Weiß_900002_assignsubmission_file_"}) {
-        EXPECT_EQ(GradingBench::score(bench.result(name)), 1) << name << GradingBench::trouble(bench.result(name));
+        EXPECT_EQ(GradingBench::score(bench.result(name)), 1) << name << GradingBench::error_reason(bench.result(name));
         EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(fmt::format("{},graded,1,1", name)));
     }
     EXPECT_THAT(graded.error_output,

@@ -16,7 +16,7 @@ constexpr const char* kChecks =
     "check{id = 'x', points = 2, test = function(a) return near(a.x, 42, {rel = 0.01}) end}\n";
 
 // oracle: what each of them holds instead of a file that may be taken
-TEST(unreadable_submissions, that_are_left_out_whole_are_told_why) {
+TEST(unreadable_submissions, that_are_left_out_have_a_reported_reason) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
     work.write("make.py",
@@ -30,22 +30,23 @@ TEST(unreadable_submissions, that_are_left_out_whole_are_told_why) {
                   .exit_code,
               0);
     EXPECT_EQ(bench.grade().exit_code, 1);
-    for (const auto& [name, told] :
+    for (const auto& [name, reported] :
          {std::pair("absolute", "Left out: \"/tmp/analysis.lua\" points outside the archive."),
           std::pair("bytes", "Left out: the name of a file in the archive cannot be read."),
           std::pair("pipe", "Left out: \"analysis.lua\" is a link or not a regular file."),
           std::pair("link", "Left out: \"analysis.lua\" is a link or not a regular file.")})
-        EXPECT_THAT(GradingBench::trouble(bench.result(name)), AllOf(HasSubstr(told), Not(HasSubstr("empty")))) << name;
+        EXPECT_THAT(GradingBench::error_reason(bench.result(name)), AllOf(HasSubstr(reported), Not(HasSubstr("empty"))))
+            << name;
 }
 
 // oracle: what was handed in, and that no mark is not the mark 0
-TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
+TEST(unreadable_submissions, have_no_marks_and_are_reported_by_name) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();
-    bench.hand_in("right", kSolution);
-    bench.hand_in("silent", "local y = 1\n");
-    bench.hand_in("crane", "-- ---\n-- title: Crane\n-- lesson: 03_crane\n-- ---\nanswer('x', 42)\n");
-    bench.hand_in("cannot begin", "-- ---\n-- nonsense\n-- ---\n");
+    bench.submit_file("right", kSolution);
+    bench.submit_file("silent", "local y = 1\n");
+    bench.submit_file("crane", "-- ---\n-- title: Crane\n-- lesson: 03_crane\n-- ---\nanswer('x', 42)\n");
+    bench.submit_file("cannot begin", "-- ---\n-- nonsense\n-- ---\n");
     work.write("in/pdf/report.pdf", "%PDF");
     work.write("in/disguised/analysis.lua", "%PDF-1.4 a report");
     work.write("in/bytes/analysis.lua", std::string("\0\1\2", 3));
@@ -64,7 +65,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
     EXPECT_EQ(graded.exit_code, 1);
     EXPECT_THAT(graded.output, HasSubstr("17 notes need attention:\n"));
     const std::string book = work.read("out/gradebook.csv");
-    for (const auto& [name, told] :
+    for (const auto& [name, reported] :
          {std::pair("crane", "the script of lesson 03_crane, not of 99_small"), std::pair("pdf", "only \"report.pdf\""),
           std::pair("disguised", "Its analysis.lua is a PDF with another file extension"),
           std::pair("bytes", "Its analysis.lua is not a text"),
@@ -76,7 +77,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_told_by_name) {
           std::pair("hollow", "The submission is empty: it contains no analysis.lua."),
           std::pair("movie", "at most 2000 files and 200 MB")}) {
         EXPECT_FALSE(bench.result(name).contains("score")) << name;
-        EXPECT_THAT(GradingBench::trouble(bench.result(name)), HasSubstr(told)) << name;
+        EXPECT_THAT(GradingBench::error_reason(bench.result(name)), HasSubstr(reported)) << name;
         EXPECT_THAT(graded.output, HasSubstr(fmt::format("  \"{}\" cannot be read: ", name)));
         EXPECT_THAT(book, HasSubstr(fmt::format(",{},unreadable,,0,0,", name)));
         EXPECT_THAT(work.read(fmt::format("out/results/{}/feedback.md", name)), HasSubstr("has no marks yet"));
@@ -124,7 +125,7 @@ TEST(unreadable_submissions, scripts_are_found_wherever_they_lie_and_the_newest_
     for (const char* name : {"deep", "versions", "browser", "nested", "twice", "times"})
         EXPECT_EQ(GradingBench::score(bench.result(name)), 2) << name << bench.result(name).dump(1);
     EXPECT_EQ(GradingBench::score(bench.result("both")), 0);  // archives beside a script are not opened
-    EXPECT_THAT(GradingBench::trouble(bench.result("unclear")),
+    EXPECT_THAT(GradingBench::error_reason(bench.result("unclear")),
                 AllOf(HasSubstr("Several folders"), HasSubstr("\"one\", \"other\"")));
     EXPECT_THAT(graded.output, AllOf(HasSubstr("\"unclear\" cannot be read"), HasSubstr("was used as the newest")));
     EXPECT_THAT(work.read("out/summary.md"), AllOf(HasSubstr("work_v2.zip"), HasSubstr("was used as the newest")));

@@ -137,8 +137,8 @@ TEST_F(version_changes, bears_hostile_texts) {
     for (const char* group : {"group-01", "group-02"}) take("first.pdf", group), take("first.zip", group);
     review("---\ntitle: R\nlang: en\n---\n\n# Suggestions\n\n" + kHostile + "\n");
     take("last.pdf", "group-01", true), take("last.zip", "group-01", true);
-    const ChildResult told = changes({"--out", "out"});
-    CourseBench::expect_done(told);
+    const ChildResult reported = changes({"--out", "out"});
+    CourseBench::expect_done(reported);
     const std::string text = printed("group-01");
     EXPECT_THAT(text, HasSubstr("$x_1"));
     EXPECT_THAT(text, HasSubstr("input{/etc/passwd}"));

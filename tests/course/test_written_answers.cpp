@@ -283,7 +283,7 @@ TEST(written_answers, the_commands_read_a_course_and_a_folder) {
     CourseBench::expect_done(bench.course(
         {"assignment", "talk", "--kind", "presentation", "--lesson", "04", "--first", "2026-04-01 12:00"}));
     CourseBench::expect_done(
-        bench.hand_in("group-01.lua", work.read("w/analysis.lua"), "2026-03-30 10:00", {"--assignment", "talk"}));
+        bench.submit_file("group-01.lua", work.read("w/analysis.lua"), "2026-03-30 10:00", {"--assignment", "talk"}));
     const ChildResult of_course = bench.course({"answers", "talk", "--question", "1", "-o", "out"});
     EXPECT_EQ(of_course.output,
               "1 submission: 1 answer, 1 of them different\nout/answers-q1.html\nout/answers-q1.csv\n")

@@ -27,7 +27,7 @@ inline std::string without_quotations(std::string french) {
     return french;
 }
 
-inline void expect_told_in_french(const Message& message) {
+inline void expect_french_text(const Message& message) {
     static const std::regex kEnglish(
         "(^|[^A-Za-z'-])(the|The|this|This|of|is|are|was|it|It|its|be|been|to|not|that|with|for|from|by|in|and|or|"
         "Write|Make|Take|Put|Give)($|[^A-Za-z'-])");
@@ -39,10 +39,10 @@ inline void expect_told_in_french(const Message& message) {
     EXPECT_FALSE(std::regex_search(words, kEnglish)) << english << "\nis told as\n" << french;
 }
 
-inline void expect_told_in_french(const Findings& findings) {
-    for (const Finding& finding : findings) {
-        expect_told_in_french(finding.what);
-        expect_told_in_french(finding.remedy);
+inline void expect_french_text(const Issues& findings) {
+    for (const Issue& issue : findings) {
+        expect_french_text(issue.what);
+        expect_french_text(issue.remedy);
     }
 }
 

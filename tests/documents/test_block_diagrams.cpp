@@ -49,15 +49,15 @@ TEST_F(block_diagrams, arrows_go_from_rim_to_rim) {
         for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(lines[3 + piece][i], back[piece][i] * px, 0.06) << piece << i;
 }
 
-TEST_F(block_diagrams, mistakes_are_told_with_their_line) {
-    for (const auto& [list, told] : {std::pair("- r = dot 1 1: $r$\n", "unknown kind \"dot\""),
-                                     {"- r = block 1: $r$\n", "a node must have the form NAME = KIND COLUMN ROW"},
-                                     {"- r = block 0 1: $r$\n", "whole numbers from 1 to 12"},
-                                     {"- r = block 99 1: $r$\n", "whole numbers from 1 to 12"},
-                                     {"- r -> S\n", "no node r is defined above this line"}}) {
+TEST_F(block_diagrams, mistakes_are_reported_with_their_line) {
+    for (const auto& [list, reported] : {std::pair("- r = dot 1 1: $r$\n", "unknown kind \"dot\""),
+                                         {"- r = block 1: $r$\n", "a node must have the form NAME = KIND COLUMN ROW"},
+                                         {"- r = block 0 1: $r$\n", "whole numbers from 1 to 12"},
+                                         {"- r = block 99 1: $r$\n", "whole numbers from 1 to 12"},
+                                         {"- r -> S\n", "no node r is defined above this line"}}) {
         const std::string message = refusal(diagram(list));
         EXPECT_THAT(message, HasSubstr("report.md:4: ")) << list;
-        EXPECT_THAT(message, HasSubstr(told)) << list;
+        EXPECT_THAT(message, HasSubstr(reported)) << list;
     }
     EXPECT_THAT(refusal(diagram("- a = sum 1 1\n- b = sum 2 2\n- a -> b\n")),
                 HasSubstr("report.md:6: in this block diagram \"a -> b\": a and b are neither in the same row nor in "

@@ -49,7 +49,7 @@ class choice_pages : public DocumentTest {
   protected:
     void open(const std::string& text = kQuestions) {
         browser.open("file://" + make(text, "page.html").string());
-        ASSERT_TRUE(browser.comes("document.querySelectorAll('.option').length > 0"));
+        ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.option').length > 0"));
     }
     json value(const std::string& expression) { return json::parse(browser.evaluate("return " + expression)); }
     std::string verdict(int option) {
@@ -92,7 +92,7 @@ TEST_F(choice_pages, a_click_says_right_or_wrong_and_why) {
     EXPECT_EQ(value("document.querySelectorAll('li.wrong').length"), 1);
 }
 
-TEST_F(choice_pages, obey_the_keyboard_and_tell_those_who_listen) {
+TEST_F(choice_pages, obey_the_keyboard_and_are_readable_by_screen_readers) {
     open("---\nlang: fr\n---\n" + std::string(kQuestions));
     browser.evaluate("document.querySelector('.option').focus()");
     press("\uE007");  // Enter
@@ -104,7 +104,7 @@ TEST_F(choice_pages, obey_the_keyboard_and_tell_those_who_listen) {
     EXPECT_EQ(value("document.querySelector('.verdict').getAttribute('aria-live')"), "polite");
 }
 
-TEST_F(choice_pages, what_was_chosen_stays_where_a_page_sets_the_question_anew) {
+TEST_F(choice_pages, what_was_chosen_stays_where_a_page_sets_the_question_again) {
     open();
     browser.evaluate("document.querySelectorAll('.option')[0].click()");
     const std::string page = read(file("page.html"));

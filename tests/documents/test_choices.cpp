@@ -69,13 +69,13 @@ TEST_F(choices, are_folded_below_their_question_in_html) {
     EXPECT_THAT(page, AllOf(HasSubstr("<summary>Answer</summary>"), Not(HasSubstr("Answers to the questions"))));
 }
 
-TEST_F(choices, that_are_not_whole_are_told_with_their_line) {
-    const auto told = [&](const std::string& body) { return refusal("Text.\n\n::: choice\n" + body + ":::\n"); };
-    EXPECT_THAT(told("Why?\n\n- [ ] a\n\n  No.\n- [ ] b\n\n  No.\n"), HasSubstr("a correct one"));
-    EXPECT_THAT(told("Why?\n\n- [x] a\n- [ ] b\n"),
+TEST_F(choices, that_are_not_whole_are_reported_with_their_line) {
+    const auto reported = [&](const std::string& body) { return refusal("Text.\n\n::: choice\n" + body + ":::\n"); };
+    EXPECT_THAT(reported("Why?\n\n- [ ] a\n\n  No.\n- [ ] b\n\n  No.\n"), HasSubstr("a correct one"));
+    EXPECT_THAT(reported("Why?\n\n- [x] a\n- [ ] b\n"),
                 AllOf(HasSubstr(":4: "), HasSubstr("says why the option is correct or wrong")));
-    EXPECT_THAT(told("Why?\n\n- a\n\n  No.\n- [x] b\n\n  Yes.\n"), HasSubstr("each option starts with [x] or [ ]"));
-    EXPECT_THAT(told("Why?\n"), HasSubstr("a choice consists of a question and a list"));
+    EXPECT_THAT(reported("Why?\n\n- a\n\n  No.\n- [x] b\n\n  Yes.\n"), HasSubstr("each option starts with [x] or [ ]"));
+    EXPECT_THAT(reported("Why?\n"), HasSubstr("a choice consists of a question and a list"));
 }
 
 }  // namespace test_choices

@@ -142,7 +142,7 @@ TEST_F(chunk_setter, footnotes_are_those_of_the_whole_document) {
     expect_as_at_once(changed(noted, "a note", "another note"));
 }
 
-TEST_F(chunk_setter, literature_stands_behind_the_last_chunk) {
+TEST_F(chunk_setter, literature_is_behind_the_last_chunk) {
     write("references.bib",
           "@book{ljung1999, author = {Ljung, Lennart}, title = {System Identification}, year = {1999}}\n");
     const std::string cited =
@@ -155,7 +155,7 @@ TEST_F(chunk_setter, literature_stands_behind_the_last_chunk) {
     expect_as_at_once(changed(cited, " [@ljung1999]", ""));
 }
 
-TEST_F(chunk_setter, literature_stands_where_its_author_puts_it) {
+TEST_F(chunk_setter, literature_is_where_its_author_puts_it) {
     write("references.bib",
           "@book{ljung1999, author = {Ljung, Lennart}, title = {System Identification}, year = 1999}\n");
     const std::string text = changed(changed(kText, "title: A report", "title: A report\nbibliography: references.bib"),

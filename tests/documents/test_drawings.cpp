@@ -81,7 +81,7 @@ TEST_F(drawings, lie_within_their_frames) {
     }
 }
 
-TEST_F(drawings, mistakes_are_told_with_their_line) {
+TEST_F(drawings, mistakes_are_reported_with_their_line) {
     const std::string unknown = refusal(drawn("crain"));
     EXPECT_THAT(unknown, HasSubstr("report.md:3: unknown drawing \"crain\""));
     EXPECT_THAT(unknown, HasSubstr("crane"));

@@ -30,7 +30,7 @@ TEST_F(html_documents, the_file_needs_nothing_but_itself) {
 
 // Oracle: Content Security Policy Level 3, SHA-256 by platform/hash; a browser asked so runs the page's own script
 // alone and asks no server.
-TEST_F(html_documents, browsers_are_told_to_run_our_script_alone_and_load_nothing) {
+TEST_F(html_documents, browsers_must_run_our_script_alone_and_load_nothing) {
     const std::string text = html("[a](https://example.org){.wide} <https://example.org> `script-src 'none'`\n");
     const std::string before =
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src '";
@@ -127,7 +127,7 @@ TEST_F(html_documents, the_extension_chooses_the_format) {
     EXPECT_THROW(document_format("a.docx"), DocumentError);
 }
 
-TEST_F(html_documents, what_stands_in_screen_blocks_is_shown_by_pages_only_and_counts_nothing) {
+TEST_F(html_documents, the_content_of_screen_blocks_is_shown_by_pages_only_and_counts_nothing) {
     for (const char* name : {"first", "moving", "last"}) add_figure(name, "Shown", DocumentFormat::kHtml);
     const std::string text =
         "![](figure:first)\n\n::: screen\nMove it.\n\n![](figure:moving)\n:::\n\n![](figure:last){#fig:last}\n\nSee "

@@ -171,7 +171,7 @@ TEST_F(latex_documents, a_format_that_is_begun_is_taken_or_leaves_nothing) {
     EXPECT_EQ(inspect_pdf(file("out.pdf")).pages.size(), 1u);
 }
 
-TEST_F(latex_documents, the_title_stands_in_the_metadata) {
+TEST_F(latex_documents, the_title_is_in_the_metadata) {
     std::map<std::string, std::string> metadata;
     for (const auto& [key, value] : pdf("---\ntitle: A *step* of ω\n---\nText\n").metadata) metadata[key] = value;
     EXPECT_EQ(metadata["Title"], "A step of ω");

@@ -47,7 +47,7 @@ TEST_F(literature, citations_have_the_forms_that_pandoc_knows) {
     EXPECT_THAT(text, HasSubstr("after (2011)"));
 }
 
-TEST_F(literature, the_list_stands_where_the_author_puts_it) {
+TEST_F(literature, the_list_is_where_the_author_puts_it) {
     const std::string page =
         html(header_ + "As @young2011 says.\n\n# Books\n\n::: references\n:::\n\n# Appendix\n\nLast.\n");
     EXPECT_LT(page.find("Recursive Estimation"), page.find("Appendix"));
@@ -142,7 +142,7 @@ TEST_F(literature, a_link_to_a_file_outside_the_folder_is_refused) {
     EXPECT_EQ(refusal("---\nbibliography: same.bib\n---\nAs in [@ljung1999].\n"), "");
 }
 
-TEST_F(literature, a_bibliography_that_cannot_be_read_is_told) {
+TEST_F(literature, a_bibliography_that_cannot_be_read_is_reported) {
     EXPECT_THAT(refusal("---\nbibliography: none.bib\n---\nText\n"),
                 HasSubstr("none.bib: the bibliography file is missing"));
     EXPECT_THAT(refusal("---\nbibliography: ../books.bib\n---\nText\n"),
@@ -165,17 +165,17 @@ TEST_F(literature, what_a_bibliography_holds_reaches_no_file_and_no_script) {
 }
 
 TEST_F(literature, latex_that_would_be_printed_is_an_error_with_its_line) {
-    for (const auto& [written, told] : {std::pair("\\newpage", "\\newpage"),
-                                        {"\\begin{align} a &= b \\end{align}", "\\begin"},
-                                        {"as in \\ref{fig:x}", "\\ref"},
-                                        {"an angle \\alpha here", "\\alpha"},
-                                        {"\\(x\\) is", "\\(...\\)"},
-                                        {"\\[x\\]", "\\[...\\]"},
-                                        {"\\[\nx\n\\]", "\\[...\\]"},
-                                        {"so \\(y = a x\\)", "\\(...\\)"}}) {
+    for (const auto& [written, reported] : {std::pair("\\newpage", "\\newpage"),
+                                            {"\\begin{align} a &= b \\end{align}", "\\begin"},
+                                            {"as in \\ref{fig:x}", "\\ref"},
+                                            {"an angle \\alpha here", "\\alpha"},
+                                            {"\\(x\\) is", "\\(...\\)"},
+                                            {"\\[x\\]", "\\[...\\]"},
+                                            {"\\[\nx\n\\]", "\\[...\\]"},
+                                            {"so \\(y = a x\\)", "\\(...\\)"}}) {
         const std::string message = refusal("One.\n\n" + std::string(written) + "\n");
         EXPECT_THAT(message, HasSubstr("report.md:3: ")) << written;
-        EXPECT_THAT(message, HasSubstr(told)) << written;
+        EXPECT_THAT(message, HasSubstr(reported)) << written;
     }
     EXPECT_EQ(refusal("\\\\input{x} \\[a\\](b) \\[see below\\] \\(or not\\)\n"), "");
     EXPECT_EQ(refusal("`\\newpage`, $\\alpha$, C:\\temp, \\\\, 5\\ m, \\(a, \\[1\\.\n\n```\n\\begin{x} \\(x\\)\n```\n"),

@@ -23,7 +23,7 @@ using testing::HasSubstr;
 /// 6 cm x 3 cm: a block of 1 cm that slides 1 cm a metre and stands at x = 1.5 cm at 0 m. Measured: t/4 m, simulated 2
 /// m.
 Figure sliding_block() {
-    RigDrawing rig;
+    PlantDrawing rig;
     rig.width = 6, rig.height = 3;
     rig.parts = {{"position", "m", -1, false, 1, 0, 1, 0}};
     rig.pieces = {{{0, 6}, {0.5, 0.5}, {-1, -1}, false, 1.1},
@@ -32,7 +32,7 @@ Figure sliding_block() {
     MotionRecord record;
     record.t = Vector::LinSpaced(501, 0, 10);
     record.measured = record.t / 4, record.simulated = Matrix::Constant(501, 1, 3);
-    MotionLook look;
+    MotionAppearance look;
     look.title = Message("A block");
     return motion_plot(rig, record, look);
 }
@@ -63,7 +63,7 @@ class motion_pages : public testing::Test {
     std::filesystem::path page() const { return folder.path() / "page.html"; }
     void open() {
         browser.open("file://" + page().string());
-        ASSERT_TRUE(browser.comes("document.querySelector('.motion') !== null"));
+        ASSERT_TRUE(browser.becomes_true("document.querySelector('.motion') !== null"));
         browser.evaluate("window.motion = document.querySelector('.motion').motion");
     }
     json value(const std::string& expression) { return json::parse(browser.evaluate("return " + expression)); }
@@ -104,7 +104,7 @@ TEST_F(motion_pages, parts_stand_where_their_signals_say) {
     EXPECT_GT(colour(5.9, 0.5)[3], 100) << "the floor";
 }
 
-TEST_F(motion_pages, tell_in_words_what_they_show) {
+TEST_F(motion_pages, describe_in_words_what_they_show) {
     make();
     open();
     browser.evaluate("motion.show(4)");
@@ -128,17 +128,17 @@ TEST_F(motion_pages, play_in_real_time_or_slower_and_pause) {
     browser.click(".motion button");
     EXPECT_EQ(value("motion.button.innerText"), "Pause");
     browser.evaluate("window.from = [performance.now(), motion.now]");
-    ASSERT_TRUE(browser.comes("motion.now > 1"));
+    ASSERT_TRUE(browser.becomes_true("motion.now > 1"));
     const json passed = value("[(performance.now() - from[0]) / 1000, motion.now - from[1]]");
     EXPECT_NEAR(passed[1].get<double>(), passed[0].get<double>(), 0.3);
     browser.click(".motion button");
     const double at = now();
-    EXPECT_FALSE(browser.comes("motion.playing", 0.3));
+    EXPECT_FALSE(browser.becomes_true("motion.playing", 0.3));
     EXPECT_EQ(now(), at);
     browser.evaluate(
         "motion.select.value = '0.1'; motion.select.dispatchEvent(new Event('change')); motion.play();"
         "window.from = [performance.now(), motion.now]");
-    EXPECT_FALSE(browser.comes("false", 1));
+    EXPECT_FALSE(browser.becomes_true("false", 1));
     const json slower = value("[(performance.now() - from[0]) / 1000, motion.now - from[1]]");
     EXPECT_NEAR(slower[1].get<double>(), 0.1 * slower[0].get<double>(), 0.05);
 }
@@ -150,7 +150,7 @@ TEST_F(motion_pages, keep_their_pace_when_the_button_is_pressed_again_and_again)
         "for (let i = 0; i < 7; ++i) document.querySelector('.motion button').click();"
         "window.from = [performance.now(), motion.now]");
     EXPECT_EQ(value("motion.playing"), true);
-    EXPECT_FALSE(browser.comes("false", 1));
+    EXPECT_FALSE(browser.becomes_true("false", 1));
     const json passed = value("[(performance.now() - from[0]) / 1000, motion.now - from[1]]");
     EXPECT_NEAR(passed[1].get<double>(), passed[0].get<double>(), 0.3);
     EXPECT_THAT(value("motion.stage.getAttribute('aria-label')").get<std::string>(), HasSubstr(" 0.000 s"))
@@ -160,13 +160,13 @@ TEST_F(motion_pages, keep_their_pace_when_the_button_is_pressed_again_and_again)
                 testing::Not(HasSubstr(" 0.000 s")));
 }
 
-TEST_F(motion_pages, end_where_the_record_ends_and_begin_anew) {
+TEST_F(motion_pages, end_where_the_record_ends_and_begin_again) {
     make();
     open();
     browser.evaluate("motion.show(9.9); motion.play()");
-    EXPECT_TRUE(browser.comes("motion.now === 10 && !motion.playing"));
+    EXPECT_TRUE(browser.becomes_true("motion.now === 10 && !motion.playing"));
     browser.evaluate("motion.play()");
-    EXPECT_TRUE(browser.comes("motion.now > 0 && motion.now < 5"));
+    EXPECT_TRUE(browser.becomes_true("motion.now > 0 && motion.now < 5"));
 }
 
 TEST_F(motion_pages, obey_the_keyboard) {
@@ -174,7 +174,7 @@ TEST_F(motion_pages, obey_the_keyboard) {
     open();
     browser.evaluate("document.querySelector('.motion button').focus()");
     press(" ");
-    EXPECT_TRUE(browser.comes("motion.now > 0"));
+    EXPECT_TRUE(browser.becomes_true("motion.now > 0"));
     press(" ");
     EXPECT_EQ(value("motion.playing"), false);
     press(kTab);
@@ -188,15 +188,15 @@ TEST_F(motion_pages, obey_the_keyboard) {
     EXPECT_EQ(value("motion.playing"), false) << "who takes the slider stops it";
 }
 
-TEST_F(motion_pages, stop_when_nobody_sees_them) {
+TEST_F(motion_pages, stop_when_they_are_not_visible) {
     make();
     open();
     browser.evaluate("motion.play()");
     browser.evaluate("window.scrollTo(0, document.body.scrollHeight)");
-    EXPECT_TRUE(browser.comes("!motion.playing", 3));
+    EXPECT_TRUE(browser.becomes_true("!motion.playing", 3));
     EXPECT_LT(now(), 8) << "it did not end with its record";
     browser.evaluate("window.scrollTo(0, 0)");
-    EXPECT_FALSE(browser.comes("motion.playing", 0.5)) << "and do not go on by themselves";
+    EXPECT_FALSE(browser.becomes_true("motion.playing", 0.5)) << "and do not go on by themselves";
 }
 
 TEST_F(motion_pages, show_their_instant_in_the_figure_below) {

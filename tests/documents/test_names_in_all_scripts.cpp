@@ -257,7 +257,7 @@ TEST_F(names_in_all_scripts, signs_that_only_direct_the_text_need_no_other_progr
     EXPECT_THAT(notes(), IsEmpty());
 }
 
-TEST_F(names_in_all_scripts, an_error_is_told_with_its_line_as_pdflatex_would) {
+TEST_F(names_in_all_scripts, an_error_is_reported_with_its_line_as_pdflatex_would) {
     const std::string message = refusal("# Юлия\n\nText.\n\nA formula $a + x^1^2$ here.\n", "out.pdf");
     EXPECT_THAT(message, HasSubstr("report.md:5: "));
     EXPECT_THAT(message, HasSubstr("Double superscript"));

@@ -64,7 +64,8 @@ class page_figures : public testing::Test {
 
     void open(int number_of_figures = 1) {
         browser.open("file://" + page().string());
-        ASSERT_TRUE(browser.comes(fmt::format("document.querySelectorAll('.plot').length === {}", number_of_figures)));
+        ASSERT_TRUE(
+            browser.becomes_true(fmt::format("document.querySelectorAll('.plot').length === {}", number_of_figures)));
         browser.evaluate("window.plot = document.querySelector('.plot').plot; window.panel = plot.panels[0]");
     }
     json value(const std::string& expression) { return json::parse(browser.evaluate("return " + expression)); }
@@ -195,13 +196,13 @@ TEST_F(page_figures, the_wheel_scrolls_the_page_until_the_figure_is_chosen) {
     open();
     browser.evaluate("document.querySelector('main').style.paddingBottom = '3000px'");
     turn_wheel(at(0.25, 0.5), 60);
-    EXPECT_TRUE(browser.comes("scrollY > 0"));
+    EXPECT_TRUE(browser.becomes_true("scrollY > 0"));
     EXPECT_EQ(value("panel.x.moved"), false);
     browser.evaluate("scrollTo(0, 0)");
     mouse({move(at(0.25, 0.5)), down(), up()});
     const auto place = at(0.25, 0.5);
     turn_wheel(place, -100);
-    ASSERT_TRUE(browser.comes("panel.x.moved"));
+    ASSERT_TRUE(browser.becomes_true("panel.x.moved"));
     EXPECT_EQ(value("scrollY"), 0);
     // What lies under the pointer stays there.
     EXPECT_NEAR(value("panel.x.position(2.5)"), 0.25, 0.01);
@@ -249,7 +250,7 @@ TEST_F(page_figures, cursors_of_figures_over_the_same_quantity_are_linked) {
         "document.createElement('div'); document.body.append(holder); window.same = dynlabPlots.show(holder, other, "
         "'same'); const third = JSON.parse(JSON.stringify(other)); third.panels[0].x.label = 'frequency (Hz)'; "
         "window.another = dynlabPlots.show(holder, third, 'another')");
-    ASSERT_TRUE(browser.comes("same.unit > 0 && another.unit > 0"));
+    ASSERT_TRUE(browser.becomes_true("same.unit > 0 && another.unit > 0"));
     const auto drawn = [&](const std::string& plot) {
         return value(
             "(p => p.over.getContext('2d').getImageData(0, 0, p.over.width, p.over.height).data.some(x => x > "

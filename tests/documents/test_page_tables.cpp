@@ -24,7 +24,7 @@ class page_tables : public DocumentTest {
         record_.figures["shown"].plot = plot_data(figure, {catalog_of(language)});
         make("---\nlang: " + language + "\n---\n\n![](figure:shown)\n", "page.html");
         browser.open("file://" + file("page.html").string());
-        ASSERT_TRUE(browser.comes("document.querySelector('.plot .data') !== null"));
+        ASSERT_TRUE(browser.becomes_true("document.querySelector('.plot .data') !== null"));
     }
     json value(const std::string& expression) { return json::parse(browser.evaluate("return " + expression)); }
     json rows(int table = 0) {
@@ -89,14 +89,14 @@ TEST_F(page_tables, are_copied_whole_and_shown_thinned) {
     browser.evaluate(
         "Object.defineProperty(navigator, 'clipboard', {value: {writeText: text => { window.copied = text; }}});"
         "document.querySelector('.samples .csv').click()");
-    ASSERT_TRUE(browser.comes("window.copied !== undefined"));
+    ASSERT_TRUE(browser.becomes_true("window.copied !== undefined"));
     const std::string csv = value("copied");
     EXPECT_TRUE(
         csv.starts_with("time (s),measured: position (m),\"simulated, \"\"free\"\": position (m)\",angle (rad)\n"
                         "0,0,0,0.125\n0.5,1,-0.5,0.25\n"))
         << csv.substr(0, 200);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1002);
-    EXPECT_TRUE(browser.comes("document.querySelector('.samples .csv').innerText === 'Copied'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.samples .csv').innerText === 'Copied'"));
 }
 
 /// Oracle: as many rows as the curve on the page has points.
@@ -116,13 +116,13 @@ TEST_F(page_tables, of_very_long_records_say_that_they_are_thinned) {
     browser.evaluate(
         "Object.defineProperty(navigator, 'clipboard', {value: {writeText: text => { window.copied = text; }}});"
         "document.querySelector('.samples .csv').click()");
-    ASSERT_TRUE(browser.comes("window.copied !== undefined"));
+    ASSERT_TRUE(browser.becomes_true("window.copied !== undefined"));
     const std::string csv = value("copied");
     EXPECT_TRUE(csv.starts_with(fmt::format("# thinned: {} of 20001 samples\ntime (s),", kept))) << csv.substr(0, 200);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kept + 2);
 }
 
-TEST_F(page_tables, tell_curves_of_other_abscissas_apart_and_both_edges_of_bands) {
+TEST_F(page_tables, distinguish_curves_of_other_abscissas_and_both_edges_of_bands) {
     Panel panel;
     panel.x_label = Message("x"), panel.y_label = Message("y (V)");
     Curve band = curve_of(Vector{{0.0, 1.0}}, Vector{{1.0, 2.0}}, "band");

@@ -138,12 +138,12 @@ class slider_pages : public testing::Test {
         made.add(1, document(2, 0, 1));
         write_file_atomically(page, made.page(read_file(page)));
         browser.open("file://" + page.string());
-        ASSERT_TRUE(browser.comes("document.querySelectorAll('.slider input').length === 3"));
-        ASSERT_TRUE(browser.comes("document.querySelector('div.plot')"));
+        ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.slider input').length === 3"));
+        ASSERT_TRUE(browser.becomes_true("document.querySelector('div.plot')"));
     }
     json value(const std::string& expression) { return json::parse(browser.evaluate("return " + expression)); }
     bool shows(const std::string& text) {
-        return browser.comes("document.querySelector('main').innerText.includes('" + text + "')");
+        return browser.becomes_true("document.querySelector('main').innerText.includes('" + text + "')");
     }
     void move(const std::string& name, int place) {
         browser.evaluate("const input = document.getElementById('slider-" + name +
@@ -311,7 +311,7 @@ TEST_F(slider_pages, keys_move_a_handle_step_by_step) {
 TEST_F(slider_pages, a_hand_keeps_the_handle_of_its_figure) {
     draws_twice_ = true;
     open();
-    ASSERT_TRUE(browser.comes("document.querySelectorAll('.handle').length === 2"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.handle').length === 2"));
     drag("mouse", {{0, 0.6}, {0, 0.8}, {0, 1}}, 1);
     EXPECT_TRUE(shows("A line again, gain 3"));
     EXPECT_EQ(place("k"), "3\u202fV");
@@ -331,7 +331,7 @@ TEST_F(slider_pages, open_tables_show_the_samples_of_the_place) {
     browser.evaluate(
         "Object.defineProperty(navigator, 'clipboard', {value: {writeText: text => { window.copied = text; }}});"
         "document.querySelector('.samples .csv').click()");
-    ASSERT_TRUE(browser.comes("window.copied !== undefined"));
+    ASSERT_TRUE(browser.becomes_true("window.copied !== undefined"));
     EXPECT_TRUE(value("copied.endsWith('\\n1,3\\n')")) << value("copied");
     browser.click(".plot .data");
     EXPECT_EQ(value("document.querySelectorAll('.samples').length"), 0);

@@ -104,11 +104,11 @@ TEST_F(slots, values_are_filled_in_captions_cells_headings_and_formulas) {
         const std::string prose = without_spaces(in_prose) + ".", formula = without_spaces(in_formula);
         for (const char* place : {"Title", "Heading", "Prose", "Caption", "Ofthescript:", "Column", "Inacell:",
                                   "Table2.Recorded", "Table1.Table", "Cell", "item", "quote", "note", "Box"}) {
-            const std::string wanted = place == std::string("Caption")
-                                           ? place + without_spaces(in_prose) + "and" + formula + "."
-                                       : place == std::string("Cell") ? place + without_spaces(value) + "."
-                                                                      : place + prose;
-            EXPECT_THAT(shown, HasSubstr(wanted)) << value;
+            const std::string expected = place == std::string("Caption")
+                                             ? place + without_spaces(in_prose) + "and" + formula + "."
+                                         : place == std::string("Cell") ? place + without_spaces(value) + "."
+                                                                        : place + prose;
+            EXPECT_THAT(shown, HasSubstr(expected)) << value;
         }
         EXPECT_THAT(shown, HasSubstr("Formula" + formula + ".")) << value;
         EXPECT_THAT(shown, HasSubstr(formula + "(1)")) << value;
@@ -159,7 +159,7 @@ TEST_F(slots, values_of_captions_formulas_and_headings_are_in_the_pdf) {
     }
 }
 
-TEST_F(slots, a_missing_value_is_told_with_its_line_and_shown_as_gap_wherever_it_stands) {
+TEST_F(slots, a_missing_value_is_reported_with_its_line_and_shown_as_gap_wherever_it_is) {
     record_.values["gain"] = {2.5, "2.5"};
     add_figure("a", "", DocumentFormat::kHtml);
     for (const char* place :
@@ -173,7 +173,7 @@ TEST_F(slots, a_missing_value_is_told_with_its_line_and_shown_as_gap_wherever_it
     }
 }
 
-TEST_F(slots, what_is_no_slot_is_told_with_its_line_and_the_right_form) {
+TEST_F(slots, what_is_no_slot_is_reported_with_its_line_and_the_right_form) {
     record_.values["gain"] = {2.5, "2.5"};
     const std::string before = "Right: `gain`{.value}.\n\n```\n`gain` {.value}\n```\n\n";
     EXPECT_THAT(refusal(before + "A `gain` {.value}\n"),
@@ -313,7 +313,7 @@ TEST_F(slots, a_figure_that_was_never_drawn_or_whose_file_is_gone_is_an_error) {
     EXPECT_THAT(refusal("![](figure:raw)\n"), HasSubstr("gone.svg does not exist"));
 }
 
-TEST_F(slots, every_mistake_is_told_at_once_up_to_ten) {
+TEST_F(slots, every_mistake_is_reported_at_once_up_to_ten) {
     std::string text;
     for (int i = 0; i < 12; ++i) text += "`name" + std::to_string(i) + "`{.value}\n\n";
     const std::string message = refusal(text);

@@ -35,7 +35,7 @@ class web_pages : public testing::Test {
         source.record = &record;
         DocumentMaker({.use_cache = false}).make(source, folder.path() / "page.html", DocumentFormat::kHtml, nullptr);
         browser.open("file://" + (folder.path() / "page.html").string());
-        ASSERT_TRUE(browser.comes("document.querySelector('.theme')"));
+        ASSERT_TRUE(browser.becomes_true("document.querySelector('.theme')"));
     }
     json value(const std::string& expression) { return json::parse(browser.evaluate("return " + expression)); }
     void media(const std::string& kind, const std::string& scheme) {
@@ -63,12 +63,12 @@ TEST_F(web_pages, contents_lead_to_the_sections) {
               true);
     EXPECT_EQ(value("document.querySelectorAll('.contents math').length"), 1);
     be_wide(1400);
-    EXPECT_TRUE(browser.comes("document.querySelector('.contents').open"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.contents').open"));
     EXPECT_EQ(value("document.querySelector('.contents').getBoundingClientRect().right < "
                     "document.querySelector('main').getBoundingClientRect().left"),
               true);
     be_wide(800);
-    EXPECT_TRUE(browser.comes("!document.querySelector('.contents').open"));
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('.contents').open"));
 }
 
 TEST_F(web_pages, short_ones_and_those_with_a_list_of_their_own_get_no_contents) {
@@ -81,7 +81,7 @@ TEST_F(web_pages, short_ones_and_those_with_a_list_of_their_own_get_no_contents)
     EXPECT_EQ(value("document.querySelectorAll('main nav').length"), 1);
 }
 
-TEST_F(web_pages, are_dark_where_the_system_is_until_told_otherwise_and_light_on_paper) {
+TEST_F(web_pages, are_dark_where_the_system_is_unless_set_otherwise_and_light_on_paper) {
     media("", "dark");
     open();
     EXPECT_TRUE(is_dark());
@@ -117,9 +117,9 @@ TEST_F(web_pages, code_is_copied_as_it_was_written) {
     open();
     browser.evaluate("navigator.clipboard.writeText = async (text) => { window.copied = text; }");
     browser.click(".copy");
-    EXPECT_TRUE(browser.comes("window.copied !== undefined"));
+    EXPECT_TRUE(browser.becomes_true("window.copied !== undefined"));
     EXPECT_EQ(value("copied"), "local x = 1\nprint(\"a long line of a script that no telephone shows whole\", x)");
-    EXPECT_TRUE(browser.comes("document.querySelector('.copy').textContent === 'Copied'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.copy').textContent === 'Copied'"));
 }
 
 TEST_F(web_pages, the_keyboard_reaches_every_button_and_shows_where_it_is) {
@@ -140,7 +140,7 @@ TEST_F(web_pages, the_keyboard_reaches_every_button_and_shows_where_it_is) {
     EXPECT_TRUE(reached.contains("copy"));
 }
 
-TEST_F(web_pages, ask_nobody_for_anything_and_break_no_rule_of_their_own) {
+TEST_F(web_pages, request_nothing_and_break_no_rule_of_their_own) {
     open();
     EXPECT_EQ(value("performance.getEntriesByType('resource').length"), 0);
     EXPECT_EQ(value("document.querySelectorAll('script[src], link, iframe').length"), 0);

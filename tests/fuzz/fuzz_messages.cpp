@@ -13,8 +13,8 @@ namespace {
 
 template <class T>
 void read_again(const std::string& bytes) {
-    const std::string written = cbor_of(from_cbor<T>(bytes, boxed_limits()));
-    fuzz::demand(cbor_of(from_cbor<T>(written, boxed_limits(written.size() + 1))) == written);
+    const std::string written = cbor_of(from_cbor<T>(bytes, sandbox_limits()));
+    fuzz::demand(cbor_of(from_cbor<T>(written, sandbox_limits(written.size() + 1))) == written);
 }
 
 }  // namespace

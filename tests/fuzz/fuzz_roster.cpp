@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         Submission submission;
         submission.name = text.substr(0, 60);
         const Owners::Found found = Owners(roster.students()).find(submission);
-        fuzz::demand(found.anybody() == found.trouble.empty());
+        fuzz::demand(found.anybody() == found.error_reason.empty());
         for (const std::size_t place : found.students) fuzz::demand(place < roster.students().size());
     } catch (const EnvironmentError& error) {
         fuzz::demand(*error.what() != '\0');

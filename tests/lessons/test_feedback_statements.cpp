@@ -144,7 +144,7 @@ struct AtRest {
     }
 };
 
-TEST(lesson_07_feedback, a_record_at_rest_tells_of_the_process_in_principle_only) {
+TEST(lesson_07_feedback, a_record_at_rest_describes_the_process_in_principle_only) {
     const AtRest very_long(3'000'000), as_recorded(5100);
     const Eigen::Vector4d truth = AtRest::true_theta();
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(very_long.theta[i], truth[i], 4 * very_long.error[i]) << i;

@@ -15,7 +15,7 @@ namespace test_grey_figures {
 
 class grey_figures : public testing::TestWithParam<const char*> {};
 
-TEST_P(grey_figures, neighbouring_curves_are_told_apart) {
+TEST_P(grey_figures, neighbouring_curves_are_distinguished) {
     const std::filesystem::path file = find_lesson(GetParam()).script();
     const PercentScript script = parse_percent_script(quick_solution_of(file.parent_path().filename()), file);
     const EnvironmentVariable cache_home("XDG_CACHE_HOME", Workbench(Workbench::Memory::kShared).cache());

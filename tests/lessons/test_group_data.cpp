@@ -66,18 +66,18 @@ TEST_F(group_data, of_a_lesson_that_stops_are_not_guessed) {
     }
 }
 
-TEST_F(group_data, are_found_anew_for_an_edited_lesson) {
+TEST_F(group_data, are_found_again_for_an_edited_lesson) {
     EXPECT_THAT(data_of("local c = load('crane')"), ElementsAre("crane"));
     EXPECT_THAT(data_of("local c = load('crane')"), ElementsAre("crane"));  // as kept
     EXPECT_THAT(data_of("local c = load('suspension')"), ElementsAre("suspension"));
 }
 
 TEST_F(group_data, records_are_the_bytes_that_lua_saves) {
-    for (const Rig& rig : rig_catalogue()) {
+    for (const Plant& rig : plant_catalog()) {
         const fs::path ours = path("ours"), theirs = path("theirs");
         fs::create_directories(ours);
         fs::create_directories(theirs);
-        write_specimen_record(rig.name, {.specimen = 5, .seed = 6}, ours);
+        write_variant_data(rig.name, {.specimen = 5, .seed = 6}, ours);
         RunOptions options;
         options.out_folder = theirs;
         GnuplotRenderer renderer;
@@ -88,13 +88,13 @@ TEST_F(group_data, records_are_the_bytes_that_lua_saves) {
         ASSERT_FALSE(run.error) << run.error->text();
         EXPECT_TRUE(read_file(ours / file) == read_file(theirs / file)) << rig.name;
     }
-    EXPECT_THROW(write_specimen_record("hairdryer", {}, path("ours")), InvalidArgument);
+    EXPECT_THROW(write_variant_data("hairdryer", {}, path("ours")), InvalidArgument);
 }
 
 TEST_F(group_data, stand_in_the_copy_of_a_group_and_of_no_other) {
     const Lesson spelt = lesson("local name = 'suspension'\nlocal d = load(name)");
     make_student_copy(spelt, path("group"), 7);
-    write_specimen_record("suspension", {.specimen = 7, .seed = 7}, path("."));
+    write_variant_data("suspension", {.specimen = 7, .seed = 7}, path("."));
     EXPECT_TRUE(read_file(path("group/data/suspension/suspension.mat")) == read_file(path("suspension.mat")));
     EXPECT_FALSE(fs::exists(path("group/data/crane")));
     EXPECT_EQ(group_seed_of(path("group/data")), 7u);

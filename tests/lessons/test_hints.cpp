@@ -62,7 +62,7 @@ std::string complaint(const std::string& text) {
     return "";
 }
 
-TEST(hints, that_cannot_be_read_are_told_with_their_line) {
+TEST(hints, that_cannot_be_read_are_reported_with_their_line) {
     EXPECT_THAT(complaint("## Question 2\n"), AllOf(HasSubstr("hints.md:1"), HasSubstr("# Question 4")));
     EXPECT_THAT(complaint("1. Look.\n"), AllOf(HasSubstr("hints.md:1"), HasSubstr("heading")));
     EXPECT_THAT(complaint("# Question 1\n1. a\n3. b\n"), AllOf(HasSubstr("hints.md:3"), HasSubstr("hint 2")));

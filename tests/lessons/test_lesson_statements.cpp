@@ -100,7 +100,7 @@ TEST_P(lesson_pages, show_every_figure_with_number_and_caption) {
         EXPECT_THAT(text, HasSubstr("](figure:" + name + "){#fig:")) << "no caption for the figure " << name;
 }
 
-TEST_P(lesson_pages, tell_students_how_results_reach_the_page) {
+TEST_P(lesson_pages, explain_to_students_how_results_reach_the_page) {
     const Workbench bench(Workbench::Memory::kShared);
     ASSERT_EQ(bench.dynlab({"new", GetParam(), "mine"}).exit_code, 0);
     std::istringstream copy(bench.read("mine/analysis.lua"));
@@ -337,7 +337,7 @@ end
 }
 
 // Oracle: the Cramér–Rao bound 0.2869 of an independent program, the errors that means and deviations of runs have.
-TEST(lesson_04_statements, of_scatter_stay_within_what_the_runs_can_tell) {
+TEST(lesson_04_statements, of_scatter_stay_within_what_the_runs_can_show) {
     const json record = record_of_lesson("04_estimators");
     const double bound = 0.2869, of_200 = 1 / std::sqrt(2.0 * 199), of_2000 = 1 / std::sqrt(2.0 * 1999);
     EXPECT_NEAR(number(record, "std_error"), 100 * of_200, 1e-9);

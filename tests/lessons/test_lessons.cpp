@@ -320,7 +320,7 @@ TEST_P(lesson_05_slides, type_no_result_in) {
 }
 
 // oracle: the notation of plot_data.h; how it moves is seen in tests/documents
-TEST(lesson_pages, of_crane_and_thruster_show_the_rig_in_motion_and_copies_say_how) {
+TEST(lesson_pages, of_crane_and_thruster_show_the_plant_in_motion_and_copies_say_how) {
     for (const auto& [lesson, parts] : {std::pair{"03_crane", 2}, std::pair{"05_thruster", 1}}) {
         const Workbench bench(Workbench::Memory::kShared);
         const std::string page = read_file(page_of_lesson(lesson));

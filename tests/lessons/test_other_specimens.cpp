@@ -60,7 +60,7 @@ TEST(other_specimens, carry_lesson_1_to_its_end_and_keep_its_words_true) {
         const RunRecord run = runtime.run(on_specimen(number));
         ASSERT_FALSE(run.error) << run.error->text();
         EXPECT_EQ(run.answers.size(), 6u);
-        const auto exchanger = heat_exchanger_truth(heat_exchanger_specimen(static_cast<std::uint32_t>(number)));
+        const auto exchanger = heat_exchanger_truth(heat_exchanger_variant(static_cast<std::uint32_t>(number)));
         const auto found = numbers_of(run, "exchanger", 1);
         EXPECT_NEAR(found[0], exchanger.gain, 0.02 * exchanger.gain);
         EXPECT_NEAR(found[1], exchanger.time_constant, 0.03 * exchanger.time_constant);

@@ -222,7 +222,7 @@ local from_rest = {states = 4, outputs = function(t, s) return {s[1], s[3]} end,
 )lua";
 
 // The equations once more, with other names and from other starts, on records that the lesson does not use.
-TEST(lesson_06_physics, of_friction_the_pushes_tell_more_than_their_standard_error) {
+TEST(lesson_06_physics, of_friction_the_pushes_show_more_than_their_standard_error) {
     const Workbench bench(Workbench::Memory::kShared);
     const auto record = record_of_code(bench, kCraneEquations + R"lua(local Ts = 0.02
 local function rested(r) return detrend(iddata(matrix{r.x, r.theta}, r.u, Ts), "start", {samples = 50}) end
@@ -297,7 +297,7 @@ end
 
 /// Standard deviation of what a linear difference equation with a constant, found by least squares one sample ahead,
 /// leaves in free run.
-double free_run_of_regression(const RigRecord& from, const RigRecord& on, Index lags) {
+double free_run_of_regression(const PlantData& from, const PlantData& on, Index lags) {
     const auto row = [lags](const Vector& y, const Vector& u, Index k) {
         Vector past(2 * lags + 1);
         past << y.segment(k - lags, lags), u.segment(k - lags, lags), 1;
@@ -324,7 +324,7 @@ TEST(lesson_06_physics, neither_noise_nor_products_make_the_free_run_of_narx) {
             EXPECT_NEAR(here, 0.268, 0.01) << "V";
         }
         with_noise += here / repetitions;
-        const RigRecord quiet = simulate_two_tanks(silent, {}, seed).estimation;
+        const PlantData quiet = simulate_two_tanks(silent, {}, seed).estimation;
         without += free_run_of_regression(quiet, noisy.validation, 4) / repetitions;
     }
     EXPECT_NEAR(without, with_noise, 0.1 * with_noise) << "noise is not to blame";

@@ -41,7 +41,7 @@ double error_in_cell(const nlohmann::json& record, const char* table, int row, i
     return std::stod(text.substr(text.find("± ") + 3));
 }
 
-TEST(report_statements, crane_is_judged_by_repetitions_and_by_its_equations) {
+TEST(report_statements, crane_is_evaluated_by_repetitions_and_by_its_equations) {
     const nlohmann::json record = record_of_lesson("03_crane");
     const CraneTruth truth = crane_truth({});
     const double gravity = CraneParameters{}.gravity;

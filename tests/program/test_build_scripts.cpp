@@ -10,10 +10,10 @@ using testing::HasSubstr;
 
 TEST(build_scripts, progress_is_what_was_said_however_slowly_it_comes) {
     const Workbench bench;
-    const ChildResult told = bench.shell("bash -c '. " DYNLAB_SOURCE_DIR
-                                         "/scripts/common.sh; "
-                                         "(printf 4; sleep 3; echo 2; sleep 10) | tell_progress Building'");
-    EXPECT_THAT(told.error_output, HasSubstr("Building: 42 % after 1"));
+    const ChildResult reported = bench.shell("bash -c '. " DYNLAB_SOURCE_DIR
+                                             "/scripts/common.sh; "
+                                             "(printf 4; sleep 3; echo 2; sleep 10) | tell_progress Building'");
+    EXPECT_THAT(reported.error_output, HasSubstr("Building: 42 % after 1"));
 }
 
 // Without a terminal; a line of a test's own output stays, whatever it says.
@@ -24,12 +24,12 @@ TEST(build_scripts, of_ctest_s_lines_those_of_suites_that_pass_are_left_out) {
         "      Start 12: srivc\n  1/520 Test  #12: srivc ......   Passed    0.50 sec\n"
         "  2/520 Test   #7: coe ........***Failed    0.61 sec\n[  FAILED  ] coe.x\na Start 3: of a test   Passed\n"
         "99% tests passed, 1 tests failed out of 520\n");
-    const ChildResult told = bench.shell("bash -c '. " DYNLAB_SOURCE_DIR "/scripts/common.sh; tell_tests < lines'");
+    const ChildResult reported = bench.shell("bash -c '. " DYNLAB_SOURCE_DIR "/scripts/common.sh; tell_tests < lines'");
     EXPECT_EQ(
-        told.output,
+        reported.output,
         "  2/520 Test   #7: coe ........***Failed    0.61 sec\n[  FAILED  ] coe.x\na Start 3: of a test   Passed\n"
         "99% tests passed, 1 tests failed out of 520\n");
-    EXPECT_EQ(told.error_output, "");
+    EXPECT_EQ(reported.error_output, "");
 }
 
 TEST(build_scripts, wrong_words_for_the_tests_are_named_before_anything_is_built) {

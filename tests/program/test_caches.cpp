@@ -30,8 +30,9 @@ class caches : public testing::Test {
     Workbench bench_;
 };
 
-std::string calls(int computed, int recalled) {
-    return " " + std::to_string(computed) + "  long calls computed, " + std::to_string(recalled) + " from the cache\n";
+std::string calls(int computed, int from_cache) {
+    return " " + std::to_string(computed) + "  long calls computed, " + std::to_string(from_cache) +
+           " from the cache\n";
 }
 TEST_F(caches, what_one_of_dynlabs_programs_computed_the_others_recall) {
     bench_.write("a.lua", kHeader + kStudy);
@@ -44,7 +45,7 @@ TEST_F(caches, what_one_of_dynlabs_programs_computed_the_others_recall) {
 
 // Of a portable build, the loader takes the library for this processor; another one is another program. Any library
 // under its name stands for that here.
-TEST_F(caches, another_variant_of_the_programs_library_recalls_nothing) {
+TEST_F(caches, another_variant_of_the_programs_library_has_no_cache_hits) {
     bench_.write("a.lua", kHeader + kStudy);
     const auto weave_with = [&](const std::string& environment) {
         return bench_.shell(environment + " $DYNLAB weave a.lua -o a.md --timings").output;
@@ -78,14 +79,14 @@ TEST_F(caches, serve_run_too) {
 
 // ---- where a run is
 
-TEST_F(caches, timings_tell_cells_figures_and_documents_apart) {
-    const std::string told = weave(kStudy + kLate, "a.pdf");
+TEST_F(caches, timings_distinguish_cells_figures_and_documents) {
+    const std::string reported = weave(kStudy + kLate, "a.pdf");
     for (const char* step : {" ms  run the script\n", " ms    cell study\n", " ms  pandoc\n", " ms  figures\n",
                              " ms  latex pass 1\n", " ms  in total\n"})
-        EXPECT_THAT(told, HasSubstr(step));
+        EXPECT_THAT(reported, HasSubstr(step));
 }
 
-TEST_F(caches, a_terminal_is_told_of_a_cell_that_takes_long_and_of_its_bar) {
+TEST_F(caches, a_terminal_shows_a_cell_that_takes_long_and_its_bar) {
     std::string study = kStudy;
     study.replace(study.find("300"), 3, "1000000");
     bench_.write("a.lua", kHeader + "-- %%\nprint(1)\n" + study);

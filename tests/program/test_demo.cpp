@@ -49,7 +49,7 @@ TEST(demo, is_printed_in_one_go_without_a_terminal_and_saves_its_figures) {
     EXPECT_GE(figures, 2);
 }
 
-TEST(demo, wrong_names_and_options_are_told) {
+TEST(demo, wrong_names_and_options_are_reported) {
     const Workbench bench;
     const ChildResult unknown = bench.dynlab({"demo", "delay"});
     EXPECT_EQ(unknown.exit_code, 1);

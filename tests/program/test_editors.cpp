@@ -53,9 +53,9 @@ TEST(editors, mark_the_lines_that_messages_name) {
     const std::set<std::string> documented = {"label", "type", "command", "args", "options", "problemMatcher", "group"};
     bench.write("wrong.lua", kWrong);
     bench.write("stops.lua", "local a = 1\nprint(zzz)\n");
-    const std::string told = bench.dynlab({"lint", "wrong.lua"}).output +
-                             bench.dynlab({"run", "stops.lua"}).error_output +
-                             bench.dynlab({"run", bench.path("stops.lua")}).error_output;
+    const std::string reported = bench.dynlab({"lint", "wrong.lua"}).output +
+                                 bench.dynlab({"run", "stops.lua"}).error_output +
+                                 bench.dynlab({"run", bench.path("stops.lua")}).error_output;
     for (const json& task : tasks.at("tasks")) {
         for (const auto& [key, value] : task.items()) EXPECT_TRUE(documented.contains(key)) << key;
         EXPECT_EQ(task.at("type"), "process");
@@ -69,7 +69,7 @@ TEST(editors, mark_the_lines_that_messages_name) {
         EXPECT_EQ(task.value("group", usual), usual);
         const std::regex matcher(pattern.at("regexp").get<std::string>());
         std::vector<std::string> places;
-        std::istringstream lines(told);
+        std::istringstream lines(reported);
         std::smatch found;
         for (std::string line; std::getline(lines, line);)
             if (std::regex_match(line, found, matcher))
@@ -77,11 +77,11 @@ TEST(editors, mark_the_lines_that_messages_name) {
                                  found[pattern.at("column")].str());
         EXPECT_THAT(places, testing::ElementsAre("wrong.lua 3 35", "wrong.lua 4 7", "stops.lua 2 ",
                                                  bench.path("stops.lua").string() + " 2 "))
-            << told;
+            << reported;
     }
 }
 
-TEST(editors, keep_what_somebody_has_changed) {
+TEST(editors, keep_what_a_user_has_changed) {
     const Workbench bench;
     std::filesystem::create_directories(bench.path("work"));
     EXPECT_EQ(bench.dynlab({"new", "editor", "nowhere"}).exit_code, 1);
@@ -96,7 +96,7 @@ TEST(editors, keep_what_somebody_has_changed) {
     EXPECT_THAT(bench.read("work/.dynlab/types.lua"), testing::StartsWith("---@meta\n"));
 }
 
-TEST(lint_command, tells_files_lines_and_columns) {
+TEST(lint_command, reports_files_lines_and_columns) {
     const Workbench& bench = copy_of_a_lesson();
     bench.write("wrong.lua", kWrong);
     bench.write("right.lua", "print(1)\n");
@@ -107,13 +107,13 @@ TEST(lint_command, tells_files_lines_and_columns) {
               "or variable 'modle'; did you mean 'model'?\n");
     EXPECT_THAT(bench.dynlab({"help", "guide-editors"}).output,
                 HasSubstr("wrong.lua:3:35: srivc: unknown option 'Lamda'"));
-    const json told = json::parse(bench.dynlab({"lint", "--json", "wrong.lua"}).output).at("findings");
-    ASSERT_EQ(told.size(), 2u);
-    EXPECT_EQ(told[1], json({{"file", "wrong.lua"},
-                             {"line", 4},
-                             {"column", 7},
-                             {"kind", "unknown-name"},
-                             {"message", "unknown function or variable 'modle'; did you mean 'model'?"}}));
+    const json reported = json::parse(bench.dynlab({"lint", "--json", "wrong.lua"}).output).at("findings");
+    ASSERT_EQ(reported.size(), 2u);
+    EXPECT_EQ(reported[1], json({{"file", "wrong.lua"},
+                                 {"line", 4},
+                                 {"column", 7},
+                                 {"kind", "unknown-name"},
+                                 {"message", "unknown function or variable 'modle'; did you mean 'model'?"}}));
     EXPECT_EQ(bench.dynlab({"lint", "right.lua"}).exit_code, 0);
     EXPECT_EQ(bench.dynlab({"lint", "right.lua"}).output, "");
     const ChildResult piped = bench.shell("printf 'x = 1\\nprint(yy)\\n' | \"$DYNLAB\" lint -");

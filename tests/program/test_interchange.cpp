@@ -75,14 +75,14 @@ save('-v7', 'back.mat', 'R');
 )code");
     const ChildResult read = files().shell("octave-cli -q read.m");
     ASSERT_EQ(read.exit_code, 0) << read.error_output;
-    const std::string& told = read.output;
-    EXPECT_NEAR(number_after(told, "gain"), 0.75, 1e-10);
-    EXPECT_EQ(number_after(told, "delay"), 0.5);
+    const std::string& reported = read.output;
+    EXPECT_NEAR(number_after(reported, "gain"), 0.75, 1e-10);
+    EXPECT_EQ(number_after(reported, "delay"), 0.5);
     for (const char* difference : {"discrete", "step", "arx", "response", "same"})
-        EXPECT_NEAR(number_after(told, difference), 0, 1e-8) << difference;
-    EXPECT_NEAR(number_after(told, "system"), 0.75, 1e-10);
-    EXPECT_THAT(told, HasSubstr("samples 635 635\n"));
-    EXPECT_THAT(told, HasSubstr("name y1\n"));
+        EXPECT_NEAR(number_after(reported, difference), 0, 1e-8) << difference;
+    EXPECT_NEAR(number_after(reported, "system"), 0.75, 1e-10);
+    EXPECT_THAT(reported, HasSubstr("samples 635 635\n"));
+    EXPECT_THAT(reported, HasSubstr("name y1\n"));
     const ChildResult back = files().dynlab(
         {"run", "-e", "local T = tf(load('back.mat').R) print(string.format('gain %.12g', dcgain(T)), #T.den)"});
     EXPECT_NEAR(number_after(back.output, "gain"), 3. / 7, 1e-9) << back.error_output;

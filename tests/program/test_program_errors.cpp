@@ -45,7 +45,7 @@ TEST(program_errors, script_that_fails_gives_the_report_up_to_there_and_its_erro
     EXPECT_THAT(report, HasSubstr("**\\[fit\\]**"));
 }
 
-TEST(program_errors, script_that_fails_is_told_even_where_no_report_can_be_made) {
+TEST(program_errors, script_that_fails_is_reported_even_where_no_report_can_be_made) {
     const Workbench bench;
     write_folder(bench, "error('on purpose')\n", "![A](absent.png)\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
@@ -58,7 +58,7 @@ TEST(program_errors, messages_go_to_the_program_that_asks_for_them) {
     const Workbench bench;
     write_folder(bench, "-- %%\nlocal x = y\n", "::: {.cells}\n:::\n");
     const ChildResult result = bench.shell("DYNLAB_MESSAGES=said \"$DYNLAB\" report mine -o out.md");
-    const SaidMessages said = read_said_messages(bench.path("said"));
+    const CommandMessages said = read_command_messages(bench.path("said"));
     EXPECT_EQ(said.results, std::vector{Message("{} (up to the error)", bench.path("out.md").string())});
     ASSERT_EQ(said.complaints.size(), 1u);
     EXPECT_EQ("dynlab: " + message_text(said.complaints.front()) + "\n", result.error_output);
@@ -66,7 +66,7 @@ TEST(program_errors, messages_go_to_the_program_that_asks_for_them) {
                 HasSubstr("analysis.lua:2: il n'y a ni fonction ni variable"));
     EXPECT_TRUE(said.notes.empty());
     bench.shell("DYNLAB_MESSAGES=said \"$DYNLAB\" report nowhere");
-    EXPECT_THAT(message_text(read_said_messages(bench.path("said")).all()), HasSubstr("nowhere"));
+    EXPECT_THAT(message_text(read_command_messages(bench.path("said")).all()), HasSubstr("nowhere"));
 }
 
 TEST(program_errors, control_c_ends_an_endless_loop_and_leaves_nothing) {
@@ -89,7 +89,7 @@ TEST(program_errors, characters_that_no_font_has_are_named_and_replaced) {
     EXPECT_THAT(made.error_output, HasSubstr("U+1FAE8"));
 }
 
-TEST(program_errors, latex_failure_tells_the_first_real_error) {
+TEST(program_errors, latex_failure_reports_the_first_real_error) {
     const Workbench bench;
     write_folder(bench, "print(1)\n", "# Results\n\n$$ x^1^2 $$\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
@@ -105,7 +105,7 @@ TEST(program_errors, output_that_cannot_be_written_is_named) {
     expect_failure(bench.dynlab({"report", "mine", "-o", "report.docx"}), 1, ".pdf");
 }
 
-TEST(program_errors, printing_into_a_full_device_is_told) {
+TEST(program_errors, printing_into_a_full_device_is_reported) {
     const Workbench bench;
     for (const char* words : {"help", "help srivc", "--help", "lessons", "run -e 'print(1)'",
                               "run -e 'for i = 1, 1e4 do print(i) end'", "run -e 'report.value(\"a\", 1)'"}) {
@@ -128,7 +128,7 @@ TEST(program_errors, full_disk_leaves_the_old_report) {
     EXPECT_EQ(result.output, "report.pdf\nold\n");
 }
 
-TEST(program_errors, missing_programs_are_told_with_the_package) {
+TEST(program_errors, missing_programs_are_reported_with_the_package) {
     for (const auto& [program, package] :
          {std::pair{"gnuplot", "gnuplot-nox"}, {"pandoc", "pandoc"}, {"pdflatex", "texlive-latex-base"}}) {
         Workbench bench;
@@ -142,7 +142,7 @@ TEST(program_errors, missing_programs_are_told_with_the_package) {
 }
 
 // The messages themselves: tests/unit/cli/test_usage_message.cpp and tests/unit/workflow/test_given_script.cpp.
-TEST(program_errors, wrong_words_are_told_in_all_programs_and_nothing_is_written) {
+TEST(program_errors, wrong_words_are_reported_in_all_programs_and_nothing_is_written) {
     const Workbench bench;
     write_folder(bench, "-- %%\nprint(1)\n", "Text\n");
     bench.write("mine/report.pdf", "%PDF the good one");
@@ -185,7 +185,7 @@ TEST(program_errors, lint_reads_notebooks_and_names_their_cells) {
     EXPECT_THAT(found.output, HasSubstr("meen"));
 }
 
-TEST(program_errors, a_folder_that_cannot_be_made_is_told_as_other_files_are) {
+TEST(program_errors, a_folder_that_cannot_be_made_is_reported_as_other_files_are) {
     const Workbench bench;
     bench.write("block", "a file");
     expect_failure(bench.dynlab({"run", "-e", "print(1)", "--out", "block/out"}), 1,

@@ -46,7 +46,7 @@ TEST(programs, dynlab_course_has_all_commands) {
 }
 
 // oracle: what the lesson program does alone
-TEST(programs, lesson_program_alone_runs_lessons_and_tells_how_to_build_other_commands) {
+TEST(programs, lesson_program_alone_runs_lessons_and_reports_how_to_build_other_commands) {
     const test::Workbench work;
     put(work, {"dynlab"});
     fs::create_directories(work.path("own/lessons"));

@@ -15,14 +15,14 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-std::string told(const Workbench& bench, const std::string& script, const std::string& code) {
+std::string reported(const Workbench& bench, const std::string& script, const std::string& code) {
     bench.write(script, code);
     return bench.dynlab({"run", script}).error_output;
 }
 
 TEST(script_messages, an_error_shows_the_path_as_given_the_line_and_the_calls) {
     const Workbench bench;
-    EXPECT_EQ(told(bench, "A/a.lua", "local function f(n)\n  return zeros(n)\nend\nf('x')\n"),
+    EXPECT_EQ(reported(bench, "A/a.lua", "local function f(n)\n  return zeros(n)\nend\nf('x')\n"),
               "dynlab: A/a.lua:2: zeros: argument 1 (n) must be a number, but the text \"x\" was given\n"
               "    return zeros(n)\n"
               "  A/a.lua:4: called f(n = \"x\")\n"
@@ -33,7 +33,7 @@ TEST(script_messages, an_error_shows_the_path_as_given_the_line_and_the_calls) {
     EXPECT_EQ(bench.dynlab({"run", "-e", "error('no')"}).error_output, "dynlab: command line:1: no\n    error('no')\n");
 }
 
-TEST(script_messages, a_report_tells_the_same) {
+TEST(script_messages, a_report_has_the_same_messages) {
     const Workbench bench;
     bench.write("A/analysis.lua", "local function f(n)\n  return zeros(n)\nend\nf(-1)\nprint('never')\n");
     bench.write("A/report.md", "---\ntitle: A\n---\n\nText.\n");
@@ -58,7 +58,7 @@ TEST(script_messages, run_prints_what_is_reported) {
     EXPECT_THAT(run.error_output, IsEmpty());  // a script without text has no reader that misses it
 }
 
-TEST(script_messages, run_report_and_check_tell_what_has_no_place) {
+TEST(script_messages, run_report_and_check_report_what_has_no_place) {
     const Workbench bench;
     bench.write("A/analysis.lua", "report.value('fit', 93.25, '%.1f')\nreport.value('gain', 2, '%.0f')\n");
     bench.write("A/report.md", "---\ntitle: A\n---\n\nThe fit is `fit`{.value} % of what could be had.\n");
@@ -83,7 +83,7 @@ TEST(script_messages, run_report_and_check_tell_what_has_no_place) {
     EXPECT_THAT(bench.dynlab({"run", "A"}).error_output, IsEmpty());
 }
 
-TEST(script_messages, check_tells_that_nobody_is_named) {
+TEST(script_messages, check_reports_that_nobody_is_named) {
     const Workbench bench;
     bench.write("A/analysis.lua", "print(1)\n");
     bench.write("A/report.md", "---\ntitle: A\n---\n\nText.\n");

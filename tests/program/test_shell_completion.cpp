@@ -106,7 +106,7 @@ TEST_F(shell_completion, bash_completes_names_and_files) {
     EXPECT_THAT(answer("report 'reports/a'", 2), ElementsAre("reports/a b.lua"));
 }
 
-TEST_F(shell_completion, zsh_is_told_names_and_where_files_stand) {
+TEST_F(shell_completion, zsh_gets_names_and_the_positions_of_files) {
     if (!find_program("zsh")) GTEST_SKIP() << "zsh is not installed";
     // Completion needs a terminal; the functions that show words are replaced by some that print them.
     const auto answer = [&](const std::string& words) {

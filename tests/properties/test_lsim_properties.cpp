@@ -35,8 +35,8 @@ Vector irregular_instants() {
     return t;
 }
 
-void expect_close(const Vector& given, const Vector& wanted, std::size_t model) {
-    EXPECT_LT((given - wanted).lpNorm<Eigen::Infinity>(), 1e-11 * (1 + wanted.lpNorm<Eigen::Infinity>()))
+void expect_close(const Vector& given, const Vector& expected, std::size_t model) {
+    EXPECT_LT((given - expected).lpNorm<Eigen::Infinity>(), 1e-11 * (1 + expected.lpNorm<Eigen::Infinity>()))
         << "model " << model;
 }
 
@@ -63,10 +63,10 @@ TEST_P(lsim_properties, a_later_input_gives_the_same_response_later) {  // oracl
         for (std::size_t i = 0; i < models().size(); ++i) {
             Vector later = Vector::Zero(kCount);
             later.tail(kCount - shift) = u.head(kCount - shift);
-            const Vector wanted = lsim(models()[i], u, kTs, GetParam());
+            const Vector expected = lsim(models()[i], u, kTs, GetParam());
             const Vector given = lsim(models()[i], later, kTs, GetParam());
             EXPECT_EQ(given.head(shift), Vector::Zero(shift));
-            expect_close(given.tail(kCount - shift), wanted.head(kCount - shift), i);
+            expect_close(given.tail(kCount - shift), expected.head(kCount - shift), i);
         }
 }
 

@@ -100,7 +100,7 @@ TEST_F(regression_properties, polynomials_may_begin_at_any_abscissa) {  // oracl
     const Vector x = Vector::LinSpaced(100, 0, 3);
     const PolynomialFit one = fit_polynomial(x, y_, 2), late = fit_polynomial(x.array() + 2000, y_, 2);
     const auto value = [](const PolynomialFit& fit, double at) {
-        return evaluate(fit.regression.theta, at - fit.centre);
+        return evaluate(fit.regression.theta, at - fit.center);
     };
     EXPECT_NEAR(value(late, 2001.7), value(one, 1.7), 1e-9);
     EXPECT_LT(relative_difference(late.regression.theta, one.regression.theta), 1e-8);

@@ -152,7 +152,7 @@ TEST(bad_input, the_table_holds_every_method) {
     const std::set<std::string> others = {"lsq",     "polyfit_report", "forecast", "gradient_descent",
                                           "greyest", "idgrey",         "clivsvf",  "clsrivc",
                                           "rsrivc",  "narx",           "sindy",    "dmdc"};
-    for (const MethodEntry& method : method_catalogue())
+    for (const MethodEntry& method : method_catalog())
         for (const std::string& name : method.lua_names)
             EXPECT_TRUE(dynamic_methods().contains(name) || others.contains(name)) << name;
 }
@@ -265,7 +265,7 @@ TEST(bad_input, cut_off_frequencies_are_refused_or_doubted) {
                     AllOf(StartsWith("ERROR"), HasSubstr("lambda must be a positive number")));
 }
 
-TEST(bad_input, unstable_models_are_told) {
+TEST(bad_input, unstable_models_are_reported) {
     EXPECT_THAT(said("local M = lssvf(iddata(-lsim(tf({1}, {1, -0.2}), u, 0.05), u, 0.05), {1, 1, 0}, 1)\n"
                      "print(M.report.message)"),
                 HasSubstr("The model is unstable. Unless the system is also unstable, srivc with Stable = true"));

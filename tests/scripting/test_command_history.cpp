@@ -40,7 +40,7 @@ TEST(command_history, cleans_what_it_is_given) {
               "a31mb")
         << "U+009B starts a terminal sequence";
     CommandHistory history("");
-    EXPECT_FALSE(history.add(std::string(CommandHistory::kLongestLine + 1, 'x')));
+    EXPECT_FALSE(history.add(std::string(CommandHistory::kMaxLineLength + 1, 'x')));
     EXPECT_THAT(history.lines(), IsEmpty());
 }
 
@@ -48,9 +48,9 @@ TEST(command_history, is_bounded_and_takes_any_file) {
     const TemporaryFolder folder;
     const auto file = folder.path() / "history";
     std::string text;
-    for (std::size_t i = 1; i <= CommandHistory::kMostLines + 500; ++i) text += "line " + std::to_string(i) + '\n';
+    for (std::size_t i = 1; i <= CommandHistory::kMaxLineCount + 500; ++i) text += "line " + std::to_string(i) + '\n';
     write_file_atomically(file, text);
-    EXPECT_EQ(CommandHistory(file).lines().size(), CommandHistory::kMostLines);
+    EXPECT_EQ(CommandHistory(file).lines().size(), CommandHistory::kMaxLineCount);
     EXPECT_EQ(CommandHistory(file).lines().front(), "line 501");
     EXPECT_LT(std::filesystem::file_size(file), text.size());
 
@@ -62,7 +62,7 @@ TEST(command_history, is_bounded_and_takes_any_file) {
     for (const std::string& line : history.lines()) EXPECT_EQ(line, clean_line(line));
 }
 
-TEST(command_history, a_place_that_cannot_be_written_stops_nobody) {
+TEST(command_history, a_place_that_cannot_be_written_stops_no_session) {
     for (const char* place : {"/proc/no/history", "/dev/null/history", "/", "/dev/null"}) {
         CommandHistory history(place);
         EXPECT_TRUE(history.add("x = 1")) << place;

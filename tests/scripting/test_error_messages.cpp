@@ -118,7 +118,7 @@ TEST(error_messages, options_have_the_names_of_scripts_for_every_reader) {
 
 // A kind without phrases of its own would stay English in every language.
 TEST(error_messages, all_kinds_of_objects_have_phrases) {
-    for (const TypeEntry& entry : catalogue_of_types()) {
+    for (const TypeEntry& entry : catalog_of_types()) {
         EXPECT_NE(with_article(entry.type->name).id(), "{}") << entry.type->name;
         EXPECT_NE(with_the(entry.type->name).id(), "{}") << entry.type->name;
     }

@@ -20,13 +20,13 @@ using testing::StartsWith;
 /// Calls `check` with every option of every function and the function's name.
 template <class Check>
 void for_each_option(const Check& check) {
-    for (const FunctionEntry& function : catalogue_of_functions())
+    for (const FunctionEntry& function : catalog_of_functions())
         for (const OptionTable& table : function.options)
             for (const OptionEntry& option : table) check(option, std::string(function.name) + ": " + option.name);
 }
 
 TEST(function_tables, name_every_option_once) {
-    for (const FunctionEntry& function : catalogue_of_functions()) {
+    for (const FunctionEntry& function : catalog_of_functions()) {
         std::set<std::string> names;
         for (const std::string& name : option_names(function.options)) {
             EXPECT_FALSE(names.contains(with_other_case(name))) << function.name << ": " << name;
@@ -37,7 +37,7 @@ TEST(function_tables, name_every_option_once) {
 
 TEST(function_tables, have_options_where_the_signature_says_so) {
     int with_options = 0;
-    for (const FunctionEntry& function : catalogue_of_functions()) {
+    for (const FunctionEntry& function : catalog_of_functions()) {
         with_options += function.options.empty() ? 0 : 1;
         const bool written = std::string(function.signature).find("{options}") != std::string::npos;
         EXPECT_EQ(written, !function.options.empty()) << function.name;
@@ -54,7 +54,7 @@ void expect_phrase(const MessageId<>& description, const std::string& where) {
 TEST(function_tables, describe_options_and_arguments_by_a_phrase) {
     for_each_option(
         [](const OptionEntry& option, const std::string& where) { expect_phrase(option.description, where); });
-    for (const FunctionEntry& function : catalogue_of_functions())
+    for (const FunctionEntry& function : catalog_of_functions())
         for (const ArgumentEntry& argument : function.arguments)
             expect_phrase(argument.description, std::string(function.name) + ": " + argument.name);
 }
@@ -108,7 +108,7 @@ TEST(function_tables, choose_the_default_among_the_choices) {
 }
 
 TEST(function_tables, show_their_signature_on_the_help_page) {
-    for (const FunctionEntry& function : catalogue_of_functions()) {
+    for (const FunctionEntry& function : catalog_of_functions()) {
         const auto page = find_help_page(function.name);
         ASSERT_TRUE(page) << function.name;
         const std::string text = page_text(*page, &function), signature = signature_text(function);
@@ -122,7 +122,7 @@ TEST(function_tables, show_their_signature_on_the_help_page) {
 
 TEST(function_tables, name_up_to_four_options_in_a_signature) {
     const auto signature = [](const std::string& name) {
-        const auto& all = catalogue_of_functions();
+        const auto& all = catalog_of_functions();
         return signature_text(
             *std::ranges::find(all, name, [](const FunctionEntry& e) { return std::string(e.name); }));
     };

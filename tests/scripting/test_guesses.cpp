@@ -25,7 +25,7 @@ TEST(guesses, stand_beside_what_was_found) {
     EXPECT_EQ(printed("guess('mean', 1)\noutcome('mean', 0)"), "mean: prediction 1, result 0\n");
 }
 
-TEST(guesses, that_are_missing_are_told_and_stop_nothing) {
+TEST(guesses, that_are_missing_are_reported_and_stop_nothing) {
     EXPECT_EQ(printed("guess('delay', nil, 's')\noutcome('delay', 0.24)"),
               "delay: no prediction yet; replace nil with your number\ndelay: result 0.24 s, no prediction\n");
 }

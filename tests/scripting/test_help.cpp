@@ -26,7 +26,7 @@ using testing::StartsWith;
 
 std::vector<const FunctionEntry*> functions() {
     std::vector<const FunctionEntry*> all;
-    for (const FunctionEntry& entry : catalogue_of_functions()) all.push_back(&entry);
+    for (const FunctionEntry& entry : catalog_of_functions()) all.push_back(&entry);
     return all;
 }
 

@@ -29,10 +29,10 @@ json request(LanguageServer& server, const std::string& method, const json& para
 
 TEST(language_server, marks_mistakes_in_units_of_utf_16) {
     LanguageServer server;
-    const json told = opened(server, "print(\"é😀\", zzz)\n");
-    EXPECT_EQ(told.at("method"), "textDocument/publishDiagnostics");
-    EXPECT_EQ(told.at("params").at("uri"), kUri);
-    const json found = told.at("params").at("diagnostics").at(0);
+    const json reported = opened(server, "print(\"é😀\", zzz)\n");
+    EXPECT_EQ(reported.at("method"), "textDocument/publishDiagnostics");
+    EXPECT_EQ(reported.at("params").at("uri"), kUri);
+    const json found = reported.at("params").at("diagnostics").at(0);
     // print(" are 7 units, é one, the face two, then quote, comma and blank.
     EXPECT_EQ(found.at("range").at("start"), json({{"line", 0}, {"character", 13}}));
     EXPECT_EQ(found.at("range").at("end"), json({{"line", 0}, {"character", 16}}));

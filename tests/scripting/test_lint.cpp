@@ -22,9 +22,9 @@ using testing::IsEmpty;
 
 namespace fs = std::filesystem;
 
-std::string all_of(const std::vector<LintFinding>& findings) {
+std::string all_of(const std::vector<LintIssue>& findings) {
     std::string text;
-    for (const LintFinding& one : findings)
+    for (const LintIssue& one : findings)
         text += std::to_string(one.line) + ":" + std::to_string(one.column) + ": " + one.kind + ": " +
                 message_text(one.message) + "\n";
     return text;
@@ -114,7 +114,7 @@ TEST(lint, finds_what_was_planted_with_line_and_column) {
             source += text + "\n";
             ++line;
         }
-        const std::vector<LintFinding> found = lint_script(source, "a.lua");
+        const std::vector<LintIssue> found = lint_script(source, "a.lua");
         ASSERT_EQ(found.size(), 1u) << source << all_of(found);
         EXPECT_EQ(found[0].line, marked_line) << source << all_of(found);
         EXPECT_EQ(found[0].column, column) << source << all_of(found);
@@ -125,20 +125,21 @@ TEST(lint, finds_what_was_planted_with_line_and_column) {
 
 TEST(lint, compares_answers_with_the_header) {
     const std::string header = kAnswered;
-    const auto told = [&](const std::string& code) { return all_of(lint_script(header + code, "a.lua")); };
-    EXPECT_EQ(told("answer(\"gain\", 1)\nanswer('G', tf({1}, {1, 1}))\n"), "");
-    EXPECT_THAT(told("answer(\"gain\", 1)\n"), HasSubstr("5:6: unused-answer: the answer \"G\" is never submitted"));
-    EXPECT_THAT(told("answer(\"gian\", 1)\nanswer(\"G\", tf({1}, {1, 1}))\n"),
+    const auto reported = [&](const std::string& code) { return all_of(lint_script(header + code, "a.lua")); };
+    EXPECT_EQ(reported("answer(\"gain\", 1)\nanswer('G', tf({1}, {1, 1}))\n"), "");
+    EXPECT_THAT(reported("answer(\"gain\", 1)\n"),
+                HasSubstr("5:6: unused-answer: the answer \"G\" is never submitted"));
+    EXPECT_THAT(reported("answer(\"gian\", 1)\nanswer(\"G\", tf({1}, {1, 1}))\n"),
                 testing::AllOf(HasSubstr("7:8: unknown-answer"), HasSubstr("did you mean \"gain\"?"),
                                HasSubstr("4:6: unused-answer")));
-    EXPECT_EQ(told("for _, name in ipairs{\"gain\", \"G\"} do answer(name, 1) end\n"), "") << "only a run knows";
+    EXPECT_EQ(reported("for _, name in ipairs{\"gain\", \"G\"} do answer(name, 1) end\n"), "") << "only a run knows";
 }
 
 TEST(lint, finds_each_of_many_answers_of_a_header) {
     constexpr int kAnswers = 20000;
     std::string source = "-- ---\n-- answers:\n";
     for (int i = 0; i < kAnswers; ++i) source += "--   a" + std::to_string(i) + ": number\n";
-    const std::vector<LintFinding> found = lint_script(source + "-- ---\nx = 1\n", "a.lua");
+    const std::vector<LintIssue> found = lint_script(source + "-- ---\nx = 1\n", "a.lua");
     ASSERT_EQ(found.size(), static_cast<std::size_t>(kAnswers));
     EXPECT_EQ(found.back().line, kAnswers + 2);
     EXPECT_EQ(found.back().column, 6);

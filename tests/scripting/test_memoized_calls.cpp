@@ -36,7 +36,7 @@ class memoized_calls : public testing::Test {
   protected:
     struct Use {
         std::string printed;
-        std::size_t computed, recalled;
+        std::size_t computed, from_cache;
     };
     /// Runs a script with what earlier ones left. How long calls take differs from machine to machine: where it does
     /// not matter, all are kept.
@@ -47,7 +47,7 @@ class memoized_calls : public testing::Test {
         RunOptions options;
         options.call_cache = &calls;
         const std::string printed = test::printed(kData + code, options, language);
-        return {printed, calls.use().made, calls.use().recalled};
+        return {printed, calls.use().made, calls.use().from_cache};
     }
     TemporaryFolder home_;
     test::EnvironmentVariable cache_home_{"XDG_CACHE_HOME", home_.path()}, no_cache_{"DYNLAB_NO_CACHE", {}};
@@ -135,8 +135,8 @@ TEST_F(memoized_calls, in_another_language_a_call_is_made_again_and_says_so_in_i
     const Use english = run_in("en"), french = run_in("fr");
     EXPECT_THAT(english.printed, HasSubstr("The delay is"));
     EXPECT_THAT(french.printed, HasSubstr("Le retard est"));
-    EXPECT_EQ(english.recalled, 1u);
-    EXPECT_EQ(french.recalled, 1u);
+    EXPECT_EQ(english.from_cache, 1u);
+    EXPECT_EQ(french.from_cache, 1u);
 }
 
 TEST_F(memoized_calls, an_equal_call_gives_the_result_the_text_and_the_figure_of_the_first) {
@@ -149,9 +149,9 @@ TEST_F(memoized_calls, an_equal_call_gives_the_result_the_text_and_the_figure_of
         "local told = advice(d:range(1, 900))\nprint(told, told.clean, #told.discard)\n";
     const Use first = run_with_cache(code), second = run_with_cache(code);
     EXPECT_EQ(first.computed, 4u);
-    EXPECT_EQ(first.recalled, 0u);
+    EXPECT_EQ(first.from_cache, 0u);
     EXPECT_EQ(second.computed, 0u);
-    EXPECT_EQ(second.recalled, 4u);
+    EXPECT_EQ(second.from_cache, 4u);
     EXPECT_EQ(first.printed, second.printed);
     EXPECT_EQ(first.printed, test::printed(kData + code));
 
@@ -160,7 +160,7 @@ TEST_F(memoized_calls, an_equal_call_gives_the_result_the_text_and_the_figure_of
     RunOptions options;
     options.call_cache = &calls;
     const RunRecord record = test::run(kData + "delayest(d, {poles = {1, 3}, TdMax = 0.2})", options);
-    EXPECT_EQ(calls.use().recalled, 1u);
+    EXPECT_EQ(calls.use().from_cache, 1u);
     EXPECT_EQ(record.figures.size(), 1u);
     EXPECT_THAT(record.outputs.at("cell-1").front().printed, HasSubstr("delay"));
 }
@@ -195,7 +195,7 @@ TEST_F(memoized_calls, functions_of_the_script_are_called_every_time) {
     for (int i = 0; i < 2; ++i) {
         const Use use = run_with_cache(code);
         EXPECT_EQ(use.printed, "100\n");
-        EXPECT_EQ(use.computed + use.recalled, 0u);
+        EXPECT_EQ(use.computed + use.from_cache, 0u);
     }
 }
 
@@ -218,7 +218,7 @@ TEST_F(memoized_calls, calls_are_known_by_the_arguments_that_were_given) {
     const Use first = run_with_cache(code), second = run_with_cache(code);
     EXPECT_EQ(first.computed, 1u);
     EXPECT_EQ(second.computed, 0u);
-    EXPECT_EQ(second.recalled, 1u);
+    EXPECT_EQ(second.from_cache, 1u);
     EXPECT_EQ(first.printed, second.printed);
 }
 
@@ -233,7 +233,7 @@ TEST_F(memoized_calls, quick_calls_and_calls_without_a_cache_leave_nothing) {
     for (int i = 0; i < 2; ++i) {
         const Use use = run_with_cache(study + study);
         EXPECT_EQ(use.computed, 2u);
-        EXPECT_EQ(use.recalled, 0u);
+        EXPECT_EQ(use.from_cache, 0u);
     }
     EXPECT_FALSE(std::filesystem::exists(home_.path() / "dynlab/calls"));
 }
@@ -246,7 +246,7 @@ TEST_F(memoized_calls, damaged_entries_are_computed_again) {
     ASSERT_EQ(first.computed, 1u);
     const std::filesystem::path entry = *std::filesystem::directory_iterator(home_.path() / "dynlab/calls");
     const std::string name = "calls/" + entry.filename().string();
-    const std::string file = read_file(entry), bytes = Cache().recall(name).value();
+    const std::string file = read_file(entry), bytes = Cache().load_entry(name).value();
     std::string flipped = file;
     flipped[file.size() / 2] ^= 1;
     std::string other_kind = bytes;
@@ -259,10 +259,10 @@ TEST_F(memoized_calls, damaged_entries_are_computed_again) {
         const RunRecord record = test::run(kData + code, options);
         ASSERT_FALSE(record.error) << damage << ": " << record.error->text();
         EXPECT_EQ(calls.use().made, 1u) << damage;
-        EXPECT_EQ(calls.use().recalled, 0u) << damage;
+        EXPECT_EQ(calls.use().from_cache, 0u) << damage;
         EXPECT_EQ(record.figures.size(), 1u) << damage;
         const Use again = run_with_cache(code);
-        EXPECT_EQ(again.recalled, 1u) << damage;
+        EXPECT_EQ(again.from_cache, 1u) << damage;
         EXPECT_EQ(again.printed, first.printed) << damage;
     };
     for (const auto& [damage, content] :
@@ -275,7 +275,7 @@ TEST_F(memoized_calls, damaged_entries_are_computed_again) {
          {std::pair("nothing", std::string()), std::pair("half the result", bytes.substr(0, bytes.size() / 2)),
           std::pair("all but the last byte", bytes.substr(0, bytes.size() - 1)),
           std::pair("a byte behind it", bytes + '\0'), std::pair("another kind of value", other_kind)}) {
-        Cache().remember(name, content);
+        Cache().save_entry(name, content);
         expect_made_anew(damage);
     }
 }
@@ -304,7 +304,7 @@ TEST_F(memoized_calls, shapes_whose_calls_turn_out_quick_are_forgotten) {
     ASSERT_FALSE(runtime.run_code(kData, "data.lua").error);
     const auto shape = text_of(runtime, "d[{1, 200}], {1, 2, 0}", LargeArguments::kBySize, "srivc");
     ASSERT_TRUE(shape);
-    calls.remember(*shape, "another call of this shape", "its result");
+    calls.save_entry(*shape, "another call of this shape", "its result");
     ASSERT_TRUE(calls.knows(*shape));
     ASSERT_FALSE(runtime.run_code("srivc(d[{1, 200}], {1, 2, 0})", "quick.lua").error);
     EXPECT_FALSE(calls.knows(*shape));
@@ -343,7 +343,7 @@ constexpr Arguments kOtherShapes[] = {{"d", "d[{1, 100}]"},
                                       {"{runs = 5}", "{runs = 500}"}};
 
 // Oracle: the definition of equal calls, and of equal shapes.
-TEST_F(memoized_calls, texts_of_calls_tell_contents_and_shapes_apart) {
+TEST_F(memoized_calls, texts_of_calls_distinguish_contents_and_shapes) {
     GnuplotRenderer renderer;
     Runtime runtime({}, renderer);
     const std::string more =
@@ -389,7 +389,7 @@ TEST_F(memoized_calls, digests_are_kept_with_the_record) {
     EXPECT_TRUE(runtime.run_code("d.y = vector{1}", "change.lua").error) << "records can be changed";
     ASSERT_FALSE(runtime.run_code("local y = d.y y[1] = 7", "copy.lua").error);
     lua_getglobal(L, "d");
-    EXPECT_EQ(Boxed<IdData>::digest(*to_object<IdData>(L, -1)), first);
+    EXPECT_EQ(Userdata<IdData>::digest(*to_object<IdData>(L, -1)), first);
     lua_pop(L, 1);
     ASSERT_FALSE(runtime.run_code("local y = d.y y[1] = 7 d = iddata(y, d.u, 0.01)", "copy.lua").error);
     EXPECT_NE(digest(), first);

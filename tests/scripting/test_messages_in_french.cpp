@@ -20,7 +20,7 @@ namespace test_messages_in_french {
 using testing::HasSubstr;
 using testing::Not;
 
-std::string told_in(const std::string& language, const std::string& code) {
+std::string text_in_language(const std::string& language, const std::string& code) {
     const std::string text = printed(code, {}, language);
     EXPECT_FALSE(text.starts_with("ERROR")) << text << "\n" << code;
     return text;
@@ -62,8 +62,9 @@ void expect_french(const std::string& english, const std::string& french) {
 }
 
 /// What a script prints in both languages. Tables keep their points, and a row may hold nothing to translate.
-void expect_told_in_french(const std::string& code) {
-    const std::vector<std::string> english = lines_of(told_in("en", code)), french = lines_of(told_in("fr", code));
+void expect_french_text(const std::string& code) {
+    const std::vector<std::string> english = lines_of(text_in_language("en", code)),
+                                   french = lines_of(text_in_language("fr", code));
     ASSERT_EQ(english.size(), french.size()) << code;
     for (std::size_t i = 0; i < english.size(); ++i) expect_french(english[i], french[i]);
 }
@@ -117,24 +118,24 @@ TEST(messages_in_french, of_estimators_are_french) {
                                  "sindy(d, {threshold = 0.3})",
                                  "sindy(d, {weak = true})",
                                  "dmdc(s, {delays = 3})"};
-    for (const char* call : calls) expect_told_in_french(kRecord + "say(" + call + ")");
+    for (const char* call : calls) expect_french_text(kRecord + "say(" + call + ")");
 }
 
 TEST(messages_in_french, of_records_are_french) {
-    expect_told_in_french(
+    expect_french_text(
         "local u = randn(20)\nprint(iddata(u, u, 0.5), iddata(matrix{u, u}, matrix{u, u}, 0.5))\n"
         "print(merge(iddata(u, u, 0.5), iddata(u, u, 0.5)))\nprint(iddata(u, u, nil, {SamplingInstants = cumsum(u^2 + "
         "1)}))");
 }
 
 TEST(messages_in_french, of_step_tests_and_regressions_are_french) {
-    expect_told_in_french(
+    expect_french_text(
         "local t = range(0, 0.05, 20)\nlocal u = t*0 + 1\n"
         "local d = iddata(step(tf({2}, {1.5, 1}), t), u, 0.05)\nlocal e = iddata(step(tf({2}, {1, 0.6, 4}), t), u, "
         "0.05)\n"
         "print(step_first_order(d).report.message)\nprint(step_delayed(d).report.message)\n"
         "print(step_second_order(e).report.message)");
-    expect_told_in_french(
+    expect_french_text(
         "local Phi = matrix{{1, 2}, {1, 3}, {1, 5}}\nprint(lsq(Phi, vector{1, 2, 4}).message)\n"
         "print(lsq(matrix{{1, 1}, {2, 2}, {3, 3}}, vector{1, 2, 4}).message)\n"
         "print(gradient_descent(Phi, vector{1, 2, 4}).message)\n"
@@ -143,7 +144,7 @@ TEST(messages_in_french, of_step_tests_and_regressions_are_french) {
 }
 
 TEST(messages_in_french, of_validation_are_french) {
-    expect_told_in_french(kRecord + R"(
+    expect_french_text(kRecord + R"(
 resid(d, G0)
 resid(d, tf({2}, {1, 1.2, 4}))
 resid(d, tf({2}, {1, 1}))
@@ -165,7 +166,7 @@ crossvalidate(d, function(part) return srivc(part, {1, 2, 3}) end, {folds = 3})
 }
 
 TEST(messages_in_french, of_searches_and_studies_are_french) {
-    expect_told_in_french(kRecord + R"(
+    expect_french_text(kRecord + R"(
 local V = srivcstruc(d, {poles = {1, 3}, zeros = {0, 1}})
 print(V.recommendation)
 for _, criterion in ipairs{"recommended", "RT2", "YIC", "AIC", "BIC", "FPE", "fit"} do selcstruc(V, criterion) end
@@ -181,7 +182,7 @@ print(arxstruc(d:range(1, 400), {na = {1, 2}, nb = {1, 2}, nk = {1, 3}, validate
 }
 
 TEST(messages_in_french, of_intervals_are_french) {
-    expect_told_in_french(kRecord + R"(
+    expect_french_text(kRecord + R"(
 local G = procsrivc(s, "P2UD")
 profile(G, s, "Td", {points = 7})
 bootstrap(G, s, {runs = 20})
@@ -191,7 +192,7 @@ bootstrap(procsrivc(d, "P1"), d, {runs = 20, kind = "parametric"})
 }
 
 TEST(messages_in_french, of_responses_are_french) {
-    expect_told_in_french(kRecord + R"(
+    expect_french_text(kRecord + R"(
 impulseest(d)
 impulseest(d, {lags = 10, smooth = false})
 impulseest(iddata(randn(#u), u, 0.1))
@@ -206,13 +207,13 @@ spa(d:range(101, 160), {window = 30})
 
 TEST(messages_in_french, of_advice_are_french) {
     const auto expect_advice = [](const IdData& data) {
-        for (const RecordFinding& finding : advise(data).findings) {
-            expect_french(message_text(finding.message, {nullptr, option_name}),
-                          message_text(finding.message, {catalog_of("fr"), option_name}));
+        for (const DataIssue& issue : advise(data).findings) {
+            expect_french(message_text(issue.message, {nullptr, option_name}),
+                          message_text(issue.message, {catalog_of("fr"), option_name}));
         }
     };
     for (const CorpusKind& kind : faulty_kinds()) expect_advice(kind.record(1));
-    expect_told_in_french(kRecord + R"(
+    expect_french_text(kRecord + R"(
 local function with(change) local y = vector(x + 0.02*randn(#u)) change(y) return y end
 advice(iddata(with(function(y) y[100] = 30 y[101] = 31 end), u, 0.1))
 advice(iddata(x, u*0 + 1, 0.1))
@@ -233,20 +234,20 @@ advice(iddata(d.y, u, nil, {SamplingInstants = late}))
 }
 
 TEST(messages_in_french, are_as_written_by_hand) {
-    EXPECT_THAT(told_in("fr", kRecord + "print(fit(d, G0)) resid(d, G0)"), HasSubstr("L'erreur de sortie"));
-    const std::string order = told_in("fr", kRecord + "srivcstruc(d, {poles = {1, 2}, zeros = {0, 1}})");
+    EXPECT_THAT(text_in_language("fr", kRecord + "print(fit(d, G0)) resid(d, G0)"), HasSubstr("L'erreur de sortie"));
+    const std::string order = text_in_language("fr", kRecord + "srivcstruc(d, {poles = {1, 2}, zeros = {0, 1}})");
     EXPECT_THAT(order, testing::AllOf(HasSubstr("Structure recommandée : 2 pôles et "), HasSubstr(" (R_T^2 = 0,9")));
     EXPECT_THAT(order, HasSubstr("pôles zéros"));
-    EXPECT_THAT(told_in("fr", "present(tf({2}, {1, 0.6, 1.7}))"), HasSubstr("  -0,3 + 1,2689i "));
-    EXPECT_THAT(told_in("fr", "print(zeros(100), zeros(20, 20))"),
+    EXPECT_THAT(text_in_language("fr", "present(tf({2}, {1, 0.6, 1.7}))"), HasSubstr("  -0,3 + 1,2689i "));
+    EXPECT_THAT(text_in_language("fr", "print(zeros(100), zeros(20, 20))"),
                 testing::AllOf(HasSubstr("] (100 valeurs)"), HasSubstr("... (matrice 20 x 20)")));
-    EXPECT_THAT(told_in("fr", kRecord + "resid(d, G0)"), HasSubstr("y1\u202F: L'erreur"));
+    EXPECT_THAT(text_in_language("fr", kRecord + "resid(d, G0)"), HasSubstr("y1\u202F: L'erreur"));
 }
 
 TEST(messages_in_french, of_scripts_own_stay_and_english_scripts_are_english) {
-    EXPECT_EQ(told_in("fr", "print('The model is unstable.')"), "The model is unstable.\n");
-    EXPECT_THAT(told_in("en", kRecord + "resid(d, G0)"), HasSubstr("The output error is"));
-    EXPECT_THAT(told_in("fr", kRecord + "resid(d, G0)"), Not(HasSubstr("error")));
+    EXPECT_EQ(text_in_language("fr", "print('The model is unstable.')"), "The model is unstable.\n");
+    EXPECT_THAT(text_in_language("en", kRecord + "resid(d, G0)"), HasSubstr("The output error is"));
+    EXPECT_THAT(text_in_language("fr", kRecord + "resid(d, G0)"), Not(HasSubstr("error")));
 }
 
 }  // namespace test_messages_in_french

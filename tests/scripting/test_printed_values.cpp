@@ -61,7 +61,7 @@ TEST(printed_values, advice_is_not_followed_by_its_table) {
     EXPECT_THAT(text, Not(HasSubstr("message =")));
 }
 
-TEST(printed_values, a_missing_sampling_time_is_told_once) {
+TEST(printed_values, a_missing_sampling_time_is_reported_once) {
     const std::string said = "iddata: no sampling time was given, so dynlab uses 1 s; write iddata(y, u, Ts)\n";
     EXPECT_EQ(printed("local v = vector{1, 2, 3} iddata(v, v) iddata(v, v)"), said);
     EXPECT_EQ(printed("local v = vector{1, 2, 3} iddata(v, v, 1) iddata(v, v, nil, {SamplingInstants = {0, 1, 3}})"),
@@ -69,7 +69,7 @@ TEST(printed_values, a_missing_sampling_time_is_told_once) {
 }
 
 // Models print s, whatever their data count time in.
-TEST(printed_values, another_unit_of_time_is_told_once) {
+TEST(printed_values, another_unit_of_time_is_reported_once) {
     const std::string said =
         printed("local v = vector{1, 2, 3} iddata(v, v, 1, {TimeUnit = 'min'}) iddata(v, v, 1, {TimeUnit = 'min'})");
     EXPECT_THAT(said, ContainsRegex("^iddata: these data, and models .* have the time unit min: .* read min\n$"));

@@ -19,7 +19,7 @@ using testing::StartsWith;
 class reference_pages : public testing::TestWithParam<HelpPage> {
   protected:
     static const FunctionEntry* entry() {
-        const auto& all = catalogue_of_functions();
+        const auto& all = catalog_of_functions();
         const auto found =
             std::find_if(all.begin(), all.end(), [](const FunctionEntry& e) { return e.name == GetParam().name; });
         return found == all.end() ? nullptr : &*found;
@@ -95,7 +95,7 @@ TEST_P(reference_pages, example_runs_and_shows_something) {
 /// Functions, by their signature, whose first argument is a model: "pole(G) -> ...".
 std::vector<std::string> functions_of_models() {
     std::vector<std::string> names;
-    for (const FunctionEntry& function : catalogue_of_functions()) {
+    for (const FunctionEntry& function : catalog_of_functions()) {
         const std::string signature(function.signature), name(function.name);
         for (const char* model : {"(G)", "(G,", "(G1", "(Gd", "(model"})
             if (signature.compare(0, name.size(), name) == 0 && signature.find(model, name.size()) == name.size())
@@ -104,7 +104,7 @@ std::vector<std::string> functions_of_models() {
     return names;
 }
 
-TEST(reference_pages_of_models, tell_where_several_inputs_are_refused) {  // oracle: what the functions say to them
+TEST(reference_pages_of_models, state_where_several_inputs_are_refused) {  // oracle: what the functions say to them
     std::string code =
         "local u = {rbs(400, 2), rbs(400, 3)}\n"
         "local data = iddata(lsim(tf({1}, {1, 2}), u[1], 0.1) + lsim(tf({1}, {1, 3}), u[2], 0.1) + 0.1*randn(400),\n"
@@ -120,14 +120,14 @@ TEST(reference_pages_of_models, tell_where_several_inputs_are_refused) {  // ora
         "end\n";
     for (const std::string& name : functions_of_models())
         code += "if refuses(" + name + ") then print('refuses: " + name + ";') end\n";
-    const std::string told = printed(code);
+    const std::string reported = printed(code);
     int refusing = 0;
     for (const HelpPage& page : help_pages()) {
-        if (told.find("refuses: " + std::string(page.name) + ";") == std::string::npos) continue;
+        if (reported.find("refuses: " + std::string(page.name) + ";") == std::string::npos) continue;
         ++refusing;
         EXPECT_THAT(page_text(page, find_function(std::string(page.name))), HasSubstr("several inputs")) << page.name;
     }
-    EXPECT_GT(refusing, 15) << told;
+    EXPECT_GT(refusing, 15) << reported;
 }
 
 }  // namespace test_reference_pages

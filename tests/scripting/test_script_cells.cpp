@@ -107,7 +107,7 @@ TEST(script_cells, report_values_are_written_as_numbers_are) {  // oracle: by ha
     EXPECT_EQ(text("whole"), "007");
 }
 
-TEST(script_cells, handles_tell_where_the_numbers_of_sliders_put_them) {
+TEST(script_cells, handles_are_where_the_numbers_of_sliders_put_them) {
     const RunRecord record = run_script(
         "-- %% id=a\nlocal T = slider('T', 2, 1, 4, {log = true})\nlocal K = slider('K', 3, 0, 10)\n"
         "local f = plot({1, 2}, {1, 2})\n"
@@ -182,7 +182,7 @@ TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
 
 /// A study's scatter says how many estimates lie outside its ranges, those that a script sets, too. Oracle: all
 /// estimates are (1, 1) but one, and the truth is (4, 3).
-TEST(script_cells, other_ranges_are_counted_anew) {
+TEST(script_cells, other_ranges_are_counted_again) {
     const auto title = [](const std::string& set) {
         const RunRecord record = run_script(
             "-- %% id=a\nlocal n = 0\n"

@@ -110,7 +110,7 @@ TEST(script_course, gives_student_s_quantile_which_forecast_has_in_its_interval)
 
 TEST(script_course, has_every_function_in_help) {
     std::string text = printed("help()");
-    for (const FunctionEntry& entry : catalogue_of_functions()) {
+    for (const FunctionEntry& entry : catalog_of_functions()) {
         EXPECT_NE(text.find(std::string("  ") + entry.name + " "), std::string::npos) << entry.name;
         EXPECT_GT(std::string(entry.signature).size(), 3u);
         EXPECT_EQ(printed(std::string("print(type(") + entry.name + "))"), "function\n") << entry.name;

@@ -302,7 +302,7 @@ TEST(script_errors, refuse_to_replace_functions_of_dynlab) {
               "43\t3\n5\n");
 }
 
-TEST(script_errors, wrong_lines_of_any_length_are_told) {
+TEST(script_errors, wrong_lines_of_any_length_are_reported) {
     for (const std::string& filling : {std::string(600'000, 'a'), std::string(600'000, ' '), std::string(600'000, '1')})
         for (const std::string& wrong :
              {"f(" + filling + ") = 3", filling + " y", "x[" + filling + ", 2", "? " + filling})

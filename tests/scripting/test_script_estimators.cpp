@@ -140,7 +140,7 @@ TEST(script_estimators, srivc_reports_the_diagnostics_of_the_cpp_function) {
     const Fit fit = srivc(data, TransferStructure::single(2, 0));
     const Diagnostics found = diagnose(fit, data, {});
     ASSERT_TRUE(fit.start.offset);
-    ASSERT_TRUE(found.missed && found.missed->code == MissedCode::kFeedthrough);
+    ASSERT_TRUE(found.missed && found.missed->code == StructureAdviceCode::kFeedthrough);
     ASSERT_TRUE(found.assessment);
     const Vector& std = found.assessment->std;
     EXPECT_EQ(printed("local u = prbs(7, 8)\n"

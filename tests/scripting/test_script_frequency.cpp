@@ -115,7 +115,7 @@ TEST(script_frequency, multisines_follow_the_stream_or_a_seed) {
         "");
 }
 
-TEST(script_frequency, mistakes_are_told_in_sentences) {
+TEST(script_frequency, mistakes_are_reported_in_sentences) {
     const std::pair<const char*, const char*> kCases[] = {
         {"idfrd(F.H, w - 0.1)", "frequencies must be above zero (rad/s), but frequency 1 is 0; remove it"},
         {"idfrd(F.H, -1*w)", "frequencies must be above zero"},
@@ -140,7 +140,7 @@ TEST(script_frequency, mistakes_are_told_in_sentences) {
         EXPECT_THAT(said("print(" + std::string(code) + ")"), AllOf(StartsWith("ERROR"), HasSubstr(sentence))) << code;
 }
 
-TEST(script_frequency, responses_can_be_answers_and_are_told_in_french) {
+TEST(script_frequency, responses_can_be_answers_and_are_reported_in_french) {
     const std::string code =
         "rng(2)\nlocal u = multisine(256, {lines = range(1, 60), periods = 3})\n"
         "local B = bla(iddata(lsim(tf({2}, {1, 1.2, 4}), u, 0.1), u, 0.1), {period = 256})\n"

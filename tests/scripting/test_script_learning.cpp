@@ -33,7 +33,7 @@ end
 local data = iddata(matrix{p, q}, nil, Ts, {OutputName = {"prey", "hunters"}})
 )";
 
-TEST(script_learning, narx_is_judged_by_its_free_run) {
+TEST(script_learning, narx_is_evaluated_by_its_free_run) {
     EXPECT_EQ(printed(kNarxRecord + R"(
 local G = narx(data, {2, 2, 1})
 print(#G.names, fit(data, G) > 99.999, #G.param == #G.std)
@@ -76,7 +76,7 @@ print(#lsim(ss(G), u, 0.2) == #u)
               "3\ttrue\ttrue\ntrue\n");
 }
 
-TEST(script_learning, a_lost_run_is_told) {
+TEST(script_learning, a_lost_run_is_reported) {
     const std::string lost = R"(
 local u = randn(60)
 local y = zeros(60)

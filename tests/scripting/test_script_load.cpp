@@ -25,7 +25,7 @@ class script_load : public testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(script_load, tells_what_was_guessed_and_feeds_fillmissing) {
+TEST_F(script_load, reports_what_was_assumed_and_feeds_fillmissing) {
     write("a.txt", "time (ms);u [V]\n0;1\n10;\n20;3,5\n");
     EXPECT_EQ(
         says("local d = load(\"a.txt\") print(fillmissing(d.u)[2], d[\"u [V]\"][3], d.units.u)"),

@@ -64,14 +64,14 @@ TEST(script_loops, an_unstable_plant_is_measured_in_its_loop) {
     for (const char* call :
          {"clivsvf(data, {2, 1, 0}, 4, {controller = C})", "clsrivc(data, {1, 2, 0}, {controller = C, lambda = 4})",
           "clsrivc(data, {1, 2, 0}, {controller = C, lambda = 4, route = 'indirect'})"}) {
-        const std::string told =
+        const std::string reported =
             printed(held + "local G = " + call +
                     "\nprint(G.report.fit_percent > 90, math.abs(G.noise_variance/1e-4 - 1) < 0.5)\n" +
                     "print(table.concat(G.report.warnings, ' '))");
-        EXPECT_THAT(told, HasSubstr("true\ttrue\n")) << call;
-        EXPECT_THAT(told, HasSubstr("check the controller, the orders and the cut-off frequency")) << call;
-        EXPECT_THAT(told, HasSubstr("to the model in its loop")) << call;
-        EXPECT_THAT(told, testing::Not(HasSubstr("Stable"))) << call;
+        EXPECT_THAT(reported, HasSubstr("true\ttrue\n")) << call;
+        EXPECT_THAT(reported, HasSubstr("check the controller, the orders and the cut-off frequency")) << call;
+        EXPECT_THAT(reported, HasSubstr("to the model in its loop")) << call;
+        EXPECT_THAT(reported, testing::Not(HasSubstr("Stable"))) << call;
     }
 }
 
@@ -101,7 +101,7 @@ TEST(script_loops, studies_of_loops) {
         HasSubstr("omit 'input'"));
 }
 
-TEST(script_loops, recursive_methods_tell_their_history) {
+TEST(script_loops, recursive_methods_report_their_history) {
     EXPECT_EQ(printed("rng(1)\nlocal u = prbs(5, 20)\nlocal y = lsim(tf({2}, {1, 4, 3}), u, 0.05) + 0.02*randn(#u)\n"
                       "local d = iddata(y, u, 0.05)\nlocal G, B = rlssvf(d, {2, 1, 0}, 4), lssvf(d, {2, 1, 0}, 4)\n"
                       "print(math.abs(G.param[1] - B.param[1]) < 1e-8, #G.history.t, G.history.theta.columns)\n"

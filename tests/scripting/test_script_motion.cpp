@@ -30,15 +30,15 @@ std::string page_of(const std::string& name) {
     return read_text(folder.path() / "page.html");
 }
 
-TEST(script_motion, rigs_are_made_of_the_shapes_of_documents) {
+TEST(script_motion, plants_are_made_of_the_shapes_of_documents) {
     for (const char* name : {"crane", "drifting_process", "drive", "thruster", "two_tanks"}) {
-        const RigDrawing rig = rig_drawing(name);
+        const PlantDrawing rig = rig_drawing(name);
         const std::string page = page_of(name);
         Vector drawn(static_cast<Index>(rig.parts.size()));
         for (std::size_t k = 0; k < rig.parts.size(); ++k) drawn[static_cast<Index>(k)] = rig.parts[k].drawn_at;
         std::size_t moving = 0;
-        for (const RigPiece& piece : rig.pieces) {
-            const RigPiece there = rig.placed(piece, drawn);
+        for (const PlantShape& piece : rig.pieces) {
+            const PlantShape there = rig.placed(piece, drawn);
             std::string points;
             for (std::size_t i = 0; i < there.x.size(); ++i)
                 points += fmt::format("{}{:.1f},{:.1f}", i ? " " : "", there.x[i] * 96 / 2.54,
@@ -53,7 +53,7 @@ TEST(script_motion, rigs_are_made_of_the_shapes_of_documents) {
     EXPECT_EQ(rig_drawing("thruster").parts[0].unit, "N");
 }
 
-TEST(script_motion, keeps_signals_and_rig_in_one_figure) {
+TEST(script_motion, keeps_signals_and_plant_in_one_figure) {
     const RunRecord record = test::run(kRecord +
                                        "report.figure('m', motion{rig = 'crane', t = t, measured = s,\n"
                                        "simulated = s, instants = {0.5, 1.5}, title = 'Both', width = 12}, '')");
@@ -78,20 +78,20 @@ TEST(script_motion, where_scripts_are_graded_draws_nothing_and_stops_nothing) {
 }
 
 TEST(script_motion, says_what_is_missing) {
-    const auto told = [](const std::string& options) { return error_of(kRecord + "motion{" + options + "}"); };
+    const auto reported = [](const std::string& options) { return error_of(kRecord + "motion{" + options + "}"); };
     EXPECT_THAT(
-        told("t = t, measured = s"),
+        reported("t = t, measured = s"),
         HasSubstr("unknown moving plant ''; the plants are crane, drifting_process, drive, thruster, two_tanks"));
-    EXPECT_THAT(told("rig = 'suspension', t = t, measured = s"), HasSubstr("unknown moving plant 'suspension'"));
-    EXPECT_THAT(told("rig = 'crane', t = t, measured = {angle = s.angle}"),
+    EXPECT_THAT(reported("rig = 'suspension', t = t, measured = s"), HasSubstr("unknown moving plant 'suspension'"));
+    EXPECT_THAT(reported("rig = 'crane', t = t, measured = {angle = s.angle}"),
                 HasSubstr("option 'measured' lacks the position (m), which moves the animated plant"));
-    EXPECT_THAT(told("rig = 'thruster', t = t, simulated = {force = {1, 2}}"),
+    EXPECT_THAT(reported("rig = 'thruster', t = t, simulated = {force = {1, 2}}"),
                 HasSubstr("the simulated force has 2 values for 201 instants"));
-    EXPECT_THAT(told("rig = 'thruster', t = t, simulated = {force = 'much'}"),
+    EXPECT_THAT(reported("rig = 'thruster', t = t, simulated = {force = 'much'}"),
                 HasSubstr("the simulated force must be a vector, but it is"));
-    EXPECT_THAT(told("rig = 'crane', t = t, measured = 3"), HasSubstr("must be a table such as {position = y}"));
-    EXPECT_THAT(told("rig = 'crane', t = t"), HasSubstr("measured or simulated"));
-    EXPECT_THAT(told("rig = 'crane', time = t, measured = s"), HasSubstr("time"));
+    EXPECT_THAT(reported("rig = 'crane', t = t, measured = 3"), HasSubstr("must be a table such as {position = y}"));
+    EXPECT_THAT(reported("rig = 'crane', t = t"), HasSubstr("measured or simulated"));
+    EXPECT_THAT(reported("rig = 'crane', time = t, measured = s"), HasSubstr("time"));
 }
 
 }  // namespace test_script_motion

@@ -55,7 +55,7 @@ TEST(script_preprocess, missing_and_wild_samples_are_replaced) {
     EXPECT_THAT(refused("iddata(0*y/0, u, 0.1)"), HasSubstr("fillmissing"));
 }
 
-TEST(script_preprocess, misuse_is_told_with_the_remedy) {
+TEST(script_preprocess, misuse_is_reported_with_the_remedy) {
     EXPECT_THAT(refused("idfilt(d, {0, 50})"), HasSubstr("must have an edge between 0 and pi/Ts = 31.416"));
     EXPECT_THAT(refused("idfilt(d, {3})"), HasSubstr("{0, w} is a low-pass filter"));
     EXPECT_THAT(refused("idfilt(d, {0, 3}, {Ts = 1})"), HasSubstr("a data object has a sampling time"));

@@ -42,7 +42,7 @@ TEST(script_rigs, static_curve_of_the_thruster_ends_at_its_greatest_thrusts) {
 
 TEST(script_rigs, refuse_what_there_is_not) {
     std::string names;
-    for (const Rig& rig : rig_catalogue()) names += (names.empty() ? "" : ", ") + rig.name;
+    for (const Plant& rig : plant_catalog()) names += (names.empty() ? "" : ", ") + rig.name;
     const std::string expected = "unknown simulated plant 'cranes'; the plants are " + names;
     EXPECT_NE(error_of("rig('cranes')").find(expected), std::string::npos) << error_of("rig('cranes')");
     EXPECT_NE(error_of("rig_truth('cranes')").find(expected), std::string::npos);
@@ -59,13 +59,13 @@ std::string point_of(const std::string& page, const std::string& head) {
 TEST(script_rigs, stand_in_the_help_pages) {
     const std::string rig_page = page_text(*find_help_page("rig"), find_function("rig")),
                       truth_page = page_text(*find_help_page("rig_truth"), find_function("rig_truth"));
-    for (const Rig& rig : rig_catalogue()) {
+    for (const Plant& rig : plant_catalog()) {
         EXPECT_NE(point_of(rig_page, "\n- `name`:").find('"' + rig.name + '"'), std::string::npos) << rig.name;
         const std::string experiments = point_of(rig_page, "\n- `" + rig.name + "`: ");
         for (const std::string& experiment : rig.experiments)
             EXPECT_NE(experiments.find('`' + experiment + '`'), std::string::npos) << rig.name << ' ' << experiment;
         const std::string truth = point_of(truth_page, "\n- `" + rig.name + "`: ");
-        for (const RigValue& field : rig.truth(0))
+        for (const PlantValue& field : rig.truth(0))
             EXPECT_NE(truth.find('`' + field.name + '`'), std::string::npos) << rig.name << ' ' << field.name;
     }
 }
@@ -89,7 +89,7 @@ TEST(script_rigs, are_described_by_the_signals_that_their_records_have) {
               "rad\tnil\tfree_swing\n");
 }
 
-TEST(script_rigs, unknown_fields_are_told_at_every_level) {
+TEST(script_rigs, unknown_fields_are_reported_at_every_level) {
     for (const std::string table : {"load('crane')", "rig('crane')"}) {
         EXPECT_NE(error_of("print(" + table + ".estimaton)")
                       .find("the data of 'crane' have no variable 'estimaton'; they have estimation, free_swing"),

@@ -101,7 +101,7 @@ TEST(script_studies, order_search_recommends_the_true_orders) {
     EXPECT_THAT(error_of(record + "srivcstruc(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
 }
 
-TEST(script_studies, a_second_record_is_judged_as_fit_judges_it) {  // oracle: fit() of the recommended model
+TEST(script_studies, a_second_record_is_evaluated_as_fit_does) {  // oracle: fit() of the recommended model
     const std::string record =
         "local u = prbs(7, 8)\nlocal x = lsim(tf({2}, {1, 4, 3}), u, 0.05)\n"
         "local data = iddata(x + 50 + 0.1*randn(#u), u + 3, 0.05)\n"

@@ -98,7 +98,7 @@ TEST(script_validation, present_gives_no_error_of_a_delay_at_its_bound) {
     EXPECT_THAT(shown, Not(HasSubstr("± 0\n")));
 }
 
-TEST(script_validation, present_tells_errors_of_gain_and_time_constants) {  // oracle: the gain's own standard error
+TEST(script_validation, present_reports_errors_of_gain_and_time_constants) {  // oracle: the gain's own standard error
     const std::string text = printed(kRecord +
                                      "local G = procsrivc(white, 'P1')\npresent(G)\n"
                                      "print(string.format('KP %.2g T %.2g', G.robust_std[1], G.robust_std[2]))");

@@ -68,8 +68,8 @@ TEST(shown_expressions, methods_that_give_a_value_are_shown) {
         "[2 4]\n[6 7]\n");
     EXPECT_THAT(printed("local d = iddata(linspace(0, 1, 20), linspace(1, 2, 20), 0.1)\nd:split(0.5)"),
                 testing::ContainsRegex("10 samples(.|\n)*10 samples"));
-    const std::set<const ObjectType*> kinds = {&kVectorType, &kMatrixType, &Boxed<IdData>::type};
-    for (const TypeEntry& entry : catalogue_of_types())
+    const std::set<const ObjectType*> kinds = {&kVectorType, &kMatrixType, &Userdata<IdData>::type};
+    for (const TypeEntry& entry : catalog_of_types())
         for (const Member& method : kinds.contains(entry.type) ? entry.methods : std::span<const Member>()) {
             const std::string call = std::string("x:") + method.name + "(1)";
             EXPECT_EQ(with_shown_calls(call, shown_calls()) == call, std::string_view(method.name) == "set") << call;

@@ -24,7 +24,7 @@ TEST(type_stubs, define_every_function_once_and_nothing_else) {
     luaL_openlibs(L);
     ASSERT_EQ(luaL_dostring(L, stubs.c_str()), LUA_OK) << lua_tostring(L, -1);
     std::size_t functions = 0;
-    for (const FunctionEntry& entry : catalogue_of_functions()) {
+    for (const FunctionEntry& entry : catalog_of_functions()) {
         ++functions;
         const std::string gives = std::string("return type(") + entry.name + ")";
         ASSERT_EQ(luaL_dostring(L, gives.c_str()), LUA_OK) << entry.name;
@@ -59,7 +59,7 @@ TEST(type_stubs, use_the_documented_tags_and_name_the_parameters_in_order) {
     }
 }
 
-TEST(type_stubs, tell_options_with_the_words_of_the_page) {
+TEST(type_stubs, document_options_with_the_words_of_the_page) {
     const std::string stubs = type_stubs();
     EXPECT_THAT(stubs,
                 HasSubstr("---@class dynlab.srivc.options\n---@field lambda? number cut-off frequency of the filter"));

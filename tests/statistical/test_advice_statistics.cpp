@@ -21,8 +21,8 @@ bool has_one_of(const Advice& advice, const std::vector<std::string>& codes) {
 
 std::string warnings(const Advice& advice) {
     std::string all;
-    for (const RecordFinding& finding : advice.findings)
-        if (finding.weight == Weight::kWarning) all += "\n  " + finding.code + ": " + message_text(finding.message);
+    for (const DataIssue& issue : advice.findings)
+        if (issue.weight == Weight::kWarning) all += "\n  " + issue.code + ": " + message_text(issue.message);
     return all;
 }
 

@@ -142,7 +142,7 @@ Fit ivsvf_of(const IdData& data, const TransferStructure& structure) {
     SvfOptions options;
     options.lambda = 3;
     Fit fit = ivsvf(data, structure, options);
-    colour_covariance(fit, data, options, true);
+    color_covariance(fit, data, options, true);
     return fit;
 }
 

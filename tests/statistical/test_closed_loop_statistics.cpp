@@ -88,7 +88,7 @@ TEST(closed_loop_statistics, the_two_stage_route_is_consistent) {
     EXPECT_LT(study.reported.maxCoeff(), 1.15) << study.reported.transpose();
 }
 
-TEST(closed_loop_statistics, the_direct_route_is_biased_and_its_errors_tell_the_scatter) {
+TEST(closed_loop_statistics, the_direct_route_is_biased_and_its_errors_match_the_scatter) {
     const EstimatorStudy study =
         study_with([](const IdData& data) { return clsrivc(data, kPlant, refined(), {}, LoopRoute::kDirect); });
     EXPECT_GT(study.distance, 5);

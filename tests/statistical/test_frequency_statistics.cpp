@@ -54,18 +54,18 @@ TEST(frequency_statistics, maximum_likelihood_reaches_the_cramer_rao_bound) {
 // The square of what is left, u^3 - 3 s^2 u, has 9.6 times its mean as standard deviation, and a realisation of F lines
 // holds 2 F independent values: 0.5 dB (12 %) are four standard errors of the means over the realisations below.
 TEST(frequency_statistics, a_cube_has_its_gain_and_its_distortion) {
-    constexpr Index kPeriod = 1024, kRealisations = 100;
+    constexpr Index kPeriod = 1024, kRealizations = 100;
     const double eps = 0.1, s = 0.7;
     RandomPhaseOptions options;
     options.amplitude = s;
     RandomStream random(3);
-    Vector u(2 * kPeriod * kRealisations);
-    for (Index m = 0; m < kRealisations; ++m)
+    Vector u(2 * kPeriod * kRealizations);
+    for (Index m = 0; m < kRealizations; ++m)
         u.segment(2 * kPeriod * m, 2 * kPeriod) = random_phase_multisine(kPeriod, options, random).u.replicate(2, 1);
     const Vector noise = 0.01 * random.normal(u.size());
     const Vector y = u.array() + eps * u.array().cube() + noise.array();
     BlaOptions asked;
-    asked.period = kPeriod, asked.realisations = kRealisations;
+    asked.period = kPeriod, asked.realizations = kRealizations;
     const FrequencyData found = bla(IdData(Matrix(y), Matrix(u), 1), asked);
 
     const double gain = found.response.real().mean(), expected = 1 + 3 * eps * s * s;
@@ -80,18 +80,18 @@ TEST(frequency_statistics, a_cube_has_its_gain_and_its_distortion) {
 }
 
 TEST(frequency_statistics, distortion_of_odd_lines_is_found_at_lines_without_input) {
-    constexpr Index kPeriod = 1024, kRealisations = 330;
+    constexpr Index kPeriod = 1024, kRealizations = 330;
     const double eps = 0.1, s = 0.7;
     RandomPhaseOptions options;
     options.amplitude = s, options.odd = true, options.detection = 4;
     options.lines = Vector::LinSpaced(300, 1, 300);
     RandomStream random(4);
-    Vector u(2 * kPeriod * kRealisations);
-    for (Index m = 0; m < kRealisations; ++m)
+    Vector u(2 * kPeriod * kRealizations);
+    for (Index m = 0; m < kRealizations; ++m)
         u.segment(2 * kPeriod * m, 2 * kPeriod) = random_phase_multisine(kPeriod, options, random).u.replicate(2, 1);
     const Vector y = u.array() + eps * u.array().cube();
     BlaOptions asked;
-    asked.period = kPeriod, asked.realisations = kRealisations;
+    asked.period = kPeriod, asked.realizations = kRealizations;
     const FrequencyData found = bla(IdData(Matrix(y), Matrix(u), 1), asked);
     EXPECT_LT(std::abs(10 * std::log10(level_sums(found).distortion / (6 * eps * eps * std::pow(s, 6)))), 0.5);
     EXPECT_LT(found.even.power.sum(), 1e-20);
@@ -100,7 +100,7 @@ TEST(frequency_statistics, distortion_of_odd_lines_is_found_at_lines_without_inp
 // The errors of distortion are uncorrelated between lines and yet not independent: taken as independent they would
 // be 1.5 times too small for the gain (oracle: the scatter over the records, known to 4 %).
 TEST(frequency_statistics, errors_with_distortion_are_those_of_the_scatter) {
-    constexpr int kRuns = 250, kRealisations = 10;
+    constexpr int kRuns = 250, kRealizations = 10;
     constexpr double kTs = 0.05, kCube = 0.1, kNoise = 0.01;
     const TransferFunction plant(Vector{{2.0}}, Vector{{1.0, 1.2, 4.0}});
     RandomPhaseOptions lines;
@@ -112,7 +112,7 @@ TEST(frequency_statistics, errors_with_distortion_are_those_of_the_scatter) {
     for (int run = 0; run < kRuns; ++run) {
         RandomStream random(static_cast<std::uint32_t>(run + 1));
         std::vector<IdData> parts;
-        for (int m = 0; m < kRealisations; ++m) {
+        for (int m = 0; m < kRealizations; ++m) {
             const Vector u = random_phase_multisine(500, lines, random).u.replicate(5, 1), x = lsim(plant, u, kTs);
             const Vector y = x.array() + kCube * x.array().cube() + kNoise * random.normal(u.size()).array();
             parts.emplace_back(Matrix(y), Matrix(u), kTs);

@@ -75,10 +75,10 @@ void expect_same_statistics(const MonteCarloResult& result, const nlohmann::json
                                                                 {"min", &result.low},
                                                                 {"max", &result.high}};
     for (const auto& [name, values] : statistics) {
-        const auto wanted = reference.at(name).get<std::vector<double>>();
-        ASSERT_EQ(values->size(), static_cast<Index>(wanted.size()));
+        const auto expected = reference.at(name).get<std::vector<double>>();
+        ASSERT_EQ(values->size(), static_cast<Index>(expected.size()));
         for (Index i = 0; i < values->size(); ++i) {
-            const double value = wanted[static_cast<std::size_t>(i)];
+            const double value = expected[static_cast<std::size_t>(i)];
             EXPECT_NEAR((*values)[i], value, 1e-6 * std::abs(value)) << name << " of parameter " << i;
         }
     }

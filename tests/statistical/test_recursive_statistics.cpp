@@ -75,7 +75,7 @@ double errors_in_standard_errors(const Method& method, double forgetting, std::u
     return std::sqrt(squares / count);
 }
 
-TEST(recursive_statistics, standard_errors_tell_the_scatter_of_any_memory) {
+TEST(recursive_statistics, standard_errors_match_the_scatter_of_any_memory) {
     for (const double forgetting : {0.95, 0.99, 0.999}) {
         const std::uint32_t records = forgetting > 0.99 ? 60 : 20;  // hold more than a hundred independent values each
         EXPECT_NEAR(errors_in_standard_errors(rsrivc, forgetting, records), 1, 0.15) << "rsrivc, " << forgetting;

@@ -97,8 +97,8 @@ ErrorStudy error_study(const Vector& u, double Ts, double pole, double size) {
         study.plain += estimate.std / kRuns;
         study.robust += assess(data, estimate).std / kRuns;
     }
-    const Matrix centred = estimates.rowwise() - estimates.colwise().mean();
-    study.spread = (centred.colwise().squaredNorm() / (kRuns - 1)).cwiseSqrt().transpose();
+    const Matrix centered = estimates.rowwise() - estimates.colwise().mean();
+    study.spread = (centered.colwise().squaredNorm() / (kRuns - 1)).cwiseSqrt().transpose();
     return study;
 }
 

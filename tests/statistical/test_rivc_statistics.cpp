@@ -29,7 +29,7 @@ struct Runs {
     }
 };
 
-Runs runs_of_rivc(const ColouredProblem& problem, const NoiseOrders& orders) {
+Runs runs_of_rivc(const ColoredProblem& problem, const NoiseOrders& orders) {
     const Index nc = orders.nc, nd = orders.nd;
     Runs runs{Matrix(kRuns, 3 + nc + nd), Vector::Zero(3 + nc + nd)};
     for (int run = 0; run < kRuns; ++run) {
@@ -46,12 +46,12 @@ Runs runs_of_rivc(const ColouredProblem& problem, const NoiseOrders& orders) {
 }
 
 /// The sensitivities of the output at the truth.
-Matrix true_sensitivities(const ColouredProblem& problem) {
+Matrix true_sensitivities(const ColoredProblem& problem) {
     return transfer_sensitivities(values({2}), values({1, 4, 3}), 0, problem.u, 0.05, Hold::kZoh).middleCols(1, 3);
 }
 
 /// Of theta: sigma^2 (Psi'Psi)^-1 with Psi filtered by D/C.
-Vector cramer_rao(const ColouredProblem& problem) {
+Vector cramer_rao(const ColoredProblem& problem) {
     ArmaNoise noise = ArmaNoise::white(0, 0);
     noise.C = problem.C;
     noise.D = problem.D;
@@ -60,7 +60,7 @@ Vector cramer_rao(const ColouredProblem& problem) {
 }
 
 /// The standard deviations of the smallest sum of squares of the simulation error, which takes coloured noise as white.
-Vector unweighted(const ColouredProblem& problem) {
+Vector unweighted(const ColoredProblem& problem) {
     const Matrix Psi = true_sensitivities(problem), inverse = (Psi.transpose() * Psi).inverse();
     Matrix back(Psi.rows(), Psi.cols());  // the transposed noise filter: the filter backwards in time
     for (Index i = 0; i < Psi.cols(); ++i)
@@ -70,7 +70,7 @@ Vector unweighted(const ColouredProblem& problem) {
 
 // oracle: the scatter over seeds 1 to 60 on the classic problem, its truth, and the Cramer-Rao bound
 TEST(rivc_statistics, reported_errors_are_the_scatter_and_reach_the_bound) {
-    const ColouredProblem problem;
+    const ColoredProblem problem;
     const Runs runs = runs_of_rivc(problem, {1, 2});
     const Vector truth = values({4, 3, 2, 0.9, -1, 0.2}), spread = runs.spread(), bound = cramer_rao(problem);
     for (Index i = 0; i < truth.size(); ++i) {
@@ -82,7 +82,7 @@ TEST(rivc_statistics, reported_errors_are_the_scatter_and_reach_the_bound) {
 
 // oracle: the theory of both estimates, for noise that drifts in the band of the system
 TEST(rivc_statistics, a_noise_model_pays_where_theory_says) {
-    ColouredProblem problem;
+    ColoredProblem problem;
     problem.C = values({1});
     problem.D = values({1, -0.98});
     const Vector bound = cramer_rao(problem), of_srivc = unweighted(problem);

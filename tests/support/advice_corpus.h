@@ -116,9 +116,10 @@ inline Vector multisine_input(RandomExperiment& chance) {
     const double period = static_cast<double>(chance.N) / static_cast<double>(chance.whole(1, 4));
     const double highest = chance.between(1.2, 2.5);
     for (Index i = 1; i <= sines; ++i) {
-        const double wanted = highest * static_cast<double>(i) / static_cast<double>(sines) * chance.Ts;  // per sample
+        const double expected =
+            highest * static_cast<double>(i) / static_cast<double>(sines) * chance.Ts;  // per sample
         const double w =
-            2 * std::numbers::pi * std::max(1.0, std::round(wanted * period / (2 * std::numbers::pi))) / period;
+            2 * std::numbers::pi * std::max(1.0, std::round(expected * period / (2 * std::numbers::pi))) / period;
         const double phase = chance.between(0, 2 * std::numbers::pi);
         for (Index k = 0; k < u.size(); ++k) u[k] += std::sin(w * static_cast<double>(k) + phase);
     }

@@ -55,9 +55,10 @@ class Chromium {
         if (::geteuid() == 0) arguments.push_back("--no-sandbox");
         json options = {{"args", arguments}};
         if (kind == Browser::Kind::kWithoutDesktop && std::filesystem::exists(kShell)) options["binary"] = kShell;
-        const json wanted = {{"capabilities", {{"alwaysMatch", {{"goog:chromeOptions", options}}}}}};
+        const json expected = {{"capabilities", {{"alwaysMatch", {{"goog:chromeOptions", options}}}}}};
         for (int i = 0; i < 1000 && !client_.Get("/status"); ++i) std::this_thread::sleep_for(10ms);
-        session_ = "/session/" + value(client_.Post("/session", wanted.dump(), kJson))["sessionId"].get<std::string>();
+        session_ =
+            "/session/" + value(client_.Post("/session", expected.dump(), kJson))["sessionId"].get<std::string>();
         first_window_ = get("/window");
     }
     ~Chromium() { client_.Delete(session_); }
@@ -156,7 +157,7 @@ void Browser::open(const std::string& address) {
     const auto opened = work_->opened.find(address);
     work_->chromium().command("/url", {{"url", opened == work_->opened.end() ? address : opened->second}});
     if (opened != work_->opened.end() || address.find("/?token=") == std::string::npos) return;
-    if (comes("location.search === '' && document.readyState === 'complete'", 10))
+    if (becomes_true("location.search === '' && document.readyState === 'complete'", 10))
         work_->opened[address] = json::parse(evaluate("return location.href"));
 }
 
@@ -164,7 +165,7 @@ std::string Browser::evaluate(const std::string& script) {
     return work_->chromium().command("/execute/sync", {{"script", script}, {"args", json::array()}}).dump();
 }
 
-bool Browser::comes(const std::string& expression, double seconds) {
+bool Browser::becomes_true(const std::string& expression, double seconds) {
     const auto begin = std::chrono::steady_clock::now();
     std::chrono::duration<double> waited{0};
     do {

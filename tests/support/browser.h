@@ -17,7 +17,7 @@ class Browser {
     /// The JSON of what a script returns ("return ..."); throws EnvironmentError with its exception.
     std::string evaluate(const std::string& script);
     /// Whether the expression becomes true within so many seconds.
-    bool comes(const std::string& expression, double seconds = 30);
+    bool becomes_true(const std::string& expression, double seconds = 30);
     void click(const std::string& selector);
     void new_tab();
     void prefer_dark();  ///< as a system with a dark desktop does

@@ -23,7 +23,7 @@ inline Vector arma_signal(const Vector& C, const Vector& D, Index N, std::uint32
 
 /// The classic problem, 2/(s^2 + 4s + 3), prbs(7, 8), Ts = 0.05 s, N = 1016, with noise C/D e of a signal-to-noise
 /// ratio of 15 dB: (1 + 0.9 q^-1)/(1 - q^-1 + 0.2 q^-2) in the published problem.
-struct ColouredProblem {
+struct ColoredProblem {
     Vector C = values({1, 0.9}), D = values({1, -1, 0.2});
     Vector u = prbs(7, 8);
     Vector x = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05);

@@ -25,10 +25,11 @@ class preview_page : public testing::Test {
         std::ofstream(file(name)) << text;
     }
     bool shows(Browser& browser, const std::string& text) const {
-        return browser.comes("document.getElementById('document')?.innerText.includes('" + text + "')");
+        return browser.becomes_true("document.getElementById('document')?.innerText.includes('" + text + "')");
     }
     static bool state_is(Browser& browser, const std::string& cell, const std::string& state) {
-        return browser.comes("document.querySelector('[data-cell=" + cell + "]')?.dataset.state === '" + state + "'");
+        return browser.becomes_true("document.querySelector('[data-cell=" + cell + "]')?.dataset.state === '" + state +
+                                    "'");
     }
     TemporaryFolder folder;
 };

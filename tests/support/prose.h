@@ -32,7 +32,7 @@ inline constexpr std::array kRefusedPhrases = {
     "in place of", "in front of", "unless given", "unless told",  "for good",      "coloured",     "behaviour",
     "neighbour",   "neighbours",  "realisation",  "realisations", "minimises",     "factorisation"};
 
-inline constexpr std::size_t kLongestSentence = 25;  ///< words
+inline constexpr std::size_t kMaxSentenceLength = 25;  ///< words
 
 /// A paragraph, a list item, a cell of a table or a heading, in plain words.
 struct ProseBlock {

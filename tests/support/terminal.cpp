@@ -56,17 +56,17 @@ void Terminal::type(const std::string& text) const {
     ASSERT_EQ(write(terminal_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
 }
 
-std::string Terminal::until(const std::string& wanted) {
+std::string Terminal::until(const std::string& expected) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     std::size_t found;
-    while ((found = seen_.find(wanted)) == std::string::npos) {
+    while ((found = seen_.find(expected)) == std::string::npos) {
         if (std::chrono::steady_clock::now() > deadline || !read_more()) {
-            ADD_FAILURE() << "the terminal never showed '" << wanted << "' but: " << seen_;
+            ADD_FAILURE() << "the terminal never showed '" << expected << "' but: " << seen_;
             return std::exchange(seen_, {});
         }
     }
-    const std::string text = seen_.substr(0, found + wanted.size());
-    seen_.erase(0, found + wanted.size());
+    const std::string text = seen_.substr(0, found + expected.size());
+    seen_.erase(0, found + expected.size());
     return text;
 }
 

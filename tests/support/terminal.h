@@ -22,8 +22,8 @@ class Terminal {
     void type(const std::string& text) const;
     void enter(const std::string& line) const { type(line + "\r"); }
 
-    /// Reads until `wanted` appears; what came before it and it are returned and forgotten.
-    std::string until(const std::string& wanted);
+    /// Reads until `expected` appears; what came before it and it are returned and forgotten.
+    std::string until(const std::string& expected);
     std::string until_prompt() { return until("dynlab> "); }
 
     bool modes_are_as_before() const;

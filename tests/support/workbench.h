@@ -41,7 +41,7 @@ class workbench_page : public testing::Test {
         }
     }
     static bool is_ready(Browser& browser) {
-        return browser.comes(
+        return browser.becomes_true(
             "['up to date', 'à jour', 'stopped at an error'].includes(document.getElementById('state').textContent)");
     }
     /// Opens a session of the record of write_record() and waits for its picture.
@@ -49,26 +49,27 @@ class workbench_page : public testing::Test {
         write_record();
         auto program = app("plant.csv");
         browser.open(program->address());
-        EXPECT_TRUE(view_comes(browser, "record"));
+        EXPECT_TRUE(view_appears(browser, "record"));
         EXPECT_TRUE(is_ready(browser));
         return program;
     }
     /// Clicks the button with these words that is to be seen; false where there is none.
     static bool press(Browser& browser, const std::string& words) {
-        return browser.comes(
+        return browser.becomes_true(
             "(() => { const found = [...document.querySelectorAll('button')].find((one) => one.textContent.trim() === "
             "`" +
                 words + "` && one.offsetParent && !one.disabled); found?.click(); return found; })()",
             10);
     }
     static bool script_has(Browser& browser, const std::string& text) {
-        return browser.comes("document.querySelector('.CodeMirror')?.CodeMirror.getValue().includes(`" + text + "`)");
+        return browser.becomes_true("document.querySelector('.CodeMirror')?.CodeMirror.getValue().includes(`" + text +
+                                    "`)");
     }
-    static bool view_comes(Browser& browser, const std::string& view) {
-        return browser.comes("document.querySelector('.tile[data-view=" + view + "] canvas')");
+    static bool view_appears(Browser& browser, const std::string& view) {
+        return browser.becomes_true("document.querySelector('.tile[data-view=" + view + "] canvas')");
     }
     static bool says(Browser& browser, const std::string& text) {
-        return browser.comes("document.body.innerText.includes(`" + text + "`)");
+        return browser.becomes_true("document.body.innerText.includes(`" + text + "`)");
     }
     TemporaryFolder folder;
 };

@@ -36,7 +36,7 @@ void write_code(Browser& browser, const std::string& cell, const std::string& co
 /// A lesson whose cells can run.
 void open_lesson(Browser& browser, const std::string& number = "02") {
     browser.open(site().address("lessons/" + number + "/index.html"));
-    ASSERT_TRUE(browser.comes(kReady, 60));
+    ASSERT_TRUE(browser.becomes_true(kReady, 60));
 }
 
 TEST(web_lessons, run_a_cell_and_keep_what_was_written) {
@@ -45,7 +45,7 @@ TEST(web_lessons, run_a_cell_and_keep_what_was_written) {
     open_lesson(browser);
     write_code(browser, "times", "print(6*7)");
     browser.click("[data-cell=times] .run-cell");
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-cell=times] pre.output')?.textContent === '42'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('[data-cell=times] pre.output')?.textContent === '42'"));
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
     open_lesson(browser);
     EXPECT_EQ(json::parse(browser.evaluate("return " + editor("times") + ".getValue()")), "print(6*7)");
@@ -57,7 +57,7 @@ TEST(web_lessons, say_an_error_at_its_line) {
     open_lesson(browser);
     write_code(browser, "times", "local x = 1\nprint(x + nothing)");
     browser.click("[data-cell=times] .run-cell");
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-cell=times] .failure')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('[data-cell=times] .failure')"));
     EXPECT_EQ(json::parse(browser.evaluate("return " + editor("times") + ".lineInfo(1).wrapClass ?? ''")), "failed");
 }
 
@@ -67,12 +67,13 @@ TEST(web_lessons, stop_an_endless_loop_and_go_on) {
     open_lesson(browser);
     write_code(browser, "times", "while true do end");
     browser.click("[data-cell=times] .run-cell");
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-cell=times][data-state=running]')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('[data-cell=times][data-state=running]')"));
     browser.click("#lesson-stop");
-    EXPECT_TRUE(browser.comes(kIdle, 5));
+    EXPECT_TRUE(browser.becomes_true(kIdle, 5));
     write_code(browser, "times", "print(\"again\")");
     browser.click("[data-cell=times] .run-cell");
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-cell=times] pre.output')?.textContent === 'again'"));
+    EXPECT_TRUE(
+        browser.becomes_true("document.querySelector('[data-cell=times] pre.output')?.textContent === 'again'"));
 }
 
 TEST(web_lessons, refuse_more_memory_than_there_is_in_a_sentence) {
@@ -81,7 +82,7 @@ TEST(web_lessons, refuse_more_memory_than_there_is_in_a_sentence) {
     open_lesson(browser);
     write_code(browser, "times", "local x = zeros(2^28)");
     browser.click("[data-cell=times] .run-cell");
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-cell=times] .failure')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('[data-cell=times] .failure')"));
     EXPECT_THAT(text_of(browser, "[data-cell=times] .failure"), testing::HasSubstr("memory"));
 }
 
@@ -124,13 +125,13 @@ TEST(web_lessons, give_the_points_of_the_worked_solution) {
     browser.evaluate("const data = new DataTransfer(); data.items.add(new File([" + json(solution).dump() +
                      "], 'analysis.lua')); const chooser = document.querySelector('.work-menu input[type=file]');"
                      "chooser.files = data.files; chooser.dispatchEvent(new Event('change'))");
-    ASSERT_TRUE(browser.comes("document.querySelector('[data-name=work]')"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelector('[data-name=work]')"));
     browser.click("#lesson-check");
-    EXPECT_TRUE(browser.comes("document.querySelector('#lesson-panel .checks')", 120));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('#lesson-panel .checks')", 120));
     EXPECT_EQ(text_of(browser, "#lesson-panel h2"), "20 of 20 points");
 }
 
-TEST(web_lessons, show_somebody_else_s_script_and_run_it_when_it_is_accepted_only) {
+TEST(web_lessons, show_another_user_s_script_and_run_it_when_it_is_accepted_only) {
     SKIP_WITHOUT_WEB_ENGINE();
     Browser browser;
     open_lesson(browser);
@@ -144,7 +145,7 @@ TEST(web_lessons, show_somebody_else_s_script_and_run_it_when_it_is_accepted_onl
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
     browser.open("about:blank");
     browser.open(link);
-    ASSERT_TRUE(browser.comes(kReady, 60));
+    ASSERT_TRUE(browser.becomes_true(kReady, 60));
     EXPECT_EQ(json::parse(browser.evaluate("return " + editor("times") + ".getValue()")), "print(\"theirs\")");
     EXPECT_EQ(browser.evaluate("return document.querySelector('#lesson-run').disabled"), "true");
     browser.click("#keep-own");
@@ -158,13 +159,13 @@ TEST(web_lessons, let_one_tab_write) {
     Browser browser;
     open_lesson(browser);
     browser.evaluate("window.other = window.open(location.href)");
-    EXPECT_TRUE(browser.comes("window.other.document.querySelector('#lesson[data-ready]')", 60));
-    EXPECT_TRUE(browser.comes("window.other.document.querySelector('[data-name=tab]')"));
+    EXPECT_TRUE(browser.becomes_true("window.other.document.querySelector('#lesson[data-ready]')", 60));
+    EXPECT_TRUE(browser.becomes_true("window.other.document.querySelector('[data-name=tab]')"));
     EXPECT_EQ(browser.evaluate("return document.querySelector('[data-name=tab]')"), "null");
     browser.evaluate("window.other.document.querySelector('[data-name=tab] button').click()");
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-name=tab]')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('[data-name=tab]')"));
     browser.evaluate("window.other.close()");
-    EXPECT_TRUE(browser.comes("!document.querySelector('[data-name=tab]')"));
+    EXPECT_TRUE(browser.becomes_true("!document.querySelector('[data-name=tab]')"));
 }
 
 TEST(web_lessons, work_where_the_browser_keeps_nothing_and_say_so) {
@@ -174,10 +175,10 @@ TEST(web_lessons, work_where_the_browser_keeps_nothing_and_say_so) {
         "Page.addScriptToEvaluateOnNewDocument",
         R"({"source": "IDBFactory.prototype.open = () => { throw new DOMException('no', 'SecurityError'); }"})");
     open_lesson(browser);
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-name=kept]')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('[data-name=kept]')"));
     write_code(browser, "times", "print(1)");
     browser.click("[data-cell=times] .run-cell");
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-cell=times] pre.output')?.textContent === '1'"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('[data-cell=times] pre.output')?.textContent === '1'"));
 }
 
 TEST(web_lessons, stay_readable_without_exceptions_of_webassembly) {
@@ -185,7 +186,7 @@ TEST(web_lessons, stay_readable_without_exceptions_of_webassembly) {
     Browser browser;
     browser.devtools("Page.addScriptToEvaluateOnNewDocument", R"({"source": "WebAssembly.validate = () => false"})");
     browser.open(site().address("lessons/02/index.html"));
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-name=engine]')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('[data-name=engine]')"));
     EXPECT_EQ(browser.evaluate("return document.querySelectorAll('.CodeMirror, #lesson-run').length"), "0");
     EXPECT_NE(browser.evaluate("return document.querySelectorAll('pre.code').length"), "0");
 }
@@ -194,26 +195,27 @@ TEST(web_lessons, run_without_a_connection_after_the_first_visit) {
     SKIP_WITHOUT_WEB_ENGINE();
     Browser browser;
     open_lesson(browser);
-    ASSERT_TRUE(browser.comes("navigator.serviceWorker.controller", 60));
+    ASSERT_TRUE(browser.becomes_true("navigator.serviceWorker.controller", 60));
     browser.devtools("Network.enable", "{}");
     browser.devtools("Network.emulateNetworkConditions",
                      R"({"offline": true, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})");
     browser.open(site().address("lessons/04/"));
-    ASSERT_TRUE(browser.comes(kReady, 60));
+    ASSERT_TRUE(browser.becomes_true(kReady, 60));
     browser.open(site().address("lessons/02/"));
-    ASSERT_TRUE(browser.comes(kReady, 60));
+    ASSERT_TRUE(browser.becomes_true(kReady, 60));
     browser.click("[data-cell=times] .run-cell");
-    EXPECT_TRUE(browser.comes("document.querySelector('[data-cell=times] pre.output')?.textContent.includes('Games')"));
+    EXPECT_TRUE(
+        browser.becomes_true("document.querySelector('[data-cell=times] pre.output')?.textContent.includes('Games')"));
 }
 
 TEST(web_lessons, run_examples_of_help) {
     SKIP_WITHOUT_WEB_ENGINE();
     Browser browser;
     browser.open(site().address("functions/step.html"));
-    ASSERT_TRUE(browser.comes("document.querySelectorAll('.run-example').length === 2"));
+    ASSERT_TRUE(browser.becomes_true("document.querySelectorAll('.run-example').length === 2"));
     browser.click(".run-example");
-    EXPECT_TRUE(browser.comes("document.querySelector('.example-cell pre.output')?.textContent === '1'", 60));
-    EXPECT_TRUE(browser.comes("document.querySelector('.example-cell .plot canvas')"));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.example-cell pre.output')?.textContent === '1'", 60));
+    EXPECT_TRUE(browser.becomes_true("document.querySelector('.example-cell .plot canvas')"));
 }
 
 }  // namespace test_web_lessons

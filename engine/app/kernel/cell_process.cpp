@@ -61,7 +61,7 @@ std::string how_it_ended(int status) {
 }  // namespace
 
 CellProcess::CellProcess() : keeper_(FileDescriptor()), line_(FileDescriptor()) {
-    forget_interrupts(std::numeric_limits<int>::max());
+    clear_interrupts(std::numeric_limits<int>::max());
     auto [here, there] = Channel::pair();
     pid_t keeper = -1;
     if (fork_bound(keeper)) {

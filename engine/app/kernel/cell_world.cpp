@@ -38,18 +38,18 @@ using nlohmann::json;
 
 constexpr std::size_t kCellsBetweenTidying = 100;
 
-class CellWorld {
+class CellEnvironment {
   public:
-    explicit CellWorld(Channel line)
+    explicit CellEnvironment(Channel line)
         : line_(std::move(line)),
           written_(state_file("written")),
           renderer_(&cache_),
           listener_{[this](const std::string& latex) { expected_ = latex; }},
           runtime_(options(), renderer_) {
         runtime_.services() = {.language = &language_, .listener = &listener_, .written = &written_};
-        ProgressBar::tell_instead([this](std::size_t done, std::size_t total) {
+        ProgressBar::set_listener([this](std::size_t done, std::size_t total) {
             const double part = total == 0 ? -1 : static_cast<double>(std::min(done, total)) / double(total);
-            tell({.kind = "progress", .progress = part});
+            send_news({.kind = "progress", .progress = part});
         });
     }
 
@@ -57,7 +57,7 @@ class CellWorld {
         runtime_.run_statement(read_script_part("", {}), "start");  // from then on names can be completed
         while (const auto message = line_.receive()) {
             const CellOrder order = from_cbor<CellOrder>(message->bytes);
-            forget_interrupts(std::numeric_limits<int>::max());
+            clear_interrupts(std::numeric_limits<int>::max());
             CellNews done{.kind = "done"};
             if (order.kind == "run") run(order);
             if (order.kind == "complete") {
@@ -66,7 +66,7 @@ class CellWorld {
             }
             if (order.kind == "inspect")
                 done.text = inspect(runtime_.state(), order.code, order.cursor).value_or(std::string());
-            tell(done);
+            send_news(done);
             if (++orders_ % kCellsBetweenTidying == 0) return_freed_memory();
         }
         ::_exit(0);
@@ -78,14 +78,14 @@ class CellWorld {
     };
 
     RunOptions options() {
-        RunOptions wanted;
-        wanted.call_cache = &calls_;
-        wanted.print = [this](const std::string& text) { take_printed(text); };
-        return wanted;
+        RunOptions requested;
+        requested.call_cache = &calls_;
+        requested.print = [this](const std::string& text) { take_printed(text); };
+        return requested;
     }
 
-    void tell(const CellNews& news) {
-        const std::lock_guard lock(telling_);  // bars of several threads move at once
+    void send_news(const CellNews& news) {
+        const std::lock_guard lock(output_mutex_);  // bars of several threads move at once
         if (!line_.send(cbor_of(news))) ::_exit(0);
     }
 
@@ -95,23 +95,24 @@ class CellWorld {
         if (expected_)
             value_ = Value{text, *std::exchange(expected_, std::nullopt)};
         else
-            tell({.kind = "print", .text = text});
+            send_news({.kind = "print", .text = text});
     }
 
     void give_value(const char* kind) {
         if (!value_) return;
         const Value value = *std::exchange(value_, std::nullopt);
-        if (std::string(kind) == "display" && value.latex.empty()) return tell({.kind = "print", .text = value.text});
+        if (std::string(kind) == "display" && value.latex.empty())
+            return send_news({.kind = "print", .text = value.text});
         std::string text = value.text;
         while (text.ends_with('\n')) text.pop_back();
         json shown = {{"text/plain", text.substr(std::min(text.find_first_not_of('\n'), text.size()))}};
         if (!value.latex.empty()) shown["text/latex"] = value.latex;
-        tell({.kind = kind, .data = shown.dump(-1, ' ', false, json::error_handler_t::replace)});
+        send_news({.kind = kind, .data = shown.dump(-1, ' ', false, json::error_handler_t::replace)});
     }
 
     void run(const CellOrder& order) {
         value_.reset(), expected_.reset();
-        tell({.kind = "begun"});
+        send_news({.kind = "begun"});
         const std::string name = fmt::format("cell [{}]", order.count);
         try {
             take_header(order.code, name);
@@ -119,18 +120,18 @@ class CellWorld {
             show_reported(record);
             for (const std::string& figure : figures_in_order(record)) {
                 throw_if_interrupted();
-                tell({.kind = "display",
-                      .data = figure_bundle(*record.figures.at(figure).figure, renderer_,
-                                            Reader{catalog_of(language_.code)})});
+                send_news({.kind = "display",
+                           .data = figure_bundle(*record.figures.at(figure).figure, renderer_,
+                                                 Reader{catalog_of(language_.code)})});
             }
             renderer_.finish();  // what the cell saved itself
             give_value("result");
             if (record.error) fail(*record.error, order.code, name);
         } catch (const Interrupted& error) {
             give_value("display");
-            tell({.kind = "failed", .text = error.what(), .lines = {error.what()}, .interrupted = true});
+            send_news({.kind = "failed", .text = error.what(), .lines = {error.what()}, .interrupted = true});
         } catch (const std::exception& error) {
-            tell({.kind = "failed", .text = error.what(), .lines = {error.what()}});
+            send_news({.kind = "failed", .text = error.what(), .lines = {error.what()}});
         }
         written_.settle();
     }
@@ -150,18 +151,18 @@ class CellWorld {
             text += fmt::format("table {}:\n{}", name, aligned_table(table.header, table.rows));
         if (text.empty()) return;
         give_value("display");
-        tell({.kind = "print", .text = text});
+        send_news({.kind = "print", .text = text});
     }
 
     void fail(const RecordedError& error, const std::string& code, const std::string& name) {
         PercentScript cell;
         cell.file = name;
         cell.source = code;
-        tell({.kind = "failed", .text = message_text(error.message), .lines = lines_of(error_text(error, cell))});
+        send_news({.kind = "failed", .text = message_text(error.message), .lines = lines_of(error_text(error, cell))});
     }
 
     Channel line_;
-    std::mutex telling_;
+    std::mutex output_mutex_;
     Cache cache_;
     CallCache calls_{cache_};
     WrittenFiles written_;  ///< outlives the renderer, which draws into them
@@ -178,7 +179,7 @@ class CellWorld {
 
 void serve_cells(Channel line) {
     try {
-        CellWorld(std::move(line)).serve();
+        CellEnvironment(std::move(line)).serve();
     } catch (const std::exception& error) {
         fmt::print(stderr, "dynlab: {}\n", error.what());
     }

@@ -15,23 +15,23 @@ std::string KernelConnection::address(int port) const {
 
 KernelConnection read_connection(const std::filesystem::path& file) {
     using nlohmann::json;
-    const json told = json::parse(read_text(file), nullptr, false);
+    const json reported = json::parse(read_text(file), nullptr, false);
     KernelConnection connection;
     try {
-        connection.transport = told.value("transport", "tcp");
-        connection.ip = told.at("ip").get<std::string>();
-        connection.key = told.value("key", "");
+        connection.transport = reported.value("transport", "tcp");
+        connection.ip = reported.at("ip").get<std::string>();
+        connection.key = reported.value("key", "");
         for (const auto& [name, port] :
              {std::pair{"shell_port", &KernelConnection::shell}, std::pair{"control_port", &KernelConnection::control},
               std::pair{"stdin_port", &KernelConnection::stdin_}, std::pair{"iopub_port", &KernelConnection::iopub},
               std::pair{"hb_port", &KernelConnection::heartbeat}})
-            connection.*port = told.at(name).get<int>();
+            connection.*port = reported.at(name).get<int>();
         if (connection.key.empty())
             throw EnvironmentError(
                 "{} has no key, so any user of this machine could run cells. Let Jupyter write the file with a key; do "
                 "not set Session.key to an empty string",
                 file.string());
-        const std::string scheme = told.value("signature_scheme", "hmac-sha256");
+        const std::string scheme = reported.value("signature_scheme", "hmac-sha256");
         if (scheme != "hmac-sha256")
             throw EnvironmentError("{}: the messages are signed with {}, but dynlab supports only hmac-sha256",
                                    file.string(), scheme);

@@ -16,7 +16,7 @@ constexpr int kSession = 1;
 
 void InputHistory::add(int count, const std::string& code, const std::string& result) {
     inputs_.push_back({count, code, result});
-    if (inputs_.size() > kMost) inputs_.pop_front();
+    if (inputs_.size() > kMax) inputs_.pop_front();
 }
 
 json InputHistory::found(const json& request) const {
@@ -36,8 +36,8 @@ json InputHistory::found(const json& request) const {
         std::erase_if(chosen, [&](const Input* input) { return !seen.insert(input->code).second; });
         std::reverse(chosen.begin(), chosen.end());
     }
-    const json wanted = request.value("n", json());
-    const std::size_t most = wanted.is_number_integer() ? std::max(wanted.get<int>(), 0) : kMost;
+    const json requested = request.value("n", json());
+    const std::size_t most = requested.is_number_integer() ? std::max(requested.get<int>(), 0) : kMax;
     if (kind != "range" && chosen.size() > most) chosen.erase(chosen.begin(), chosen.end() - static_cast<long>(most));
     json list = json::array();
     for (const Input* input : chosen) {

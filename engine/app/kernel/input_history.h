@@ -8,7 +8,7 @@ namespace dynlab::inline app {
 /// The cells of a session as they were run, for history requests; the last thousand.
 class InputHistory {
   public:
-    static constexpr std::size_t kMost = 1000;
+    static constexpr std::size_t kMax = 1000;
 
     void add(int count, const std::string& code, const std::string& result);
     /// What a history_request asks for by tail, range or search, as its reply lists it: [session, number, code], or

@@ -28,9 +28,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kLinger = 1000;                  // milliseconds for what is still to be sent at the end
-constexpr std::int64_t kMostBytes = 16 << 20;  // of a frame; more cuts the line. A message may have any number
-constexpr int kMillisecondsOfPoll = 200;       // until the main thread sees that it is to end
+constexpr int kLinger = 1000;                     // milliseconds for what is still to be sent at the end
+constexpr std::int64_t kMaxByteCount = 16 << 20;  // of a frame; more cuts the line. A message may have any number
+constexpr int kMillisecondsOfPoll = 200;          // until the main thread sees that it is to end
 constexpr const char* kProgressName = "dynlab-progress";
 
 std::size_t byte_of_character(std::string_view text, std::size_t characters) {
@@ -82,7 +82,7 @@ class Kernel {
               std::pair{&heartbeat_, connection.heartbeat}}) {
             socket->set(zmq::sockopt::linger, kLinger);
             socket->set(zmq::sockopt::sndhwm, 0);
-            socket->set(zmq::sockopt::maxmsgsize, kMostBytes);
+            socket->set(zmq::sockopt::maxmsgsize, kMaxByteCount);
             try {
                 socket->bind(connection.address(port));
             } catch (const zmq::error_t& error) {
@@ -168,7 +168,7 @@ class Kernel {
 
     /// The main thread and that of the control socket both tell everybody.
     void publish(const std::string& type, json content, const KernelMessage& parent) {
-        const std::lock_guard lock(telling_);
+        const std::lock_guard lock(output_mutex_);
         KernelMessage message = wire_.made(type, std::move(content), parent);
         message.identities = {type};
         send_frames(iopub_, wire_.write(message));
@@ -176,7 +176,7 @@ class Kernel {
 
     void reply(const KernelMessage& request, json content, zmq::socket_t& socket) {
         const std::string type = request.type();
-        const std::lock_guard lock(telling_);
+        const std::lock_guard lock(output_mutex_);
         KernelMessage message =
             wire_.made(type.substr(0, type.rfind("_request")) + "_reply", std::move(content), request);
         message.identities = request.identities;
@@ -257,9 +257,9 @@ class Kernel {
     }
 
     void end(const KernelMessage& request, zmq::socket_t& socket) {
-        const json told = {{"status", "ok"}, {"restart", member(request.content, "restart", false)}};
-        reply(request, told, socket);
-        publish("shutdown_reply", told, request);
+        const json reported = {{"status", "ok"}, {"restart", member(request.content, "restart", false)}};
+        reply(request, reported, socket);
+        publish("shutdown_reply", reported, request);
         stopping_ = true;
         cells_.stop();
     }
@@ -314,11 +314,11 @@ class Kernel {
             failure = run(code, request, silent, result);
         }
         if (stored) history_.add(count_, code, result);
-        json told = failure.is_null()
-                        ? json{{"status", "ok"}, {"payload", payload}, {"user_expressions", json::object()}}
-                        : failure;
-        told["execution_count"] = count_;
-        reply(request, told, shell_);
+        json reported = failure.is_null()
+                            ? json{{"status", "ok"}, {"payload", payload}, {"user_expressions", json::object()}}
+                            : failure;
+        reported["execution_count"] = count_;
+        reply(request, reported, shell_);
         return failure.is_null() || !member(request.content, "stop_on_error", true);
     }
 
@@ -336,7 +336,7 @@ class Kernel {
             if (news.kind == "failed") fail(news.interrupted ? "interrupted" : "error", news.text, news.lines);
             if (silent) return;
             if (news.kind == "print") publish("stream", {{"name", "stdout"}, {"text", news.text}}, request);
-            if (news.kind == "progress") tell_progress(news.progress, progress, request);
+            if (news.kind == "progress") report_progress(news.progress, progress, request);
             if (news.kind != "display" && news.kind != "result") return;
             json shown = {{"data", json::parse(news.data)}, {"metadata", json::object()}};
             if (news.kind == "result") {
@@ -350,7 +350,7 @@ class Kernel {
     }
 
     /// The first of a cell makes a line of output, which those that follow replace.
-    void tell_progress(double part, bool& shown, const KernelMessage& request) {
+    void report_progress(double part, bool& shown, const KernelMessage& request) {
         if (part < 0 && !shown) return;
         const int percent = static_cast<int>(100 * part);
         const std::string text = part < 0 ? "" : fmt::format("[{:<20}] {} %", std::string(percent / 5, '#'), percent);
@@ -368,7 +368,7 @@ class Kernel {
         iopub_{context_, ZMQ_PUB}, heartbeat_{context_, ZMQ_REP};
     MessageWire wire_;
     std::string version_;
-    std::mutex telling_;  ///< of iopub_ and wire_
+    std::mutex output_mutex_;  ///< of iopub_ and wire_
     std::atomic<bool> stopping_ = false;
     std::vector<std::thread> threads_;
     std::deque<KernelMessage> waiting_;  ///< requests, in order

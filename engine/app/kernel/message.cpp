@@ -16,14 +16,14 @@ using nlohmann::json;
 constexpr const char* kProtocolVersion = "5.3";
 constexpr const char* kDelimiter = "<IDS|MSG>";
 constexpr std::size_t kMostRemembered = 1 << 16;  // signatures, as Jupyter's own clients keep them
-constexpr int kDeepestNesting = 100;
+constexpr int kMaxNesting = 100;
 constexpr std::size_t kPartsBehind = 5;  // signature, header, parent, metadata, content
 
 /// What is nested deeper would exhaust the stack where a message is copied or written, which goes by recursion.
 json object_of(const std::string& frame, const char* what) {
     const auto shallow = [what](int depth, json::parse_event_t, const json&) {
-        if (depth > kDeepestNesting)
-            throw BadMessage("a message in which {} is nested more than {} deep", what, kDeepestNesting);
+        if (depth > kMaxNesting)
+            throw BadMessage("a message in which {} is nested more than {} deep", what, kMaxNesting);
         return true;
     };
     json object = json::parse(frame, shallow, false);

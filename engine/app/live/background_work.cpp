@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr auto kLeftAlone = 1s;
-constexpr auto kLongest = 10min;
+constexpr auto kMaxDuration = 10min;
 
 std::string this_program() {
     return running_program().string();
@@ -29,8 +29,8 @@ std::string this_program() {
 BackgroundWork::BackgroundWork(std::string document)
     : document_(std::move(document)), is_folder_(fs::is_directory(document_)) {}
 
-void BackgroundWork::start(std::function<void()> tell) {
-    tell_ = std::move(tell);
+void BackgroundWork::start(std::function<void()> notify) {
+    notify_ = std::move(notify);
     thread_ = std::thread([this] { work(); });
 }
 
@@ -51,10 +51,10 @@ void BackgroundWork::document_changed(std::map<std::string, double> slider_value
     changed_.notify_all();
 }
 
-void BackgroundWork::want(bool wanted) {
+void BackgroundWork::want(bool requested) {
     const std::lock_guard lock(mutex_);
-    if (wanted_ == wanted) return;
-    wanted_ = wanted;
+    if (requested_ == requested) return;
+    requested_ = requested;
     changed_.notify_all();
 }
 
@@ -67,7 +67,7 @@ BackgroundWork::Pdf BackgroundWork::pdf() {
     return pdf_version_ == version_ ? pdf_ : Pdf{{}, Message("dynlab is shutting down")};
 }
 
-bool BackgroundWork::hands_in() const {
+bool BackgroundWork::can_submit() const {
     return is_folder_ && fs::exists(fs::path(document_) / "report.md");
 }
 
@@ -84,18 +84,18 @@ BackgroundWork::Made BackgroundWork::make(std::vector<std::string> command) {
     const std::lock_guard one(making_);
     ChildOptions child;
     child.command = std::move(command);
-    child.timeout = kLongest;
+    child.timeout = kMaxDuration;
     child.give_up = [this] {
         const std::lock_guard guard(mutex_);
         return end_;
     };
     const fs::path messages = folder_.path() / "made.messages";
     fs::remove(messages);
-    child.environment = {{kFileOfSaidMessages, messages.string()}};
+    child.environment = {{kFileOfCommandMessages, messages.string()}};
     Made made;
     try {
         const ChildResult result = run_child(child, "dynlab");
-        SaidMessages said = read_said_messages(messages);
+        CommandMessages said = read_command_messages(messages);
         if (result.timed_out) said.complaints.push_back(Message("the work took longer than ten minutes"));
         made = {result.exit_code == 0,
                 said.empty() ? Message::verbatim(result.output + result.error_output) : said.all()};
@@ -103,14 +103,14 @@ BackgroundWork::Made BackgroundWork::make(std::vector<std::string> command) {
         made.words = message_of(error);
     }
     const std::lock_guard lock(mutex_);
-    findings_version_ = 0;  // they speak of what lies in the folder
+    issues_version_ = 0;  // they speak of what lies in the folder
     changed_.notify_all();
     return made;
 }
 
 std::string BackgroundWork::findings() {
     const std::lock_guard lock(mutex_);
-    return findings_;
+    return issues_;
 }
 
 std::optional<double> BackgroundWork::checking() {
@@ -124,9 +124,9 @@ bool BackgroundWork::pdf_is_ready() {
 }
 
 BackgroundWork::Task BackgroundWork::next_task(Clock::time_point now) const {
-    const bool quiet = wanted_ && now - change_time_ >= kLeftAlone;
+    const bool quiet = requested_ && now - change_time_ >= kLeftAlone;
     if (pdf_version_ != version_ && (waiting_for_pdf_ > 0 || quiet)) return Task::kPdf;
-    if (is_folder_ && findings_version_ != version_ && quiet) return Task::kFindings;
+    if (is_folder_ && issues_version_ != version_ && quiet) return Task::kFindings;
     return Task::kNone;
 }
 
@@ -137,8 +137,8 @@ void BackgroundWork::work() {
             do_task(task, lock);
             continue;
         }
-        const bool something_left = pdf_version_ != version_ || (is_folder_ && findings_version_ != version_);
-        if (wanted_ && something_left)
+        const bool something_left = pdf_version_ != version_ || (is_folder_ && issues_version_ != version_);
+        if (requested_ && something_left)
             changed_.wait_until(lock, change_time_ + kLeftAlone);
         else
             changed_.wait(lock);
@@ -150,7 +150,7 @@ void BackgroundWork::do_task(Task task, std::unique_lock<std::mutex>& lock) {
     const auto slider_values = slider_values_;
     const auto give_up = [this, version] {
         const std::lock_guard guard(mutex_);
-        return end_ || version_ != version || (!wanted_ && waiting_for_pdf_ == 0);
+        return end_ || version_ != version || (!requested_ && waiting_for_pdf_ == 0);
     };
     lock.unlock();
     Pdf pdf;
@@ -166,12 +166,12 @@ void BackgroundWork::do_task(Task task, std::unique_lock<std::mutex>& lock) {
         pdf_ = std::move(pdf);
         pdf_version_ = version;
     } else {
-        findings_ = std::move(findings);
-        findings_version_ = version;
+        issues_ = std::move(findings);
+        issues_version_ = version;
     }
     changed_.notify_all();
     lock.unlock();
-    tell_();
+    notify_();
     lock.lock();
 }
 
@@ -186,14 +186,14 @@ BackgroundWork::Pdf BackgroundWork::made_pdf(const std::map<std::string, double>
         child.command.insert(child.command.end(), {"--set", fmt::format("{}={}", name, value)});
     const fs::path messages = folder_.path() / "pdf.messages";
     fs::remove(messages);
-    child.environment = {{kFileOfSaidMessages, messages.string()}};
-    child.timeout = kLongest;
+    child.environment = {{kFileOfCommandMessages, messages.string()}};
+    child.timeout = kMaxDuration;
     child.give_up = give_up;
     try {
         const ChildResult made = run_child(child, "dynlab");
         if (fs::exists(file)) return {read_file(file), {}};
         if (made.timed_out) return {{}, Message("making the PDF took longer than ten minutes")};
-        const SaidMessages said = read_said_messages(messages);
+        const CommandMessages said = read_command_messages(messages);
         return {{}, said.empty() ? Message::verbatim(made.error_output) : said.all()};
     } catch (const std::exception& error) {
         return {{}, message_of(error)};
@@ -203,7 +203,7 @@ BackgroundWork::Pdf BackgroundWork::made_pdf(const std::map<std::string, double>
 std::string BackgroundWork::made_findings(const std::function<bool()>& give_up) {
     ChildOptions child;
     child.command = {this_program(), "check", document_, "--json"};
-    child.timeout = kLongest;
+    child.timeout = kMaxDuration;
     const fs::path progress = folder_.path() / "check.progress";
     fs::remove(progress);
     child.environment = {{kFileOfProgress, progress.string()}};
@@ -225,7 +225,7 @@ void BackgroundWork::set_checking(std::optional<double> done) {
         const std::lock_guard lock(mutex_);
         if (std::exchange(checking_, done) == done) return;
     }
-    tell_();
+    notify_();
 }
 
 }  // namespace dynlab::inline app

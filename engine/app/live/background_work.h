@@ -15,20 +15,21 @@
 
 namespace dynlab::inline app {
 
-/// What is made of a document while nobody types: its PDF, and for a folder the findings of `dynlab check`; and what a
-/// reader asks for. Processes of the program make them; of the former, what is under way when the document changes is
-/// given up.
+/// Creates files of a document in the background: the PDF and, for a folder, the findings of `dynlab check`, while the
+/// user does not type; other files when the user requests them. Separate dynlab processes do the work. If the document
+/// changes, unfinished work on PDF and findings is canceled.
 class BackgroundWork {
   public:
     explicit BackgroundWork(std::string document);
     ~BackgroundWork() { stop(); }
-    /// `tell` is called in a thread of this, after each thing that was made anew.
-    void start(std::function<void()> tell);
+    /// `notify` is called in a thread of this object after each new result.
+    void start(std::function<void()> notify);
     void stop();  ///< gives everything up; whoever waits for a PDF gets none
 
     void document_changed(std::map<std::string, double> slider_values);
-    /// Whether it may work by itself, a second after the last change: the document has run and somebody looks at it.
-    void want(bool wanted);
+    /// Whether work may start a second after the last change without a request: the document has run and a browser tab
+    /// shows it.
+    void want(bool requested);
 
     struct Pdf {
         std::string bytes;  ///< empty where it cannot be made
@@ -36,14 +37,14 @@ class BackgroundWork {
     };
     Pdf pdf();  ///< of the document as it is now; waits until it is made
 
-    /// What is made only when somebody asks, as `dynlab report` and `dynlab pack` do.
+    /// Result of work that only starts on request, as `dynlab report` and `dynlab pack`.
     struct Made {
         bool done = false;
         Message words;  ///< what the command says, for a reader
     };
-    bool hands_in() const;  ///< whether the document is a folder with a report
-    Made make_report();     ///< into the folder, as the script says, wherever sliders were moved to
-    Made make_pack();       ///< FOLDER.zip beside it
+    bool can_submit() const;  ///< whether the document is a folder with a report
+    Made make_report();       ///< into the folder, as the script says, wherever sliders were moved to
+    Made make_pack();         ///< FOLDER.zip beside it
 
     /// JSON as `dynlab check --json` prints it; empty before it was made, and for a single script.
     std::string findings();
@@ -63,18 +64,18 @@ class BackgroundWork {
 
     const std::string document_;
     const bool is_folder_;
-    std::function<void()> tell_;
+    std::function<void()> notify_;
     TemporaryFolder folder_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::string, double> slider_values_;
-    std::uint64_t version_ = 1, pdf_version_ = 0, findings_version_ = 0;  ///< what was made is of these
+    std::uint64_t version_ = 1, pdf_version_ = 0, issues_version_ = 0;  ///< what was made is of these
     Clock::time_point change_time_ = Clock::now();
     Pdf pdf_;
-    std::string findings_;
+    std::string issues_;
     std::optional<double> checking_;
     int waiting_for_pdf_ = 0;
-    bool wanted_ = false, end_ = false;
+    bool requested_ = false, end_ = false;
     std::mutex making_;
     std::thread thread_;
 };

@@ -43,8 +43,8 @@ void describe(T& object, V& member) {
 
 std::vector<ShownMistake> mistakes_in(const LintedText& script, const LivePage& page) {
     std::vector<ShownMistake> mistakes;
-    for (const LintFinding& found : lint_script(script.text, script.name))
-        mistakes.push_back({found.line, found.column, found.kind, page.told(found.message)});
+    for (const LintIssue& found : lint_script(script.text, script.name))
+        mistakes.push_back({found.line, found.column, found.kind, page.translated(found.message)});
     return mistakes;
 }
 

@@ -29,11 +29,11 @@ FigureViewer::FigureViewer(std::function<void(const std::string& address)> late)
 void FigureViewer::serve(const std::string& path, std::string Shown::*member, const std::string& type) {
     server_.on_get(path, [this, member, type](const PageRequest& asked) {
         const std::string number = asked.path.substr(asked.path.rfind('/') + 1);
-        std::size_t wanted = 0;
-        std::from_chars(number.data(), number.data() + number.size(), wanted);
+        std::size_t requested = 0;
+        std::from_chars(number.data(), number.data() + number.size(), requested);
         const std::lock_guard lock(mutex_);
         for (const Shown& shown : shown_)
-            if (shown.number == wanted) return PageReply{shown.*member, type};
+            if (shown.number == requested) return PageReply{shown.*member, type};
         return PageReply{"This figure is no longer shown.", kPlainText, 404};
     });
 }

@@ -80,9 +80,9 @@ void LiveDocument::run_at(const RunPlace& place) {
     wake();
 }
 
-void LiveDocument::run_anew() {
+void LiveDocument::run_again_from_start() {
     const std::lock_guard lock(orders_mutex_);
-    anew_ = true;
+    restart_ = true;
     wake();
 }
 
@@ -101,10 +101,10 @@ void LiveDocument::work() {
     try {
         follow();
     } catch (...) {
-        remember_page();
+        save_page();
         throw;
     }
-    remember_page();
+    save_page();
 }
 
 void LiveDocument::follow() {
@@ -114,7 +114,7 @@ void LiveDocument::follow() {
     read_again({});
     while (!end_) {
         const bool may_end_soon = runner_.running() && Clock::now() < set_from_;
-        if (page_is_old_ && !page_is_recalled_ && !may_end_soon) set_page();
+        if (page_is_old_ && !page_is_from_cache_ && !may_end_soon) set_page();
         wait_for_something();
         throw_if_interrupted();
         if (end_) break;
@@ -127,7 +127,7 @@ void LiveDocument::follow() {
         }
         if (!changed_.empty() && Clock::now() - last_change_ >= kQuiet) read_again(std::exchange(changed_, {}));
         if (first_run_ && Clock::now() >= *first_run_) or_complain([this] { run({}); });
-        if (remember_ && Clock::now() >= *remember_) remember_page();
+        if (remember_ && Clock::now() >= *remember_) save_page();
         take_news();
     }
 }
@@ -152,7 +152,7 @@ void LiveDocument::take_orders() {
     {
         const std::lock_guard lock(orders_mutex_);
         stop = std::exchange(stop_, false);
-        anew = std::exchange(anew_, false);
+        anew = std::exchange(restart_, false);
         place = std::exchange(place_, {});
     }
     if (stop && runner_.running()) {
@@ -163,7 +163,7 @@ void LiveDocument::take_orders() {
     }
     if (anew) {
         runner_.forget();
-        page_is_recalled_ = false;
+        page_is_from_cache_ = false;
         until_.clear();
     }
     if (!stop) read_again({}, place);
@@ -187,10 +187,10 @@ void LiveDocument::or_complain(const std::function<void()>& act) {
         act();
     } catch (const DocumentError& error) {
         page_.complain({error.message()});
-        tell_();
+        notify_();
     } catch (const EnvironmentError& error) {
         page_.complain({error.message()});
-        tell_();
+        notify_();
     }
 }
 
@@ -214,12 +214,12 @@ void LiveDocument::read_again(const std::set<fs::path>& changed, const RunPlace&
             may_run = may_run_;
             request_->slider_values = sliders_;
         }
-        tell_of_reading_(request_->slider_values);
+        notify_reading_(request_->slider_values);
         page_.ask_whether_to_run(!may_run);
         if (!may_run) return;
-        if (!changed.empty() || !request_->slider_values.empty()) page_is_recalled_ = false;
+        if (!changed.empty() || !request_->slider_values.empty()) page_is_from_cache_ = false;
         first_run_.reset();
-        if (!std::exchange(opened_, true) && recall_page()) {
+        if (!std::exchange(opened_, true) && load_saved_page()) {
             first_run_ = Clock::now() + kRunAfterRecall;
             return;
         }
@@ -275,10 +275,10 @@ void LiveDocument::take(RunnerNews news) {
             }
         }
         page_is_old_ = true;
-        if (page_is_recalled_) watch_inputs();  // else set_page does
+        if (page_is_from_cache_) watch_inputs();  // else set_page does
     }
     if (news.kind == "ended") {
-        page_is_recalled_ = false;
+        page_is_from_cache_ = false;
         page_is_old_ = page_is_old_ || page_is_unfinished_;
         if (!shown_.error) settle_sliders();
     }
@@ -297,7 +297,7 @@ void LiveDocument::settle_sliders() {
         sliders_ = settled;
     }
     request_->slider_values = settled;
-    tell_of_reading_(settled);
+    notify_reading_(settled);
 }
 
 void LiveDocument::show_states() {
@@ -306,11 +306,11 @@ void LiveDocument::show_states() {
         for (const std::string& cell : part.cells)
             if (const auto state = states_.find(cell); state != states_.end()) known.insert(*state);
     states_ = known;
-    if (page_is_recalled_)
+    if (page_is_from_cache_)
         page_.set_running(runner_.running());
     else
         page_.set_states(std::move(known), runner_.running());
-    tell_();
+    notify_();
 }
 
 /// What the document is made of is watched; what is not there yet may come.
@@ -350,22 +350,22 @@ void LiveDocument::set_page() {
     } catch (const DocumentError& error) {
         page_.complain({error.message()});
     }
-    tell_();
+    notify_();
 }
 
 /// Shows the whole page at once, where it was whole before.
-bool LiveDocument::recall_page() {
-    std::optional<PageContent> known = memory_.recall(*request_);
+bool LiveDocument::load_saved_page() {
+    std::optional<PageContent> known = memory_.load_entry(*request_);
     if (!known) return false;
     for (auto& [cell, state] : known->states) state.state = "recalled";
     page_.show(*std::move(known));
-    page_is_recalled_ = true;
-    tell_();
+    page_is_from_cache_ = true;
+    notify_();
     return true;
 }
 
 /// Keeps the page for the next time, unless something has changed since it was set.
-void LiveDocument::remember_page() {
+void LiveDocument::save_page() {
     if (!std::exchange(remember_, std::nullopt)) return;
     for (const fs::path& file : watch_.changes()) {
         if (!is_ours(file)) continue;
@@ -375,7 +375,7 @@ void LiveDocument::remember_page() {
     if (!changed_.empty()) return;
     std::vector<fs::path> files = shown_.files_read;
     for (const auto& [picture, digest] : pictures_) files.push_back(picture);
-    memory_.remember(*request_, files, page_.content());
+    memory_.save_entry(*request_, files, page_.content());
 }
 
 }  // namespace dynlab::inline app

@@ -35,10 +35,10 @@ class LiveDocument {
     LiveDocument(std::function<ReportRequest()> read, ScriptRunner& runner, LivePage& page);
 
     /// Called after each change of the page, in the thread that works.
-    void on_change(std::function<void()> tell) { tell_ = std::move(tell); }
+    void on_change(std::function<void()> notify) { notify_ = std::move(notify); }
     /// Called after each reading of the document, in the same thread.
-    void on_reading(std::function<void(const std::map<std::string, double>& slider_values)> tell) {
-        tell_of_reading_ = std::move(tell);
+    void on_reading(std::function<void(const std::map<std::string, double>& slider_values)> notify) {
+        notify_reading_ = std::move(notify);
     }
     /// Works until `end` or Ctrl-C. Nothing is run before `allow_runs`.
     void work();
@@ -47,7 +47,7 @@ class LiveDocument {
     void stop_run();
     /// Runs to the cell there, what has changed; with `again` from that cell on to the end.
     void run_at(const RunPlace& place);
-    void run_anew();                                                ///< from the first cell
+    void run_again_from_start();                                    ///< from the first cell
     void set_sliders(const std::map<std::string, double>& values);  ///< by their names
     void end();
 
@@ -63,8 +63,8 @@ class LiveDocument {
     void take_news();
     void take(RunnerNews news);
     void set_page();
-    bool recall_page();
-    void remember_page();
+    bool load_saved_page();
+    void save_page();
     void show_states();
     void settle_sliders();
     void watch_inputs();
@@ -73,8 +73,8 @@ class LiveDocument {
     std::function<ReportRequest()> read_;
     ScriptRunner& runner_;
     LivePage& page_;
-    std::function<void()> tell_ = [] {};
-    std::function<void(const std::map<std::string, double>&)> tell_of_reading_ = [](const auto&) {};
+    std::function<void()> notify_ = [] {};
+    std::function<void(const std::map<std::string, double>&)> notify_reading_ = [](const auto&) {};
     TemporaryFolder figures_;
     FolderWatch watch_;
     ChunkSetter setter_;
@@ -94,13 +94,13 @@ class LiveDocument {
     std::optional<Clock::time_point> remember_;   ///< when the page is kept for the next time, where it is whole
     bool opened_ = false;                         ///< a first run was allowed
     std::optional<Clock::time_point> first_run_;  ///< when it begins, where the page is that of a run before
-    bool page_is_recalled_ = false;  ///< it shows a run of before, and stays until this first run has ended
+    bool page_is_from_cache_ = false;  ///< it shows a run of before, and stays until this first run has ended
 
     FileDescriptor wake_;
     std::mutex orders_mutex_;
-    bool may_run_ = false, stop_ = false, anew_ = false;  ///< orders
-    RunPlace place_;                                      ///< an order, where it names a file
-    std::map<std::string, double> sliders_;               ///< where they were moved to
+    bool may_run_ = false, stop_ = false, restart_ = false;  ///< orders
+    RunPlace place_;                                         ///< an order, where it names a file
+    std::map<std::string, double> sliders_;                  ///< where they were moved to
     std::atomic<bool> end_ = false;
 };
 

@@ -37,10 +37,10 @@ json sliders_json(const std::map<std::string, RecordedSlider>& sliders) {
 /// Findings of `dynlab check --json` for a reader. What was looked at stays as it is: the page reads points in it.
 void put_into_language(json& checked, const LessonReader& reader) {
     if (!checked.is_object() || !checked.contains("findings")) return;
-    for (json& finding : checked["findings"])
+    for (json& issue : checked["findings"])
         for (const std::string part : {"what", "remedy"})
-            if (const std::string message = part + "_message"; finding.is_object() && finding.contains(message))
-                finding[part] = reader.text(value_of_json<Message>(finding[message]));
+            if (const std::string message = part + "_message"; issue.is_object() && issue.contains(message))
+                issue[part] = reader.text(value_of_json<Message>(issue[message]));
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ void LivePage::show(const SetDocument& document, const PercentScript& script, co
     const std::lock_guard lock(mutex_);
     ++version_;
     changed_ = text_changed_ = true;
-    recalled_ = false;
+    from_cache_ = false;
     content_.name = script.file.filename().string();
     content_.head = document.head;
     content_.notes = document.notes;
@@ -131,15 +131,15 @@ void LivePage::add_unseen_cells(const PercentScript& script, std::map<std::strin
     }
 }
 
-void LivePage::show(PageContent remembered) {
+void LivePage::show(PageContent saved_entry) {
     const std::lock_guard lock(mutex_);
     ++version_;
-    changed_ = text_changed_ = recalled_ = true;
+    changed_ = text_changed_ = from_cache_ = true;
     error_.reset();
     fresh_.clear();
-    for (const auto& [id, html] : remembered.html) fresh_.push_back(id);
-    for (auto& [name, picture] : remembered.pictures) picture.version = version_;
-    content_ = std::move(remembered);
+    for (const auto& [id, html] : saved_entry.html) fresh_.push_back(id);
+    for (auto& [name, picture] : saved_entry.pictures) picture.version = version_;
+    content_ = std::move(saved_entry);
 }
 
 PageContent LivePage::content() const {
@@ -159,7 +159,7 @@ void LivePage::complain(const std::vector<Message>& sentences) {
 void LivePage::speak(const std::string& language, const std::string& lesson) {
     const std::lock_guard lock(mutex_);
     if (language_ == language && lesson_ == lesson) return;
-    changed_ = findings_changed_ = true;
+    changed_ = issues_changed_ = true;
     language_ = language;
     lesson_ = lesson;
     reader_.reset();
@@ -170,7 +170,7 @@ const LessonReader& LivePage::reader() const {
     return *reader_;
 }
 
-std::string LivePage::told(const Message& message) const {
+std::string LivePage::translated(const Message& message) const {
     const std::lock_guard lock(mutex_);
     return reader().text(message);
 }
@@ -211,18 +211,18 @@ void LivePage::set_sources(std::map<std::string, std::string> digests) {
     sources_ = std::move(digests);
 }
 
-void LivePage::set_hands_in(bool hands_in) {
+void LivePage::set_can_submit(bool can_submit) {
     const std::lock_guard lock(mutex_);
-    changed_ = changed_ || hands_in_ != hands_in;
-    hands_in_ = hands_in;
+    changed_ = changed_ || can_submit_ != can_submit;
+    can_submit_ = can_submit;
 }
 
 void LivePage::set_work(std::string findings, bool pdf_is_ready, std::optional<double> checking) {
     const std::lock_guard lock(mutex_);
-    changed_ = changed_ || findings_ != findings || pdf_is_ready_ != pdf_is_ready || checking_ != checking;
+    changed_ = changed_ || issues_ != findings || pdf_is_ready_ != pdf_is_ready || checking_ != checking;
     checking_ = checking;
-    findings_changed_ = findings_changed_ || findings_ != findings;
-    findings_ = std::move(findings);
+    issues_changed_ = issues_changed_ || issues_ != findings;
+    issues_ = std::move(findings);
     pdf_is_ready_ = pdf_is_ready;
 }
 
@@ -230,7 +230,7 @@ std::string LivePage::json(bool all) const {
     ::nlohmann::json page = {{"version", version_},
                              {"all", all},
                              {"running", running_},
-                             {"recalled", recalled_},
+                             {"recalled", from_cache_},
                              {"asking", asking_},
                              {"language", language_},
                              {"name", content_.name},
@@ -238,7 +238,7 @@ std::string LivePage::json(bool all) const {
                              {"open_answers", content_.open_answers},
                              {"sources", sources_},
                              {"pdf_is_ready", pdf_is_ready_},
-                             {"hands_in", hands_in_},
+                             {"hands_in", can_submit_},
                              {"made_here", made_here_},
                              {"states", ::nlohmann::json::object()}};
     if (checking_) page["checking"] = *checking_;
@@ -248,9 +248,9 @@ std::string LivePage::json(bool all) const {
         page["error"] = {{"file", error_->file}, {"line", error_->line}, {"text", reader().text(error_->message)}};
     for (const auto& [cell, state] : content_.states)
         page["states"][cell] = {{"state", state.state}, {"seconds", state.seconds}, {"progress", state.progress}};
-    if (all || findings_changed_) {
+    if (all || issues_changed_) {
         ::nlohmann::json& findings = page["findings"];
-        if (::nlohmann::json::accept(findings_)) findings = ::nlohmann::json::parse(findings_);
+        if (::nlohmann::json::accept(issues_)) findings = ::nlohmann::json::parse(issues_);
         put_into_language(findings, reader());
     }
     if (all || text_changed_) {
@@ -272,7 +272,7 @@ bool LivePage::settled() const {
         return std::any_of(content_.states.begin(), content_.states.end(),
                            [&](const auto& cell) { return cell.second.state == state; });
     };
-    return !running_ && !recalled_ && (any("failed") || !any("waiting"));
+    return !running_ && !from_cache_ && (any("failed") || !any("waiting"));
 }
 
 std::string LivePage::whole() const {
@@ -284,7 +284,7 @@ std::optional<std::string> LivePage::changes() {
     const std::lock_guard lock(mutex_);
     if (!changed_) return {};
     std::string text = json(false);
-    changed_ = text_changed_ = findings_changed_ = false;
+    changed_ = text_changed_ = issues_changed_ = false;
     fresh_.clear();
     return text;
 }

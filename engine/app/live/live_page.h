@@ -14,12 +14,12 @@
 
 namespace dynlab::inline app {
 
-/// What a page shows, as it goes to tabs: the whole to one that comes, else what has changed since the version before.
-/// For any thread.
+/// Content of a page for its browser tabs. A new tab gets the complete content, other tabs get the changes since their
+/// version. Thread-safe.
 class LivePage {
   public:
-    /// Makes what was remembered the next version: recalled, until a document is shown.
-    void show(PageContent remembered);
+    /// Shows a cached page as the next version. The page is marked as cached until a document is shown.
+    void show(PageContent saved_entry);
     /// Makes the next version of a document that was set. Figures are read from their files now.
     void show(const SetDocument& document, const PercentScript& script, const RunRecord& record);
     /// In which the page speaks, and all that is said of the document, what is wrong with it by now, too. What authors
@@ -34,11 +34,11 @@ class LivePage {
     /// Answers that the script does not give yet, "G1 (model), gain (number)".
     void set_open_answers(std::string answers);
     void set_sources(std::map<std::string, std::string> digests);  ///< of the files that the page may change
-    void set_hands_in(bool hands_in);                              ///< whether report and zip can be asked for
+    void set_can_submit(bool can_submit);                          ///< whether report and zip can be asked for
     /// Findings: JSON, in English, or empty; `checking`: the part of dynlab check that is done while it runs, else
     /// none.
     void set_work(std::string findings, bool pdf_is_ready, std::optional<double> checking = {});
-    std::string told(const Message& message) const;  ///< in the page's language
+    std::string translated(const Message& message) const;  ///< in the page's language
 
     PageContent content() const;  ///< of the last version alone
     bool settled() const;  ///< the run came to its end, or to a mistake; not one that was stopped, nor one of before
@@ -62,13 +62,13 @@ class LivePage {
     std::vector<std::string> fresh_;  ///< ids that the last version did not have
     std::map<std::string, std::string> sources_;
     std::optional<RecordedError> error_;  ///< of the run that the page shows
-    std::string findings_;
+    std::string issues_;
     std::string language_ = "en", lesson_;
     mutable std::optional<LessonReader> reader_;  ///< once it was needed
     std::optional<double> checking_;
-    bool pdf_is_ready_ = false, hands_in_ = false, made_here_ = false;
-    bool running_ = false, recalled_ = false, asking_ = false;
-    bool changed_ = false, text_changed_ = false, findings_changed_ = false;
+    bool pdf_is_ready_ = false, can_submit_ = false, made_here_ = false;
+    bool running_ = false, from_cache_ = false, asking_ = false;
+    bool changed_ = false, text_changed_ = false, issues_changed_ = false;
     std::uint64_t version_ = 0;
 };
 

@@ -27,10 +27,10 @@ std::string page_entry_of(const ReportRequest& request) {
 
 }  // namespace
 
-std::optional<PageContent> PageMemory::recall(const ReportRequest& request) const {
+std::optional<PageContent> PageMemory::load_entry(const ReportRequest& request) const {
     if (!cache_.lasting()) return {};
     try {
-        const auto entry = cache_.recall(page_entry_of(request));
+        const auto entry = cache_.load_entry(page_entry_of(request));
         if (!entry) return {};
         KnownPage known = from_cbor<KnownPage>(*entry, ValueLimits::own());
         if (known.origins != digest_of_origins(request) || !unchanged(known.inputs)) return {};
@@ -40,12 +40,12 @@ std::optional<PageContent> PageMemory::recall(const ReportRequest& request) cons
     }
 }
 
-void PageMemory::remember(const ReportRequest& request, const std::vector<fs::path>& files,
-                          const PageContent& content) const {
+void PageMemory::save_entry(const ReportRequest& request, const std::vector<fs::path>& files,
+                            const PageContent& content) const {
     if (!cache_.lasting()) return;
     try {
         const InputsRead inputs = inputs_read(files, fs::absolute(request.script.file).parent_path());
-        cache_.remember(page_entry_of(request), cbor_of(KnownPage{digest_of_origins(request), inputs, content}));
+        cache_.save_entry(page_entry_of(request), cbor_of(KnownPage{digest_of_origins(request), inputs, content}));
     } catch (const std::exception&) {  // a file cannot be read: then it will be made again
     }
 }

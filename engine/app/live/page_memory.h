@@ -12,9 +12,9 @@ namespace dynlab::inline app {
 /// is not, and nothing is recalled where that cannot be told.
 class PageMemory {
   public:
-    std::optional<PageContent> recall(const ReportRequest& request) const;
-    void remember(const ReportRequest& request, const std::vector<std::filesystem::path>& files,
-                  const PageContent& content) const;
+    std::optional<PageContent> load_entry(const ReportRequest& request) const;
+    void save_entry(const ReportRequest& request, const std::vector<std::filesystem::path>& files,
+                    const PageContent& content) const;
 
   private:
     Cache cache_;

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kDeepest = 12;  // tables in tables; one that holds itself ends there
+constexpr int kMaxDepth = 12;  // tables in tables; one that holds itself ends there
 
 json number_json(double value) {
     return std::isfinite(value) ? json(value) : json();
@@ -49,7 +49,7 @@ json value_json(lua_State* L, int index, int depth, const PageValues& page);
 /// A list where the keys are 1, 2, ...; else an object of those that are texts.
 json table_json(lua_State* L, int index, int depth, const PageValues& page) {
     const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
-    if (depth > kDeepest) return nullptr;
+    if (depth > kMaxDepth) return nullptr;
     luaL_checkstack(L, 4, "tables in tables");
     json list = json::array(), object = json::object();
     for (lua_Integer i = 1; i <= length; ++i) {

@@ -26,19 +26,19 @@ bool Permissions::was_granted() const {
     const fs::path lessons = fs::weakly_canonical(shared_folder() / "lessons");
     const bool is_lesson =
         std::mismatch(lessons.begin(), lessons.end(), folder_.begin(), folder_.end()).first == lessons.end();
-    if (is_lesson || cache_.recall(entry_of("allowed_folders", folder_))) return true;
-    const auto text = cache_.recall(entry_of("allowed_scripts", script_));
+    if (is_lesson || cache_.load_entry(entry_of("allowed_folders", folder_))) return true;
+    const auto text = cache_.load_entry(entry_of("allowed_scripts", script_));
     return text && fs::is_regular_file(script_) && *text == digest_of(read_text(script_)).hex();
 }
 
 void Permissions::grant() {
     granted_ = true;
-    cache_.remember(entry_of("allowed_folders", folder_), "allowed");
+    cache_.save_entry(entry_of("allowed_folders", folder_), "allowed");
 }
 
 void Permissions::grant_script(std::string_view text) {
     granted_ = true;
-    cache_.remember(entry_of("allowed_scripts", script_), digest_of(text).hex());
+    cache_.save_entry(entry_of("allowed_scripts", script_), digest_of(text).hex());
 }
 
 }  // namespace dynlab::inline app

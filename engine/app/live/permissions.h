@@ -7,9 +7,9 @@
 
 namespace dynlab::inline app {
 
-/// Whether a script may be run without a question: those of the lessons, of folders that somebody allowed, and scripts
-/// that somebody allowed or this program began, while they are as they were left. What is granted once holds for the
-/// life of this object, however the script is changed meanwhile.
+/// Whether a script may run without the user's consent. Allowed are scripts of lessons, scripts in folders that the
+/// user allowed, and scripts that the user allowed or that this program created, as long as their text is unchanged. A
+/// granted permission is valid for the lifetime of this object, even if the script changes.
 class Permissions {
   public:
     explicit Permissions(const std::filesystem::path& script);

@@ -38,7 +38,7 @@ std::function<ReportRequest()> reader_of(const std::string& document) {
 void serve_page(WebServer& server, LivePage& page) {
     server.on_get("/picture/*", [&page](const PageRequest& asked) {
         const auto picture = page.picture(fs::path(asked.path).filename().string());
-        if (!picture) return PageReply{page.told(Message("This picture is no longer shown.")), kPlainText, 404};
+        if (!picture) return PageReply{page.translated(Message("This picture is no longer shown.")), kPlainText, 404};
         return PageReply{picture->second, picture->first};
     });
 }
@@ -55,7 +55,7 @@ PageReply done() {
 
 void take_orders(WebServer& server, LiveDocument& document, Permissions& permissions) {
     server.on_post("/stop", [&](const PageRequest&) { return document.stop_run(), done(); });
-    server.on_post("/anew", [&](const PageRequest&) { return document.run_anew(), done(); });
+    server.on_post("/anew", [&](const PageRequest&) { return document.run_again_from_start(), done(); });
     server.on_post("/slider", [&](const PageRequest& asked) {
         document.set_sliders(from_json<SliderOrder>(asked.body).values);
         return done();
@@ -87,7 +87,7 @@ DYNLAB_DESCRIBE(MadeReply, done, words)
 
 PageReply not_allowed(const LivePage& page) {
     constexpr int kForbidden = 403;
-    return {page.told(Message("This document is not allowed to run yet. Allow it on the page.")), kPlainText,
+    return {page.translated(Message("This document is not allowed to run yet. Allow it on the page.")), kPlainText,
             kForbidden};
 }
 
@@ -96,15 +96,15 @@ void serve_work(WebServer& server, BackgroundWork& background, const Permissions
     server.on_get("/document.pdf", [&](const PageRequest&) {
         if (!permissions.granted()) return not_allowed(page);
         const BackgroundWork::Pdf pdf = background.pdf();
-        return pdf.bytes.empty() ? PageReply{page.told(pdf.error), kPlainText, 500}
+        return pdf.bytes.empty() ? PageReply{page.translated(pdf.error), kPlainText, 500}
                                  : PageReply{pdf.bytes, "application/pdf"};
     });
-    if (!background.hands_in()) return;
+    if (!background.can_submit()) return;
     const auto makes = [&](BackgroundWork::Made (BackgroundWork::*make)()) {
         return [&, make](const PageRequest&) {
             if (!permissions.granted()) return not_allowed(page);
             const auto [done, words] = (background.*make)();
-            return PageReply{json_of(MadeReply{done, page.told(words)}), "application/json"};
+            return PageReply{json_of(MadeReply{done, page.translated(words)}), "application/json"};
         };
     };
     server.on_post("/report", makes(&BackgroundWork::make_report));
@@ -181,7 +181,8 @@ void preview(const PreviewOptions& options) {
     BackgroundWork background(options.document);
     std::mutex sending;  // news come from two threads, and the later must not go first
     std::function<void()> send_changes, look_for_readers;
-    WebServer server({.port = options.port, .told = [&page](const Message& message) { return page.told(message); }});
+    WebServer server(
+        {.port = options.port, .translated = [&page](const Message& message) { return page.translated(message); }});
     const StopsBeforeServer stops{background};
     send_changes = [&] {
         const std::lock_guard lock(sending);
@@ -201,7 +202,7 @@ void preview(const PreviewOptions& options) {
         send_changes();
     });
     serve_work(server, background, permissions, page);
-    page.set_hands_in(background.hands_in());
+    page.set_can_submit(background.can_submit());
     page.set_made_here(was_made_here(request.script.file.parent_path()));
     server.on_stream([&] { return look_for_readers(), page.whole(); });
     document.on_reading([&](const std::map<std::string, double>& slider_values) {

@@ -24,7 +24,7 @@ struct RunOrder {
 };
 
 /// What scripts find in the process besides dynlab's own functions, and what becomes of their figures.
-struct RunnerWorld {
+struct RunnerEnvironment {
     std::string prelude;        ///< Lua that runs before every script, with workbench.show (page_values.h); none: empty
     bool draws_figures = true;  ///< those of a record, for documents; else records come without them
     bool keeps_end = true;      ///< the state behind the last part, for what may be written there

@@ -42,7 +42,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kWorthKeeping = 0.003;
 
 /// The script's world, as far as it has run.
-struct World {
+struct RunEnvironment {
     Cache cache;
     CallCache calls{cache};
     GnuplotRenderer renderer{&cache};
@@ -52,7 +52,7 @@ struct World {
     Runtime runtime;
     std::map<std::string, std::string> drawn;  ///< names of figures, and what a page draws them from
 
-    World(RunOptions options, const std::string& report_language, const std::string& prelude)
+    RunEnvironment(RunOptions options, const std::string& report_language, const std::string& prelude)
         : language{report_language}, runtime(with_memory(std::move(options), &calls), renderer) {
         runtime.services().language = &language;
         page.reader = {catalog_of(report_language), &option_name};
@@ -74,7 +74,8 @@ struct World {
 
 class RunnerProcess {
   public:
-    RunnerProcess(Channel orders, RunnerWorld wanted) : line_(std::move(orders)), wanted_(std::move(wanted)) {}
+    RunnerProcess(Channel orders, RunnerEnvironment requested)
+        : line_(std::move(orders)), requested_(std::move(requested)) {}
 
     [[noreturn]] void serve() {
         while (const auto message = line_.receive()) {
@@ -107,58 +108,58 @@ class RunnerProcess {
         return Side::kStays;
     }
 
-    void tell(const RunnerNews& news) {
+    void send_news(const RunnerNews& news) {
         if (!line_.send(cbor_of(news))) ::_exit(0);
     }
 
     /// From the state here: of the script as far as it has run, else of a script without a line.
     void answer(const RunOrder& question) {
-        if (!world_ && !empty_world_) {
-            empty_world_ = std::make_unique<World>(RunOptions(), "en", wanted_.prelude);
-            empty_world_->runtime.run_statement(read_script_part("", {}), "start");  // names can be completed
+        if (!run_environment_ && !empty_environment_) {
+            empty_environment_ = std::make_unique<RunEnvironment>(RunOptions(), "en", requested_.prelude);
+            empty_environment_->runtime.run_statement(read_script_part("", {}), "start");  // names can be completed
         }
-        lua_State* const L = (world_ ? world_ : empty_world_)->runtime.state();
-        tell({.kind = "answer", .part = question.number, .shown = {{"answer", answer_about_state(L, question)}}});
+        lua_State* const L = (run_environment_ ? run_environment_ : empty_environment_)->runtime.state();
+        send_news({.kind = "answer", .part = question.number, .shown = {{"answer", answer_about_state(L, question)}}});
     }
 
     void run(const RunOrder& order) {
         const PercentScript script = parse_percent_script(order.source, order.file);
         const std::vector<ScriptPart> parts = script_parts(script);
-        if (!world_) begin(order, script);
-        world_->sliders.chosen = order.slider_values;
+        if (!run_environment_) begin(order, script);
+        run_environment_->sliders.chosen = order.slider_values;
         const std::size_t end = std::min(parts.size(), order.until);
         std::size_t last = order.from;
         for (std::size_t i = order.from; i < end; ++i) {
             last = i;
-            tell({.kind = "begun", .part = i});
-            ProgressBar::tell_instead([this, i](std::size_t done, std::size_t total) {
+            send_news({.kind = "begun", .part = i});
+            ProgressBar::set_listener([this, i](std::size_t done, std::size_t total) {
                 const double part = total == 0 ? 0 : static_cast<double>(std::min(done, total)) / double(total);
-                tell({.kind = "progress", .part = i, .progress = part});
+                send_news({.kind = "progress", .part = i, .progress = part});
             });
             const Clock::time_point start = Clock::now();
-            RunRecord record = world_->runtime.run_part(script, parts[i]);
+            RunRecord record = run_environment_->runtime.run_part(script, parts[i]);
             const double seconds = seconds_since(start);
-            if (wanted_.draws_figures) {
+            if (requested_.draws_figures) {
                 draw(record, order.figure_folder, i + 1 == parts.size());
             } else {
-                world_->renderer.finish();  // what the script saved itself
+                run_environment_->renderer.finish();  // what the script saved itself
                 record.figures.clear();
             }
             const bool failed = record.error.has_value();
-            tell({.kind = "done",
-                  .part = i,
-                  .seconds = seconds,
-                  .record = std::move(record),
-                  .shown = world_->page.take()});
+            send_news({.kind = "done",
+                       .part = i,
+                       .seconds = seconds,
+                       .record = std::move(record),
+                       .shown = run_environment_->page.take()});
             if (failed) {
-                tell({.kind = "ended", .part = i});
+                send_news({.kind = "ended", .part = i});
                 ::_exit(0);
             }
             const bool keep = i + 1 < end && seconds_since(kept_at_) >= kWorthKeeping;
             if (keep) return_freed_memory();
             if (keep && split() == Side::kStays) return;
         }
-        tell({.kind = "ended", .part = last});
+        send_news({.kind = "ended", .part = last});
         return_freed_memory();
     }
 
@@ -168,30 +169,30 @@ class RunnerProcess {
         const std::filesystem::path folder = script.file.parent_path();
         options.script_folder = folder.empty() ? "." : folder;
         options.out_folder = order.figure_folder;
-        world_ = std::make_unique<World>(options, script.header.language, wanted_.prelude);
-        world_->runtime.begin_parts(script);
+        run_environment_ = std::make_unique<RunEnvironment>(options, script.header.language, requested_.prelude);
+        run_environment_->runtime.begin_parts(script);
     }
 
     /// Figures that are new; at the end all, since a script may have changed one that it reported before.
     void draw(RunRecord& record, const std::filesystem::path& folder, bool all) {
-        world_->renderer.finish();
-        GnuplotRenderer renderer(&world_->cache);
-        const Reader& reader = world_->page.reader;
+        run_environment_->renderer.finish();
+        GnuplotRenderer renderer(&run_environment_->cache);
+        const Reader& reader = run_environment_->page.reader;
         for (auto& [name, figure] : record.figures) {
             figure.file = folder / (digest_of(name).hex() + ".svg");
-            if (all || !world_->drawn.contains(name)) {
+            if (all || !run_environment_->drawn.contains(name)) {
                 renderer.draw(*figure.figure, figure.file, FigureFormat::kSvg, reader);
-                world_->drawn[name] = plot_data(*figure.figure, reader);
+                run_environment_->drawn[name] = plot_data(*figure.figure, reader);
             }
-            figure.plot = world_->drawn.at(name);
+            figure.plot = run_environment_->drawn.at(name);
             figure.axes = words_of_axes(*figure.figure, reader);
         }
         renderer.finish();
     }
 
     Channel line_;
-    RunnerWorld wanted_;
-    std::unique_ptr<World> world_, empty_world_;
+    RunnerEnvironment requested_;
+    std::unique_ptr<RunEnvironment> run_environment_, empty_environment_;
     Clock::time_point kept_at_ = Clock::now();
 };
 
@@ -205,7 +206,7 @@ void leave_terminal() {
 
 }  // namespace
 
-void serve_runs(Channel orders, RunnerWorld world) {
+void serve_runs(Channel orders, RunnerEnvironment world) {
     leave_terminal();
     try {
         RunnerProcess(std::move(orders), std::move(world)).serve();

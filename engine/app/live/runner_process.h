@@ -4,10 +4,10 @@
 
 namespace dynlab::inline app {
 
-/// The process that runs a page's script. It waits for orders; to obey one it splits, and so it does again behind each
-/// part that took time: the process that stays keeps the state in which the script was there, and the one that goes on
-/// tells of its own line. Whoever changes the end of a script has the last process before it go on anew. Nothing of
-/// this returns. Threads do not outlive a split: call it in a process that has none.
-[[noreturn]] void serve_runs(Channel orders, RunnerWorld world);
+/// Process that runs the script of a page. It waits for orders and forks before it runs a script, and again after each
+/// slow part. The parent keeps the state of the script at that point, the child runs the next parts and reports on its
+/// own channel. If the user changes the end of the script, the last process before the change continues from its state.
+/// The function does not return. Call it in a process without other threads, because threads do not survive a fork.
+[[noreturn]] void serve_runs(Channel orders, RunnerEnvironment world);
 
 }  // namespace dynlab::inline app

@@ -42,7 +42,7 @@ bool is_same(const ScriptPart& a, const ScriptPart& b) {
 
 }  // namespace
 
-ScriptRunner::ScriptRunner(RunnerWorld world) : keeps_end_(world.keeps_end) {
+ScriptRunner::ScriptRunner(RunnerEnvironment world) : keeps_end_(world.keeps_end) {
     auto [here, there] = Channel::pair();
     const pid_t first = fork_bound_copy();
     if (first < 0) throw EnvironmentError("cannot start a process for the script: {}", system_reason(errno));
@@ -127,14 +127,14 @@ bool ScriptRunner::send_order() {
 }
 
 std::string ScriptRunner::ask(RunOrder question) {
-    constexpr int kLongest = 2000;  // ms
+    constexpr int kMaxDuration = 2000;  // ms
     const std::lock_guard lock(mutex_);
     const std::size_t runs = running_ ? 1 : 0;  // the last process has no time to answer
     if (kept_.size() <= runs) return {};
     Channel& line = kept_[kept_.size() - 1 - runs].line;
     question.number = ++questions_;
     if (!line.send(cbor_of(question))) return {};
-    for (pollfd waiting{line.descriptor(), POLLIN, 0}; ::poll(&waiting, 1, kLongest) > 0;) {
+    for (pollfd waiting{line.descriptor(), POLLIN, 0}; ::poll(&waiting, 1, kMaxDuration) > 0;) {
         const auto message = line.receive();
         if (!message) return {};
         RunnerNews news = from_cbor<RunnerNews>(message->bytes);

@@ -26,7 +26,7 @@ class ScriptRunner {
     };
 
     /// Starts the first process. To be made before the program has threads.
-    explicit ScriptRunner(RunnerWorld world = {});
+    explicit ScriptRunner(RunnerEnvironment world = {});
     ~ScriptRunner();  ///< ends all of them
     ScriptRunner(const ScriptRunner&) = delete;
     ScriptRunner& operator=(const ScriptRunner&) = delete;

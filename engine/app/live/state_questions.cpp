@@ -28,9 +28,9 @@ struct ShownHelp {
 DYNLAB_DESCRIBE(ShownHelp, text)
 
 ShownCompletion completion_of(lua_State* L, const std::string& text) {
-    constexpr std::size_t kMost = 200;  // more than somebody reads
+    constexpr std::size_t kMax = 200;  // more than somebody reads
     Completion found = complete(L, text);
-    if (found.candidates.size() > kMost) found.candidates.resize(kMost);
+    if (found.candidates.size() > kMax) found.candidates.resize(kMax);
     ShownCompletion shown{text.substr(text.size() - found.typed), {}, {}, {}, 0};
     for (const std::string& candidate : found.candidates) {
         const FunctionEntry* const function = function_called(L, candidate);

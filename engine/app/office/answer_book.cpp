@@ -51,11 +51,11 @@ const AnswerBook::Read* AnswerBook::read(const SubmittedWork& work) {
         try {
             read.parts = text_parts_of_script(text_of_source(work.file));
         } catch (const std::exception& error) {
-            read.trouble = message_of(error);
+            read.error_reason = message_of(error);
         }
         return &read;
     }
-    if (wanted_.insert(work.hash).second) {
+    if (requested_.insert(work.hash).second) {
         waiting_.push_back(work);
         changed_.notify_all();
     }
@@ -72,11 +72,11 @@ void AnswerBook::read_packs(const std::stop_token& stop) {
         try {
             read.parts = parts_in_pack(work);
         } catch (const std::exception& error) {
-            read.trouble = message_of(error);
+            read.error_reason = message_of(error);
         }
         lock.lock();
         read_[work.hash] = std::move(read);
-        wanted_.erase(work.hash);
+        requested_.erase(work.hash);
         lock.unlock();
         more_();
         lock.lock();
@@ -104,7 +104,7 @@ std::vector<AnswerBook::Answer> AnswerBook::answers(const std::vector<SubmittedW
             const std::string text = written_answer(read->parts, question, lesson.given());
             hidden = hidden_.emplace(key, text.empty() ? text : names->hidden_in(text, one.authors)).first;
         }
-        answers.push_back({hidden->second, read->trouble, false});
+        answers.push_back({hidden->second, read->error_reason, false});
     }
     return answers;
 }

@@ -37,7 +37,7 @@ class AnswerBook {
 
     struct Answer {
         std::string text;         ///< Markdown, with "[name]" for names; empty where there is no answer
-        Message trouble;          ///< why the submission cannot be read; else empty
+        Message error_reason;     ///< why the submission cannot be read; else empty
         bool is_reading = false;  ///< it will be there later
     };
     /// The answers of these submissions to a question of a lesson. `roster`: whose names are hidden.
@@ -47,7 +47,7 @@ class AnswerBook {
   private:
     struct Read {
         std::vector<TextPart> parts;
-        Message trouble;
+        Message error_reason;
     };
     const Read* read(const SubmittedWork& work);
     void read_packs(const std::stop_token& stop);
@@ -59,8 +59,8 @@ class AnswerBook {
     std::map<std::string, std::string> hidden_;  ///< answers without names
     std::string roster_;                         ///< the names that were hidden
     std::deque<SubmittedWork> waiting_;
-    std::set<std::string> wanted_;  ///< hashes that are waiting or being read
-    std::jthread reader_;           ///< last: it ends before what it uses
+    std::set<std::string> requested_;  ///< hashes that are waiting or being read
+    std::jthread reader_;              ///< last: it ends before what it uses
 };
 
 }  // namespace dynlab::inline app

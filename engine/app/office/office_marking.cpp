@@ -186,7 +186,7 @@ std::string OfficeViews::marking(const std::string& assignment, const std::strin
     for (std::size_t i = 0; i < work.size(); ++i) {
         const AnswerBook::Answer& one = answers[i];
         all.answers.push_back({answer_name(course_, *lab, work[i].group), beginning_of(one.text),
-                               message_text(one.trouble, reader), std::ssize(one.text),
+                               message_text(one.error_reason, reader), std::ssize(one.text),
                                one.text.empty() ? 0 : alike[one.text] - 1, one.is_reading,
                                shown_entry(entries[work[i].group])});
     }

@@ -112,7 +112,7 @@ struct OfficeFacts {
 };
 DYNLAB_DESCRIBE(OfficeFacts, people, former, groups, work, history)
 
-void add_late_task(const Assignment& a, const GroupState& state, const HandedIn& file, const std::string& stage,
+void add_late_task(const Assignment& a, const GroupState& state, const SubmittedFile& file, const std::string& stage,
                    const std::string& received, std::vector<OfficeTask>& tasks) {
     if (!file.is_late()) return;
     const bool waits = stage == "first" && waits_for_confirmation(a.costs, file.late, file.confirmed);
@@ -196,7 +196,8 @@ std::string OfficeViews::student(const std::string& name, const std::string& lan
         read.name = work.assignment.name, read.kind = work.assignment.kind;
         for (const WhoVersion& one : work.versions)
             read.versions.push_back({one.group, one.stage, one.part, one.name, one.hash, shown(one.received),
-                                     message_text(one.trouble, reader), one.number, one.id, one.late, one.withdrawn});
+                                     message_text(one.error_reason, reader), one.number, one.id, one.late,
+                                     one.withdrawn});
         for (const WhoExtension& one : work.extensions)
             read.extensions.push_back({one.stage, one.due ? shown(*one.due) : "", one.reason});
         for (const auto& [whose, mark] : work.marks)

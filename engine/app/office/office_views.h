@@ -32,7 +32,8 @@ class OfficeViews {
     std::string student(const std::string& name, const std::string& language);
     std::string reviews(const std::string& assignment);
     std::string marks();
-    /// The answers to one question of a lab, under names that tell nobody whose they are. What is empty is chosen.
+    /// Answers to one question of a lab, under names that do not identify their authors. An empty or unknown argument
+    /// is chosen automatically: the first lab, a question, and the check of that question.
     std::string marking(const std::string& assignment, const std::string& question, const std::string& check,
                         const std::string& language);
     std::string answer(const std::string& assignment, const std::string& question, const std::string& name);

@@ -32,10 +32,10 @@ std::string code_of(const std::string& secret, std::string_view time_and_nonce) 
 }
 
 /// Whether "a=1; b=2" has the cookie "b=2".
-bool has_cookie(std::string_view cookies, std::string_view wanted) {
+bool has_cookie(std::string_view cookies, std::string_view requested) {
     while (!cookies.empty()) {
         const std::string_view cookie = cookies.substr(0, cookies.find(';'));
-        if (equal_in_constant_time(cookie, wanted)) return true;
+        if (equal_in_constant_time(cookie, requested)) return true;
         cookies.remove_prefix(std::min(cookie.size() + 1, cookies.size()));
         while (cookies.starts_with(' ')) cookies.remove_prefix(1);
     }

@@ -7,7 +7,7 @@ namespace dynlab::inline app {
 void EventStreams::Stream::put(const std::string& text) {
     const std::lock_guard lock(mutex_);
     bytes_ += text.size();
-    over_ = over_ || bytes_ > kMostBytes;
+    over_ = over_ || bytes_ > kMaxByteCount;
     if (!over_) waiting_.push_back(text);
     changed_.notify_one();
 }

@@ -33,7 +33,7 @@ class EventStreams {
         void end();
 
       private:
-        static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
+        static constexpr std::size_t kMaxByteCount = std::size_t{64} << 20;
         std::mutex mutex_;
         std::condition_variable changed_;
         std::deque<std::string> waiting_;

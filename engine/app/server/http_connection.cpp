@@ -22,7 +22,7 @@ using std::chrono::steady_clock;
 /// Browsers open connections before they ask, and a file whose connection was closed until then is one that the page
 /// lacks.
 constexpr auto kIdle = 10s, kWholeHead = 10s, kPartOfBody = 10s, kPartOfReply = 10s;
-constexpr std::size_t kLargestHead = std::size_t{64} << 10, kMostFields = 100;
+constexpr std::size_t kMaxHeadBytes = std::size_t{64} << 10, kMostFields = 100;
 constexpr auto kLastBytes = 1s;  // for what a refused request still sends
 constexpr std::size_t kMostLastBytes = std::size_t{16} << 20;
 
@@ -125,7 +125,7 @@ std::optional<RequestHead> HttpConnection::next_head() {
     if (unread_.empty() && !read_more(steady_clock::now() + kIdle)) return {};
     const auto until = steady_clock::now() + kWholeHead;
     HeadParser parser;
-    parser.header_limit(kLargestHead);
+    parser.header_limit(kMaxHeadBytes);
     parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // WebServer limits bodies
     for (;;) {
         boost::beast::error_code error;
@@ -134,7 +134,7 @@ std::optional<RequestHead> HttpConnection::next_head() {
         if (error == http::error::header_limit) throw refusal(431, "The head of the request is too long.");
         if (error && error != http::error::need_more) throw refusal(400, "The request cannot be read.");
         if (parser.is_header_done()) return head_of(parser);
-        if (unread_.size() > kLargestHead) throw refusal(431, "The head of the request is too long.");
+        if (unread_.size() > kMaxHeadBytes) throw refusal(431, "The head of the request is too long.");
         if (!read_more(until)) {
             if (wait(POLLIN, steady_clock::now()) == Wait::kLate) throw refusal(408, "The request came too slowly.");
             return {};

@@ -53,7 +53,7 @@ class HttpConnection {
     std::optional<RequestHead> next_head();
     /// What follows the head. Nothing where it does not come.
     std::optional<std::string> body(std::size_t bytes);
-    /// Whether bytes came that nobody asked for: no browser sends a request before it has the reply to the last one.
+    /// Whether unexpected bytes arrived: a browser sends no request before it has the reply to the last one.
     bool has_unread() const { return !unread_.empty(); }
 
     bool reply(const HttpReply& reply, bool closes, bool without_body = false);

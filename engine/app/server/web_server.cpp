@@ -106,7 +106,7 @@ class WebServer::Work {
             PageReply reply = handler(request);
             return {reply.status, std::move(reply.type), std::move(reply.body)};
         } catch (const std::exception& error) {
-            return {500, kPlainText, options_.told ? options_.told(message_of(error)) : error.what()};
+            return {500, kPlainText, options_.translated ? options_.translated(message_of(error)) : error.what()};
         }
     }
 
@@ -154,8 +154,8 @@ void WebServer::on_stream(std::function<std::string()> first) {
     work_->first_ = std::move(first);
 }
 
-void WebServer::on_late_visit(std::function<void()> tell) {
-    work_->on_late_visit_ = std::move(tell);
+void WebServer::on_late_visit(std::function<void()> notify) {
+    work_->on_late_visit_ = std::move(notify);
 }
 
 void WebServer::start() {

@@ -40,7 +40,8 @@ class WebServer {
         int port = 0;  ///< any free one
         std::size_t largest_body = std::size_t{8} << 20;
         int most_streams = 24;
-        std::function<std::string(const Message&)> told = {};  ///< text of a message for the reader; English without
+        std::function<std::string(const Message&)> translated =
+            {};  ///< text of a message for the reader; English without
     };
     using Handler = std::function<PageReply(const PageRequest&)>;
 
@@ -57,7 +58,7 @@ class WebServer {
     /// The data of the event "page" with which a stream begins.
     void on_stream(std::function<std::string()> first);
     /// Called by a thread of the server when somebody came with an address that is old or used: print a new one.
-    void on_late_visit(std::function<void()> tell);
+    void on_late_visit(std::function<void()> notify);
     void start();
 
     int port() const;

@@ -103,7 +103,7 @@ int rank_of(const EstimatorForm& form) {
 
 std::vector<EstimatorForm> estimator_forms(const Reader& reader) {
     std::vector<EstimatorForm> forms;
-    for (const MethodEntry& method : method_catalogue())
+    for (const MethodEntry& method : method_catalog())
         for (const std::string& name : method.lua_names) {
             const FunctionEntry* const function = find_function(name);
             if (function == nullptr) continue;

@@ -151,8 +151,8 @@ class Columns {
     /// Whether the numbers of a signal go up by equal steps, as a clock does.
     bool counts_evenly(const std::string& name) const {
         const auto found = std::ranges::find(signals_, name, &Signal::name);
-        constexpr Index kFewest = 5;
-        if (found->numbers.size() < kFewest || loaded_.variables.contains("Ts")) return false;
+        constexpr Index kMinCount = 5;
+        if (found->numbers.size() < kMinCount || loaded_.variables.contains("Ts")) return false;
         const InstantSpacing spacing = spacing_of(found->numbers);
         return !spacing.disorder && spacing.even;
     }
@@ -188,9 +188,9 @@ std::string in_one_line(std::string text) {
 
 }  // namespace
 
-RecordChoice look_at_record(const std::string& data, bool tells) {
+RecordChoice summarize_record(const std::string& data, bool tells) {
     const LoadedData loaded = load_data(data, ".");
-    return {data, Columns(loaded).offered(), tells ? look_at_data(data, {}).text : ""};
+    return {data, Columns(loaded).offered(), tells ? summarize_data(data, {}).text : ""};
 }
 
 std::string record_lines(const RecordOrder& order) {

@@ -26,7 +26,7 @@ struct RecordChoice {
 DYNLAB_DESCRIBE(RecordChoice, data, columns, look)
 
 /// `data`: a file or a data set; without `look` unless it `tells`. Throws EnvironmentError as load_data().
-RecordChoice look_at_record(const std::string& data, bool tells = true);
+RecordChoice summarize_record(const std::string& data, bool tells = true);
 
 /// What was chosen of it.
 struct RecordOrder {

@@ -11,7 +11,7 @@
 namespace dynlab::inline app {
 namespace {
 
-constexpr std::size_t kMostSteps = 500;
+constexpr std::size_t kMaxSteps = 500;
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void SessionText::redo() {
     save();
 }
 
-bool SessionText::look_at_file() {
+bool SessionText::read_changed_file() {
     if (!std::filesystem::exists(file_)) return false;
     const std::string now = text_of_source(file_);
     if (now == saved_ || now.empty()) return false;  // empty: an editor is about to write it
@@ -64,7 +64,7 @@ bool SessionText::look_at_file() {
 void SessionText::take_from_file() {
     wait_for_editor();
     try {
-        look_at_file();
+        read_changed_file();
     } catch (const EnvironmentError&) {
     }
 }
@@ -81,10 +81,10 @@ void SessionText::wait_for_editor() const {
 
 void SessionText::change(std::string text, bool goes_on) {
     if (text == text_) return;
-    if (text.size() > kMostSourceBytes)
-        throw DocumentError(Message("not applied: the script exceeds {} MB", kMostSourceBytes >> 20));
+    if (text.size() > kMaxSourceSize)
+        throw DocumentError(Message("not applied: the script exceeds {} MB", kMaxSourceSize >> 20));
     if (!goes_on) past_.push_back(text_);
-    if (past_.size() > kMostSteps) past_.erase(past_.begin());
+    if (past_.size() > kMaxSteps) past_.erase(past_.begin());
     future_.clear();
     text_ = std::move(text);
     ++revision_;

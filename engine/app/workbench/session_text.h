@@ -46,7 +46,7 @@ class SessionText {
     bool save();  ///< what is not on disk yet; whether there was something, and it is there now
     /// Takes what another program wrote into the file; true when that is another text, and not none: editors that write
     /// in place empty the file first. Throws DocumentError and EnvironmentError where that cannot be read.
-    bool look_at_file();
+    bool read_changed_file();
     /// The same before the text is written. A file that cannot be read is nothing then: whether it can be written, the
     /// save says. Throws DocumentError where what it holds is no script.
     void take_from_file();

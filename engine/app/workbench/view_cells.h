@@ -16,9 +16,9 @@ bool is_one_of(const nlohmann::json& name, const Names& names) {
     return std::any_of(std::begin(names), std::end(names), [&](const char* one) { return name == one; });
 }
 
-/// What the page wants to see besides the script: handed to draw_workbench of views.lua.
+/// Views that the page requests in addition to the script. draw_workbench of views.lua gets this order.
 struct ViewOrder {
-    std::vector<std::string> variables;  ///< of the script, whose values are looked at
+    std::vector<std::string> variables;  ///< variables of the script whose values the page shows
     std::string settings;                ///< JSON: which views, of which variables, and how
     int data_until = 0;                  ///< the last line of the script on which the records that are looked at depend
 };

@@ -87,7 +87,7 @@ std::string lines_of_order(const RecordOrder& order) {
 std::string first_script(const Subject& subject, Opening& opening) {
     std::string lines;
     if (!subject.data.empty()) {
-        const RecordChoice choice = look_at_record(subject.data, false);
+        const RecordChoice choice = summarize_record(subject.data, false);
         try {
             lines = lines_of_order(suggested_order(choice));
         } catch (const EnvironmentError& error) {
@@ -105,9 +105,9 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
     server.on_post("/script", [&](const PageRequest& asked) {
         constexpr int kConflict = 409;
         const auto revision = bench.change(from_json<ScriptOrder>(asked.body));
-        return revision
-                   ? PageReply{std::to_string(*revision), kJson}
-                   : PageReply{bench.told(Message("The script has changed in the meantime.")), kPlainText, kConflict};
+        return revision ? PageReply{std::to_string(*revision), kJson}
+                        : PageReply{bench.translated(Message("The script has changed in the meantime.")), kPlainText,
+                                    kConflict};
     });
     server.on_post("/look", [&](const PageRequest& asked) {
         return PageReply{std::to_string(bench.look(from_json<ViewOrder>(asked.body))), kJson};
@@ -127,9 +127,9 @@ bool is_created(const fs::path& file) {
 }
 
 /// The name under which a file that was dropped on the page is kept: no folder, no file of that name before.
-fs::path free_name(const std::string& wanted) {
-    expect_plain_name(wanted);
-    const fs::path name = fs::path(wanted).filename();
+fs::path free_name(const std::string& requested) {
+    expect_plain_name(requested);
+    const fs::path name = fs::path(requested).filename();
     if (!is_data_file(name))
         throw EnvironmentError("{} is not a data file: expected .csv, .txt, .dat, .tsv, .xlsx or .mat", name.string());
     fs::path file = name;
@@ -157,12 +157,12 @@ void serve_records(WebServer& server, WorkbenchSession& bench, const std::string
         return PageReply{list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), kJson};
     });
     server.on_get("/columns", [&](const PageRequest& asked) {
-        return PageReply{json_of(look_at_record(checked_record(asked.parameter("data"), subject))), kJson};
+        return PageReply{json_of(summarize_record(checked_record(asked.parameter("data"), subject))), kJson};
     });
     server.on_post("/upload", [](const PageRequest& asked) {
         const fs::path file = free_name(asked.parameter("name"));
         write_file_atomically(file, asked.body);
-        return PageReply{json_of(look_at_record(file.string())), kJson};
+        return PageReply{json_of(summarize_record(file.string())), kJson};
     });
     server.on_post("/record", [&](const PageRequest& asked) {
         const RecordOrder order = from_json<RecordOrder>(asked.body);
@@ -178,7 +178,7 @@ void serve_help(WebServer& server, const WorkbenchSession& bench) {
     server.on_get("/help", [&](const PageRequest& asked) {
         const auto page = find_help_page(asked.parameter("name"));
         constexpr int kMissing = 404;
-        if (!page) return PageReply{bench.told(Message("No help page has this name.")), kPlainText, kMissing};
+        if (!page) return PageReply{bench.translated(Message("No help page has this name.")), kPlainText, kMissing};
         return PageReply{page_text(*page, find_function(std::string(page->name))), kPlainText};
     });
 }
@@ -194,13 +194,15 @@ void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork&
     server.on_get("/document.pdf", [&](const PageRequest&) {
         constexpr int kFailed = 500, kForbidden = 403, kConflict = 409;
         if (!permissions.granted())
-            return PageReply{bench.told(Message("This script is not allowed to run yet.")), kPlainText, kForbidden};
+            return PageReply{bench.translated(Message("This script is not allowed to run yet.")), kPlainText,
+                             kForbidden};
         if (const auto mistake = bench.mistake())
-            return PageReply{bench.told(Message("A report cannot be made from a script with an error: {}", *mistake)),
-                             kPlainText, kConflict};
+            return PageReply{
+                bench.translated(Message("A report cannot be made from a script with an error: {}", *mistake)),
+                kPlainText, kConflict};
         background.document_changed({});
         const BackgroundWork::Pdf pdf = background.pdf();
-        return pdf.bytes.empty() ? PageReply{bench.told(pdf.error), kPlainText, kFailed}
+        return pdf.bytes.empty() ? PageReply{bench.translated(pdf.error), kPlainText, kFailed}
                                  : PageReply{pdf.bytes, "application/pdf"};
     });
     server.on_get("/saved/*", [&](const PageRequest& asked) {
@@ -231,9 +233,9 @@ void serve_workbench(const WorkbenchOptions& options) {
     if (permissions.granted()) bench.allow_runs();
 
     BackgroundWork background(subject.script.string());
-    WebServer server({.port = options.port, .largest_body = kLargestUpload, .told = [&bench](const Message& message) {
-                          return bench.told(message);
-                      }});
+    WebServer server({.port = options.port,
+                      .largest_body = kLargestUpload,
+                      .translated = [&bench](const Message& message) { return bench.translated(message); }});
     const StopsBeforeServer stops{background};
     serve_page_files(server, "workbench.html");
     take_script_orders(server, bench);

@@ -29,15 +29,15 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kViewsOfRecords[] = {"record", "spectrum", "advice"};
-constexpr std::size_t kMostPrinted = 4000;  // bytes of a cell that are shown
-constexpr int kLookForInterrupt = 1000;     // ms
+constexpr std::size_t kMaxPrinted = 4000;  // bytes of a cell that are shown
+constexpr int kLookForInterrupt = 1000;    // ms
 
 std::string printed_by(const RunRecord& record, const std::string& cell) {
     const auto outputs = record.outputs.find(cell);
     std::string text;
     if (outputs == record.outputs.end()) return text;
     for (const CellOutput& output : outputs->second) text += output.printed;
-    if (text.size() > kMostPrinted) text.resize(kMostPrinted);
+    if (text.size() > kMaxPrinted) text.resize(kMaxPrinted);
     return text;
 }
 
@@ -91,7 +91,7 @@ void WorkbenchSession::redo() {
 /// What stands on disk is what somebody at the page wanted; or why it is not there has changed.
 void WorkbenchSession::text_is_ours() {
     changed_ = true;
-    if (may_run_) tell_of_saving_(text_.text());
+    if (may_run_) notify_saving_(text_.text());
     wake();
 }
 
@@ -157,7 +157,7 @@ void WorkbenchSession::work() {
 /// The file of a slider that was held to the last.
 void WorkbenchSession::save_rest() {
     const std::lock_guard lock(mutex_);
-    if (text_.save() && may_run_) tell_of_saving_(text_.text());
+    if (text_.save() && may_run_) notify_saving_(text_.text());
     if (!text_.unsaved().empty()) throw EnvironmentError("the last changes are lost: {}", text_.unsaved());
 }
 
@@ -168,7 +168,7 @@ void WorkbenchSession::take_file_changes() {
             changed_ = true;
             unread_ = Message();
             try {
-                text_.look_at_file();
+                text_.read_changed_file();
             } catch (const std::exception& error) {
                 unread_ = message_of(error);
             }
@@ -220,7 +220,7 @@ void WorkbenchSession::take_orders() {
         must_run = may_run_ && (old_ || run_revision_ != text_.revision());
     }
     if (must_run) run();
-    tell_();
+    notify_();
 }
 
 /// Those alone whose text or settings are other than when they were made; nothing where all stand: advice takes longer
@@ -274,7 +274,7 @@ void WorkbenchSession::run() {
         const PercentScript script = parse_percent_script(text + cells, text_.file());
         const std::size_t first = runner_.run(report_of_script(script, "session.html"), figures_.path(), changed_data_);
         changed_data_.clear();
-        forget_other_cells();
+        clear_other_cells();
         for (std::size_t i = first; i < runner_.parts().size(); ++i)
             for (const std::string& cell : runner_.parts()[i].cells) states_[cell] = {"waiting", 0, 0};
     } catch (const DocumentError& error) {
@@ -285,7 +285,7 @@ void WorkbenchSession::run() {
 }
 
 /// What was told of cells that the script no longer has.
-void WorkbenchSession::forget_other_cells() {
+void WorkbenchSession::clear_other_cells() {
     std::set<std::string> there = {kViewCell, kSlowViewCell};
     for (const Cell& cell : parse_percent_script(text_.text(), text_.file()).cells) there.insert(cell.id);
     const auto is_gone = [&](const auto& entry) { return !there.contains(entry.first); };
@@ -304,7 +304,7 @@ std::optional<Message> WorkbenchSession::mistake() const {
     return error_ ? std::optional(with_place(*error_)) : std::nullopt;
 }
 
-std::string WorkbenchSession::told(const Message& message) const {
+std::string WorkbenchSession::translated(const Message& message) const {
     const std::lock_guard lock(mutex_);
     return message_text(message, reader_of_session(language()));
 }
@@ -369,8 +369,8 @@ std::string WorkbenchSession::language() const {
 }
 
 std::string WorkbenchSession::json(bool all) const {
-    const std::string told_in = language();
-    const Reader reader = reader_of_session(told_in);
+    const std::string page_language = language();
+    const Reader reader = reader_of_session(page_language);
     ::nlohmann::json page = {{"all", all},
                              {"revision", text_.revision()},
                              {"shown", run_revision_},
@@ -392,7 +392,8 @@ std::string WorkbenchSession::json(bool all) const {
                          {"place", fmt::format("{}:{}", error_->file, error_->line)},
                          {"line", error_->line_in(text_.file().filename().string())}};
     if (all) page["file"] = fs::absolute(text_.file()).string();
-    if (all || sent_language_ != told_in) page["forms"] = ::nlohmann::json::parse(json_of(estimator_forms(reader)));
+    if (all || sent_language_ != page_language)
+        page["forms"] = ::nlohmann::json::parse(json_of(estimator_forms(reader)));
     if (all || sent_revision_ != text_.revision()) {
         page["source"] = text_.text();
         page["steps"] = ::nlohmann::json::parse(json_of(session_steps(text_.text())));

@@ -22,8 +22,8 @@ class WorkbenchSession {
     WorkbenchSession(std::filesystem::path file, ScriptRunner& runner);
 
     /// With the text that an order of the page made, once it may run.
-    void on_saving(std::function<void(const std::string&)> tell) { tell_of_saving_ = std::move(tell); }
-    void on_change(std::function<void()> tell) { tell_ = std::move(tell); }
+    void on_saving(std::function<void(const std::string&)> notify) { notify_saving_ = std::move(notify); }
+    void on_change(std::function<void()> notify) { notify_ = std::move(notify); }
     /// Until end() or Ctrl-C. What is not on disk then is saved; throws EnvironmentError where it cannot be.
     void work();
 
@@ -39,8 +39,8 @@ class WorkbenchSession {
     /// What a run saved (workbench.show "saved"), by its name. Throws EnvironmentError where there is none.
     std::string saved(const std::string& name) const;
 
-    std::optional<Message> mistake() const;          ///< at which the script stops, as the last run told it
-    std::string told(const Message& message) const;  ///< in the script's language
+    std::optional<Message> mistake() const;                ///< at which the script stops, as the last run told it
+    std::string translated(const Message& message) const;  ///< in the script's language
     std::string script() const;
     std::filesystem::path file() const;
     std::string whole() const;             ///< what a page shows, JSON
@@ -53,7 +53,7 @@ class WorkbenchSession {
     void save_rest();
     void take_file_changes();
     void take_orders();
-    void forget_other_cells();
+    void clear_other_cells();
     void run();
     std::optional<ViewOrder> stale_views();
     void leave_out(std::size_t part);
@@ -65,8 +65,8 @@ class WorkbenchSession {
     std::string language() const;  ///< that of the script
 
     ScriptRunner& runner_;
-    std::function<void()> tell_ = [] {};
-    std::function<void(const std::string&)> tell_of_saving_ = [](const std::string&) {};
+    std::function<void()> notify_ = [] {};
+    std::function<void(const std::string&)> notify_saving_ = [](const std::string&) {};
     TemporaryFolder figures_;
     FolderWatch watch_;
     FileDescriptor wake_;

@@ -4,12 +4,12 @@
 
 namespace dynlab::inline cli {
 
-void add_boxed_version(CLI::App& app, Action& action) {
+void add_sandboxed_version(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("boxed", "Internal: make the report of a pack in a sandbox")->group("");
     command->add_option("work", "version")->required()->check(CLI::IsMember({VersionJob::kWork}));
     command->callback([&action] {
         action = [] {
-            do_boxed_job(make_version);
+            do_sandbox_job(make_version);
             return int(kDone);
         };
     });

@@ -37,12 +37,12 @@ struct CheckArguments {
 };
 
 /// The people of the roster, and whoever's account this is.
-std::shared_ptr<const IdentityMatcher> matcher_for(const CheckArguments& words) {
+std::shared_ptr<const IdentityMatcher> matcher_for(const CheckArguments& args) {
     auto names = std::make_shared<IdentityMatcher>();
-    if (!words.roster.empty()) {
-        const Roster roster(words.roster);
+    if (!args.roster.empty()) {
+        const Roster roster(args.roster);
         if (const Message too_short = numbers_too_short(roster.students()); !too_short.empty())
-            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", words.roster, message_text(too_short)));
+            std::cerr << terminal_text(fmt::format("dynlab: {}: {}\n", args.roster, message_text(too_short)));
         *names = IdentityMatcher(roster.students());
         names->add_cited(cited_authors());
     }
@@ -51,10 +51,10 @@ std::shared_ptr<const IdentityMatcher> matcher_for(const CheckArguments& words) 
 }
 
 /// A script that stands alone is held to what its folder would be.
-CheckResult check_script(const fs::path& script, const CheckOptions& wishes) {
+CheckResult check_script(const fs::path& script, const CheckOptions& check_options) {
     const TemporaryFolder folder;
     make_script_folder(script, folder.path());
-    CheckResult result = check_folder(folder.path(), running_program(), wishes);
+    CheckResult result = check_folder(folder.path(), running_program(), check_options);
     result.subject = script.string();
     const std::string name = script.filename().string(), pdf = fs::path(name).replace_extension(".pdf").string();
     const std::string source = is_notebook(script) ? read_file(folder.path() / "analysis.lua") : "";
@@ -64,10 +64,10 @@ CheckResult check_script(const fs::path& script, const CheckOptions& wishes) {
     const auto renamed = [&](const std::string& text) {
         return replaced(replaced(replaced(text, "analysis.lua", name), "report.pdf", pdf), "FOLDER", name);
     };
-    for (Finding& finding : result.findings) {
-        finding.place = renamed(placed(finding.place));
-        finding.what = with_changed_text(placed(finding.what), renamed);
-        finding.remedy = with_changed_text(placed(finding.remedy), renamed);
+    for (Issue& issue : result.findings) {
+        issue.place = renamed(placed(issue.place));
+        issue.what = with_changed_text(placed(issue.what), renamed);
+        issue.remedy = with_changed_text(placed(issue.remedy), renamed);
     }
     return result;
 }
@@ -89,56 +89,57 @@ Message words_of(CheckStep step) {
     return step == CheckStep::kLessonChecks ? Message("running the lesson's checks") : Message("reading the report");
 }
 
-CheckResult check_work(const fs::path& subject, CheckOptions wishes) {
-    if (!fs::is_directory(subject) && !is_script(subject)) return check_pdf(subject, wishes);
+CheckResult check_work(const fs::path& subject, CheckOptions check_options) {
+    if (!fs::is_directory(subject) && !is_script(subject)) return check_pdf(subject, check_options);
     constexpr std::size_t kSteps = 3;
     ActivityLine activity;
-    wishes.begins = [&activity](CheckStep step) {
+    check_options.begins = [&activity](CheckStep step) {
         activity.begin_step(message_text(words_of(step), user()));
         write_progress(static_cast<std::size_t>(step), kSteps);
     };
-    return fs::is_directory(subject) ? check_folder(subject, running_program(), wishes) : check_script(subject, wishes);
+    return fs::is_directory(subject) ? check_folder(subject, running_program(), check_options)
+                                     : check_script(subject, check_options);
 }
 
-int check(const CheckArguments& words) {
-    CheckOptions wishes;
-    if (words.pages > 0) wishes.pages = words.pages;
-    wishes.lesson_checks = !words.document_only;
+int check(const CheckArguments& args) {
+    CheckOptions check_options;
+    if (args.pages > 0) check_options.pages = args.pages;
+    check_options.lesson_checks = !args.document_only;
     const auto misuse = [](const Message& sentence) {
         complain(sentence);
         return kUsage;
     };
     try {
-        wishes.names = matcher_for(words);
-        if (!words.template_name.empty()) wishes.standard = standard_of(words.template_name);
+        check_options.names = matcher_for(args);
+        if (!args.template_name.empty()) check_options.standard = standard_of(args.template_name);
     } catch (const std::runtime_error& error) {
         return misuse(message_of(error));
     }
-    if (!fs::exists(words.subject)) return misuse(Message("file or folder not found: '{}'", words.subject));
-    const CheckResult result = check_work(words.subject, wishes);
-    std::cout << (words.as_json ? findings_as_json(result)
-                                : findings_in_words(result, in_colour(), reader_for(words.subject, result).reader()));
+    if (!fs::exists(args.subject)) return misuse(Message("file or folder not found: '{}'", args.subject));
+    const CheckResult result = check_work(args.subject, check_options);
+    std::cout << (args.as_json ? issues_as_json(result)
+                               : issues_as_text(result, in_color(), reader_for(args.subject, result).reader()));
     return result.passed() ? kDone : kFailed;
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, Action& action) {
-    auto words = std::make_shared<CheckArguments>();
+    auto args = std::make_shared<CheckArguments>();
     CLI::App* command = app.add_subcommand("check", "Check a report for problems before submission");
     command
-        ->add_option("FOLDER|FILE.lua|FILE.ipynb|FILE.pdf", words->subject,
+        ->add_option("FOLDER|FILE.lua|FILE.ipynb|FILE.pdf", args->subject,
                      "Folder made by dynlab new, single script or notebook, or any PDF")
         ->required();
-    command->add_option("--template", words->template_name, "Template to check against, such as lab_report or slides")
+    command->add_option("--template", args->template_name, "Template to check against, such as lab_report or slides")
         ->type_name("NAME|FILE.md");
-    command->add_option("--roster", words->roster, "People to search for as well: columns id, name, email, group")
+    command->add_option("--roster", args->roster, "People to search for as well: columns id, name, email, group")
         ->type_name("CSV");
-    command->add_option("--pages", words->pages, "Maximum number of pages, instead of the template's")
+    command->add_option("--pages", args->pages, "Maximum number of pages, instead of the template's")
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
-    command->add_flag("--document-only", words->document_only, "Skip the lesson's checks of the answers");
-    command->add_flag("--json", words->as_json, "Print the findings as JSON");
+    command->add_flag("--document-only", args->document_only, "Skip the lesson's checks of the answers");
+    command->add_flag("--json", args->as_json, "Print the findings as JSON");
     command->footer(
         "dynlab runs the analysis in a clean copy of the folder and does not write into the folder. A single script, "
         "such\n"
@@ -155,9 +156,9 @@ void add_check(CLI::App& app, Action& action) {
         "Exit codes: 0 no rule is violated (there may be hints), 1 a rule is violated, 2 wrong usage.\n"
         "JSON: {subject, template, language, pages, passed, checked: [text],\n"
         "       findings: [{id, severity: \"rule\"|\"hint\", page, place, what, remedy}]}; unknown values are null.");
-    command->callback([words, &action] {
-        if (ending_of(words->subject) != ".pdf") expect_script(words->subject, "check");
-        action = [words] { return check(*words); };
+    command->callback([args, &action] {
+        if (ending_of(args->subject) != ".pdf") expect_script(args->subject, "check");
+        action = [args] { return check(*args); };
     });
 }
 

@@ -14,9 +14,9 @@ struct ChecksArguments {
     int timeout = 60;
 };
 
-int try_them(const ChecksArguments& words) {
-    GradingSetup setup = trial_setup(find_lesson(words.lesson), words.secret, words.timeout);
-    if (!words.folder.empty()) setup.more_checks = words.folder;
+int try_them(const ChecksArguments& args) {
+    GradingSetup setup = trial_setup(find_lesson(args.lesson), args.secret, args.timeout);
+    if (!args.folder.empty()) setup.more_checks = args.folder;
     const CheckTrial trial = try_checks_of(setup);
     std::cout << terminal_text(trial_in_words(trial));
     return trial.sound() ? kDone : kFailed;
@@ -27,15 +27,15 @@ int try_them(const ChecksArguments& words) {
 void add_checks(CLI::App& app, Action& action) {
     CLI::App* group = app.add_subcommand("checks", "Test checks before a class uses them");
     group->require_subcommand(1);
-    auto words = std::make_shared<ChecksArguments>();
+    auto args = std::make_shared<ChecksArguments>();
     CLI::App* command =
         group->add_subcommand("try", "Run the checks of a lesson, and your own, on correct and incorrect scripts");
     command
-        ->add_option("FOLDER", words->folder, "Folder with your own checks (*.lua). Default: only the lesson's checks.")
+        ->add_option("FOLDER", args->folder, "Folder with your own checks (*.lua). Default: only the lesson's checks.")
         ->type_name("FOLDER");
-    command->add_option("--lesson", words->lesson, "Lesson")->type_name("NN")->required();
-    add_secret_option(*command, words->secret);
-    add_timeout_option(*command, words->timeout);
+    command->add_option("--lesson", args->lesson, "Lesson")->type_name("NN")->required();
+    add_secret_option(*command, args->secret);
+    add_timeout_option(*command, args->timeout);
     command->footer(
         "The checks run on the reference solution, the untouched starter, the lesson's wrong_*.lua and right_*.lua, "
         "and your\n"
@@ -46,7 +46,7 @@ void add_checks(CLI::App& app, Action& action) {
         "it lists the checks that the reference solution fails, and the checks that no script fails.\n"
         "Example:  dynlab checks try my-checks --lesson 04\n"
         "Exit codes: 0 the reference solution passes all checks, 1 it does not, 2 wrong usage.");
-    command->callback([words, &action] { action = [words] { return try_them(*words); }; });
+    command->callback([args, &action] { action = [args] { return try_them(*args); }; });
 }
 
 }  // namespace dynlab::inline cli

@@ -27,25 +27,25 @@ void add_init(CLI::App& course, Action& action) {
     struct Arguments {
         std::string folder, name, zone = "UTC";
     };
-    auto words = std::make_shared<Arguments>();
+    auto args = std::make_shared<Arguments>();
     CLI::App* command = course.add_subcommand("init", "Make a course: a folder with its store and its key");
-    command->add_option("DIR", words->folder, "Folder of the course; it may exist")->required();
-    command->add_option("--name", words->name, "Name of the course, for receipts. Default: the name of the folder.");
-    command->add_option("--timezone", words->zone, "Time zone for all times of the course")
+    command->add_option("DIR", args->folder, "Folder of the course; it may exist")->required();
+    command->add_option("--name", args->name, "Name of the course, for receipts. Default: the name of the folder.");
+    command->add_option("--timezone", args->zone, "Time zone for all times of the course")
         ->type_name("ZONE")
         ->capture_default_str();
     command->footer("Example:  dynlab course init signals-2026 --name \"Signals 2026\" --timezone Europe/Paris");
-    command->callback([words, &action] {
-        action = [words] {
-            const fs::path folder = fs::absolute(words->folder).lexically_normal();
+    command->callback([args, &action] {
+        action = [args] {
+            const fs::path folder = fs::absolute(args->folder).lexically_normal();
             const std::string own = (folder.has_filename() ? folder : folder.parent_path()).filename();
-            Course::create(folder, words->name.empty() ? own : words->name, words->zone);
+            Course::create(folder, args->name.empty() ? own : args->name, args->zone);
             std::cout << fmt::format(
                 "Course made in {}, times in {}.\n"
                 "course.key signs the receipts: keep a copy of the whole folder, and keep the key secret.\n"
                 "course.pub verifies them: give it to your students, who need only dynlab verify.\n"
                 "Next: cd {} and dynlab course import roster.csv\n",
-                folder.string(), words->zone, words->folder);
+                folder.string(), args->zone, args->folder);
             return kDone;
         };
     });
@@ -87,17 +87,17 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
         std::string file, folder, assignment, from = ".";
         bool no_groups = false;
     };
-    auto words = std::make_shared<Arguments>();
+    auto args = std::make_shared<Arguments>();
     CLI::App* command = course.add_subcommand("import", "Read students and groups from a CSV file");
     command
-        ->add_option("FILE", words->file,
+        ->add_option("FILE", args->file,
                      "Roster or list of participants: columns id, group, name, email, ...; may be repeated")
         ->required();
-    command->add_option("DIR", words->folder, "For a JSON export: folder of the new course");
-    command->add_flag("--no-groups", words->no_groups, "The file has no column group: each new student works alone");
-    command->add_option("--deadlines", words->assignment, "Read FILE as the deadlines of this assignment")
+    command->add_option("DIR", args->folder, "For a JSON export: folder of the new course");
+    command->add_flag("--no-groups", args->no_groups, "The file has no column group: each new student works alone");
+    command->add_option("--deadlines", args->assignment, "Read FILE as the deadlines of this assignment")
         ->type_name("ASSIGNMENT");
-    command->add_option("--from", words->from, "For a JSON export: folder of the old course, with its files and key")
+    command->add_option("--from", args->from, "For a JSON export: folder of the old course, with its files and key")
         ->capture_default_str();
     command->footer(
         "Columns: id and group, and optionally name, email (or mail), moodle, canvas, language, seed. dynlab also "
@@ -109,12 +109,12 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
         "  dynlab course import roster.csv\n"
         "  dynlab course import deadlines.csv --deadlines lab4    with the columns of dynlab grade\n"
         "  dynlab course import course.json copy --from signals-2026    from course export --json");
-    command->callback([&where, words, &action] {
-        action = [&where, words]() -> int {
-            if (!words->assignment.empty()) return import_table(where, words->assignment, words->file);
-            if (words->folder.empty()) return import_people(where, words->file, words->no_groups);
-            import_course(words->file, words->from, words->folder);
-            std::cout << fmt::format("Course made in {} from {}.\n", words->folder, words->file);
+    command->callback([&where, args, &action] {
+        action = [&where, args]() -> int {
+            if (!args->assignment.empty()) return import_table(where, args->assignment, args->file);
+            if (args->folder.empty()) return import_people(where, args->file, args->no_groups);
+            import_course(args->file, args->from, args->folder);
+            std::cout << fmt::format("Course made in {} from {}.\n", args->folder, args->file);
             return kDone;
         };
     });
@@ -125,20 +125,20 @@ void add_drop(CLI::App& course, CourseArguments& where, Action& action) {
         std::string group, reason;
         bool end = false;
     };
-    auto words = std::make_shared<Arguments>();
+    auto args = std::make_shared<Arguments>();
     CLI::App* command = course.add_subcommand("drop", "Mark a group as dropped out, or as returned");
-    command->add_option("GROUP", words->group, "Group, or one of its students")->required();
-    command->add_flag("--end", words->end, "Mark the group as returned");
-    command->add_option("--reason", words->reason, "Reason; recorded in the history");
+    command->add_option("GROUP", args->group, "Group, or one of its students")->required();
+    command->add_flag("--end", args->end, "Mark the group as returned");
+    command->add_option("--reason", args->reason, "Reason; recorded in the history");
     command->footer("Example:  dynlab course drop group-07 --reason \"left the course\"");
-    command->callback([&where, words, &action] {
-        action = [&where, words] {
+    command->callback([&where, args, &action] {
+        action = [&where, args] {
             Course opened(where.folder);
-            const std::string group = group_named(opened, words->group).name;
-            set_group_dropped_out(opened, group, !words->end, words->reason);
+            const std::string group = group_named(opened, args->group).name;
+            set_group_dropped_out(opened, group, !args->end, args->reason);
             std::cout << fmt::format(
                 "{} {}; if reviews are already assigned, repeat dynlab course review assign.\n", group,
-                words->end ? "has returned to the course" : "has dropped out; its work and its reviews are kept");
+                args->end ? "has returned to the course" : "has dropped out; its work and its reviews are kept");
             return kDone;
         };
     });
@@ -158,113 +158,113 @@ std::string lasting_path(const std::string& given) {
 }
 
 /// Sets what was given.
-void apply(const AssignmentArguments& words, const CourseClock& clock, Assignment& a) {
-    if (!words.lesson.empty()) {
-        a.lesson = lasting_name(find_lesson(words.lesson));
+void apply(const AssignmentArguments& args, const CourseClock& clock, Assignment& a) {
+    if (!args.lesson.empty()) {
+        a.lesson = lasting_name(find_lesson(args.lesson));
     }
-    if (!words.first.empty()) a.first_due = clock.parse(words.first, "--first");
-    if (!words.review.empty()) a.review_due = clock.parse(words.review, "--review");
-    if (!words.final.empty()) a.final_due = clock.parse(words.final, "--final");
-    if (!words.grace.empty()) {
-        const auto grace = duration_of(words.grace);
+    if (!args.first.empty()) a.first_due = clock.parse(args.first, "--first");
+    if (!args.review.empty()) a.review_due = clock.parse(args.review, "--review");
+    if (!args.final.empty()) a.final_due = clock.parse(args.final, "--final");
+    if (!args.grace.empty()) {
+        const auto grace = duration_of(args.grace);
         if (!grace)
             throw InvalidArgument("--grace must be a duration such as 15min, 2h or 1d, but \"{}\" was given",
-                                  words.grace);
+                                  args.grace);
         a.grace = *grace;
     }
-    if (!words.costs.empty()) a.costs = costs_of(words.costs == "none" ? "" : words.costs);
-    if (words.final_weight) a.final_weight = *words.final_weight;
-    if (words.weight) a.weight = *words.weight;
-    if (words.reviews_weight) a.reviews_weight = *words.reviews_weight;
-    if (!words.checks.empty()) a.checks = lasting_path(words.checks);
-    if (!words.secret.empty()) a.secret = lasting_path(words.secret);
-    if (!a.secret.empty() && !words.secret.empty()) secret_in(a.secret);
-    if (!words.keep.empty()) a.keep = words.keep;
+    if (!args.costs.empty()) a.costs = costs_of(args.costs == "none" ? "" : args.costs);
+    if (args.final_weight) a.final_weight = *args.final_weight;
+    if (args.weight) a.weight = *args.weight;
+    if (args.reviews_weight) a.reviews_weight = *args.reviews_weight;
+    if (!args.checks.empty()) a.checks = lasting_path(args.checks);
+    if (!args.secret.empty()) a.secret = lasting_path(args.secret);
+    if (!a.secret.empty() && !args.secret.empty()) secret_in(a.secret);
+    if (!args.keep.empty()) a.keep = args.keep;
 }
 
 /// Adds it, or changes what was named of it: with a reason at any time, without one while that costs no student
 /// anything.
-int enter_assignment(const CourseArguments& where, const AssignmentArguments& words) {
+int enter_assignment(const CourseArguments& where, const AssignmentArguments& args) {
     Course course(where.folder);
-    if (words.remove) {
-        remove_assignment(course, assignment_named(course, words.name), words.reason);
+    if (args.remove) {
+        remove_assignment(course, assignment_named(course, args.name), args.reason);
         std::cout << terminal_text(course_summary(course, CourseClock::now()));
         return kDone;
     }
     const std::vector<Assignment> all = assignments_of(course);
     const auto known = std::ranges::find_if(
-        all, [&](const Assignment& a) { return ::strcasecmp(a.name.c_str(), words.name.c_str()) == 0; });
+        all, [&](const Assignment& a) { return ::strcasecmp(a.name.c_str(), args.name.c_str()) == 0; });
     Assignment a;
     if (known != all.end()) a = *known;
-    const std::string kind = words.kind == "presentation" ? "talk" : words.kind;
+    const std::string kind = args.kind == "presentation" ? "talk" : args.kind;
     const bool other_kind = !kind.empty() && kind != a.kind;
-    a.name = known != all.end() ? known->name : words.name;
+    a.name = known != all.end() ? known->name : args.name;
     if (!kind.empty()) a.kind = kind;
     if (!a.is_report()) a.review_due.reset(), a.final_due.reset();
-    if (words.reviews) a.reviews = *words.reviews;
-    apply(words, course.clock(), a);
-    if (!words.criteria.empty())
-        a.criteria = criteria_of(words.criteria);
+    if (args.reviews) a.reviews = *args.reviews;
+    apply(args, course.clock(), a);
+    if (!args.criteria.empty())
+        a.criteria = criteria_of(args.criteria);
     else if (known == all.end() || other_kind)
         a.criteria = usual_criteria(a.kind);
     if (a.is_lab() && a.lesson.empty()) throw InvalidArgument("a lab needs the checks of a lesson: give --lesson NN");
-    if (known == all.end() && !words.reason.empty() && !all.empty()) assignment_named(course, words.name);  // throws
-    const bool changed = set_assignment(course, a, words.reason);
+    if (known == all.end() && !args.reason.empty() && !all.empty()) assignment_named(course, args.name);  // throws
+    const bool changed = set_assignment(course, a, args.reason);
     std::cout << (changed ? "" : "No changes. ") << terminal_text(course_summary(course, CourseClock::now()));
     return kDone;
 }
 
 /// Those that may be changed later.
-void add_settings(CLI::App& command, AssignmentArguments& words) {
-    command.add_option("--lesson", words.lesson, "Lesson of the assignment")->type_name("NN");
-    command.add_option("--first", words.first, "Deadline of the first version (or the slides): \"2026-03-01 18:00\"")
+void add_settings(CLI::App& command, AssignmentArguments& args) {
+    command.add_option("--lesson", args.lesson, "Lesson of the assignment")->type_name("NN");
+    command.add_option("--first", args.first, "Deadline of the first version (or the slides): \"2026-03-01 18:00\"")
         ->type_name("TIME");
-    command.add_option("--review", words.review, "Deadline of the reviews")->type_name("TIME");
-    command.add_option("--final", words.final, "Deadline of the final version")->type_name("TIME");
-    command.add_option("--grace", words.grace, "Grace period after a deadline: 15min, 2h, 1d. Default: 0.")
+    command.add_option("--review", args.review, "Deadline of the reviews")->type_name("TIME");
+    command.add_option("--final", args.final, "Deadline of the final version")->type_name("TIME");
+    command.add_option("--grace", args.grace, "Grace period after a deadline: 15min, 2h, 1d. Default: 0.")
         ->type_name("DURATION");
     command
-        .add_option("--costs", words.costs,
+        .add_option("--costs", args.costs,
                     "Penalties in percent points: late-day:10 of the work for each day or part of a day, late-most:50 "
                     "in total, missing-final:30; late-review:5,missing-review:25 of the reviews. Default: none.")
         ->type_name("NAME:POINTS,...");
     command
-        .add_option("--final-weight", words.final_weight,
+        .add_option("--final-weight", args.final_weight,
                     "Weight of the final version in the work's mark, in percent, once it is scored. Default: 50.")
         ->check(CLI::Range(0, 100));
-    command.add_option("--weight", words.weight, "Weight in the total of the course. Default: 1.")
+    command.add_option("--weight", args.weight, "Weight in the total of the course. Default: 1.")
         ->check(CLI::Range(0, 1000));
     command
-        .add_option("--reviews-weight", words.reviews_weight,
+        .add_option("--reviews-weight", args.reviews_weight,
                     "Weight of the reviews in the total mark of a report, in percent. Default: 20.")
         ->check(CLI::Range(0, 100));
-    command.add_option("--checks", words.checks, "For a lab: folder with your own checks (*.lua)")->type_name("FOLDER");
-    command.add_option("--secret", words.secret, "For a lab: file that determines the hidden data")->type_name("FILE");
-    command.add_option("--keep", words.keep, "For a lab: which of several versions counts. Default: best.")
+    command.add_option("--checks", args.checks, "For a lab: folder with your own checks (*.lua)")->type_name("FOLDER");
+    command.add_option("--secret", args.secret, "For a lab: file that determines the hidden data")->type_name("FILE");
+    command.add_option("--keep", args.keep, "For a lab: which of several versions counts. Default: best.")
         ->type_name("best|newest")
         ->check(CLI::IsMember({"best", "newest"}));
 }
 
 void add_assignment_command(CLI::App& course, CourseArguments& where, Action& action) {
-    auto words = std::make_shared<AssignmentArguments>();
+    auto args = std::make_shared<AssignmentArguments>();
     CLI::App* command = course.add_subcommand("assignment", "Add, change or remove an assignment");
-    command->add_option("NAME", words->name, "Short name, such as crane")->required();
+    command->add_option("NAME", args->name, "Short name, such as crane")->required();
     command
-        ->add_option("--kind", words->kind,
+        ->add_option("--kind", args->kind,
                      "lab: graded by checks; report: reviewed, then improved; talk: slides. Default: report.")
         ->type_name("lab|report|talk")
         ->check(CLI::IsMember({"lab", "report", "talk", "presentation"}));
-    add_settings(*command, *words);
-    command->add_option("--reviews", words->reviews, "Number of reviews that each group writes and gets. Default: 2.")
+    add_settings(*command, *args);
+    command->add_option("--reviews", args->reviews, "Number of reviews that each group writes and gets. Default: 2.")
         ->check(CLI::Range(1, 20));
     command->add_option(
-        "--criteria", words->criteria,
+        "--criteria", args->criteria,
         "Criteria that reviewers score (at a talk, you): name:points,... Default: data, steps, conclusions, strength, "
         "suggestions; for a talk content, slides, delivery, answers; 5 points each.");
     command->add_option(
-        "--reason", words->reason,
+        "--reason", args->reason,
         "Reason; recorded in the history. Required to change an assignment with submissions, and to remove one.");
-    command->add_flag("--remove", words->remove, "Remove the assignment if nothing depends on it");
+    command->add_flag("--remove", args->remove, "Remove the assignment if nothing depends on it");
     command->footer(
         "Times are in the course's time zone. Options that you omit keep their values. Once files were submitted, "
         "--reason is\n"
@@ -275,24 +275,23 @@ void add_assignment_command(CLI::App& course, CourseArguments& where, Action& ac
         "  dynlab course assignment crane --lesson 03_crane --first \"2026-02-28 13:00\" \\\n            --review "
         "\"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews 2\n"
         "  dynlab course assignment crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
-    command->callback(
-        [&where, words, &action] { action = [&where, words] { return enter_assignment(where, *words); }; });
+    command->callback([&where, args, &action] { action = [&where, args] { return enter_assignment(where, *args); }; });
 }
 
 void add_who(CLI::App& course, CourseArguments& where, Action& action) {
     struct Arguments {
         std::string name, at;
     };
-    auto words = std::make_shared<Arguments>();
+    auto args = std::make_shared<Arguments>();
     CLI::App* command =
         course.add_subcommand("who", "Show all data of a student or a group: work, receipts, marks, history");
-    command->add_option("NAME", words->name, "Group in any spelling, or a student's name, id or address")->required();
-    add_time_option(*command, words->at);
+    command->add_option("NAME", args->name, "Group in any spelling, or a student's name, id or address")->required();
+    add_time_option(*command, args->at);
     command->footer("Example:  dynlab course who \"Kim Min-jun\"");
-    command->callback([&where, words, &action] {
-        action = [&where, words] {
+    command->callback([&where, args, &action] {
+        action = [&where, args] {
             Course opened(where.folder);
-            std::cout << terminal_text(who_text(opened, words->name, time_of(opened, words->at)));
+            std::cout << terminal_text(who_text(opened, args->name, time_of(opened, args->at)));
             return kDone;
         };
     });
@@ -302,28 +301,27 @@ void add_status(CLI::App& course, CourseArguments& where, Action& action) {
     struct Arguments {
         std::string assignment, at;
     };
-    auto words = std::make_shared<Arguments>();
+    auto args = std::make_shared<Arguments>();
     CLI::App* command = course.add_subcommand("status", "Show submissions, late and missing work, and what to do next");
-    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Default: all.");
+    command->add_option("ASSIGNMENT", args->assignment, "Assignment. Default: all.");
     command->footer(
         "Examples:\n"
         "  dynlab course status\n"
         "  dynlab course status crane");
-    add_time_option(*command, words->at);
-    command->callback([&where, words, &action] {
-        action = [&where, words] {
+    add_time_option(*command, args->at);
+    command->callback([&where, args, &action] {
+        action = [&where, args] {
             Course opened(where.folder);
-            const Instant now = time_of(opened, words->at);
+            const Instant now = time_of(opened, args->at);
             std::vector<Assignment> shown;
-            if (words->assignment.empty()) {
+            if (args->assignment.empty()) {
                 std::cout << terminal_text(course_summary(opened, now));
                 shown = assignments_of(opened);
             } else {
-                shown = {assignment_named(opened, words->assignment)};
+                shown = {assignment_named(opened, args->assignment)};
             }
             for (const Assignment& a : shown)
-                std::cout << (words->assignment.empty() ? "\n" : "")
-                          << terminal_text(assignment_status(opened, a, now));
+                std::cout << (args->assignment.empty() ? "\n" : "") << terminal_text(assignment_status(opened, a, now));
             return kDone;
         };
     });

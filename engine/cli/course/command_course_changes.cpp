@@ -18,13 +18,13 @@ struct ChangesArguments {
     std::string assignment, out, isolation = "full";
 };
 
-int changes(const CourseArguments& where, const ChangesArguments& words) {
-    const Isolation level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
+int changes(const CourseArguments& where, const ChangesArguments& args) {
+    const Isolation level = args.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
     if (const auto obstacle = obstacle_to(level)) throw EnvironmentError(*obstacle);
     Course course(where.folder);
-    const Assignment assignment = assignment_named(course, words.assignment);
+    const Assignment assignment = assignment_named(course, args.assignment);
     ChangesRequest request;
-    request.groups = words.groups;
+    request.groups = args.groups;
     request.level = level;
     request.program = running_program();
     WorkBar comparing("comparing the versions"), writing("writing the documents");
@@ -32,12 +32,12 @@ int changes(const CourseArguments& where, const ChangesArguments& words) {
     const std::vector<GroupChanges> all = version_changes(course, assignment, request);
     comparing.finish();
     std::cout << terminal_text(changes_table(assignment, all));
-    if (words.out.empty()) return kDone;
-    const BoxedDocuments documents(request.level, request.program);
-    const std::size_t written = write_changes(all, course, assignment, words.out, documents, writing.progress());
+    if (args.out.empty()) return kDone;
+    const SandboxedDocuments documents(request.level, request.program);
+    const std::size_t written = write_changes(all, course, assignment, args.out, documents, writing.progress());
     writing.finish();
     std::cout << message_text(plural(static_cast<std::int64_t>(written), "{} document as PDF and Markdown in {}",
-                                     "{} documents as PDF and Markdown in {}", words.out))
+                                     "{} documents as PDF and Markdown in {}", args.out))
               << '\n';
     return kDone;
 }
@@ -45,14 +45,14 @@ int changes(const CourseArguments& where, const ChangesArguments& words) {
 }  // namespace
 
 CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action) {
-    auto words = std::make_shared<ChangesArguments>();
+    auto args = std::make_shared<ChangesArguments>();
     CLI::App* command = course.add_subcommand("changes", "Compare first and final versions word by word");
-    command->add_option("GROUP", words->groups, "Groups. Default: all groups.");
-    command->add_option("--assignment", words->assignment, "Assignment. Required if there are several.")
+    command->add_option("GROUP", args->groups, "Groups. Default: all groups.");
+    command->add_option("--assignment", args->assignment, "Assignment. Required if there are several.")
         ->type_name("NAME");
-    command->add_option("--out", words->out, "Folder for GROUP.pdf and GROUP.md of each final version")
+    command->add_option("--out", args->out, "Folder for GROUP.pdf and GROUP.md of each final version")
         ->type_name("DIR");
-    command->add_option("--isolation", words->isolation, "Isolation of the work on the groups' files")
+    command->add_option("--isolation", args->isolation, "Isolation of the work on the groups' files")
         ->type_name("full|process")
         ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
@@ -64,7 +64,7 @@ CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action) 
         "Examples:\n"
         "  dynlab course changes --assignment crane\n"
         "  dynlab course changes group-03 group-07 --assignment crane --out changes");
-    command->callback([&where, words, &action] { action = [&where, words] { return changes(where, *words); }; });
+    command->callback([&where, args, &action] { action = [&where, args] { return changes(where, *args); }; });
     return command;
 }
 

@@ -16,37 +16,37 @@ namespace {
 
 struct CorrectionArguments {
     std::string assignment, time, reason, at, mark;
-    HandedInWanted wanted;
+    SubmissionSelection requested;
     std::optional<std::int64_t> seen;
     bool end = false, alone = false;
 };
 using Correct = int (*)(Course&, const Assignment&, const CorrectionArguments&);
 
-int correct_time(Course& course, const Assignment& a, const CorrectionArguments& words) {
-    const auto versions = correct_arrival(course, a, words.wanted, course.clock().parse(words.time, "TIME"),
-                                          words.reason, time_of(course, words.at));
+int correct_time(Course& course, const Assignment& a, const CorrectionArguments& args) {
+    const auto versions = correct_arrival(course, a, args.requested, course.clock().parse(args.time, "TIME"),
+                                          args.reason, time_of(course, args.at));
     for (const auto& file : write_receipts(course, versions))
         std::cout << terminal_text(fmt::format("Corrected receipt: {}\n", file.string()));
     return kDone;
 }
 
-int withdraw_mark(Course& course, const Assignment& a, const CorrectionArguments& words) {
-    const std::string item = item_called(a, words.mark);
-    const auto answers = group_of_answers(course, a, words.wanted.group);
-    const std::string who = answers ? answers->name : words.wanted.group;
+int withdraw_mark(Course& course, const Assignment& a, const CorrectionArguments& args) {
+    const std::string item = item_called(a, args.mark);
+    const auto answers = group_of_answers(course, a, args.requested.group);
+    const std::string who = answers ? answers->name : args.requested.group;
     Transaction transaction(course.database());
-    if (words.seen && !words.alone)
-        refuse_unseen_entry(course, a, group_named(course, who).id, words.wanted.group, item, *words.seen);
-    take_back_mark(course, a, who, words.alone, item, words.reason, time_of(course, words.at));
+    if (args.seen && !args.alone)
+        refuse_unseen_entry(course, a, group_named(course, who).id, args.requested.group, item, *args.seen);
+    take_back_mark(course, a, who, args.alone, item, args.reason, time_of(course, args.at));
     transaction.commit();
     std::cout << terminal_text(
-        fmt::format("{}: your mark of {} ({}) is withdrawn.\n", a.name, words.wanted.group, words.mark));
+        fmt::format("{}: your mark of {} ({}) is withdrawn.\n", a.name, args.requested.group, args.mark));
     return kDone;
 }
 
-int tell_withdrawn(Course& course, const Assignment& a, const CorrectionArguments& words, bool withdrawn) {
-    if (!words.mark.empty()) return withdraw_mark(course, a, words);
-    const auto versions = withdraw(course, a, words.wanted, withdrawn, words.reason, time_of(course, words.at));
+int print_withdrawn(Course& course, const Assignment& a, const CorrectionArguments& args, bool withdrawn) {
+    if (!args.mark.empty()) return withdraw_mark(course, a, args);
+    const auto versions = withdraw(course, a, args.requested, withdrawn, args.reason, time_of(course, args.at));
     for (const std::int64_t version : versions) {
         const Receipt receipt = receipt_of(course, version);
         std::cout << terminal_text(fmt::format("{}: {} v{} of {} {}.\n", a.name, receipt.part, receipt.version,
@@ -55,59 +55,59 @@ int tell_withdrawn(Course& course, const Assignment& a, const CorrectionArgument
     return kDone;
 }
 
-int withdraw_files(Course& course, const Assignment& a, const CorrectionArguments& words) {
-    return tell_withdrawn(course, a, words, true);
+int withdraw_files(Course& course, const Assignment& a, const CorrectionArguments& args) {
+    return print_withdrawn(course, a, args, true);
 }
-int restore_files(Course& course, const Assignment& a, const CorrectionArguments& words) {
-    return tell_withdrawn(course, a, words, false);
+int restore_files(Course& course, const Assignment& a, const CorrectionArguments& args) {
+    return print_withdrawn(course, a, args, false);
 }
 
-int extend_for_one(Course& course, const Assignment& a, const CorrectionArguments& words) {
-    if (words.time.empty() != words.end)
+int extend_for_one(Course& course, const Assignment& a, const CorrectionArguments& args) {
+    if (args.time.empty() != args.end)
         throw InvalidArgument("give the new end date, or --end to return to the deadline of the class");
     std::optional<Instant> due;
-    if (!words.end) due = course.clock().parse(words.time, "TIME");
-    extend(course, a, words.wanted.group, words.wanted.stage, due, words.reason, time_of(course, words.at));
-    const Group group = group_named(course, words.wanted.group);
+    if (!args.end) due = course.clock().parse(args.time, "TIME");
+    extend(course, a, args.requested.group, args.requested.stage, due, args.reason, time_of(course, args.at));
+    const Group group = group_named(course, args.requested.group);
     std::cout << fmt::format("{}: due for {} {}.\n", a.name, group.name,
-                             course.clock().show_exactly(due_for(course, a, group.id, words.wanted.stage)));
+                             course.clock().show_exactly(due_for(course, a, group.id, args.requested.stage)));
     return kDone;
 }
 
-int hold_back(Course& course, const Assignment& a, const CorrectionArguments& words) {
-    hold(course, a, words.wanted, !words.end, words.reason, time_of(course, words.at));
-    std::cout << fmt::format("{}; run dynlab course {} {} to complete this.\n", words.end ? "Released" : "Withheld",
-                             words.wanted.stage == "review" ? "review release" : "review send", a.name);
+int hold_back(Course& course, const Assignment& a, const CorrectionArguments& args) {
+    hold(course, a, args.requested, !args.end, args.reason, time_of(course, args.at));
+    std::cout << fmt::format("{}; run dynlab course {} {} to complete this.\n", args.end ? "Released" : "Withheld",
+                             args.requested.stage == "review" ? "review release" : "review send", a.name);
     return kDone;
 }
 
 struct CorrectionCommand {
     CLI::App* app;
-    std::shared_ptr<CorrectionArguments> words;
+    std::shared_ptr<CorrectionArguments> args;
 };
 
 CorrectionCommand add_correction(CLI::App& course, const char* name, const char* about, CourseArguments& where,
                                  Action& action, Correct run) {
-    auto words = std::make_shared<CorrectionArguments>();
+    auto args = std::make_shared<CorrectionArguments>();
     CLI::App* command = course.add_subcommand(name, about);
-    command->add_option("ASSIGNMENT", words->assignment)->required();
-    command->add_option("GROUP", words->wanted.group)->required();
-    command->callback([&where, words, run, &action] {
-        action = [&where, words, run] {
+    command->add_option("ASSIGNMENT", args->assignment)->required();
+    command->add_option("GROUP", args->requested.group)->required();
+    command->callback([&where, args, run, &action] {
+        action = [&where, args, run] {
             Course opened(where.folder);
-            return run(opened, assignment_named(opened, words->assignment), *words);
+            return run(opened, assignment_named(opened, args->assignment), *args);
         };
     });
-    return {command, words};
+    return {command, args};
 }
 
 void add_reason(const CorrectionCommand& command) {
-    command.app->add_option("--reason", command.words->reason, "Reason; recorded in the history")->required();
-    add_time_option(*command.app, command.words->at);
+    command.app->add_option("--reason", command.args->reason, "Reason; recorded in the history")->required();
+    add_time_option(*command.app, command.args->at);
 }
 
 void add_stage(const CorrectionCommand& command) {
-    command.app->add_option("--stage", command.words->wanted.stage, "Version of the submission")
+    command.app->add_option("--stage", command.args->requested.stage, "Version of the submission")
         ->type_name("first|review|final")
         ->capture_default_str()
         ->check(CLI::IsMember({"first", "review", "final"}));
@@ -115,13 +115,14 @@ void add_stage(const CorrectionCommand& command) {
 
 void add_file_options(const CorrectionCommand& command) {
     add_stage(command);
-    command.app->add_option("--of", command.words->wanted.report, "For a review: the reviewed report")
+    command.app->add_option("--of", command.args->requested.report, "For a review: the reviewed report")
         ->type_name("report-NN");
     command.app
-        ->add_option("--part", command.words->wanted.part,
+        ->add_option("--part", command.args->requested.part,
                      "Submission to withdraw. Default: the document and all files submitted with it.")
         ->check(CLI::IsMember({"report", "slides", "script", "review", "pack", "unreadable"}));
-    command.app->add_option("--version", command.words->wanted.number, "Number of the submission. Default: the newest.")
+    command.app
+        ->add_option("--version", command.args->requested.number, "Number of the submission. Default: the newest.")
         ->type_name("N");
 }
 
@@ -136,12 +137,12 @@ void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
     const auto away =
         add_correction(course, "withdraw", "Withdraw a submitted file or a manual mark", where, action, withdraw_files);
     add_file_options(away);
-    away.app->add_option("--mark", away.words->mark,
+    away.app->add_option("--mark", away.args->mark,
                          "Withdraw a manual mark instead of a file: work or reviews; for a lab, a check or *");
     away.app
-        ->add_flag("--alone", away.words->alone, "Withdraw the mark of this student only, set by course mark --alone")
+        ->add_flag("--alone", away.args->alone, "Withdraw the mark of this student only, set by course mark --alone")
         ->needs("--mark");
-    add_after_option(*away.app, away.words->seen);
+    add_after_option(*away.app, away.args->seen);
     away.app->get_option("--after")->needs("--mark");
     add_reason(away);
     away.app->footer(
@@ -162,7 +163,7 @@ void add_correction_commands(CLI::App& course, CourseArguments& where, Action& a
     const auto time =
         add_correction(course, "set-received", "Correct when a file was received", where, action, correct_time);
     time.app
-        ->add_option("TIME", time.words->time,
+        ->add_option("TIME", time.args->time,
                      "Time of receipt, such as \"2026-03-01 17:30\", in the course's time zone")
         ->required();
     add_file_options(time);
@@ -174,9 +175,9 @@ void add_correction_commands(CLI::App& course, CourseArguments& where, Action& a
 
     const auto longer =
         add_correction(course, "extend", "Set another deadline for one group", where, action, extend_for_one);
-    longer.app->add_option("TIME", longer.words->time, "Deadline of the group");
+    longer.app->add_option("TIME", longer.args->time, "Deadline of the group");
     add_stage(longer);
-    longer.app->add_flag("--end", longer.words->end, "Return to the deadline of the class");
+    longer.app->add_flag("--end", longer.args->end, "Return to the deadline of the class");
     add_reason(longer);
     longer.app->footer(
         "Applies also to files that were received before. The grace of the assignment is added.\nExample:  dynlab "
@@ -186,9 +187,9 @@ void add_correction_commands(CLI::App& course, CourseArguments& where, Action& a
         add_correction(course, "withhold", "Withhold a report from its reviewers, or a review from the authors", where,
                        action, hold_back);
     add_stage(kept);
-    kept.app->add_option("--of", kept.words->wanted.report, "For a review: the reviewed report")
+    kept.app->add_option("--of", kept.args->requested.report, "For a review: the reviewed report")
         ->type_name("report-NN");
-    kept.app->add_flag("--end", kept.words->end, "Stop withholding");
+    kept.app->add_flag("--end", kept.args->end, "Stop withholding");
     add_reason(kept);
     kept.app->footer(
         "Example:  dynlab course withhold crane group-05 --stage review --of report-17 --reason \"insulting\"");

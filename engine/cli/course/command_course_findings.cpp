@@ -22,9 +22,9 @@ std::string stage_in_words(const std::string& stage) {
 }
 
 /// Names of authors are looked for when copies for others are made, so that the findings do not tell them.
-void tell_of_copies(Course& course, const Assignment& assignment, const Group& group, const FindingsArguments& words) {
-    if (!assignment.is_report() || words.stage == "final" || words.version) return;
-    const bool reviews = words.stage == "review";
+void tell_of_copies(Course& course, const Assignment& assignment, const Group& group, const FindingsArguments& args) {
+    if (!assignment.is_report() || args.stage == "final" || args.version) return;
+    const bool reviews = args.stage == "review";
     bool others = false, missing = false;
     for (const ReviewPair& pair : review_pairs(course, assignment)) {
         if (pair.ended) continue;
@@ -39,47 +39,47 @@ void tell_of_copies(Course& course, const Assignment& assignment, const Group& g
                                  assignment.name);
 }
 
-int show_findings(const CourseArguments& where, const FindingsArguments& words) {
+int show_findings(const CourseArguments& where, const FindingsArguments& args) {
     Course course(where.folder);
-    const Assignment assignment = assignment_named(course, words.assignment);
-    const Group group = group_named(course, words.group);
-    const auto found = stored_findings(course, assignment, group, words.stage, words.version);
+    const Assignment assignment = assignment_named(course, args.assignment);
+    const Group group = group_named(course, args.group);
+    const auto found = loaded_issues(course, assignment, group, args.stage, args.version);
     if (found.empty())
-        throw words.version ? InvalidArgument("{} has submitted no {} for {} with number {}", group.name,
-                                              stage_in_words(words.stage), assignment.name, *words.version)
-                            : InvalidArgument("{} has submitted no {} for {}", group.name, stage_in_words(words.stage),
-                                              assignment.name);
+        throw args.version
+            ? InvalidArgument("{} has submitted no {} for {} with number {}", group.name, stage_in_words(args.stage),
+                              assignment.name, *args.version)
+            : InvalidArgument("{} has submitted no {} for {}", group.name, stage_in_words(args.stage), assignment.name);
     bool passed = true;
-    for (const StoredFindings& one : found) {
-        std::cout << fmt::format("{}, {}: {}{} v{}, received {}\n", group.name, stage_in_words(words.stage), one.part,
+    for (const StoredIssues& one : found) {
+        std::cout << fmt::format("{}, {}: {}{} v{}, received {}\n", group.name, stage_in_words(args.stage), one.part,
                                  one.about.empty() ? "" : " of " + one.about, one.version,
                                  course.clock().show(one.received_at));
-        std::cout << (one.result ? findings_in_words(*one.result, in_colour()) : "not checked\n") << '\n';
+        std::cout << (one.result ? issues_as_text(*one.result, in_color()) : "not checked\n") << '\n';
         passed = passed && (!one.result || one.result->passed());
     }
-    tell_of_copies(course, assignment, group, words);
+    tell_of_copies(course, assignment, group, args);
     return passed ? kDone : kFailed;
 }
 
 }  // namespace
 
 void add_findings_command(CLI::App& course, CourseArguments& where, Action& action) {
-    auto words = std::make_shared<FindingsArguments>();
+    auto args = std::make_shared<FindingsArguments>();
     CLI::App* command = course.add_subcommand("findings", "Show the findings in a group's files at their receipt");
-    command->add_option("GROUP", words->group)->required();
-    command->add_option("--assignment", words->assignment, "Assignment. Required if there are several.")
+    command->add_option("GROUP", args->group)->required();
+    command->add_option("--assignment", args->assignment, "Assignment. Required if there are several.")
         ->type_name("NAME");
-    command->add_option("--stage", words->stage, "Version of the submission")
+    command->add_option("--stage", args->stage, "Version of the submission")
         ->type_name("first|review|final")
         ->capture_default_str()
         ->check(CLI::IsMember({"first", "review", "final"}));
-    command->add_option("--version", words->version, "Number of an earlier submission. Default: the newest.")
+    command->add_option("--version", args->version, "Number of an earlier submission. Default: the newest.")
         ->type_name("N");
     command->footer(
         "The output is the same as for dynlab check.\n"
         "Example:  dynlab course findings group-07 --stage review\n"
         "Exit codes: 0 no rule is violated, 1 a rule is violated, or nothing was received.");
-    command->callback([&where, words, &action] { action = [&where, words] { return show_findings(where, *words); }; });
+    command->callback([&where, args, &action] { action = [&where, args] { return show_findings(where, *args); }; });
 }
 
 }  // namespace dynlab::inline cli

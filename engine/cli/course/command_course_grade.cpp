@@ -22,29 +22,29 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct GradeWords {
+struct GradeArgs {
     std::string assignment, isolation = "full";
     std::vector<std::string> only;
     int jobs = 0, timeout = 60;
     bool regrade = false, no_pdf = false, force = false;
 };
 
-int grade(const CourseArguments& where, const GradeWords& words) {
+int grade(const CourseArguments& where, const GradeArgs& args) {
     Course course(where.folder);
-    const Assignment assignment = assignment_named(course, words.assignment);
+    const Assignment assignment = assignment_named(course, args.assignment);
     CourseGradingRequest request;
-    request.setup.isolation = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
-    request.setup.time.processor = std::chrono::seconds(words.timeout);
+    request.setup.isolation = args.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
+    request.setup.time.processor = std::chrono::seconds(args.timeout);
     request.setup.program = running_program();
     request.setup.jobs =
-        words.jobs > 0 ? words.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    request.only = words.only;
-    request.regrade = words.regrade, request.pdf = !words.no_pdf, request.above_maximum = words.force;
+        args.jobs > 0 ? args.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    request.only = args.only;
+    request.regrade = args.regrade, request.pdf = !args.no_pdf, request.above_maximum = args.force;
     const GradingOutcome outcome = grade_assignment(course, assignment, request);
     return show_grading(outcome, request.setup.isolation, results_folder(course, assignment), request.pdf);
 }
 
-struct MarkWords {
+struct MarkArgs {
     std::string assignment, who, reason, at;
     std::vector<std::string> mark;  ///< the item, which may miss, and the points
     std::optional<std::int64_t> seen;
@@ -69,59 +69,58 @@ std::int64_t group_of_work(Course& course, const Assignment& a, const std::strin
 
 constexpr double kMaxPercent = 200;  ///< for work that deserves more than all
 
-int set_mark(const CourseArguments& where, const MarkWords& words) {
+int set_mark(const CourseArguments& where, const MarkArgs& args) {
     Course course(where.folder);
-    const Assignment a = assignment_named(course, words.assignment);
+    const Assignment a = assignment_named(course, args.assignment);
     GivenMark mark;
-    if (const auto answers = group_of_answers(course, a, words.who); answers && !words.alone) {
+    if (const auto answers = group_of_answers(course, a, args.who); answers && !args.alone) {
         mark.group = answers->id;
     } else {
-        const std::string student =
-            words.alone ? student_named(course, words.who).id : student_called(course, words.who);
-        mark.group = group_of_work(course, a, student, words.who);
-        if (words.alone) mark.student = student;
+        const std::string student = args.alone ? student_named(course, args.who).id : student_called(course, args.who);
+        mark.group = group_of_work(course, a, student, args.who);
+        if (args.alone) mark.student = student;
     }
-    mark.item = words.mark.size() > 1 ? item_called(a, words.mark.front()) : kWholeItem;
-    mark.points = number_in_cell(words.mark.back());
-    mark.reason = words.reason;
+    mark.item = args.mark.size() > 1 ? item_called(a, args.mark.front()) : kWholeItem;
+    mark.points = number_in_cell(args.mark.back());
+    mark.reason = args.reason;
     if (!mark.points || *mark.points < 0)
-        throw InvalidArgument("a mark must be a number from 0, but \"{}\" was given", words.mark.back());
+        throw InvalidArgument("a mark must be a number from 0, but \"{}\" was given", args.mark.back());
     const double most = most_points(course, a, mark.item).value_or(*mark.points);
-    if (*mark.points > most && !words.force)
+    if (*mark.points > most && !args.force)
         throw InvalidArgument("{} exceeds the {} points of \"{}\"; correct the mark, or give --force", *mark.points,
                               most, mark.item);
     if (!a.is_lab() && *mark.points > kMaxPercent)
         throw InvalidArgument("a mark must be a number from 0 to {} percent, but {} was given", kMaxPercent,
                               *mark.points);
-    if (!a.is_lab() || mark.item == kWholeItem) refuse_without_reason(words.reason);
+    if (!a.is_lab() || mark.item == kWholeItem) refuse_without_reason(args.reason);
     Transaction transaction(course.database());
-    if (words.seen) refuse_unseen_entry(course, a, mark.group, words.who, mark.item, *words.seen);
-    give_mark(course, a, mark, time_of(course, words.at));
+    if (args.seen) refuse_unseen_entry(course, a, mark.group, args.who, mark.item, *args.seen);
+    give_mark(course, a, mark, time_of(course, args.at));
     transaction.commit();
     std::cout << terminal_text(
         a.is_lab() ? fmt::format("{}: {} has {} points for {}; dynlab course grade {} writes the feedback.\n", a.name,
-                                 words.who, *mark.points, mark.item, a.name)
-                   : fmt::format("{}: {} has {} percent for its {}.\n", a.name, words.who, *mark.points,
+                                 args.who, *mark.points, mark.item, a.name)
+                   : fmt::format("{}: {} has {} percent for its {}.\n", a.name, args.who, *mark.points,
                                  mark.item == kWholeItem ? "work" : mark.item));
     return kDone;
 }
 
 void add_mark(CLI::App& course, CourseArguments& where, Action& action) {
-    auto words = std::make_shared<MarkWords>();
+    auto args = std::make_shared<MarkArgs>();
     CLI::App* command = course.add_subcommand("mark", "Set a manual mark, which takes precedence");
-    command->add_option("ASSIGNMENT", words->assignment)->required();
-    command->add_option("WHO", words->who, "Group, a student by name or id, or answer-NAME of course page")->required();
+    command->add_option("ASSIGNMENT", args->assignment)->required();
+    command->add_option("WHO", args->who, "Group, a student by name or id, or answer-NAME of course page")->required();
     command
-        ->add_option("MARK", words->mark,
+        ->add_option("MARK", args->mark,
                      "For a lab [CHECK] POINTS, without CHECK for the complete lab; otherwise [work|reviews] PERCENT")
         ->required()
         ->expected(1, 2);
-    command->add_option("--reason", words->reason,
+    command->add_option("--reason", args->reason,
                         "Reason; recorded in the history and shown to the student. Optional for one check of a lab.");
-    command->add_flag("--alone", words->alone, "Set the mark of this student only, not of the group");
-    command->add_flag("--force", words->force, "Accept a mark above the maximum");
-    add_after_option(*command, words->seen);
-    add_time_option(*command, words->at);
+    command->add_flag("--alone", args->alone, "Set the mark of this student only, not of the group");
+    command->add_flag("--force", args->force, "Accept a mark above the maximum");
+    add_after_option(*command, args->seen);
+    add_time_option(*command, args->at);
     command->footer(
         "dynlab course withdraw withdraws a mark. For a lab, you can also enter marks in marks.csv in the folder of "
         "its results.\n"
@@ -129,35 +128,35 @@ void add_mark(CLI::App& course, CourseArguments& where, Action& action) {
         "  dynlab course mark lab4 \"Wei Li\" q3 2 --reason \"right idea\"\n"
         "  dynlab course mark lab4 group-08 14 --reason \"shown at the desk\"\n"
         "  dynlab course mark crane group-09 work 60 --reason \"submitted on paper\"");
-    command->callback([&where, words, &action] { action = [&where, words] { return set_mark(where, *words); }; });
+    command->callback([&where, args, &action] { action = [&where, args] { return set_mark(where, *args); }; });
 }
 
 }  // namespace
 
 void add_grade_commands(CLI::App& course, CourseArguments& where, Action& action) {
-    auto words = std::make_shared<GradeWords>();
+    auto args = std::make_shared<GradeArgs>();
     CLI::App* command = course.add_subcommand("grade", "Grade the submissions of a lab: marks, feedback, summary");
-    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Required if there are several.");
-    command->add_option("--only", words->only, "Group or student; may be repeated")->type_name("NAME");
-    command->add_flag("--regrade", words->regrade, "Grade submissions again that have a result; manual marks are kept");
-    command->add_option("--jobs", words->jobs, "Number of parallel jobs. Default: number of cores.")
+    command->add_option("ASSIGNMENT", args->assignment, "Assignment. Required if there are several.");
+    command->add_option("--only", args->only, "Group or student; may be repeated")->type_name("NAME");
+    command->add_flag("--regrade", args->regrade, "Grade submissions again that have a result; manual marks are kept");
+    command->add_option("--jobs", args->jobs, "Number of parallel jobs. Default: number of cores.")
         ->type_name("N")
         ->check(CLI::Range(1, 256));
-    add_timeout_option(*command, words->timeout);
+    add_timeout_option(*command, args->timeout);
     command
-        ->add_option("--isolation", words->isolation,
+        ->add_option("--isolation", args->isolation,
                      "full: separate file system, network and processes. Default: full.")
         ->type_name("full|process")
         ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
-    command->add_flag("--force", words->force, "Accept marks above the points of their check");
-    command->add_flag("--no-pdf", words->no_pdf, "Write feedback and summary as Markdown only");
+    command->add_flag("--force", args->force, "Accept marks above the points of their check");
+    command->add_flag("--no-pdf", args->no_pdf, "Write feedback and summary as Markdown only");
     command->footer(
         "The assignment determines lesson, checks and secret (dynlab course assignment). The results are in "
         "marks/ASSIGNMENT\n"
         "of the course's folder: gradebook.csv, summary.pdf, feedback, and marks.csv for manual marks.\n"
         "Example:  dynlab course grade lab4");
-    command->callback([&where, words, &action] { action = [&where, words] { return grade(where, *words); }; });
+    command->callback([&where, args, &action] { action = [&where, args] { return grade(where, *args); }; });
     add_mark(course, where, action);
 }
 

@@ -41,29 +41,29 @@ int give_out(const std::string& text, const std::string& file) {
     return kDone;
 }
 
-int sheet(const CourseArguments& where, const MarkArguments& words) {
+int sheet(const CourseArguments& where, const MarkArguments& args) {
     Course course(where.folder);
-    return give_out(oral_sheet(course, assignment_named(course, words.assignment), words.sheet), words.out);
+    return give_out(oral_sheet(course, assignment_named(course, args.assignment), args.sheet), args.out);
 }
 
-int drop(const CourseArguments& where, const MarkArguments& words) {
+int drop(const CourseArguments& where, const MarkArguments& args) {
     Course course(where.folder);
-    const Assignment a = assignment_named(course, words.assignment);
-    drop_scores(course, a, words.dropped[0], words.dropped[1], words.reason, time_of(course, words.at));
+    const Assignment a = assignment_named(course, args.assignment);
+    drop_scores(course, a, args.dropped[0], args.dropped[1], args.reason, time_of(course, args.at));
     std::cout << terminal_text(
-        fmt::format("{}: the scores of {} for {} are taken back.\n", a.name, words.dropped[0], words.dropped[1]));
+        fmt::format("{}: the scores of {} for {} are taken back.\n", a.name, args.dropped[0], args.dropped[1]));
     return kDone;
 }
 
-int scores(const CourseArguments& where, const MarkArguments& words) {
-    if (words.make_sheet) return sheet(where, words);
-    if (!words.dropped.empty()) return drop(where, words);
-    if (words.file.empty())
+int scores(const CourseArguments& where, const MarkArguments& args) {
+    if (args.make_sheet) return sheet(where, args);
+    if (!args.dropped.empty()) return drop(where, args);
+    if (args.file.empty())
         throw InvalidArgument("give the CSV file with the scores, or --sheet to create a score sheet");
     Course course(where.folder);
-    const Assignment a = assignment_named(course, words.assignment);
-    const Instant now = time_of(course, words.at);
-    const int fresh = import_scores(course, a, words.stage, words.file, now);
+    const Assignment a = assignment_named(course, args.assignment);
+    const Instant now = time_of(course, args.at);
+    const int fresh = import_scores(course, a, args.stage, args.file, now);
     std::cout << fmt::format("{}: {} new scores.\n", a.name, fresh);
     return kDone;
 }
@@ -84,14 +84,14 @@ void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) 
                 std::cout << terminal_text(
                     fmt::format("{}: the final version has {:.1f} percent, {:g} percent of the work's mark.\n",
                                 group.name, *mark.final_version, a.final_weight));
-            const auto tell_zeros = [&](const std::string& whose, const std::vector<std::string>& zeros) {
+            const auto print_zeros = [&](const std::string& whose, const std::vector<std::string>& zeros) {
                 if (!zeros.empty())
                     std::cout << terminal_text(message_text(
                                      Message("{}: no points for {}; counted as 0.", whose, listed(zeros, Join::kAnd))))
                               << '\n';
             };
-            tell_zeros(group.name, mark.zeros);
-            for (const StudentMark& own : mark.students) tell_zeros(group.name + ", " + own.student, own.zeros);
+            print_zeros(group.name, mark.zeros);
+            for (const StudentMark& own : mark.students) print_zeros(group.name + ", " + own.student, own.zeros);
             if (a.is_report() && mark.scored == 1 && a.reviews > 1)
                 std::cout << terminal_text(message_text(Message("{} is based on one review.", group.name))) << '\n';
             std::vector<std::string> forgotten;
@@ -148,11 +148,11 @@ int show_lab_marks(Course& course, const Assignment& a) {
     return kDone;
 }
 
-int marks(const CourseArguments& where, const MarkArguments& words) {
+int marks(const CourseArguments& where, const MarkArguments& args) {
     Course course(where.folder);
-    const Assignment a = assignment_named(course, words.assignment);
+    const Assignment a = assignment_named(course, args.assignment);
     if (a.is_lab()) return show_lab_marks(course, a);
-    const Marks all = course_marks(course, a, time_of(course, words.at));
+    const Marks all = course_marks(course, a, time_of(course, args.at));
     std::vector<std::string> header = {"group"};
     for (const Criterion& c : a.criteria) header.push_back(fmt::format("{} /{}", c.name, c.most));
     header.insert(header.end(), {"work %", "reviews %"});
@@ -181,42 +181,42 @@ int marks(const CourseArguments& where, const MarkArguments& words) {
 }
 
 /// Fills in the platform's own table.
-int fill_in(Course& course, const std::optional<Assignment>& a, const MarkArguments& words, Instant now) {
-    const FilledWorksheet filled = fill_worksheet(course, a, words.worksheet, words.column, now);
+int fill_in(Course& course, const std::optional<Assignment>& a, const MarkArguments& args, Instant now) {
+    const FilledWorksheet filled = fill_worksheet(course, a, args.worksheet, args.column, now);
     for (const Message& complaint : filled.complaints)
         std::cerr << "dynlab: " << terminal_text(message_text(complaint)) << '\n';
-    const int code = give_out(filled.text, words.out);
-    if (!words.out.empty()) {
-        note_export(course, a ? a->name : "", words.out, "", now);
+    const int code = give_out(filled.text, args.out);
+    if (!args.out.empty()) {
+        note_export(course, a ? a->name : "", args.out, "", now);
         std::cout << message_text(plural(static_cast<std::int64_t>(filled.marks), "{} mark", "{} marks")) << '\n';
     }
     return filled.complaints.empty() ? code : kFailed;
 }
 
-int export_course(const CourseArguments& where, const MarkArguments& words) {
+int export_course(const CourseArguments& where, const MarkArguments& args) {
     Course course(where.folder);
-    const Instant now = time_of(course, words.at);
-    if (words.json) return give_out(course_json(course), words.out);
+    const Instant now = time_of(course, args.at);
+    if (args.json) return give_out(course_json(course), args.out);
     std::optional<Assignment> a;
-    if (!words.assignment.empty()) a = assignment_named(course, words.assignment);
-    if (!words.worksheet.empty()) return fill_in(course, a, words, now);
+    if (!args.assignment.empty()) a = assignment_named(course, args.assignment);
+    if (!args.worksheet.empty()) return fill_in(course, a, args, now);
     const std::string csv = a ? marks_csv(course, *a, now) : totals_csv(course_totals(course, now));
-    const int code = give_out(csv, words.out);
-    if (!words.out.empty()) note_export(course, words.assignment, words.out, a ? "" : csv, now);
+    const int code = give_out(csv, args.out);
+    if (!args.out.empty()) note_export(course, args.assignment, args.out, a ? "" : csv, now);
     return code;
 }
 
 struct MarkCommand {
     CLI::App* app;
-    std::shared_ptr<MarkArguments> words;
+    std::shared_ptr<MarkArguments> args;
 };
 
 MarkCommand add_one(CLI::App& course, const char* name, const char* about, CourseArguments& where, Action& action,
                     Run run) {
-    auto words = std::make_shared<MarkArguments>();
+    auto args = std::make_shared<MarkArguments>();
     CLI::App* command = course.add_subcommand(name, about);
-    command->callback([&where, words, run, &action] { action = [&where, words, run] { return run(where, *words); }; });
-    return {command, words};
+    command->callback([&where, args, run, &action] { action = [&where, args, run] { return run(where, *args); }; });
+    return {command, args};
 }
 
 }  // namespace
@@ -224,23 +224,22 @@ MarkCommand add_one(CLI::App& course, const char* name, const char* about, Cours
 void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action) {
     const auto scored = add_one(course, "scores", "Read scores of reviewers or of a talk, or make a score sheet", where,
                                 action, scores);
-    scored.app->add_option("ASSIGNMENT", scored.words->assignment)->required();
-    scored.app->add_option("CSV", scored.words->file,
+    scored.app->add_option("ASSIGNMENT", scored.args->assignment)->required();
+    scored.app->add_option("CSV", scored.args->file,
                            "Columns reviewer, report (for a talk group, student, comment), and criteria");
-    scored.app->add_option("--drop", scored.words->dropped, "Withdraw the scores of this review; needs --reason")
+    scored.app->add_option("--drop", scored.args->dropped, "Withdraw the scores of this review; needs --reason")
         ->type_name("REVIEWER REPORT")
         ->expected(2)
         ->excludes("CSV");
-    scored.app->add_option("--reason", scored.words->reason, "Reason; recorded in the history")->needs("--drop");
-    scored.app->add_flag("--sheet", scored.words->make_sheet, "For a talk: make an empty score sheet");
-    scored.app->add_option("-o,--out", scored.words->out, "File of the sheet. Default: standard output.")
+    scored.app->add_option("--reason", scored.args->reason, "Reason; recorded in the history")->needs("--drop");
+    scored.app->add_flag("--sheet", scored.args->make_sheet, "For a talk: make an empty score sheet");
+    scored.app->add_option("-o,--out", scored.args->out, "File of the sheet. Default: standard output.")
         ->type_name("CSV");
-    scored.app->add_flag("--students", scored.words->sheet.students, "Add a row for each student to the sheet");
-    scored.app->add_flag("--drawn", scored.words->sheet.drawn, "Put the groups of the sheet in random order");
-    add_time_option(*scored.app, scored.words->at);
+    scored.app->add_flag("--students", scored.args->sheet.students, "Add a row for each student to the sheet");
+    scored.app->add_flag("--drawn", scored.args->sheet.drawn, "Put the groups of the sheet in random order");
+    add_time_option(*scored.app, scored.args->at);
     scored.app
-        ->add_option("--stage", scored.words->stage,
-                     "final: your own scores of final versions; columns group, criteria")
+        ->add_option("--stage", scored.args->stage, "final: your own scores of final versions; columns group, criteria")
         ->check(CLI::IsMember({"first", "final"}))
         ->capture_default_str();
     scored.app->footer(
@@ -260,8 +259,8 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
 
     const auto shown = add_one(course, "marks", "Show medians, marks of reports and reviewers, and unusual reviews",
                                where, action, marks);
-    shown.app->add_option("ASSIGNMENT", shown.words->assignment, "Assignment. Required if there are several.");
-    add_time_option(*shown.app, shown.words->at);
+    shown.app->add_option("ASSIGNMENT", shown.args->assignment, "Assignment. Required if there are several.");
+    add_time_option(*shown.app, shown.args->at);
     shown.app->footer(
         "Mark of a report: 100 times the sum of the medians over the sum of the maximum points. Mark of a reviewer:\n"
         "100 (1 - 2 d), at least 0, averaged over the reviews; d is the mean of |points - median of the others| / "
@@ -273,18 +272,18 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
     const auto given =
         add_one(course, "export", "Export one row for each student as CSV, or the complete store as JSON", where,
                 action, export_course);
-    given.app->add_option("ASSIGNMENT", given.words->assignment,
+    given.app->add_option("ASSIGNMENT", given.args->assignment,
                           "Assignment. Default: all assignments, and the weighted total.");
-    add_time_option(*given.app, given.words->at);
-    given.app->add_option("-o,--out", given.words->out, "Output file. Default: standard output.")->type_name("FILE");
-    given.app->add_flag("--json", given.words->json, "Export the complete store, for import");
+    add_time_option(*given.app, given.args->at);
+    given.app->add_option("-o,--out", given.args->out, "Output file. Default: standard output.")->type_name("FILE");
+    given.app->add_flag("--json", given.args->json, "Export the complete store, for import");
     given.app
-        ->add_option("--worksheet", given.words->worksheet,
+        ->add_option("--worksheet", given.args->worksheet,
                      "Moodle's grading worksheet or Canvas's gradebook, as downloaded: fill in the marks there")
         ->type_name("CSV")
         ->check(CLI::ExistingFile)
         ->excludes("--json");
-    given.app->add_option("--column", given.words->column, "Column to fill in, in Canvas, such as \"Lab 4 (1234)\"")
+    given.app->add_option("--column", given.args->column, "Column to fill in, in Canvas, such as \"Lab 4 (1234)\"")
         ->type_name("NAME")
         ->needs("--worksheet");
     given.app->footer(

@@ -21,10 +21,10 @@ struct PeerArguments {
     bool early = false, set = false, forbid = false, free = false;
 };
 
-int assign(const CourseArguments& where, const PeerArguments& words) {
+int assign(const CourseArguments& where, const PeerArguments& args) {
     Course course(where.folder);
-    const Assignment assignment = assignment_named(course, words.assignment);
-    const AssignOutcome done = assign_reviews(course, assignment, time_of(course, words.at), words.early);
+    const Assignment assignment = assignment_named(course, args.assignment);
+    const AssignOutcome done = assign_reviews(course, assignment, time_of(course, args.at), args.early);
     std::cout << message_text(Message("{}: {}, {}: {} new, {} withdrawn.", assignment.name,
                                       plural(done.groups, "{} group", "{} groups"),
                                       plural(done.pairs, "{} review", "{} reviews"), done.fresh, done.ended))
@@ -36,10 +36,10 @@ int assign(const CourseArguments& where, const PeerArguments& words) {
     return kDone;
 }
 
-int show_pairs(const CourseArguments& where, const PeerArguments& words) {
+int show_pairs(const CourseArguments& where, const PeerArguments& args) {
     Course course(where.folder);
     std::vector<std::vector<std::string>> rows;
-    const Assignment assignment = assignment_named(course, words.assignment);
+    const Assignment assignment = assignment_named(course, args.assignment);
     refuse_without_reviews(assignment);
     for (const ReviewPair& pair : review_pairs(course, assignment)) {
         const char* const state = pair.released      ? "released"
@@ -55,8 +55,8 @@ int show_pairs(const CourseArguments& where, const PeerArguments& words) {
     return kDone;
 }
 
-Message with_page(const Finding& finding) {
-    return finding.page > 0 ? Message("page {}: {}", finding.page, finding.what) : finding.what;
+Message with_page(const Issue& issue) {
+    return issue.page > 0 ? Message("page {}: {}", issue.page, issue.what) : issue.what;
 }
 
 /// Copies are searched for everyone in the course; a certain hit stops the copy unless it is accepted.
@@ -70,20 +70,20 @@ AnonymousCopier anonymous_copier() {
         const AnonymousCopy copy =
             anonymous_copy(request.pack.empty() ? request.pdf : request.pack, request.copy, setup);
         CopyOutcome outcome{copy.made, {}, {}};
-        for (const Finding& finding : copy.findings)
-            (finding.severity == Severity::kRule ? outcome.hits : outcome.hints).push_back(with_page(finding));
+        for (const Issue& issue : copy.findings)
+            (issue.severity == Severity::kRule ? outcome.hits : outcome.hints).push_back(with_page(issue));
         if (!copy.not_rebuilt.empty())
             outcome.hints.push_back(Message("{}; the submitted PDF was copied instead.", copy.not_rebuilt));
-        if (!copy.made && outcome.hits.empty()) outcome.hits.push_back(copy.trouble);
+        if (!copy.made && outcome.hits.empty()) outcome.hits.push_back(copy.error_reason);
         return outcome;
     };
 }
 
-int send(const CourseArguments& where, const PeerArguments& words, Way way) {
+int send(const CourseArguments& where, const PeerArguments& args, Way way) {
     Course course(where.folder);
-    const Assignment assignment = assignment_named(course, words.assignment);
-    const SendOutcome done = send_copies(course, assignment, way, time_of(course, words.at), anonymous_copier(),
-                                         words.early, {words.accepted, words.reason});
+    const Assignment assignment = assignment_named(course, args.assignment);
+    const SendOutcome done = send_copies(course, assignment, way, time_of(course, args.at), anonymous_copier(),
+                                         args.early, {args.accepted, args.reason});
     for (const auto* lines : {&done.hits, &done.hints})
         for (const Message& line : *lines) std::cerr << "dynlab: " << terminal_text(message_text(line)) << '\n';
     std::cout << fmt::format("{}: {} sent now{}, {} before, {} stopped, {} outstanding{}; in {}\n", assignment.name,
@@ -99,30 +99,30 @@ int send(const CourseArguments& where, const PeerArguments& words, Way way) {
     return done.stopped == 0 ? kDone : kFailed;
 }
 
-int wish(const CourseArguments& where, const PeerArguments& words, const char* wanted) {
+int constraint(const CourseArguments& where, const PeerArguments& args, const char* requested) {
     Course course(where.folder);
-    const Assignment assignment = assignment_named(course, words.assignment);
-    wish_pair(course, assignment, words.reviewer, words.author, wanted, words.reason, time_of(course, words.at));
+    const Assignment assignment = assignment_named(course, args.assignment);
+    constrain_pair(course, assignment, args.reviewer, args.author, requested, args.reason, time_of(course, args.at));
     std::cout << fmt::format("Recorded; run dynlab course review assign {} to apply it.\n", assignment.name);
     return kDone;
 }
 
 /// The pairs, or what the instructor has to say about one.
-int pairs(const CourseArguments& where, const PeerArguments& words) {
-    const int wishes = words.set + words.forbid + words.free;
-    if (wishes == 0 && words.reviewer.empty()) return show_pairs(where, words);
-    if (wishes != 1 || words.author.empty() || words.reason.empty())
+int pairs(const CourseArguments& where, const PeerArguments& args) {
+    const int constraints = args.set + args.forbid + args.free;
+    if (constraints == 0 && args.reviewer.empty()) return show_pairs(where, args);
+    if (constraints != 1 || args.author.empty() || args.reason.empty())
         throw InvalidArgument(
             "name a pair and an action: review pairs ASSIGNMENT REVIEWER AUTHOR with --set, --forbid or --free, and "
             "--reason");
-    return wish(where, words, words.set ? "set" : words.forbid ? "forbid" : "free");
+    return constraint(where, args, args.set ? "set" : args.forbid ? "forbid" : "free");
 }
 
-int send_reports(const CourseArguments& where, const PeerArguments& words) {
-    return send(where, words, Way::kToReviewers);
+int send_reports(const CourseArguments& where, const PeerArguments& args) {
+    return send(where, args, Way::kToReviewers);
 }
-int release(const CourseArguments& where, const PeerArguments& words) {
-    return send(where, words, Way::kToAuthors);
+int release(const CourseArguments& where, const PeerArguments& args) {
+    return send(where, args, Way::kToAuthors);
 }
 
 struct ReturnArguments {
@@ -130,12 +130,12 @@ struct ReturnArguments {
     bool moodle = false, all = false;
 };
 
-int give_back(const CourseArguments& where, const ReturnArguments& words) {
+int give_back(const CourseArguments& where, const ReturnArguments& args) {
     Course course(where.folder);
-    const Assignment assignment = assignment_named(course, words.assignment);
+    const Assignment assignment = assignment_named(course, args.assignment);
     const ReturnOutcome done = return_files(
         course, assignment,
-        {words.out, words.moodle || !words.worksheet.empty(), words.worksheet, words.all, time_of(course, words.at)});
+        {args.out, args.moodle || !args.worksheet.empty(), args.worksheet, args.all, time_of(course, args.at)});
     if (done.other_numbers > 0)
         std::cerr << "dynlab: note: "
                   << message_text(plural(done.other_numbers,
@@ -148,7 +148,7 @@ int give_back(const CourseArguments& where, const ReturnArguments& words) {
         std::cout << terminal_text(fmt::format("{}: {}\n", group, fmt::join(files, ", ")));
     std::cout << message_text(done.files.empty() ? Message("No new files to deliver.")
                                                  : plural(static_cast<std::int64_t>(done.files.size()),
-                                                          "For {} group, in {}", "For {} groups, in {}", words.out))
+                                                          "For {} group, in {}", "For {} groups, in {}", args.out))
               << '\n';
     if (!done.without_mail.empty())
         std::cerr << terminal_text(
@@ -163,54 +163,54 @@ int give_back(const CourseArguments& where, const ReturnArguments& words) {
 }
 
 void add_return(CLI::App& course, CourseArguments& where, Action& action) {
-    auto words = std::make_shared<ReturnArguments>();
+    auto args = std::make_shared<ReturnArguments>();
     CLI::App* command =
         course.add_subcommand("deliver", "Deliver new files to each student: copies to review, reviews, receipts");
-    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Required if there are several.");
-    command->add_option("-o,--out", words->out, "New folder, with a folder for each group and mail.csv")
+    command->add_option("ASSIGNMENT", args->assignment, "Assignment. Required if there are several.");
+    command->add_option("-o,--out", args->out, "New folder, with a folder for each group and mail.csv")
         ->type_name("DIR")
         ->required();
-    command->add_flag("--moodle", words->moodle, "Also write moodle.zip, for Moodle's upload of feedback files");
+    command->add_flag("--moodle", args->moodle, "Also write moodle.zip, for Moodle's upload of feedback files");
     command
-        ->add_option("--worksheet", words->worksheet,
+        ->add_option("--worksheet", args->worksheet,
                      "Moodle's grading worksheet of this assignment, for the participants' numbers; implies --moodle")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
-    command->add_flag("--all", words->all, "Include files that were delivered before");
-    add_time_option(*command, words->at);
+    command->add_flag("--all", args->all, "Include files that were delivered before");
+    add_time_option(*command, args->at);
     command->footer(
         "Use this command after review send and release. mail.csv has a row for each student: id, name, group, mail, "
         "files,\n"
         "new. dynlab keeps a list of the delivered files; newer versions are new again.\n"
         "Example:  dynlab course deliver crane --out monday --moodle");
-    command->callback([&where, words, &action] { action = [&where, words] { return give_back(where, *words); }; });
+    command->callback([&where, args, &action] { action = [&where, args] { return give_back(where, *args); }; });
 }
 
 CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseArguments& where, Action& action,
                   int (*run)(const CourseArguments&, const PeerArguments&)) {
-    auto words = std::make_shared<PeerArguments>();
+    auto args = std::make_shared<PeerArguments>();
     CLI::App* command = parent.add_subcommand(name, about);
-    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Required if there are several.");
+    command->add_option("ASSIGNMENT", args->assignment, "Assignment. Required if there are several.");
     if (run == pairs) {
-        command->add_option("REVIEWER", words->reviewer, "A group");
-        command->add_option("AUTHOR", words->author, "Another group");
-        command->add_flag("--set", words->set, "Let the group review the report of the other group");
-        command->add_flag("--forbid", words->forbid, "Keep the two groups from reviewing each other");
-        command->add_flag("--free", words->free, "Undo --set or --forbid");
-        command->add_option("--reason", words->reason, "Reason; recorded in the history");
+        command->add_option("REVIEWER", args->reviewer, "A group");
+        command->add_option("AUTHOR", args->author, "Another group");
+        command->add_flag("--set", args->set, "Let the group review the report of the other group");
+        command->add_flag("--forbid", args->forbid, "Keep the two groups from reviewing each other");
+        command->add_flag("--free", args->free, "Undo --set or --forbid");
+        command->add_option("--reason", args->reason, "Reason; recorded in the history");
     }
-    add_time_option(*command, words->at);
-    if (run == assign) command->add_flag("--early", words->early, "Do not wait for further first versions");
-    if (run == release) command->add_flag("--early", words->early, "Do not wait for further reviews");
+    add_time_option(*command, args->at);
+    if (run == assign) command->add_flag("--early", args->early, "Do not wait for further first versions");
+    if (run == release) command->add_flag("--early", args->early, "Do not wait for further reviews");
     if (run == send_reports || run == release) {
         auto* const accept =
-            command->add_option("--accept", words->accepted, "Send this group's document although it contains names");
+            command->add_option("--accept", args->accepted, "Send this group's document although it contains names");
         auto* const reason =
-            command->add_option("--reason", words->reason, "Reason; recorded in the history")->type_name("TEXT");
+            command->add_option("--reason", args->reason, "Reason; recorded in the history")->type_name("TEXT");
         accept->type_name("GROUP")->needs(reason);
         reason->needs(accept);
     }
-    command->callback([&where, words, run, &action] { action = [&where, words, run] { return run(where, *words); }; });
+    command->callback([&where, args, run, &action] { action = [&where, args, run] { return run(where, *args); }; });
     return command;
 }
 

@@ -32,8 +32,9 @@ struct ReceiveArguments {
 };
 
 Message remark(const Received& r) {
-    if (!r.trouble.empty() && r.part == "pack") return Message("{}: ask for a pack that can be opened", r.trouble);
-    if (!r.trouble.empty()) return Message("{}: ask for a readable file", r.trouble);
+    if (!r.error_reason.empty() && r.part == "pack")
+        return Message("{}: ask for a pack that can be opened", r.error_reason);
+    if (!r.error_reason.empty()) return Message("{}: ask for a readable file", r.error_reason);
     if (!r.missing.empty()) return Message("{}: ask for this file", r.missing);
     if (r.withdrawn) return Message("already received and withdrawn; dynlab course restore reinstates it");
     if (!r.other_time.empty())
@@ -132,88 +133,88 @@ fs::path file_not_taken(Course& course, const Assignment& assignment, const std:
     return file;
 }
 
-int receive_files(const CourseArguments& where, const ReceiveArguments& words, const std::string& stage) {
+int receive_files(const CourseArguments& where, const ReceiveArguments& args, const std::string& stage) {
     Course course(where.folder);
     ReceiveRequest request;
-    request.assignment = words.assignment, request.from = words.from, request.of = words.of, request.stage = stage;
-    request.at = time_of(course, words.at);
+    request.assignment = args.assignment, request.from = args.from, request.of = args.of, request.stage = stage;
+    request.at = time_of(course, args.at);
     const TemporaryFolder kept;
-    for (const std::string& file : words.files) {
-        if (!words.kept) {
+    for (const std::string& file : args.files) {
+        if (!args.kept) {
             request.files.emplace_back(file);
             continue;
         }
         Instant came = 0;
         request.files.push_back(
-            file_not_taken(course, assignment_named(course, words.assignment), file, kept.path(), came));
-        if (words.at.empty()) request.at = came;
+            file_not_taken(course, assignment_named(course, args.assignment), file, kept.path(), came));
+        if (args.at.empty()) request.at = came;
     }
-    if (words.times == "archive") {
+    if (args.times == "archive") {
         request.time_of = [](const IncomingFile& file) { return time_in_archive(file.file); };
-    } else if (!words.times.empty()) {
-        request.time_of = [times = ArrivalTimes(words.times)](const IncomingFile& file) {
+    } else if (!args.times.empty()) {
+        request.time_of = [times = ArrivalTimes(args.times)](const IncomingFile& file) {
             return times.of(file.sender);
         };
     }
-    request.numbers = participants_for(course, assignment_named(course, words.assignment),
-                                       words.times == "archive" ? "" : words.times);
-    request.level = words.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
+    request.numbers =
+        participants_for(course, assignment_named(course, args.assignment), args.times == "archive" ? "" : args.times);
+    request.level = args.isolation == "full" ? Isolation::kFull : Isolation::kProcess;
     request.program = running_program();
-    request.take_as_first = words.first;
-    request.checks = !words.no_checks;
+    request.take_as_first = args.first;
+    request.checks = !args.no_checks;
     WorkBar bar("checking the files");
     request.progress = bar.progress();
     const ReceiveOutcome outcome = receive(course, request);
     bar.finish();
-    show(outcome, stage, !words.times.empty());
-    const bool waiting = confirm_penalties(course, outcome, words.accept_late, request.at);
+    show(outcome, stage, !args.times.empty());
+    const bool waiting = confirm_penalties(course, outcome, args.accept_late, request.at);
     return outcome.refused.empty() && !waiting ? kDone : kFailed;
 }
 
 void add_receive(CLI::App& parent, const char* name, const char* about, const std::string& stage,
                  const std::string& example, CourseArguments& where, Action& action) {
-    auto words = std::make_shared<ReceiveArguments>();
+    auto args = std::make_shared<ReceiveArguments>();
     CLI::App* command = parent.add_subcommand(name, about);
-    command->add_option("FILE", words->files, "PDFs, packs, folders, or the zip file that Moodle or Canvas exports")
+    command->add_option("FILE", args->files, "PDFs, packs, folders, or the zip file that Moodle or Canvas exports")
         ->required();
-    command->add_option("--assignment", words->assignment, "Assignment. Required if there are several.")
+    command->add_option("--assignment", args->assignment, "Assignment. Required if there are several.")
         ->type_name("NAME");
     command
-        ->add_option("--from", words->from,
+        ->add_option("--from", args->from,
                      "Group that submits the files. Default: determined from the names of files and folders.")
         ->type_name("GROUP");
-    words->stage = stage;
+    args->stage = stage;
     if (stage == "first") {
-        command->add_option("--stage", words->stage, "Version")
+        command->add_option("--stage", args->stage, "Version")
             ->type_name("first|final")
             ->capture_default_str()
             ->check(CLI::IsMember({"first", "final"}));
-        command->add_flag("--accept-late", words->accept_late, "Apply penalties of half the points or more");
-        command->add_flag("--kept", words->kept,
+        command->add_flag("--accept-late", args->accept_late, "Apply penalties of half the points or more");
+        command->add_flag("--kept", args->kept,
                           "FILE is a file that was not accepted before, by name or SHA-256; the course has kept it");
-        command->add_flag("--first", words->first,
+        command->add_flag("--first", args->first,
                           "Submit a first version, even if the reviews of the report are released");
     }
     if (stage == "review")
         command
             ->add_option(
-                "--of", words->of,
+                "--of", args->of,
                 "Reviewed report. Default: determined from the file name. Repeat it for each of several files.")
             ->type_name("report-NN")
             ->allow_extra_args(false);
-    add_time_option(*command, words->at);
+    add_time_option(*command, args->at);
     command->get_option("--at")->group("Options");
     command
-        ->add_option("--times", words->times,
+        ->add_option("--times", args->times,
                      "Times of submission: Moodle's grading worksheet or another CSV (column id, identifier, group, "
                      "name or mail, and time), or `archive` for the times in the archive; --at for the other files. "
                      "The worksheet also identifies participant numbers")
         ->type_name("CSV|archive");
-    command->add_option("--isolation", words->isolation, "Isolation while archives are unpacked")
+    command->add_option("--isolation", args->isolation, "Isolation while archives are unpacked")
         ->type_name("full|process")
         ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
-    command->add_flag("--no-checks", words->no_checks, "Do not check the PDFs");
+    command->add_flag("--no-checks", args->no_checks, "Do not check the PDFs");
     command->footer(
         "dynlab identifies the owner of a file by the name of the file or its folder: a group, a student's name or id, "
         "or a\n"
@@ -225,28 +226,28 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
         "  " +
         example);
     command->callback(
-        [&where, words, &action] { action = [&where, words] { return receive_files(where, *words, words->stage); }; });
+        [&where, args, &action] { action = [&where, args] { return receive_files(where, *args, args->stage); }; });
 }
 
 int verify_course(const CourseArguments& where, const std::vector<std::string>& receipts) {
     Course course(where.folder);
     bool well = true;
     for (const std::string& file : receipts) {
-        const ReceiptVerdict verdict = verify_receipt(read_file(file), course);
+        const ReceiptCheck verdict = verify_receipt(read_file(file), course);
         std::cout << terminal_text(fmt::format("{}: {}\n", file, verdict.reason));
         well = well && verdict.genuine;
     }
     if (receipts.empty()) {
         const StoreCheck check = check_store(course);
         for (const Message& leftover : check.leftovers) std::cout << terminal_text(message_text(leftover)) << '\n';
-        for (const Message& trouble : check.troubles)
-            std::cerr << "dynlab: " << terminal_text(message_text(trouble)) << '\n';
+        for (const Message& error_reason : check.error_list)
+            std::cerr << "dynlab: " << terminal_text(message_text(error_reason)) << '\n';
         const Message files = plural(check.files, "{} file", "{} files"),
                       versions = plural(check.versions, "{} version", "{} versions");
-        std::cout << message_text(check.troubles.empty() ? Message("{}, {}: complete and unaltered", files, versions)
-                                                         : Message("{}, {}: see above", files, versions))
+        std::cout << message_text(check.error_list.empty() ? Message("{}, {}: complete and unaltered", files, versions)
+                                                           : Message("{}, {}: see above", files, versions))
                   << '\n';
-        well = check.troubles.empty();
+        well = check.error_list.empty();
     }
     return well ? kDone : kFailed;
 }

@@ -19,19 +19,19 @@ struct RemindArguments {
     bool early = false;
 };
 
-int remind(const CourseArguments& where, const RemindArguments& words) {
+int remind(const CourseArguments& where, const RemindArguments& args) {
     Course course(where.folder);
-    const Assignment assignment = assignment_named(course, words.assignment);
+    const Assignment assignment = assignment_named(course, args.assignment);
     std::set<std::int64_t> only;
-    for (const std::string& name : words.only) only.insert(group_named(course, name).id);
-    const Instant now = time_of(course, words.at);
-    const std::vector<Reminder> reminders = reminders_of(course, assignment, now, words.early, only);
+    for (const std::string& name : args.only) only.insert(group_named(course, name).id);
+    const Instant now = time_of(course, args.at);
+    const std::vector<Reminder> reminders = reminders_of(course, assignment, now, args.early, only);
     if (reminders.empty()) {
         std::cout << message_text(Message("Nothing is missing.")) << '\n';
         return kDone;
     }
     const TextTable mails = reminder_mails(course, assignment, reminders);
-    write_file_atomically(words.out, csv_text(mails));
+    write_file_atomically(args.out, csv_text(mails));
     std::vector<std::string> reminded;
     for (const Reminder& reminder : reminders) reminded.push_back(reminder.group.name);
     Transaction transaction(course.database());
@@ -45,7 +45,7 @@ int remind(const CourseArguments& where, const RemindArguments& words) {
     for (const auto& row : mails.rows)
         if (row[0].empty()) without.push_back(row[3]);
     std::cout << terminal_text(
-                     message_text(plural(std::ssize(mails.rows), "{} message in {}", "{} messages in {}", words.out)))
+                     message_text(plural(std::ssize(mails.rows), "{} message in {}", "{} messages in {}", args.out)))
               << '\n';
     if (!without.empty())
         std::cerr << "dynlab: "
@@ -58,13 +58,13 @@ int remind(const CourseArguments& where, const RemindArguments& words) {
 }  // namespace
 
 void add_remind_command(CLI::App& course, CourseArguments& where, Action& action) {
-    auto words = std::make_shared<RemindArguments>();
+    auto args = std::make_shared<RemindArguments>();
     CLI::App* command = course.add_subcommand("remind", "Write reminders for missing or unreadable work");
-    command->add_option("ASSIGNMENT", words->assignment, "Assignment. Default: the only one");
-    command->add_option("-o,--out", words->out, "File to write")->type_name("CSV")->capture_default_str();
-    command->add_option("--only", words->only, "Group or student; may be repeated")->type_name("NAME");
-    command->add_flag("--early", words->early, "Include work that is not due yet");
-    add_time_option(*command, words->at);
+    command->add_option("ASSIGNMENT", args->assignment, "Assignment. Default: the only one");
+    command->add_option("-o,--out", args->out, "File to write")->type_name("CSV")->capture_default_str();
+    command->add_option("--only", args->only, "Group or student; may be repeated")->type_name("NAME");
+    command->add_flag("--early", args->early, "Include work that is not due yet");
+    add_time_option(*command, args->at);
     command->footer(
         "The file has a row for each student: to, subject, text, id, name, group, for the mail merge of any mail "
         "program. The\n"
@@ -73,7 +73,7 @@ void add_remind_command(CLI::App& course, CourseArguments& where, Action& action
         "version, slides or script after its deadline, or a file that cannot be read.\n"
         "Example:  dynlab course remind crane\n"
         "Exit codes: 0 done, 1 an address is unknown, 2 wrong usage.");
-    command->callback([&where, words, &action] { action = [&where, words] { return remind(where, *words); }; });
+    command->callback([&where, args, &action] { action = [&where, args] { return remind(where, *args); }; });
 }
 
 }  // namespace dynlab::inline cli

@@ -14,21 +14,21 @@ struct ExportGradesArguments {
     bool all = false, delivered = false;
 };
 
-int export_grades(const ExportGradesArguments& words) {
-    if (words.delivered) {
-        const std::int64_t fresh = record_delivery(words.marks);
+int export_grades(const ExportGradesArguments& args) {
+    if (args.delivered) {
+        const std::int64_t fresh = record_delivery(args.marks);
         std::cout << message_text(
                          plural(fresh, "{} file is recorded as delivered", "{} files are recorded as delivered"))
                   << '\n';
         return kDone;
     }
-    HandBackRequest request;
-    request.marks = words.marks;
-    request.assignment = words.assignment;
-    request.all = words.all;
-    if (!words.roster.empty()) request.roster = words.roster;
-    if (!words.worksheet.empty()) request.worksheet = words.worksheet;
-    const HandedBack back = hand_back(request);
+    GradeExportRequest request;
+    request.marks = args.marks;
+    request.assignment = args.assignment;
+    request.all = args.all;
+    if (!args.roster.empty()) request.roster = args.roster;
+    if (!args.worksheet.empty()) request.worksheet = args.worksheet;
+    const GradeExport back = write_grade_export(request);
     for (const Message& note : back.notes) std::cerr << "dynlab: note: " << terminal_text(message_text(note)) << '\n';
     for (const Message& platform : back.unwritten)
         std::cerr << "dynlab: " << terminal_text(message_text(platform)) << '\n';
@@ -41,25 +41,25 @@ int export_grades(const ExportGradesArguments& words) {
 }  // namespace
 
 void add_export_grades(CLI::App& app, Action& action) {
-    auto words = std::make_shared<ExportGradesArguments>();
+    auto args = std::make_shared<ExportGradesArguments>();
     CLI::App* command =
         app.add_subcommand("export-grades", "Export marks for Moodle and Canvas: grades, comments, feedback files");
-    command->add_option("OUT", words->marks, "Folder that dynlab grade --out wrote")
+    command->add_option("OUT", args->marks, "Folder that dynlab grade --out wrote")
         ->required()
         ->check(CLI::ExistingDirectory);
-    command->add_option("--roster", words->roster, "Roster, for addresses and the numbers of the platforms")
+    command->add_option("--roster", args->roster, "Roster, for addresses and the numbers of the platforms")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
-        ->add_option("--worksheet", words->worksheet,
+        ->add_option("--worksheet", args->worksheet,
                      "Moodle's grading worksheet or Canvas's gradebook as downloaded, to be filled in")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
-        ->add_option("--assignment", words->assignment, "Column of the assignment in Canvas, such as \"Lab 4 (1234)\"")
+        ->add_option("--assignment", args->assignment, "Column of the assignment in Canvas, such as \"Lab 4 (1234)\"")
         ->type_name("NAME");
-    command->add_flag("--all", words->all, "Include feedback in the zip file that was delivered before");
-    command->add_flag("--delivered", words->delivered, "Mark the files of the last run as delivered");
+    command->add_flag("--all", args->all, "Include feedback in the zip file that was delivered before");
+    command->add_flag("--delivered", args->delivered, "Mark the files of the last run as delivered");
     command->footer(
         "In OUT/handed_back: moodle-grades.csv (upload as grading worksheet), moodle-feedback.zip (upload as feedback\n"
         "files), canvas-grades.csv (import into the gradebook), and mail.csv, which lists new files for each student.\n"
@@ -72,7 +72,7 @@ void add_export_grades(CLI::App& app, Action& action) {
         "rest.\n"
         "Example:  dynlab export-grades marks --roster roster.csv --worksheet Grades-Lab4.csv\n"
         "Exit codes: 0 done, 1 some marks could not be entered (none, if neither platform has a file), 2 wrong usage.");
-    command->callback([words, &action] { action = [words] { return export_grades(*words); }; });
+    command->callback([args, &action] { action = [args] { return export_grades(*args); }; });
 }
 
 }  // namespace dynlab::inline cli

@@ -30,20 +30,20 @@ struct GradeArguments {
 };
 
 /// In a task of Slurm the cores that it has; one of a part, as other parts have the others.
-int jobs_for(const GradeArguments& words) {
-    if (words.jobs > 0) return words.jobs;
+int jobs_for(const GradeArguments& args) {
+    if (args.jobs > 0) return args.jobs;
     const char* const slurm = std::getenv("SLURM_CPUS_PER_TASK");
     if (const auto cores = slurm ? read_number<int>(slurm) : std::nullopt; cores && *cores > 0) return *cores;
-    return words.parts.part.empty() ? static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : 1;
+    return args.parts.part.empty() ? static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : 1;
 }
 
-FolderRequest request_of(const GradeArguments& words) {
-    FolderRequest request = words.request;
-    request.submissions = words.submissions, request.out = words.out;
+FolderRequest request_of(const GradeArguments& args) {
+    FolderRequest request = args.request;
+    request.submissions = args.submissions, request.out = args.out;
     request.grading.setup.program = running_program();
-    request.grading.setup.jobs = jobs_for(words);
-    request.grading.pdf = !words.no_pdf;
-    request.part = words.parts.chosen();
+    request.grading.setup.jobs = jobs_for(args);
+    request.grading.pdf = !args.no_pdf;
+    request.part = args.parts.chosen();
     return request;
 }
 
@@ -55,8 +55,8 @@ int grade_part(const FolderGrading& grading, const WorkPart& part) {
     return outcome.failed == 0 ? kDone : kFailed;
 }
 
-int grade(const GradeArguments& words) {
-    const FolderRequest request = request_of(words);
+int grade(const GradeArguments& args) {
+    const FolderRequest request = request_of(args);
     FolderGrading grading(request);
     const GradingOptions& options = grading.options();
     if (options.setup.secret.empty())
@@ -67,98 +67,97 @@ int grade(const GradeArguments& words) {
         return grade_part(grading, *request.part);
     }
     const auto missing = [&](int count) { return grading.missing(count); };
-    if (!words.parts.on.empty() && !done_on(words.parts.on, parts, missing)) return kDone;
-    if (words.parts.join) refuse_missing_parts(missing(noted_parts(parts)).parts, noted_parts(parts));
+    if (!args.parts.on.empty() && !done_on(args.parts.on, parts, missing)) return kDone;
+    if (args.parts.join) refuse_missing_parts(missing(noted_parts(parts)).parts, noted_parts(parts));
     const GradingOutcome outcome = grading.grade();
     const int code = show_grading(outcome, options.setup.isolation, options.out, options.pdf);
     const fs::path answers = options.out / (options.pdf ? "model_answers.pdf" : "model_answers.md");
-    if (words.answers) make_document(model_answers_of(options.setup.lesson, answers), false);
+    if (args.answers) make_document(model_answers_of(options.setup.lesson, answers), false);
     return code;
 }
 
 }  // namespace
 
 void add_grade(CLI::App& app, Action& action) {
-    auto words = std::make_shared<GradeArguments>();
+    auto args = std::make_shared<GradeArguments>();
     CLI::App* command = app.add_subcommand("grade", "Grade the submissions of a class: marks, feedback, summary");
     command
-        ->add_option("FOLDER", words->submissions,
-                     "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
+        ->add_option("FOLDER", args->submissions, "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
         ->required();
     command
-        ->add_option("--lesson", words->request.lesson,
+        ->add_option("--lesson", args->request.lesson,
                      "Lesson that provides the checks. Required for a new results folder.")
         ->type_name("NN");
-    command->add_option("--out", words->out, "Results folder. A later call adds to the folder and uses its options")
+    command->add_option("--out", args->out, "Results folder. A later call adds to the folder and uses its options")
         ->type_name("OUT")
         ->required();
     command
-        ->add_option("--checks", words->request.checks, "Folder with your own checks (*.lua), which students never see")
+        ->add_option("--checks", args->request.checks, "Folder with your own checks (*.lua), which students never see")
         ->type_name("FOLDER");
-    command->add_option("--secret", words->request.secret, "File that determines the hidden data sets")
+    command->add_option("--secret", args->request.secret, "File that determines the hidden data sets")
         ->type_name("FILE")
         ->check(CLI::ExistingFile | CLI::IsMember({kNoFile}));
     command
         ->add_option(
-            "--roster", words->request.roster,
+            "--roster", args->request.roster,
             "CSV with the columns id, name, group (also language: en or fr): adds a row of marks for each student")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
-        ->add_option("--owners", words->request.owners,
+        ->add_option("--owners", args->request.owners,
                      "CSV mapping unmatched submissions to groups (columns: submission and group or id)")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
-        ->add_option("--keep", words->request.keep, "Which of several submissions of one student counts. Default: best")
+        ->add_option("--keep", args->request.keep, "Which of several submissions of one student counts. Default: best")
         ->type_name("best|newest")
         ->check(CLI::IsMember({"best", "newest"}));
     command
-        ->add_option("--deadlines", words->request.deadlines,
+        ->add_option("--deadlines", args->request.deadlines,
                      "CSV with the columns submission (a group, an id, or *), deadline, extra, grace, ...")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
-        ->add_option("--times", words->request.times,
+        ->add_option("--times", args->request.times,
                      "Times of submission: Moodle's grading worksheet or another CSV (column id, identifier, group, "
                      "name or mail, and time). Default: the times of the files")
         ->type_name("CSV")
         ->check(CLI::ExistingFile);
     command
-        ->add_option("--timezone", words->request.timezone,
+        ->add_option("--timezone", args->request.timezone,
                      "Time zone of deadlines and of times in zip files. Default: the zone of this machine")
         ->type_name("ZONE");
     command
-        ->add_option("--only", words->request.grading.only,
+        ->add_option("--only", args->request.grading.only,
                      "Grade only this submission, given by its name, group, id or student; may be repeated")
         ->type_name("NAME");
-    command->add_flag("--again", words->request.again,
+    command->add_flag("--again", args->request.again,
                       "Grade all submissions with the new inputs if OUT was made with other inputs");
-    words->parts.add_to(*command);
-    CLI::Option* const regrade = command->add_flag("--regrade", words->request.grading.regrade,
+    args->parts.add_to(*command);
+    CLI::Option* const regrade = command->add_flag("--regrade", args->request.grading.regrade,
                                                    "Grade submissions again that have a result; manual marks are kept");
     for (const char* option : {"--part", "--join", "--on"}) regrade->excludes(command->get_option(option));
-    command->add_option("--jobs", words->jobs, "Number of parallel jobs. Default: number of cores.")
+    command->add_option("--jobs", args->jobs, "Number of parallel jobs. Default: number of cores.")
         ->type_name("N")
         ->check(CLI::Range(1, 256));
     command
-        ->add_option("--timeout", words->request.timeout,
+        ->add_option("--timeout", args->request.timeout,
                      "Processor time of each run of a script, in seconds; the elapsed time may be five times as long. "
                      "Default: 60")
         ->type_name("S")
         ->check(CLI::Range(1, 3600));
     command
-        ->add_option("--isolation", words->request.isolation,
+        ->add_option("--isolation", args->request.isolation,
                      "full: separate file system, network and processes. Default: full")
         ->type_name("full|process")
         ->check(CLI::IsMember({"full", "process"}));
     command->add_flag(
-        "--answers", words->answers,
+        "--answers", args->answers,
         "Make OUT/model_answers.pdf with the text of the reference solution; dynlab export-grades adds it for all");
-    command->add_flag("--force", words->request.grading.above_maximum,
+    command->add_flag("--force", args->request.grading.above_maximum,
                       "Accept marks in marks.csv above the points of their check");
-    command->add_flag("--accept-late", words->request.accept_late, "Apply penalties of half the points or more");
-    command->add_flag("--no-pdf", words->no_pdf, "Write feedback and summary as Markdown only");
+    command->add_flag("--accept-late", args->request.accept_late, "Apply penalties of half the points or more");
+    command->add_flag("--no-pdf", args->no_pdf, "Write feedback and summary as Markdown only");
     command->footer(
         "Each submission runs in its own sandbox and cannot affect the others. An interrupted run resumes where it "
         "stopped.\n"
@@ -191,9 +190,9 @@ void add_grade(CLI::App& app, Action& action) {
         "submissions, scripts that stop, late submissions with a penalty, several submissions of one student.\n"
         "Exit codes: 0 all submissions are graded, 1 some are ungraded, unreadable, unconfirmed or unmatched, 2 wrong "
         "usage.");
-    command->callback([words, &action] {
-        if (words->request.lesson.empty() && !is_graded_folder(words->out)) throw CLI::RequiredError("--lesson");
-        action = [words] { return grade(*words); };
+    command->callback([args, &action] {
+        if (args->request.lesson.empty() && !is_graded_folder(args->out)) throw CLI::RequiredError("--lesson");
+        action = [args] { return grade(*args); };
     });
 }
 

@@ -17,14 +17,14 @@ struct GradescopeArguments {
     int timeout = 60;
 };
 
-int make_autograder(const GradescopeArguments& words) {
+int make_autograder(const GradescopeArguments& args) {
     AutograderRequest request;
-    request.lesson = find_lesson(words.lesson);
-    if (!words.checks.empty()) request.more_checks = words.checks;
-    request.secret = read_file(words.secret);
-    request.timeout_seconds = words.timeout;
+    request.lesson = find_lesson(args.lesson);
+    if (!args.checks.empty()) request.more_checks = args.checks;
+    request.secret = read_file(args.secret);
+    request.timeout_seconds = args.timeout;
     request.program = running_program();
-    const std::filesystem::path zip = words.output.empty() ? request.lesson.slug + "-autograder.zip" : words.output;
+    const std::filesystem::path zip = args.output.empty() ? request.lesson.slug + "-autograder.zip" : args.output;
     const std::uintmax_t bytes = write_autograder(request, zip);
     std::cout << fmt::format("{}: {:.1f} MB\n", zip.string(), static_cast<double>(bytes) / 1e6);
     return kDone;
@@ -33,19 +33,19 @@ int make_autograder(const GradescopeArguments& words) {
 }  // namespace
 
 void add_gradescope(CLI::App& app, Action& action) {
-    auto words = std::make_shared<GradescopeArguments>();
+    auto args = std::make_shared<GradescopeArguments>();
     CLI::App* command =
         app.add_subcommand("gradescope", "Make the autograder of a lesson for Gradescope, as one zip file");
-    command->add_option("LESSON", words->lesson, "Number, name or folder of the lesson")->required();
-    add_secret_option(*command, words->secret)->required();
+    command->add_option("LESSON", args->lesson, "Number, name or folder of the lesson")->required();
+    add_secret_option(*command, args->secret)->required();
     command
-        ->add_option("-o,--output", words->output,
+        ->add_option("-o,--output", args->output,
                      "Zip file to make. Default: NN_name-autograder.zip in the current folder.")
         ->type_name("FILE.zip");
-    command->add_option("--checks", words->checks, "Folder with your own checks (*.lua), which students never see")
+    command->add_option("--checks", args->checks, "Folder with your own checks (*.lua), which students never see")
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory);
-    add_timeout_option(*command, words->timeout);
+    add_timeout_option(*command, args->timeout);
     command->footer(
         "The zip file contains setup.sh, run_autograder and all they need. Upload it, and choose a base image that is "
         "at least\n"
@@ -53,7 +53,7 @@ void add_gradescope(CLI::App& app, Action& action) {
         "same\n"
         "points, messages and hints as from dynlab grade; for your own checks, they see only points and hints.\n"
         "Example:  dynlab gradescope 04 --secret secret.txt --checks my-checks");
-    command->callback([words, &action] { action = [words] { return make_autograder(*words); }; });
+    command->callback([args, &action] { action = [args] { return make_autograder(*args); }; });
 }
 
 }  // namespace dynlab::inline cli

@@ -16,13 +16,13 @@ struct SimilarArguments {
     double line = 60;
 };
 
-int compare(const SimilarArguments& words) {
+int compare(const SimilarArguments& args) {
     SimilarityRequest request;
-    request.lesson = find_lesson(words.lesson);
-    request.submissions = words.submissions;
-    request.out = words.out;
-    request.others.assign(words.others.begin(), words.others.end());
-    request.line = words.line / 100;
+    request.lesson = find_lesson(args.lesson);
+    request.submissions = args.submissions;
+    request.out = args.out;
+    request.others.assign(args.others.begin(), args.others.end());
+    request.line = args.line / 100;
     request.isolation = strongest_isolation();
     request.program = running_program();
     const SimilarityOutcome outcome = compare_class(request);
@@ -41,24 +41,23 @@ int compare(const SimilarArguments& words) {
 }  // namespace
 
 void add_similar(CLI::App& app, Action& action) {
-    auto words = std::make_shared<SimilarArguments>();
+    auto args = std::make_shared<SimilarArguments>();
     CLI::App* command = app.add_subcommand("similar", "List similar scripts in a class for you to review");
     command
-        ->add_option("FOLDER", words->submissions,
-                     "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
+        ->add_option("FOLDER", args->submissions, "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
         ->required()
         ->check(CLI::ExistingPath);
-    command->add_option("--lesson", words->lesson, "Lesson. Code of its starter does not count.")
+    command->add_option("--lesson", args->lesson, "Lesson. Code of its starter does not count.")
         ->type_name("NN")
         ->required();
-    command->add_option("--out", words->out, "Folder for similarity.md and similarity.csv")
+    command->add_option("--out", args->out, "Folder for similarity.md and similarity.csv")
         ->type_name("OUT")
         ->required();
-    command->add_option("--compare", words->others, "Submissions or scripts of an earlier year; may be repeated")
+    command->add_option("--compare", args->others, "Submissions or scripts of an earlier year; may be repeated")
         ->type_name("FOLDER")
         ->check(CLI::ExistingPath);
     command
-        ->add_option("--line", words->line,
+        ->add_option("--line", args->line,
                      "Minimum of common code for the list, in percent of the shorter script's own code")
         ->type_name("P")
         ->capture_default_str()
@@ -71,7 +70,7 @@ void add_similar(CLI::App& app, Action& action) {
         "the common code. Similarity does not prove copying.\n"
         "Example:  dynlab similar Lab4.zip --lesson 04 --out marks --compare 2025/submissions\n"
         "Exit codes: 0 all scripts were compared, 1 some could not be compared, 2 wrong usage.");
-    command->callback([words, &action] { action = [words] { return compare(*words); }; });
+    command->callback([args, &action] { action = [args] { return compare(*args); }; });
 }
 
 }  // namespace dynlab::inline cli

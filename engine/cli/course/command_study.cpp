@@ -18,13 +18,13 @@ struct StudyArguments {
     PartOptions parts;
 };
 
-int study(const StudyArguments& words) {
-    const PercentScript script = read_script_or_notebook(words.run.file);
-    const std::uint32_t seed = words.run.seed.value().value_or(script.header.seed);
-    const fs::path out = words.run.out.empty() ? figures_folder(words.run.file) : fs::path(words.run.out),
+int study(const StudyArguments& args) {
+    const PercentScript script = read_script_or_notebook(args.run.file);
+    const std::uint32_t seed = args.run.seed.value().value_or(script.header.seed);
+    const fs::path out = args.run.out.empty() ? figures_folder(args.run.file) : fs::path(args.run.out),
                    folder = out / "parts";
     const auto missing = [&](int count) { return run_study_part(script, seed, folder, count, {}); };
-    if (const auto part = words.parts.chosen()) {
+    if (const auto part = args.parts.chosen()) {
         note_parts(folder, part->count);
         const bool goes_on = !run_study_part(script, seed, folder, part->count, part).parts.empty();
         std::cout << "part " << part->text()
@@ -32,24 +32,24 @@ int study(const StudyArguments& words) {
                               : ": nothing left to do\n");
         return kDone;
     }
-    if (!words.parts.on.empty() && !done_on(words.parts.on, folder, missing)) return kDone;
+    if (!args.parts.on.empty() && !done_on(args.parts.on, folder, missing)) return kDone;
     const int count = noted_parts(folder);
-    if (words.parts.join) refuse_missing_parts(missing(count).parts, count);
+    if (args.parts.join) refuse_missing_parts(missing(count).parts, count);
     StudyParts joined(folder, script, seed, count, {});
-    return run_and_show(words.run, &joined);
+    return run_and_show(args.run, &joined);
 }
 
 }  // namespace
 
 void add_study(CLI::App& app, Action& action) {
-    auto words = std::make_shared<StudyArguments>();
+    auto args = std::make_shared<StudyArguments>();
     CLI::App* command = app.add_subcommand("study", "Run a script and compute its montecarlo calls in parts");
-    command->add_option("FILE", words->run.file, "Script to run")->required()->check(CLI::ExistingFile);
-    words->parts.add_to(*command);
-    command->add_option("--out", words->run.out, "Folder for figures, saved files and the run results (record.json)")
+    command->add_option("FILE", args->run.file, "Script to run")->required()->check(CLI::ExistingFile);
+    args->parts.add_to(*command);
+    command->add_option("--out", args->run.out, "Folder for figures, saved files and the run results (record.json)")
         ->type_name("DIR");
-    command->add_flag("--force", words->run.force, "Let the script replace files that dynlab did not write");
-    words->run.seed.add_to(*command);
+    command->add_flag("--force", args->run.force, "Let the script replace files that dynlab did not write");
+    args->run.seed.add_to(*command);
     command->footer(
         "The results are the same as with dynlab run, to the last bit, but the calls of montecarlo are computed in "
         "parts. Each\n"
@@ -60,13 +60,13 @@ void add_study(CLI::App& app, Action& action) {
         "not computed again.\n"
         "Example:  dynlab study bias.lua --on processes:8\n"
         "Exit codes: 0 done, 1 the script failed or parts are missing, 2 wrong usage.");
-    command->callback([words, &action] {
-        expect_script(words->run.file, "study");
-        if (!words->parts.any())
+    command->callback([args, &action] {
+        expect_script(args->run.file, "study");
+        if (!args->parts.any())
             throw CLI::ValidationError("study", "give --part, --join or --on; without parts, use dynlab run");
-        if (words->run.seed.text == "random")
+        if (args->run.seed.text == "random")
             throw CLI::ValidationError("--seed", "a random seed differs from part to part; give a number");
-        action = [words] { return study(*words); };
+        action = [args] { return study(*args); };
     });
 }
 

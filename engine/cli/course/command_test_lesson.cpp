@@ -19,10 +19,10 @@ struct TestLessonArguments {
     int timeout = 60;
 };
 
-int test_lesson(const TestLessonArguments& words) {
-    const Lesson lesson = find_lesson(words.lesson);
-    if (!words.skeleton.empty()) {
-        for (const auto& file : write_translation_skeleton(lesson, words.skeleton))
+int test_lesson(const TestLessonArguments& args) {
+    const Lesson lesson = find_lesson(args.lesson);
+    if (!args.skeleton.empty()) {
+        for (const auto& file : write_translation_skeleton(lesson, args.skeleton))
             std::cout << terminal_text(file.string()) << '\n';
         return kDone;
     }
@@ -37,17 +37,17 @@ int test_lesson(const TestLessonArguments& words) {
         faults += found.size();
         return found.empty();
     };
-    const auto wanted = [&](const char* part) { return words.part.empty() || words.part == part; };
+    const auto requested = [&](const char* part) { return args.part.empty() || args.part == part; };
     bool readable = true;  // what cannot be read is not run
-    if (wanted("texts")) readable = tell(faults_of_texts(lesson), "texts");
-    if (readable && wanted("checks")) {
+    if (requested("texts")) readable = tell(faults_of_texts(lesson), "texts");
+    if (readable && requested("checks")) {
         LessonFaults warnings;
-        tell(faults_of_checks(trial_setup(lesson, words.secret, words.timeout), &warnings), "checks");
+        tell(faults_of_checks(trial_setup(lesson, args.secret, args.timeout), &warnings), "checks");
         for (const LessonFault& warning : warnings)
             std::cout << terminal_text(
                 fmt::format("{}: warning: {}\n", (lesson.folder / warning.file).string(), message_text(warning.what)));
     }
-    if (readable && wanted("documents")) {
+    if (readable && requested("documents")) {
         LessonFaults found;
         {
             ActivityLine activity;
@@ -68,19 +68,19 @@ int test_lesson(const TestLessonArguments& words) {
 }  // namespace
 
 void add_test_lesson(CLI::App& app, Action& action) {
-    auto words = std::make_shared<TestLessonArguments>();
+    auto args = std::make_shared<TestLessonArguments>();
     CLI::App* command = app.add_subcommand("test-lesson", "Test a lesson before a class uses it");
-    command->add_option("LESSON", words->lesson, "Folder, number or name of the lesson")->required();
-    command->add_option("--part", words->part, "Part of the test to run")
+    command->add_option("LESSON", args->lesson, "Folder, number or name of the lesson")->required();
+    command->add_option("--part", args->part, "Part of the test to run")
         ->type_name("PART")
         ->check(CLI::IsMember({"texts", "checks", "documents"}));
     command
-        ->add_option("--skeleton", words->skeleton,
+        ->add_option("--skeleton", args->skeleton,
                      "Run no test; write tasks.LANG.lua and checks.LANG.po with the texts to translate")
         ->type_name("LANG")
         ->check(CLI::IsMember(languages()));
-    add_secret_option(*command, words->secret);
-    add_timeout_option(*command, words->timeout);
+    add_secret_option(*command, args->secret);
+    add_timeout_option(*command, args->timeout);
     command->footer(
         "texts: headers, cells, Lua, names and options, hints, tasks in other languages; no script runs.\n"
         "checks: the reference solution and right_*.lua get full marks, the untouched starter none; each wrong_*.lua\n"
@@ -91,7 +91,7 @@ void add_test_lesson(CLI::App& app, Action& action) {
         "one.\n"
         "Example:  dynlab new lesson lessons/08_springs && dynlab test-lesson lessons/08_springs\n"
         "Exit codes: 0 no errors, 1 errors were found, 2 wrong usage.");
-    command->callback([words, &action] { action = [words] { return test_lesson(*words); }; });
+    command->callback([args, &action] { action = [args] { return test_lesson(*args); }; });
 }
 
 }  // namespace dynlab::inline cli

@@ -15,25 +15,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct VerifyWords {
+struct VerifyArgs {
     std::string receipt, key, file;
 };
 
 /// The key that was named, or the one that lies beside the receipt or here.
-std::optional<PublicKey> key_at_hand(const VerifyWords& words) {
-    if (!words.key.empty()) return read_public_key(words.key);
-    for (const fs::path& folder : {fs::absolute(words.receipt).parent_path(), fs::current_path()})
+std::optional<PublicKey> key_at_hand(const VerifyArgs& args) {
+    if (!args.key.empty()) return read_public_key(args.key);
+    for (const fs::path& folder : {fs::absolute(args.receipt).parent_path(), fs::current_path()})
         if (fs::exists(folder / kPublicKeyFile)) return read_public_key(folder / kPublicKeyFile);
     return {};
 }
 
-int verify(const VerifyWords& words) {
-    const std::string text = read_file(words.receipt);
-    const std::optional<PublicKey> known = key_at_hand(words);
+int verify(const VerifyArgs& args) {
+    const std::string text = read_file(args.receipt);
+    const std::optional<PublicKey> known = key_at_hand(args);
     const std::string own = key_in_receipt(text);
-    ReceiptVerdict verdict = verify_receipt(text, known ? known->digits : own);
-    if (verdict.genuine && !words.file.empty() && !is_receipt_for(text, words.file))
-        verdict = {false, fmt::format("genuine, but NOT for {}: that file has another SHA-256", words.file)};
+    ReceiptCheck verdict = verify_receipt(text, known ? known->digits : own);
+    if (verdict.genuine && !args.file.empty() && !is_receipt_for(text, args.file))
+        verdict = {false, fmt::format("genuine, but NOT for {}: that file has another SHA-256", args.file)};
     std::string signer;
     if (verdict.genuine)
         signer = known ? fmt::format(", signed by the course \"{}\"", known->course)
@@ -42,8 +42,8 @@ int verify(const VerifyWords& words) {
                              "{}\n"
                              "Check that this is your course's key: see its {} or its page.",
                              own, kPublicKeyFile);
-    std::cout << terminal_text(fmt::format("{}: {}{}{}\n", words.receipt, verdict.reason,
-                                           verdict.genuine && !words.file.empty() ? ", for exactly this file" : "",
+    std::cout << terminal_text(fmt::format("{}: {}{}{}\n", args.receipt, verdict.reason,
+                                           verdict.genuine && !args.file.empty() ? ", for exactly this file" : "",
                                            signer));
     return verdict.genuine ? kDone : kFailed;
 }
@@ -51,13 +51,13 @@ int verify(const VerifyWords& words) {
 }  // namespace
 
 void add_verify(CLI::App& app, Action& action) {
-    auto words = std::make_shared<VerifyWords>();
+    auto args = std::make_shared<VerifyArgs>();
     CLI::App* command = app.add_subcommand("verify", "Verify the receipt of a course, without access to the course");
-    command->add_option("RECEIPT", words->receipt, "Receipt of a submission")->required()->check(CLI::ExistingFile);
-    command->add_option("FILE", words->file, "Submitted file: the receipt must be for exactly this file")
+    command->add_option("RECEIPT", args->receipt, "Receipt of a submission")->required()->check(CLI::ExistingFile);
+    command->add_option("FILE", args->file, "Submitted file: the receipt must be for exactly this file")
         ->check(CLI::ExistingFile);
     command
-        ->add_option("--key", words->key,
+        ->add_option("--key", args->key,
                      "Public key of the course. Default: course.pub in the folder of the receipt or in the current "
                      "folder, otherwise the key in the receipt.")
         ->type_name("FILE")
@@ -68,7 +68,7 @@ void add_verify(CLI::App& app, Action& action) {
         "(dynlab course verify).\n"
         "Example:  dynlab verify 00012-group-07-first-report.txt report.pdf --key course.pub\n"
         "Exit codes: 0 genuine, 1 not genuine, or not for the file, 2 wrong usage.");
-    command->callback([words, &action] { action = [words] { return verify(*words); }; });
+    command->callback([args, &action] { action = [args] { return verify(*args); }; });
 }
 
 }  // namespace dynlab::inline cli

@@ -111,18 +111,17 @@ int menu() {
 }  // namespace
 
 void add_demo(CLI::App& app, Action& action) {
-    auto words = std::make_shared<DemoArguments>();
+    auto args = std::make_shared<DemoArguments>();
     CLI::App* command = app.add_subcommand("demo", "Show short guided demonstrations");
-    auto* name =
-        command->add_option("DEMO", words->name, "Name of the demonstration. Default: a menu in the terminal.");
-    command->add_flag("--list", words->list, "List the demonstrations, each with one line")->excludes(name);
+    auto* name = command->add_option("DEMO", args->name, "Name of the demonstration. Default: a menu in the terminal.");
+    command->add_flag("--list", args->list, "List the demonstrations, each with one line")->excludes(name);
     command->footer(
         "In a terminal, press Enter for the next page and q to go back. Figures are saved in NAME_out; dynlab prints "
         "their paths.\nExamples:  dynlab demo     dynlab demo getting_started     dynlab demo --list");
-    command->callback([words, &action] {
-        action = [words] {
-            if (words->list) return list(demonstrations());
-            return words->name.empty() ? menu() : show(find_demonstration(words->name));
+    command->callback([args, &action] {
+        action = [args] {
+            if (args->list) return list(demonstrations());
+            return args->name.empty() ? menu() : show(find_demonstration(args->name));
         };
     });
 }

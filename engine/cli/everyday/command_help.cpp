@@ -13,16 +13,16 @@ namespace dynlab::inline cli {
 namespace {
 
 /// The help text of a command, as its option --help prints it; empty where these words are none.
-std::string help_of_command(CLI::App& app, const std::vector<std::string>& words) {
+std::string help_of_command(CLI::App& app, const std::vector<std::string>& args) {
     CLI::App* command = &app;
     std::string before;
-    for (const std::string& word : words) {
+    for (const std::string& word : args) {
         before += (before.empty() ? "" : " ") + command->get_name();
         const auto found = command->get_subcommands([&](const CLI::App* one) { return one->get_name() == word; });
         if (found.empty()) return "";
         command = found.front();
     }
-    return words.empty() ? "" : command->help(before);
+    return args.empty() ? "" : command->help(before);
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ void add_help(CLI::App& app, Action& action) {
                 return kDone;
             }
             std::vector<const FunctionEntry*> functions;
-            for (const FunctionEntry& entry : catalogue_of_functions()) functions.push_back(&entry);
+            for (const FunctionEntry& entry : catalog_of_functions()) functions.push_back(&entry);
             const std::size_t width = columns_of_text(kHelpWidth);
             if (!word->empty())
                 std::cout << help_search(*word, functions, width);

@@ -25,21 +25,21 @@ struct HintArguments {
 };
 
 /// The lesson that is named, or that the copy in this folder is of, whose report also tells the language.
-Lesson lesson_to_help(HintArguments& words) {
-    const std::filesystem::path folder = words.lesson;
-    if (!std::filesystem::is_regular_file(folder / "analysis.lua")) return find_lesson(words.lesson);
-    if (words.language.empty()) words.language = language_of_work(folder);
-    speak(words.language);
+Lesson lesson_to_help(HintArguments& args) {
+    const std::filesystem::path folder = args.lesson;
+    if (!std::filesystem::is_regular_file(folder / "analysis.lua")) return find_lesson(args.lesson);
+    if (args.language.empty()) args.language = language_of_work(folder);
+    speak(args.language);
     const std::string name = read_percent_script(folder / "analysis.lua").header.lesson;
     if (name.empty()) throw EnvironmentError("{} does not name its lesson", (folder / "analysis.lua").string());
-    words.lesson = name;
+    args.lesson = name;
     return find_lesson(name);
 }
 
 Hints hints_of(const Lesson& lesson, const std::string& language) {
-    for (const std::string& wanted : {language, std::string("en")})
-        if (!wanted.empty() && std::filesystem::is_regular_file(lesson.hints(wanted)))
-            return read_hints(lesson.hints(wanted));
+    for (const std::string& requested : {language, std::string("en")})
+        if (!requested.empty() && std::filesystem::is_regular_file(lesson.hints(requested)))
+            return read_hints(lesson.hints(requested));
     throw EnvironmentError("lesson {} has no hints ({})", lesson.slug, lesson.hints("en").string());
 }
 
@@ -60,50 +60,50 @@ void show_stages(const std::vector<std::string>& stages, std::size_t shown) {
     }
 }
 
-int give_hint(HintArguments words) {
-    const std::string name = shell_word(words.lesson);
-    const Lesson lesson = lesson_to_help(words);
-    const Hints hints = hints_of(lesson, words.language);
+int give_hint(HintArguments args) {
+    const std::string name = shell_word(args.lesson);
+    const Lesson lesson = lesson_to_help(args);
+    const Hints hints = hints_of(lesson, args.language);
     if (hints.empty()) throw EnvironmentError("lesson {} has a hint file without hints", lesson.slug);
-    if (words.question == 0) return list_hints(lesson, hints, name);
-    const auto found = hints.find(words.question);
+    if (args.question == 0) return list_hints(lesson, hints, name);
+    const auto found = hints.find(args.question);
     if (found == hints.end())
         throw EnvironmentError("lesson {} has no hints for question {}; it has hints for questions {} to {}",
-                               lesson.slug, words.question, hints.begin()->first, hints.rbegin()->first);
+                               lesson.slug, args.question, hints.begin()->first, hints.rbegin()->first);
     const std::vector<std::string>& stages = found->second;
-    const HintsSeen seen(lesson.slug, words.question);
-    if (words.next && !seen.lasting())
+    const HintsSeen seen(lesson.slug, args.question);
+    if (args.next && !seen.lasting())
         throw EnvironmentError("--next cannot work here, because dynlab cannot store which hints were seen; use --all");
     const std::size_t before = std::min(seen.count(), stages.size());
-    const std::size_t shown = words.all    ? stages.size()
-                              : words.next ? std::min(before + 1, stages.size())
-                                           : std::max<std::size_t>(before, 1);
-    say(Message("Lesson {}, question {}", lesson.slug, words.question));
+    const std::size_t shown = args.all    ? stages.size()
+                              : args.next ? std::min(before + 1, stages.size())
+                                          : std::max<std::size_t>(before, 1);
+    say(Message("Lesson {}, question {}", lesson.slug, args.question));
     show_stages(stages, shown);
-    seen.remember(std::max(shown, before));
+    seen.save_entry(std::max(shown, before));
     if (const std::size_t left = stages.size() - shown; left > 0)
-        say(Message("\n{} more:  dynlab hint {} {} --next", left, name, words.question));
+        say(Message("\n{} more:  dynlab hint {} {} --next", left, name, args.question));
     else
-        say(words.language.empty() || words.language == "en"
+        say(args.language.empty() || args.language == "en"
                 ? Message("\nThis is the last hint. The reference solution:  dynlab report {}", lesson.slug)
                 : Message("\nThis is the last hint. The reference solution:  dynlab report {} --lang {}", lesson.slug,
-                          words.language));
+                          args.language));
     return kDone;
 }
 
 }  // namespace
 
 void add_hint(CLI::App& app, Action& action) {
-    auto words = std::make_shared<HintArguments>();
+    auto args = std::make_shared<HintArguments>();
     CLI::App* command = app.add_subcommand("hint", "Show hints for a question of a lesson, one at a time");
-    command->add_option("LESSON", words->lesson, "Number or name of the lesson, or your folder")->required();
-    command->add_option("QUESTION", words->question, "Number of the question. Default: list the questions with hints.")
+    command->add_option("LESSON", args->lesson, "Number or name of the lesson, or your folder")->required();
+    command->add_option("QUESTION", args->question, "Number of the question. Default: list the questions with hints.")
         ->check(CLI::Range(1, 999));
-    CLI::Option* next = command->add_flag("--next", words->next, "Show one hint beyond those already seen");
-    command->add_flag("--all", words->all, "Show all hints for the question")->excludes(next);
-    add_language(*command, words->language, "Language, if the lesson has hints in it");
+    CLI::Option* next = command->add_flag("--next", args->next, "Show one hint beyond those already seen");
+    command->add_flag("--all", args->all, "Show all hints for the question")->excludes(next);
+    add_language(*command, args->language, "Language, if the lesson has hints in it");
     command->footer("Examples:  dynlab hint 04 4     dynlab hint 04 4 --next     dynlab hint my-work");
-    command->callback([words, &action] { action = [words] { return give_hint(*words); }; });
+    command->callback([args, &action] { action = [args] { return give_hint(*args); }; });
 }
 
 }  // namespace dynlab::inline cli

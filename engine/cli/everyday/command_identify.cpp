@@ -20,10 +20,10 @@ struct IdentifyArguments {
 
 /// Nothing for "auto".
 template <class Number>
-std::optional<Number> number_or_auto(const std::string& text, const char* option, const std::string& wanted) {
+std::optional<Number> number_or_auto(const std::string& text, const char* option, const std::string& requested) {
     const auto number = read_number<Number>(text);
     if (number || text == "auto") return number;
-    throw CLI::ValidationError(option, "expected " + wanted + " or the word auto, not '" + text + "'");
+    throw CLI::ValidationError(option, "expected " + requested + " or the word auto, not '" + text + "'");
 }
 
 /// identification_script(), with what somebody at the terminal can do about a file without a sampling time.
@@ -37,15 +37,15 @@ std::string script_of(const IdentifyRequest& request) {
     }
 }
 
-int identify(const IdentifyArguments& words) {
-    const std::string script = script_of(words.request);
-    if (words.script) {
+int identify(const IdentifyArguments& args) {
+    const std::string script = script_of(args.request);
+    if (args.script) {
         print_now(script);
         return kDone;
     }
-    const std::string stem = std::filesystem::path(words.request.data).stem().string();
+    const std::string stem = std::filesystem::path(args.request.data).stem().string();
     ReportRequest report = report_of_script(parse_percent_script(script, "identify.lua"),
-                                            words.report.empty() ? stem + "_model.pdf" : words.report);
+                                            args.report.empty() ? stem + "_model.pdf" : args.report);
     report.print = print_now;
     return make_document(std::move(report), false);
 }
@@ -53,8 +53,8 @@ int identify(const IdentifyArguments& words) {
 }  // namespace
 
 void add_identify(CLI::App& app, Action& action) {
-    auto words = std::make_shared<IdentifyArguments>();
-    IdentifyRequest& request = words->request;
+    auto args = std::make_shared<IdentifyArguments>();
+    IdentifyRequest& request = args->request;
     CLI::App* command =
         app.add_subcommand("identify", "Estimate a model and make a report from a data file, without Lua");
     command
@@ -105,10 +105,10 @@ void add_identify(CLI::App& app, Action& action) {
         ->type_name("zoh|foh")
         ->check(CLI::IsMember({"zoh", "foh"}));
     command->add_option("--validate", request.validation, "Validation data with the same names")->type_name("FILE");
-    auto* report = command->add_option("-o,--output-file", words->report,
+    auto* report = command->add_option("-o,--output-file", args->report,
                                        "Report to make (.pdf, .html or .md). Default: DATA_model.pdf.");
     report->type_name("FILE");
-    command->add_flag("--script", words->script, "Only print the Lua script")->excludes(report);
+    command->add_flag("--script", args->script, "Only print the Lua script")->excludes(report);
     command->footer(
         "The sampling time comes from the column --time, or from the column with a name (t, time_ms, ...) or unit of "
         "time. The\n"
@@ -121,13 +121,13 @@ void add_identify(CLI::App& app, Action& action) {
         "interpolated. dynlab prints the summary; the report also contains figures.\n"
         "A message such as identify.lua:35 refers to line 35 of the output of --script.\n"
         "Example:  dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate second.csv");
-    command->callback([words, &action] {
+    command->callback([args, &action] {
         try {
-            words->request.validate();
+            args->request.validate();
         } catch (const InvalidArgument& error) {
             throw CLI::ValidationError("identify", error.what());
         }
-        action = [words] { return identify(*words); };
+        action = [args] { return identify(*args); };
     });
 }
 

@@ -17,13 +17,13 @@ struct InspectArguments {
     bool no_picture = false;
 };
 
-int inspect(const InspectArguments& words) {
-    const DataLook seen = look_at_data(words.data, words.import);
+int inspect(const InspectArguments& args) {
+    const DataSummary seen = summarize_data(args.data, args.import);
     std::fwrite(seen.text.data(), 1, seen.text.size(), stdout);
     std::fflush(stdout);
-    if (!seen.figure || words.no_picture) return kDone;
+    if (!seen.figure || args.no_picture) return kDone;
     const std::filesystem::path file =
-        words.picture.empty() ? std::filesystem::path(words.data).stem().string() + "_look.pdf" : words.picture;
+        args.picture.empty() ? std::filesystem::path(args.data).stem().string() + "_look.pdf" : args.picture;
     GnuplotRenderer renderer;
     renderer.draw(*seen.figure, file, figure_format(file));
     renderer.finish();
@@ -34,41 +34,41 @@ int inspect(const InspectArguments& words) {
 }  // namespace
 
 void add_inspect(CLI::App& app, Action& action) {
-    auto words = std::make_shared<InspectArguments>();
+    auto args = std::make_shared<InspectArguments>();
     CLI::App* command = app.add_subcommand("inspect", "Inspect a data file: columns, units, sampling, gaps, a picture");
     command
-        ->add_option("DATA", words->data,
+        ->add_option("DATA", args->data,
                      ".mat file, table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or name of a data set")
         ->required();
-    auto* picture = command->add_option("-o,--output-file", words->picture,
+    auto* picture = command->add_option("-o,--output-file", args->picture,
                                         "Picture to make (.pdf, .svg or .png). Default: DATA_look.pdf.");
     picture->type_name("FILE");
-    command->add_flag("--no-picture", words->no_picture, "Print the text without a picture")->excludes(picture);
-    command->add_option("--skip", words->import.skip, "Number of lines to skip before the table")->type_name("N");
-    command->add_option("--delimiter", words->delimiter, "Separator of the cells; \" \" for blanks and tabs")
+    command->add_flag("--no-picture", args->no_picture, "Print the text without a picture")->excludes(picture);
+    command->add_option("--skip", args->import.skip, "Number of lines to skip before the table")->type_name("N");
+    command->add_option("--delimiter", args->delimiter, "Separator of the cells; \" \" for blanks and tabs")
         ->type_name("CHARACTER");
-    command->add_option("--time", words->import.time, "Name of the time column")->type_name("NAME");
+    command->add_option("--time", args->import.time, "Name of the time column")->type_name("NAME");
     command
-        ->add_option("--time-unit", words->import.time_unit,
+        ->add_option("--time-unit", args->import.time_unit,
                      "Unit of the time: s, ms, us, min, h, days; dd/mm/yyyy or mm/dd/yyyy")
         ->type_name("UNIT");
-    command->add_option("--sheet", words->import.sheet, "Name of a workbook's sheet. Default: the first sheet.")
+    command->add_option("--sheet", args->import.sheet, "Name of a workbook's sheet. Default: the first sheet.")
         ->type_name("NAME");
     command->footer(
         "Assumptions of dynlab are listed below the first line. load in a script reads the file in the same way; its "
         "options\n"
         "skip, delimiter, sheet, time, names and units correct wrong assumptions.\n"
         "Example:  dynlab inspect record.csv -o record.png");
-    command->callback([words, &action] {
-        if (words->delimiter.size() > 1)
-            throw CLI::ValidationError("--delimiter", "expected one character, not '" + words->delimiter + "'");
-        if (!words->delimiter.empty()) words->import.delimiter = words->delimiter.front();
+    command->callback([args, &action] {
+        if (args->delimiter.size() > 1)
+            throw CLI::ValidationError("--delimiter", "expected one character, not '" + args->delimiter + "'");
+        if (!args->delimiter.empty()) args->import.delimiter = args->delimiter.front();
         try {
-            if (!words->picture.empty()) figure_format(words->picture);
+            if (!args->picture.empty()) figure_format(args->picture);
         } catch (const InvalidArgument& error) {
             throw CLI::ValidationError("--output-file", error.what());
         }
-        action = [words] { return inspect(*words); };
+        action = [args] { return inspect(*args); };
     });
 }
 

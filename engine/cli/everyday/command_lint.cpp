@@ -39,19 +39,19 @@ std::vector<std::string> names_in(const std::string& file, const CheckNames& che
 }
 
 /// Where editors find it; in a notebook, where people do.
-std::string finding_place(const LintFinding& found, const std::string& file, const std::string& source) {
+std::string finding_place(const LintIssue& found, const std::string& file, const std::string& source) {
     const std::string cell = is_notebook(file) ? message_text(place_in_notebook(source, found.line), user()) : "";
     return cell.empty() ? fmt::format("{}:{}:{}", file, found.line, found.column) : fmt::format("{}, {}", file, cell);
 }
 
-int lint(const LintArguments& words, const CheckNames& check_names) {
+int lint(const LintArguments& args, const CheckNames& check_names) {
     nlohmann::json all = nlohmann::json::array();
     std::string text;
-    for (const std::string& given : words.files) {
+    for (const std::string& given : args.files) {
         const std::string file = fs::is_directory(given) ? (fs::path(given) / "analysis.lua").string() : given;
         const std::string source = text_of(file);
         speak(language_of_script(source));
-        for (const LintFinding& found : lint_script(source, file, names_in(file, check_names))) {
+        for (const LintIssue& found : lint_script(source, file, names_in(file, check_names))) {
             all.push_back({{"file", file},
                            {"line", found.line},
                            {"column", found.column},
@@ -60,7 +60,7 @@ int lint(const LintArguments& words, const CheckNames& check_names) {
             text += fmt::format("{}: {}\n", finding_place(found, file, source), message_text(found.message, user()));
         }
     }
-    if (words.json)
+    if (args.json)
         std::cout << nlohmann::json{{"findings", all}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
                   << '\n';
     else
@@ -81,22 +81,22 @@ std::string complaint_about(const std::string& given) {
 }  // namespace
 
 void add_lint(CLI::App& app, Action& action, const CheckNames& check_names) {
-    auto words = std::make_shared<LintArguments>();
+    auto args = std::make_shared<LintArguments>();
     CLI::App* command = app.add_subcommand("lint", "Find errors in scripts without running them");
     command
-        ->add_option("FILE", words->files, "Scripts, notebooks, folders with an analysis.lua, or - for standard input")
+        ->add_option("FILE", args->files, "Scripts, notebooks, folders with an analysis.lua, or - for standard input")
         ->required()
         ->check(CLI::Validator([](std::string& given) { return complaint_about(given); }, "", "file"));
-    command->add_flag("--json", words->json, "Print {findings: [{file, line, column, kind, message}]}");
+    command->add_flag("--json", args->json, "Print {findings: [{file, line, column, kind, message}]}");
     command->footer(
         "The command reports text that Lua cannot read, undefined names, unknown options of functions, and answers "
         "that the\n"
         "header does not declare or that are never submitted, each as FILE:LINE:COLUMN: message.\n"
         "Example:  dynlab lint analysis.lua\n"
         "Exit codes: 0 no errors, 1 errors were found, 2 wrong usage.");
-    command->callback([words, check_names, &action] {
-        for (const std::string& file : words->files) expect_script(file, "lint");
-        action = [words, check_names] { return lint(*words, check_names); };
+    command->callback([args, check_names, &action] {
+        for (const std::string& file : args->files) expect_script(file, "lint");
+        action = [args, check_names] { return lint(*args, check_names); };
     });
 }
 

@@ -8,7 +8,7 @@
 namespace dynlab::inline cli {
 namespace {
 
-constexpr std::size_t kMostBytes = 64u << 20;  // of a message
+constexpr std::size_t kMaxByteCount = 64u << 20;  // of a message
 
 /// The next message behind its header; nothing at the end of the input or for a header that is none.
 std::optional<std::string> next_message(std::istream& input) {
@@ -17,7 +17,7 @@ std::optional<std::string> next_message(std::istream& input) {
     for (std::string line; std::getline(input, line);) {
         line = trimmed(line);
         if (line.empty()) {
-            if (length == 0 || length > kMostBytes) return std::nullopt;
+            if (length == 0 || length > kMaxByteCount) return std::nullopt;
             std::string message(length, '\0');
             return input.read(message.data(), static_cast<std::streamsize>(length)) ? std::optional(message)
                                                                                     : std::nullopt;

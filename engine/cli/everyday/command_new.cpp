@@ -36,55 +36,55 @@ int make_lesson(const std::string& folder) {
     return kDone;
 }
 
-int make_new(const NewArguments& words) {
-    const std::string folder = shell_word(words.folder);
-    if (words.lesson == "lesson") return make_lesson(words.folder);
-    if (words.lesson == "editor") return make_editor_files(words.folder);
-    if (words.lesson == "review") {
-        make_review_folder(words.folder, words.language);
+int make_new(const NewArguments& args) {
+    const std::string folder = shell_word(args.folder);
+    if (args.lesson == "lesson") return make_lesson(args.folder);
+    if (args.lesson == "editor") return make_editor_files(args.folder);
+    if (args.lesson == "review") {
+        make_review_folder(args.folder, args.language);
         say(
             Message("{}: report.md contains the five questions, analysis.lua the scores.\nNext:  dynlab report {}    "
                     "and    dynlab check {}",
-                    words.folder, folder, folder));
+                    args.folder, folder, folder));
         return kDone;
     }
-    const Lesson lesson = find_lesson(words.lesson);
+    const Lesson lesson = find_lesson(args.lesson);
     {
         ActivityLine activity;
-        if (words.group_seed)
+        if (args.group_seed)
             activity.begin_step(message_text(Message("finding the data that the lesson loads"), user()));
-        make_student_copy(lesson, words.folder, words.group_seed, words.language, write_editor_files);
-        note_made_folder(words.folder);
+        make_student_copy(lesson, args.folder, args.group_seed, args.language, write_editor_files);
+        note_made_folder(args.folder);
     }
     say(
         Message("{}: edit analysis.lua for your analysis and report.md for your text.\nTry:  dynlab run {}    then    "
                 "dynlab report {}",
-                words.folder, folder, folder));
+                args.folder, folder, folder));
     return kDone;
 }
 
 }  // namespace
 
 void add_new(CLI::App& app, Action& action) {
-    auto words = std::make_shared<NewArguments>();
+    auto args = std::make_shared<NewArguments>();
     CLI::App* command =
         app.add_subcommand("new", "Make your own copy of a lesson, without its solutions, or a folder for a review");
-    command->add_option("LESSON", words->lesson, "Number, name or folder of the lesson; or review, lesson, or editor")
+    command->add_option("LESSON", args->lesson, "Number, name or folder of the lesson; or review, lesson, or editor")
         ->required();
-    command->add_option("DIR", words->folder, "Folder to make")->required();
+    command->add_option("DIR", args->folder, "Folder to make")->required();
     command
-        ->add_option("--group-seed", words->group_seed,
+        ->add_option("--group-seed", args->group_seed,
                      "Seed of the group's own data: another unit of each simulated plant, other noise")
         ->type_name("N")
         ->check(CLI::Range(1u, 4294967295u));
-    add_language(*command, words->language, "Language of the report. Default: the lesson's language.");
+    add_language(*command, args->language, "Language of the report. Default: the lesson's language.");
     command->footer(
         "Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr\n"
         "dynlab new lesson DIR makes a small lesson with checks, for you to change: see dynlab help guide-own-course.\n"
         "dynlab new editor DIR adds files for editors to an existing folder: .luarc.json with all functions "
         "(completion,\n"
         "signatures), tasks for VS Code, .editorconfig. A student's copy contains them.");
-    command->callback([words, &action] { action = [words] { return make_new(*words); }; });
+    command->callback([args, &action] { action = [args] { return make_new(*args); }; });
 }
 
 }  // namespace dynlab::inline cli

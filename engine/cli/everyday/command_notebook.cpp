@@ -21,11 +21,10 @@ struct NotebookArguments {
     bool run = false, force = false;
 };
 
-void write(const NotebookArguments& words, const char* ending, const std::string& content) {
-    const fs::path file =
-        words.output.empty() ? fs::path(words.file).replace_extension(ending) : fs::path(words.output);
+void write(const NotebookArguments& args, const char* ending, const std::string& content) {
+    const fs::path file = args.output.empty() ? fs::path(args.file).replace_extension(ending) : fs::path(args.output);
     WrittenFiles written(state_file("written"),
-                         words.force ? WrittenFiles::Others::kReplaced : WrittenFiles::Others::kKept);
+                         args.force ? WrittenFiles::Others::kReplaced : WrittenFiles::Others::kKept);
     const fs::path folder = fs::absolute(file).parent_path();
     if (fs::exists(file) && read_file(file) == content) {
         say(Message("{} is up to date", file.string()));
@@ -37,7 +36,7 @@ void write(const NotebookArguments& words, const char* ending, const std::string
 }
 
 /// The notebook with what a run of the script prints and draws. Returns the exit code.
-int write_with_outputs(const NotebookArguments& words, const PercentScript& script) {
+int write_with_outputs(const NotebookArguments& args, const PercentScript& script) {
     const Cache cache;
     CallCache calls(cache);
     WrittenFiles written(state_file("written"));
@@ -51,44 +50,44 @@ int write_with_outputs(const NotebookArguments& words, const PercentScript& scri
     std::map<std::string, std::string> figures;
     for (const auto& [name, figure] : record.figures)
         figures[name] = figure_bundle(*figure.figure, renderer, Reader{catalog_of(script.header.language)});
-    write(words, ".ipynb", notebook_of(script, &record, figures));
+    write(args, ".ipynb", notebook_of(script, &record, figures));
     if (!record.error) return kDone;
     complain(error_message(*record.error, script));
     return kFailed;
 }
 
-int convert(const NotebookArguments& words) {
-    speak(language_of_work(words.file));
-    if (is_notebook(words.file)) {
-        const NotebookScript script = read_notebook(words.file);
-        parse_percent_script(script.source, words.file);  // throws where the cells do not make a script
+int convert(const NotebookArguments& args) {
+    speak(language_of_work(args.file));
+    if (is_notebook(args.file)) {
+        const NotebookScript script = read_notebook(args.file);
+        parse_percent_script(script.source, args.file);  // throws where the cells do not make a script
         for (const Message& loss : script.losses) note(loss);
-        write(words, ".lua", script.source);
+        write(args, ".lua", script.source);
         return kDone;
     }
-    const PercentScript script = read_percent_script(words.file);
-    if (words.run) return write_with_outputs(words, script);
-    write(words, ".ipynb", notebook_of(script));
+    const PercentScript script = read_percent_script(args.file);
+    if (args.run) return write_with_outputs(args, script);
+    write(args, ".ipynb", notebook_of(script));
     return kDone;
 }
 
 }  // namespace
 
 void add_notebook(CLI::App& app, Action& action) {
-    auto words = std::make_shared<NotebookArguments>();
+    auto args = std::make_shared<NotebookArguments>();
     CLI::App* command =
         app.add_subcommand("notebook", "Convert a script to a Jupyter notebook, or a notebook to a script");
-    command->add_option("FILE.lua|FILE.ipynb", words->file, "Script, or notebook in Lua")->required();
-    command->add_option("-o", words->output, "File to make. Default: in the same folder, with the other extension.")
+    command->add_option("FILE.lua|FILE.ipynb", args->file, "Script, or notebook in Lua")->required();
+    command->add_option("-o", args->output, "File to make. Default: in the same folder, with the other extension.")
         ->type_name("FILE");
-    command->add_flag("--run", words->run, "Run the script, and add its output and figures to the notebook");
-    command->add_flag("--force", words->force, "Replace a file that dynlab did not write, or that was changed");
+    command->add_flag("--run", args->run, "Run the script, and add its output and figures to the notebook");
+    command->add_flag("--force", args->force, "Replace a file that dynlab did not write, or that was changed");
     command->footer(
         "An unchanged notebook becomes the same script again, byte for byte. Jupyter runs the notebook with the kernel "
         "that\n"
         "dynlab kernel install registers; see dynlab help guide-notebook.\n"
         "Examples:  dynlab notebook my-crane/analysis.lua     dynlab notebook analysis.ipynb");
-    command->callback([words, &action] { action = [words] { return convert(*words); }; });
+    command->callback([args, &action] { action = [args] { return convert(*args); }; });
 }
 
 }  // namespace dynlab::inline cli

@@ -90,31 +90,31 @@ fs::path figures_folder(const fs::path& script) {
     return (folder_of(script) / (script.stem().string() + "_out")).lexically_normal();
 }
 
-int run_and_show(const RunArguments& words, CallsInParts* parts) {
-    const bool from_file = !words.file.empty();
+int run_and_show(const RunArguments& args, CallsInParts* parts) {
+    const bool from_file = !args.file.empty();
     RunRequest request;
-    const fs::path file = from_file ? meant_script(words.file) : fs::path();
-    request.script = from_file ? read_script_or_notebook(file) : parse_percent_script(words.code, "command line");
-    request.seed = words.seed.value();
-    request.slider_values = words.sliders.values();
+    const fs::path file = from_file ? meant_script(args.file) : fs::path();
+    request.script = from_file ? read_script_or_notebook(file) : parse_percent_script(args.code, "command line");
+    request.seed = args.seed.value();
+    request.slider_values = args.sliders.values();
     const fs::path beside = from_file ? folder_of(file) : fs::path(".");
-    const fs::path out = words.out.empty() ? figures_folder(file) : fs::path(words.out);
-    request.out_folder = words.out.empty() ? beside : out;
-    if (!words.out.empty()) fs::create_directories(out);
+    const fs::path out = args.out.empty() ? figures_folder(file) : fs::path(args.out);
+    request.out_folder = args.out.empty() ? beside : out;
+    if (!args.out.empty()) fs::create_directories(out);
 
     const Cache cache;
     CallCache calls(cache);
     WrittenFiles written(state_file("written"),
-                         words.force ? WrittenFiles::Others::kReplaced : WrittenFiles::Others::kKept);
+                         args.force ? WrittenFiles::Others::kReplaced : WrittenFiles::Others::kKept);
     GnuplotRenderer renderer(&cache);
     if (parts == nullptr) request.call_cache = &calls;
     request.parts = parts;
     request.written = &written;
     RunRecord record = run_showing_activity(request, renderer);
-    if (words.out.empty()) remove_old_figures(out);  // a folder that was named is somebody's
+    if (args.out.empty()) remove_old_figures(out);  // a folder that was named is somebody's
     save_figures(record, renderer, out, request.script.header.language);
-    if (words.gnuplot) save_gnuplot_files(record, request.script.header.language);
-    if (!words.out.empty()) write_file_atomically(out / "record.json", to_json(record));
+    if (args.gnuplot) save_gnuplot_files(record, request.script.header.language);
+    if (!args.out.empty()) write_file_atomically(out / "record.json", to_json(record));
     show_reported(request.script, record);
     if (!record.error) {
         if (const std::string missing = missing_answers(request.script, record); !missing.empty())
@@ -126,22 +126,22 @@ int run_and_show(const RunArguments& words, CallsInParts* parts) {
 }
 
 void add_run(CLI::App& app, Action& action, const FigureView& view) {
-    auto words = std::make_shared<RunArguments>();
+    auto args = std::make_shared<RunArguments>();
     CLI::App* command = app.add_subcommand("run", "Run a Lua script, or code from the command line");
-    auto* file = command->add_option("FILE", words->file, "Script or notebook, or folder with an analysis.lua");
-    auto* code = command->add_option("-e", words->code, "Code to run instead of a file")->type_name("CODE");
+    auto* file = command->add_option("FILE", args->file, "Script or notebook, or folder with an analysis.lua");
+    auto* code = command->add_option("-e", args->code, "Code to run instead of a file")->type_name("CODE");
     file->excludes(code);
-    command->add_flag("-i,--interactive", words->interactive, "Open the prompt afterwards, with the script's variables")
+    command->add_flag("-i,--interactive", args->interactive, "Open the prompt afterwards, with the script's variables")
         ->needs(file);
-    command->add_flag("--view", words->view, "Open the prompt afterwards, and show the figures in the browser")
+    command->add_flag("--view", args->view, "Open the prompt afterwards, and show the figures in the browser")
         ->needs(file);
-    command->add_option("--out", words->out, "Folder for figures, saved files and the run results (record.json)")
+    command->add_option("--out", args->out, "Folder for figures, saved files and the run results (record.json)")
         ->type_name("DIR");
-    command->add_flag("--gnuplot", words->gnuplot, "Write NAME.gp next to each figure, for `gnuplot NAME.gp`");
+    command->add_flag("--gnuplot", args->gnuplot, "Write NAME.gp next to each figure, for `gnuplot NAME.gp`");
     CLI::Option* force =
-        command->add_flag("--force", words->force, "Let the script replace files that dynlab did not write");
-    words->seed.add_to(*command);
-    words->sliders.add_to(*command);
+        command->add_flag("--force", args->force, "Let the script replace files that dynlab did not write");
+    args->seed.add_to(*command);
+    args->sliders.add_to(*command);
     for (CLI::Option* option : {force, command->get_option("--set")})
         option->excludes(command->get_option("--interactive"))->excludes(command->get_option("--view"));
     command->footer(
@@ -153,14 +153,14 @@ void add_run(CLI::App& app, Action& action, const FigureView& view) {
         "and\n"
         "tables, and lists the entries that the text of the report does not show.\n"
         "Example:  dynlab run -e 's = tf(\"s\") step(2/(s^2 + s + 1))'");
-    command->callback([words, view, &action] {
-        if (words->file.empty() && words->code.empty()) {
+    command->callback([args, view, &action] {
+        if (args->file.empty() && args->code.empty()) {
             throw CLI::RequiredError("a script FILE or -e CODE");
         }
-        expect_script(words->file, "run");
-        action = [words, view] {
-            if (words->view) return open_prompt(words->file, view());
-            return words->interactive ? open_prompt(words->file, nullptr) : run_and_show(*words);
+        expect_script(args->file, "run");
+        action = [args, view] {
+            if (args->view) return open_prompt(args->file, view());
+            return args->interactive ? open_prompt(args->file, nullptr) : run_and_show(*args);
         };
     });
 }

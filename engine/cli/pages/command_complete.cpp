@@ -25,7 +25,7 @@ std::vector<Suggestion> names_of(const std::string& place) {
     } else if (place == "PAGE") {
         std::map<std::string, std::string> pages;
         for (const HelpPage& page : help_pages()) pages[std::string(page.name)] = "guide";
-        for (const FunctionEntry& entry : catalogue_of_functions()) pages[entry.name] = entry.summary;
+        for (const FunctionEntry& entry : catalog_of_functions()) pages[entry.name] = entry.summary;
         for (const auto& [name, about] : pages) names.push_back({name, about});
     }
     return names;

@@ -8,20 +8,20 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct OfficeWords {
+struct CoursePageArgs {
     OfficeOptions options;
     bool no_browser = false;
 };
 
-int show_office(OfficeWords words) {
+int show_office(CoursePageArgs args) {
     DesktopBrowser browser;
-    words.options.opened = [&](const std::string& address, Visit visit) {
+    args.options.opened = [&](const std::string& address, Visit visit) {
         std::cout << address << "\n(Ctrl-C ends it)" << std::endl;
-        if (visit != Visit::kLate && !words.no_browser) browser.open(address);
+        if (visit != Visit::kLate && !args.no_browser) browser.open(address);
     };
     try {
         const SlowEnding commands_are_finished;
-        serve_office(words.options);
+        serve_office(args.options);
     } catch (const Interrupted&) {
         std::cout << std::endl;
     }
@@ -31,11 +31,11 @@ int show_office(OfficeWords words) {
 }  // namespace
 
 void add_course_page(CLI::App& course, CourseArguments& where, Action& action) {
-    auto words = std::make_shared<OfficeWords>();
+    auto args = std::make_shared<CoursePageArgs>();
     CLI::App* command = course.add_subcommand("page", "Mark answers and manage the course in the browser");
-    command->add_option("--port", words->options.port, "Port of the page. Default: any free port.")
+    command->add_option("--port", args->options.port, "Port of the page. Default: any free port.")
         ->check(CLI::Range(1, 65535));
-    command->add_flag("--no-browser", words->no_browser, "Print the address and open no browser");
+    command->add_flag("--no-browser", args->no_browser, "Print the address and open no browser");
     command->footer(
         "Five views: Marking (all answers to one question, without names, by keyboard), Today (what is missing, late,\n"
         "unreadable or blocked), Student, Reviews, Marks. Each action is a dynlab course command: the page shows it "
@@ -43,10 +43,10 @@ void add_course_page(CLI::App& course, CourseArguments& where, Action& action) {
         "it is in the history. You can use commands in a terminal and several windows at the same time.\n"
         "The page writes files for Moodle and Canvas into exports in the course's folder.\n"
         "Example:  dynlab course page");
-    command->callback([&where, words, &action] {
-        action = [&where, words] {
-            words->options.course = where.folder;
-            return show_office(*words);
+    command->callback([&where, args, &action] {
+        action = [&where, args] {
+            args->options.course = where.folder;
+            return show_office(*args);
         };
     });
 }

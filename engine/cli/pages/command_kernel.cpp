@@ -12,14 +12,14 @@ struct KernelArguments {
     std::string prefix, connection;
 };
 
-int install_it(const KernelArguments& words) {
-    std::cout << install_kernel(kernels_folder(words.prefix), running_program()).string()
+int install_it(const KernelArguments& args) {
+    std::cout << install_kernel(kernels_folder(args.prefix), running_program()).string()
               << "\nNext: run jupyter notebook, and select New, dynlab (Lua).\n";
     return kDone;
 }
 
-int remove_it(const KernelArguments& words) {
-    const auto folder = kernels_folder(words.prefix);
+int remove_it(const KernelArguments& args) {
+    const auto folder = kernels_folder(args.prefix);
     if (remove_kernel(folder)) return kDone;
     std::cerr << "dynlab: no kernel of dynlab in " << folder.string() << '\n';
     return kFailed;
@@ -28,23 +28,23 @@ int remove_it(const KernelArguments& words) {
 }  // namespace
 
 void add_kernel(CLI::App& app, Action& action) {
-    auto words = std::make_shared<KernelArguments>();
+    auto args = std::make_shared<KernelArguments>();
     CLI::App* command = app.add_subcommand("kernel", "Manage the Jupyter kernel of dynlab");
     command->require_subcommand(1);
     const auto add_one = [&](const char* name, const char* what, int (*work)(const KernelArguments&)) {
         CLI::App* one = command->add_subcommand(name, what);
-        one->add_option("--prefix", words->prefix,
+        one->add_option("--prefix", args->prefix,
                         "Folder to install to, such as /usr/local for all users of the machine")
             ->type_name("DIR");
-        one->callback([words, work, &action] { action = [words, work] { return work(*words); }; });
+        one->callback([args, work, &action] { action = [args, work] { return work(*args); }; });
     };
     add_one("install", "Register the kernel with Jupyter", install_it);
     add_one("remove", "Remove the kernel from Jupyter", remove_it);
     CLI::App* run = command->add_subcommand("run", "Run the kernel (called by Jupyter)");
-    run->add_option("FILE", words->connection, "Connection file written by Jupyter")->required();
-    run->callback([words, &action] {
-        action = [words] {
-            serve_kernel(words->connection, DYNLAB_VERSION);
+    run->add_option("FILE", args->connection, "Connection file written by Jupyter")->required();
+    run->callback([args, &action] {
+        action = [args] {
+            serve_kernel(args->connection, DYNLAB_VERSION);
             return int(kDone);
         };
     });

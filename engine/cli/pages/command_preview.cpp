@@ -10,21 +10,21 @@
 namespace dynlab::inline cli {
 namespace {
 
-struct PreviewWords {
+struct PreviewArgs {
     PreviewOptions options;
     bool no_browser = false;
 };
 
-int show_preview(PreviewWords words) {
+int show_preview(PreviewArgs args) {
     DesktopBrowser browser;
-    words.options.opened = [&](const std::string& address, Visit visit) {
+    args.options.opened = [&](const std::string& address, Visit visit) {
         std::cout << address << (visit == Visit::kElsewhere ? "\n(the document is already open)" : "\n(Ctrl-C to stop)")
                   << std::endl;
-        if (visit != Visit::kLate && !words.no_browser) browser.open(address);
+        if (visit != Visit::kLate && !args.no_browser) browser.open(address);
     };
     try {
         const SlowEnding session_is_kept;
-        preview(words.options);
+        preview(args.options);
     } catch (const Interrupted&) {
         std::cout << std::endl;
     }
@@ -34,23 +34,23 @@ int show_preview(PreviewWords words) {
 }  // namespace
 
 void add_preview(CLI::App& app, Action& action) {
-    auto words = std::make_shared<PreviewWords>();
+    auto args = std::make_shared<PreviewArgs>();
     CLI::App* command =
         app.add_subcommand("preview", "Show a document in the browser; the page follows every change of its files");
     command
-        ->add_option("LESSON|FOLDER|FILE.lua", words->options.document,
+        ->add_option("LESSON|FOLDER|FILE.lua", args->options.document,
                      "Script, folder with analysis.lua and report.md, or lesson")
         ->required();
-    command->add_option("--port", words->options.port, "Port of the page. Default: a free port.")
+    command->add_option("--port", args->options.port, "Port of the page. Default: a free port.")
         ->check(CLI::Range(1, 65535));
-    command->add_flag("--edit", words->options.edit, "Show an editor for the script and the text next to the page");
-    command->add_flag("--no-browser", words->no_browser, "Print the address without opening the browser");
-    command->add_flag("--run", words->options.run_at_once,
+    command->add_flag("--edit", args->options.edit, "Show an editor for the script and the text next to the page");
+    command->add_flag("--no-browser", args->no_browser, "Print the address without opening the browser");
+    command->add_flag("--run", args->options.run_at_once,
                       "Allow the scripts of this folder to run without asking, now and later");
     command->footer("Examples:  dynlab preview my-work     dynlab preview my-work --edit     dynlab preview 02");
-    command->callback([words, &action] {
-        expect_script(words->options.document, "preview");
-        action = [words] { return show_preview(*words); };
+    command->callback([args, &action] {
+        expect_script(args->options.document, "preview");
+        action = [args] { return show_preview(*args); };
     });
 }
 

@@ -17,25 +17,25 @@ void add_site(CLI::App& app, Action& action) {
         std::string engine;
         bool timings = false;
     };
-    auto words = std::make_shared<SiteArguments>();
+    auto args = std::make_shared<SiteArguments>();
     CLI::App* command = app.add_subcommand(
         "site", "Make a static site of the course: lessons with cells that run in the browser, data and help");
-    command->add_option("FOLDER", words->request.folder, "New or empty folder, or an older site, which is replaced")
+    command->add_option("FOLDER", args->request.folder, "New or empty folder, or an older site, which is replaced")
         ->required();
-    command->add_option("--engine", words->engine,
+    command->add_option("--engine", args->engine,
                         "Folder with dynlab.js and dynlab.wasm. Default: the installed engine, or that of "
                         "scripts/build web");
-    command->add_flag("--timings", words->timings, "Print the time of each step");
+    command->add_flag("--timings", args->timings, "Print the time of each step");
     command->footer(
         "Copy FOLDER to any web server (dynlab help guide-site). Without an engine the pages show results, but no "
         "cell\n"
         "runs.\n"
         "\n"
         "Examples:  dynlab site site     python3 -m http.server --directory site");
-    command->callback([words, &action] {
-        action = [words]() -> int {
-            SiteRequest& request = words->request;
-            request.engine = words->engine.empty() ? web_engine() : words->engine;
+    command->callback([args, &action] {
+        action = [args]() -> int {
+            SiteRequest& request = args->request;
+            request.engine = args->engine.empty() ? web_engine() : args->engine;
             request.page_files = page_files_of_site();
             SiteResult made;
             {
@@ -44,7 +44,7 @@ void add_site(CLI::App& app, Action& action) {
                 made = make_site(request);
             }
             for (const auto& [step, seconds] : made.timings)
-                if (words->timings) std::cout << fmt::format("{:6.2f} s  {}\n", seconds, message_text(step, user()));
+                if (args->timings) std::cout << fmt::format("{:6.2f} s  {}\n", seconds, message_text(step, user()));
             const auto first = std::filesystem::absolute(request.folder / "index.html").lexically_normal();
             std::cout << first.string() << '\n';
             say(plural(made.pages, "{} page", "{} pages"));

@@ -17,13 +17,13 @@ int main(int count, char** args) {
     const std::string_view work = count == 3 && std::string_view(args[1]) == "boxed" ? args[2] : "";
     try {
         if (work == RunJob::kWork)
-            do_boxed_job(run_for_grading);
+            do_sandbox_job(run_for_grading);
         else if (work == ChecksJob::kWork)
-            do_boxed_job(try_checks);
+            do_sandbox_job(try_checks);
         else if (work == UnpackJob::kWork)
-            do_boxed_job(unpack_archive);
+            do_sandbox_job(unpack_archive);
         else if (work == DocumentJob::kWork)
-            do_boxed_job(make_boxed_document);
+            do_sandbox_job(make_sandboxed_document);
         else
             return std::fputs("dynlab-boxed is an internal program of dynlab grade\n", stderr), 2;
         return 0;

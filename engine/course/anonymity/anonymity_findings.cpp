@@ -233,7 +233,7 @@ class AnonymitySearch {
                     pages.insert(page);
             unsearchable_.assign(pages.begin(), pages.end());
         } catch (const PdfRefusal& refusal) {
-            trouble_ = refusal.message();
+            error_reason_ = refusal.message();
         }
     }
 
@@ -245,19 +245,19 @@ class AnonymitySearch {
         }
     }
 
-    Findings findings() {
+    Issues findings() {
         std::stable_sort(found_.begin(), found_.end(),
-                         [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
-        Findings result(found_.begin(), found_.begin() + std::min(std::ssize(found_), std::ptrdiff_t{kMaxFindings}));
+                         [](const Issue& a, const Issue& b) { return a.severity < b.severity; });
+        Issues result(found_.begin(), found_.begin() + std::min(std::ssize(found_), std::ptrdiff_t{kMaxFindings}));
         if (found_.size() > kMaxFindings)
             result.push_back({"names-not-listed", Severity::kRule, 0, "",
                               Message("{} further places that name people, or may name people, are not listed here.",
                                       found_.size() - kMaxFindings),
                               Message("Correct the listed places and check the document again.")});
-        if (!trouble_.empty())
+        if (!error_reason_.empty())
             result.push_back(
                 {"not-searched", Severity::kRule, 0, "",
-                 sentences({Message("Links and document information cannot be searched for names."), trouble_}),
+                 sentences({Message("Links and document information cannot be searched for names."), error_reason_}),
                  Message("Make the PDF again, preferably with dynlab report.")});
         if (!words_.empty())
             result.push_back(
@@ -318,20 +318,20 @@ class AnonymitySearch {
     }
 
     const IdentityMatcher& matcher_;
-    Findings found_;
+    Issues found_;
     std::set<std::tuple<std::string, TextPlace, int, NameKind>> known_;
     std::set<std::string> ordinary_;
     std::string words_, author_;
     int first_word_ = 0;
     bool only_beyond_ascii_ = false;
     std::vector<int> unsearchable_;
-    Message trouble_;
+    Message error_reason_;
 };
 
 }  // namespace
 
-Findings anonymity_findings(const fs::path& file, const PdfLayout& layout, const IdentityMatcher& matcher,
-                            const PdfObjectLimits& limits, const PdfLayout* source) {
+Issues anonymity_findings(const fs::path& file, const PdfLayout& layout, const IdentityMatcher& matcher,
+                          const PdfObjectLimits& limits, const PdfLayout* source) {
     AnonymitySearch search(matcher);
     search.search_pages(layout, text_in_content_order(file));
     if (source) search.search_source(*source);

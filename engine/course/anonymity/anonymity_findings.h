@@ -16,7 +16,7 @@ namespace dynlab::inline course {
 /// links and document information cannot be read. `layout` is that of the file; `source`, that of the document it was
 /// printed from, is searched for names in letters beyond ASCII, whose meaning printing may lose. Throws PdfRefusal when
 /// there is no such file.
-Findings anonymity_findings(const std::filesystem::path& file, const PdfLayout& layout, const IdentityMatcher& matcher,
-                            const PdfObjectLimits& limits = {}, const PdfLayout* source = nullptr);
+Issues anonymity_findings(const std::filesystem::path& file, const PdfLayout& layout, const IdentityMatcher& matcher,
+                          const PdfObjectLimits& limits = {}, const PdfLayout* source = nullptr);
 
 }  // namespace dynlab::inline course

@@ -74,7 +74,7 @@ class CopyingAnonymously {
             const PdfLayout source = layout_or_nothing(*original);
             result_.findings = anonymity_findings(printed, read_pdf_layout(printed), setup_.names, {}, &source);
             const bool clean = std::ranges::none_of(
-                result_.findings, [](const Finding& finding) { return finding.severity == Severity::kRule; });
+                result_.findings, [](const Issue& issue) { return issue.severity == Severity::kRule; });
             result_.made = clean || setup_.accept;
             if (!result_.made) return std::move(result_);
             write_file_atomically(copy, bytes);
@@ -82,7 +82,7 @@ class CopyingAnonymously {
         } catch (const PdfRefusal& refusal) {
             refuse_full_disk(work_.path(), 2 * fs::file_size(*original));
             result_.made = false;
-            result_.trouble = refusal.message();
+            result_.error_reason = refusal.message();
         }
         return std::move(result_);
     }
@@ -100,18 +100,18 @@ class CopyingAnonymously {
         try {
             source = stage_submission(given, staged, setup_.isolation, setup_.program).folder;
         } catch (const SubmissionError& error) {
-            result_.trouble = error.message();
+            result_.error_reason = error.message();
         }
         if (source && setup_.rebuild && fs::is_regular_file(*source / "report.md") && makes_report(*source)) {
             result_.rebuilt = true;
-            result_.trouble = Message();
+            result_.error_reason = Message();
             return report();
         }
         const std::optional<fs::path> pdf = pdf_below(staged);
         if (pdf)
-            result_.not_rebuilt = std::exchange(result_.trouble, Message());
-        else if (result_.trouble.empty())
-            result_.trouble = Message("The report cannot be made again, and there is not exactly one PDF.");
+            result_.not_rebuilt = std::exchange(result_.error_reason, Message());
+        else if (result_.error_reason.empty())
+            result_.error_reason = Message("The report cannot be made again, and there is not exactly one PDF.");
         return pdf;
     }
 
@@ -119,21 +119,21 @@ class CopyingAnonymously {
 
     bool makes_report(const fs::path& folder) {
         fs::create_directories(report().parent_path());
-        Box box(setup_.isolation);
-        box.add_document_home(shared_folder() / "data");
-        const fs::path inside = box.add(folder, "/box/submission");
-        const fs::path out = box.add_writable(report().parent_path(), "/box/made");
-        const fs::path program = box.add_program(setup_.program);
-        Box::Limits limits;
+        Sandbox sandbox(setup_.isolation);
+        sandbox.add_document_home(shared_folder() / "data");
+        const fs::path inside = sandbox.add(folder, "/box/submission");
+        const fs::path out = sandbox.add_writable(report().parent_path(), "/box/made");
+        const fs::path program = sandbox.add_program(setup_.program);
+        Sandbox::Limits limits;
         limits.time = setup_.report_time;
         limits.file_bytes = kMaxFile;
-        const ChildResult child =
-            box.run({program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
+        const ChildResult child = sandbox.run(
+            {program.string(), "report", inside.string(), "-o", (out / "report.pdf").string()}, {}, "", limits);
         const bool made = child.exit_code == 0 && fs::is_regular_file(report());
         if (!made) refuse_full_disk(report().parent_path(), kRoomForReport);
         if (made && bytes_below(report().parent_path()) <= kMaxMade) return true;
-        result_.trouble = Message("The report cannot be made again: {}",
-                                  made ? Message("the report is too large") : reason_of(child, inside));
+        result_.error_reason = Message("The report cannot be made again: {}",
+                                       made ? Message("the report is too large") : reason_of(child, inside));
         return false;
     }
 
@@ -142,7 +142,7 @@ class CopyingAnonymously {
         if (child.exit_code == 128 + SIGXFSZ)
             return Message("the script writes a file of more than {} MB", kMaxFile >> 20);
         const std::string first_line = child.error_output.substr(0, child.error_output.find('\n'));
-        return Message::verbatim(without_full_stop(terminal_text(told_outside(first_line, folder))));
+        return Message::verbatim(without_full_stop(terminal_text(without_sandbox_paths(first_line, folder))));
     }
 
     fs::path submission_;

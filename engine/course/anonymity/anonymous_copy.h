@@ -23,9 +23,9 @@ struct AnonymousCopy {
     bool made = false;     ///< the copy was written
     bool rebuilt = false;  ///< from analysis.lua and report.md; else from the submitted PDF
     std::string hash;      ///< SHA-256 of the copy; empty when it was not made
-    Findings findings;     ///< what stopped it (rules) and what the instructor may want to look at (hints)
+    Issues findings;       ///< what stopped it (rules) and what the instructor may want to look at (hints)
     Message not_rebuilt;   ///< one sentence, when the source cannot be made again and the submitted PDF was taken
-    Message trouble;       ///< one sentence, when there was nothing to copy or making it failed
+    Message error_reason;  ///< one sentence, when there was nothing to copy or making it failed
 };
 
 /// Makes `copy` (a PDF) from a submission: a PDF, a pack or other archive (.zip, .tar.gz), or a folder. Where it has

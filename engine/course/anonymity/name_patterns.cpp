@@ -9,12 +9,12 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kShortestName = 4;                            ///< letters of a surname or given name alone
-constexpr std::size_t kShortestGiven = 3;                           ///< of the document's own authors
-constexpr std::size_t kShortestNumber = 6;                          ///< digits
-constexpr std::size_t kShortestMixed = 5;                           ///< letters and digits
-constexpr std::size_t kShortestSearched = 3;                        ///< of a number that is searched for
-constexpr std::size_t kShortestOrdinary = 3, kShortestAccount = 6;  ///< letters
+constexpr std::size_t kMinNameLength = 4;                            ///< letters of a surname or given name alone
+constexpr std::size_t kShortestGiven = 3;                            ///< of the document's own authors
+constexpr std::size_t kMinNumberDigits = 6;                          ///< digits
+constexpr std::size_t kShortestMixed = 5;                            ///< letters and digits
+constexpr std::size_t kMinSearchedDigits = 3;                        ///< of a number that is searched for
+constexpr std::size_t kShortestOrdinary = 3, kMinAccountLength = 6;  ///< letters
 
 /// A word of a name: "O'Brien" has two tokens.
 struct Part {
@@ -98,13 +98,13 @@ NamePattern whole_name(const std::string& who, const std::vector<Part>& parts, b
     pattern.capital = true;
     for (const Part& part : parts) {
         append(pattern, part);
-        pattern.capital = pattern.capital && (part.letters.size() < kShortestName || is_ordinary_word(part.letters));
+        pattern.capital = pattern.capital && (part.letters.size() < kMinNameLength || is_ordinary_word(part.letters));
     }
     return pattern;
 }
 
 bool may_stand_alone(const Part& part) {
-    return part.letters.size() >= kShortestName && !is_ordinary_word(part.letters);
+    return part.letters.size() >= kMinNameLength && !is_ordinary_word(part.letters);
 }
 
 /// The parts of a double name, "Mueller-Luedenscheid", that can stand for it.
@@ -115,7 +115,7 @@ std::vector<Part> halves_of(const Part& surname) {
         const std::size_t end = k < surname.breaks.size() ? surname.breaks[k] : surname.letters.size();
         Part half;
         half.letters = surname.letters.substr(begin, end - begin);
-        if (half.letters.size() >= kShortestName) halves.push_back(std::move(half));
+        if (half.letters.size() >= kMinNameLength) halves.push_back(std::move(half));
         begin = end;
     }
     return halves;
@@ -212,7 +212,7 @@ void add_number(NameKind kind, const std::string& who, const std::string& text, 
         if (token.digits && token.letters.size() == 1) pattern.spaced = false;
     }
     if (!digits || (kind != NameKind::kGroup && !is_searched_number(text))) return;
-    pattern.labelled = pattern.letters.size() < (letters ? kShortestMixed : kShortestNumber);
+    pattern.labelled = pattern.letters.size() < (letters ? kShortestMixed : kMinNumberDigits);
     patterns.push_back(pattern);
 }
 
@@ -260,7 +260,7 @@ void add_group(const std::string& group, bool own, std::vector<NamePattern>& pat
 bool is_searched_number(const std::string& id) {
     std::size_t letters = 0;
     for (const NameToken& token : name_tokens(id)) letters += token.letters.size();
-    return letters >= kShortestSearched;
+    return letters >= kMinSearchedDigits;
 }
 
 Message numbers_too_short(const std::vector<Student>& students) {
@@ -268,7 +268,7 @@ Message numbers_too_short(const std::vector<Student>& students) {
     const auto first = std::ranges::find_if(students, is_short);
     if (first == students.end()) return {};
     return Message("ids with fewer than {} letters and digits are not searched for in documents ({}, such as {})",
-                   kShortestSearched, std::ranges::count_if(students, is_short), first->id);
+                   kMinSearchedDigits, std::ranges::count_if(students, is_short), first->id);
 }
 
 CitedAuthor cited_author(const std::string& name) {
@@ -308,7 +308,7 @@ std::vector<NamePattern> patterns_of(const Student& student, bool own) {
     const std::string account = student.mail.substr(0, student.mail.find('@'));
     if (account != student.id) add_number(NameKind::kMail, who, account, patterns);
     Part letters = part_of(account);
-    if (letters.letters.size() >= kShortestNumber && !is_ordinary_word(letters.letters)) {
+    if (letters.letters.size() >= kMinNumberDigits && !is_ordinary_word(letters.letters)) {
         NamePattern pattern = whole_name(who, {letters});
         pattern.kind = NameKind::kMail;
         pattern.capital = false;
@@ -327,12 +327,12 @@ std::vector<NamePattern> patterns_of(const Student& student, bool own) {
             patterns.push_back(pattern);
         };
         if (may_stand_alone(name.surname)) {
-            add(given.substr(0, 1) + surname, kShortestAccount);
+            add(given.substr(0, 1) + surname, kMinAccountLength);
             if (const std::string turned = surname + given.substr(0, 1); !is_ordinary_word(turned))
-                add(turned, kShortestAccount);
+                add(turned, kMinAccountLength);
         }
         if (const std::string short_name = given + surname.substr(0, 1); own && !is_ordinary_word(short_name))
-            add(short_name, kShortestName);
+            add(short_name, kMinNameLength);
     }
     std::erase_if(patterns, [](const NamePattern& pattern) { return pattern.letters.empty(); });
     return patterns;

@@ -5,7 +5,7 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kShortestJoined = 7;   ///< letters of a whole name written as one word
+constexpr std::size_t kMinJoinedLength = 7;  ///< letters of a whole name written as one word
 constexpr std::size_t kShortestGrouped = 7;  ///< digits of a number that is written in groups
 constexpr std::size_t kLongestPrefix = 3;    ///< letters before an account's short number
 constexpr std::size_t kShortestPlural = 5;   ///< letters of a surname
@@ -87,7 +87,7 @@ class PatternMatcher {
         if (at_break()) return token.gap != Gap::kWide && (pattern_.spaced || token.gap != Gap::kSpace);
         if (token.gap == Gap::kNone || token.gap == Gap::kBreak || is_grouped(token)) return true;
         return token.gap == Gap::kSpace && pattern_.kind == NameKind::kName &&
-               pattern_.letters.size() >= kShortestJoined;
+               pattern_.letters.size() >= kMinJoinedLength;
     }
 
     /// "Lovelaces", "Lovelace's" without its apostrophe.
@@ -109,7 +109,7 @@ class PatternMatcher {
         if (strict_ && begins_part && !token.capital && !token.digits) return false;
         const auto inside = pattern_.breaks.upper_bound(read_);
         const bool joined = inside != pattern_.breaks.end() && *inside < read_ + token.letters.size();
-        if (joined && pattern_.letters.size() < kShortestJoined) return false;
+        if (joined && pattern_.letters.size() < kMinJoinedLength) return false;
         read_ += token.letters.size() - (plural ? 1 : 0);
         ++next_;
         return true;

@@ -109,9 +109,9 @@ TypesetFormulas::TypesetFormulas(const std::vector<std::string>& texts, Isolatio
     std::ranges::sort(formulas);
     formulas.erase(std::unique(formulas.begin(), formulas.end()), formulas.end());
     if (formulas.empty()) return;
-    Box::Limits limits;
+    Sandbox::Limits limits;
     limits.time = {std::chrono::seconds(60)};
-    const ChildResult made = Box(isolation).run(
+    const ChildResult made = Sandbox(isolation).run(
         {"pandoc", "+RTS", "-M1g", "-RTS", "-f", "json", "-t", "html5", "--mathml"}, {}, document_of(formulas), limits);
     if (made.exit_code != 0) return;
     constexpr std::string_view kBegin = "<p>", kEnd = "</p>";

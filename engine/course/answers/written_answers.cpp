@@ -164,7 +164,7 @@ struct ComparedAnswer {
     std::map<std::string, int> counts;
 
     explicit ComparedAnswer(const std::string& answer)
-        : text(in_one_line(answer)), exact(exact_parts_of(answer)), words(words_of_name(answer)) {
+        : text(in_one_line(answer)), exact(exact_parts_of(answer)), words(name_words(answer)) {
         for (const std::string& word : words) ++counts[word];
     }
 };
@@ -270,7 +270,7 @@ std::string folded_title(const std::string& heading) {
     std::string title = heading;
     RE2::Replace(&title, kAttributes, "");
     RE2::Replace(&title, kNumber, "");
-    return joined(words_of_name(title), " ");
+    return joined(name_words(title), " ");
 }
 
 std::vector<AnswerGroup> groups_of_answers(const std::vector<std::string>& answers) {

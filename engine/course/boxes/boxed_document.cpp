@@ -46,7 +46,7 @@ void place_all(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-const fs::path& BoxedDocuments::latex_format(bool french) const {
+const fs::path& SandboxedDocuments::latex_format(bool french) const {
     CompiledLayout& compiled = french ? french_ : english_;
     std::call_once(compiled.made, [&] {
         LatexLayout layout;
@@ -57,7 +57,7 @@ const fs::path& BoxedDocuments::latex_format(bool french) const {
     return compiled.folder.path();
 }
 
-std::optional<fs::path> BoxedDocuments::lualatex_fonts(const std::string& text) const {
+std::optional<fs::path> SandboxedDocuments::lualatex_fonts(const std::string& text) const {
     LatexLayout layout;
     layout.shared_templates = shared_folder() / "report_templates";
     const PrintableCharacters pdflatex = printable_by_pdflatex(layout.shared_templates);
@@ -71,23 +71,23 @@ std::optional<fs::path> BoxedDocuments::lualatex_fonts(const std::string& text) 
     return fonts_.path();
 }
 
-void BoxedDocuments::keep(const std::vector<Message>& notes) const {
+void SandboxedDocuments::keep(const std::vector<Message>& notes) const {
     const std::scoped_lock lock(mutex_);
     for (const Message& note : notes)
         if (std::ranges::none_of(notes_, [&note](const Message& kept) { return kept.id() == note.id(); }))
             notes_.push_back(note);
 }
 
-std::vector<Message> BoxedDocuments::notes() const {
+std::vector<Message> SandboxedDocuments::notes() const {
     const std::scoped_lock lock(mutex_);
     return notes_;
 }
 
-void BoxedDocuments::make(const std::string& template_name, const RunRecord& record, const fs::path& output,
-                          const std::map<std::string, std::string>& metadata) const {
+void SandboxedDocuments::make(const std::string& template_name, const RunRecord& record, const fs::path& output,
+                              const std::map<std::string, std::string>& metadata) const {
     const TemporaryFolder made;
-    Box box(isolation_);
-    box.add_document_home(shared_folder() / "data");
+    Sandbox sandbox(isolation_);
+    sandbox.add_document_home(shared_folder() / "data");
     DocumentJob job;
     job.template_name = template_name;
     job.metadata = metadata;
@@ -95,28 +95,29 @@ void BoxedDocuments::make(const std::string& template_name, const RunRecord& rec
     job.record.texts = record.texts;
     job.record.tables = record.tables;
     for (const auto& [name, figure] : record.figures) {
-        const fs::path file = box.add(figure.file, "/box/figures/" + figure.file.filename().string());
+        const fs::path file = sandbox.add(figure.file, "/box/figures/" + figure.file.filename().string());
         job.record.figures[name] = {{}, figure.caption, file, figure.order};
     }
     if (document_format(output) == DocumentFormat::kPdf) {
         const auto language = metadata.find("lang");
-        job.latex_format = box.add(latex_format(language != metadata.end() && language->second == "fr"), "/box/format");
+        job.latex_format =
+            sandbox.add(latex_format(language != metadata.end() && language->second == "fr"), "/box/format");
         if (const auto fonts = lualatex_fonts(text_of(record, metadata)))
-            job.lualatex_fonts = box.add(*fonts, "/box/fonts");
+            job.lualatex_fonts = sandbox.add(*fonts, "/box/fonts");
     }
-    job.to = box.add_writable(made.path(), "/box/made") / output.filename();
-    const auto result = run_boxed(box, program_, job, {kTimeOfDocument});
+    job.to = sandbox.add_writable(made.path(), "/box/made") / output.filename();
+    const auto result = run_in_sandbox(sandbox, program_, job, {kTimeOfDocument});
     if (!result.output) throw EnvironmentError("{} cannot be made: {}", output.filename().string(), result.reason);
     keep(result.output->notes);
     place_all(made.path(), output.parent_path());
 }
 
-BoxedOutcome make_boxed_document(const DocumentJob& job) {
+SandboxOutcome make_sandboxed_document(const DocumentJob& job) {
     DocumentMaker::Options options;
     options.use_cache = false;
     if (job.latex_format) options.latex_format = *job.latex_format;
     if (job.lualatex_fonts) options.lualatex_fonts = *job.lualatex_fonts;
-    BoxedOutcome outcome;
+    SandboxOutcome outcome;
     options.notes = &outcome.notes;
     DocumentSource source;
     source.template_file = shared_folder() / "report_templates" / job.template_name;

@@ -16,10 +16,10 @@ namespace dynlab::inline course {
 
 /// Makes documents about students' work, each in a box, as their texts come from students. The layout is compiled once,
 /// outside and before any of these texts is read; the boxes only read it. Threads may share one.
-class BoxedDocuments {
+class SandboxedDocuments {
   public:
     /// `program`: dynlab.
-    BoxedDocuments(Isolation isolation, std::filesystem::path program)
+    SandboxedDocuments(Isolation isolation, std::filesystem::path program)
         : isolation_(isolation), program_(std::move(program)) {}
 
     /// Sets report_templates/`template_name`, filled from the record's values, texts, tables and figures (drawn
@@ -50,16 +50,16 @@ class BoxedDocuments {
     mutable std::vector<Message> notes_;
 };
 
-/// What comes of a job whose result is files.
-struct BoxedOutcome {
+/// Outcome of a job that writes files.
+struct SandboxOutcome {
     std::optional<Message> error = {};  ///< a sentence; nothing where all went well
     std::vector<Message> notes = {};
 };
 
-/// A document to be made inside a box; all paths are those in the box.
+/// Job that creates a document inside a sandbox. All paths are paths in the sandbox.
 struct DocumentJob {
     static constexpr char kWork[] = "document";
-    using Result = BoxedOutcome;
+    using Result = SandboxOutcome;
 
     std::string template_name;
     std::map<std::string, std::string> metadata;
@@ -70,6 +70,6 @@ struct DocumentJob {
 };
 
 /// The part of it inside the box.
-BoxedOutcome make_boxed_document(const DocumentJob& job);
+SandboxOutcome make_sandboxed_document(const DocumentJob& job);
 
 }  // namespace dynlab::inline course

@@ -9,7 +9,7 @@ constexpr auto kStartTime = std::chrono::milliseconds(1500);  // and a last call
 
 }  // namespace
 
-ValueLimits boxed_limits(std::uint64_t bytes) {
+ValueLimits sandbox_limits(std::uint64_t bytes) {
     constexpr std::size_t kMemoryOfAByte = 40;  // an empty text in a list
     ValueLimits limits;
     limits.bytes = bytes;
@@ -31,19 +31,20 @@ Message reason_of_end(const ChildResult& child, const TimeLimits& time) {
 }
 
 std::filesystem::path program_for(const std::string& work, const std::filesystem::path& dynlab) {
-    return dynlab.parent_path() / (work == "version" ? kCourseProgram : kBoxedProgram);
+    return dynlab.parent_path() / (work == "version" ? kCourseProgram : kSandboxProgram);
 }
 
-BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
-                                         const std::string& job, const TimeLimits& time, std::uint64_t output_bytes) {
-    const std::filesystem::path inside = box.add_program(program_for(work, program));
-    Box::Limits limits;
+SandboxResult<std::string> run_bytes_in_sandbox(Sandbox& sandbox, const std::filesystem::path& program,
+                                                const std::string& work, const std::string& job, const TimeLimits& time,
+                                                std::uint64_t output_bytes) {
+    const std::filesystem::path inside = sandbox.add_program(program_for(work, program));
+    Sandbox::Limits limits;
     limits.time = time;
     limits.time.processor += kStartTime;
     limits.output_bytes = output_bytes;
     const auto start = std::chrono::steady_clock::now();
-    const ChildResult child = box.run({inside.string(), "boxed", work}, {}, job, limits);
-    BoxedResult<std::string> result;
+    const ChildResult child = sandbox.run({inside.string(), "boxed", work}, {}, job, limits);
+    SandboxResult<std::string> result;
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.reason = reason_of_end(child, time);
     result.waited = child.time_limit() == TimeLimit::kClock;

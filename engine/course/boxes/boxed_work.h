@@ -10,10 +10,10 @@
 
 namespace dynlab::inline course {
 
-/// What came out of a box. A job is a described struct (data_io/values/described.h) that says its work's name, kWork,
-/// and what comes of it, Result, another such; both are CBOR on the pipes.
+/// Result of work in a sandbox. A job is a described struct (data_io/values/described.h) with the name of its work,
+/// kWork, and the type of its result, Result, which is also described. Jobs and results are sent through pipes as CBOR.
 template <class Result>
-struct BoxedResult {
+struct SandboxResult {
     std::optional<Result> output;  ///< what the work returned; nothing when it did not finish
     Message reason;                ///< then: "it used more than 10 s of processor time", "it crashed (signal 11)", ...
     double seconds = 0;            ///< wall clock, box and start included
@@ -24,28 +24,30 @@ struct BoxedResult {
 /// empty where it has.
 Message reason_of_end(const ChildResult& child, const TimeLimits& time);
 
-/// The program beside `dynlab` that does such work: dynlab-boxed, which starts most quickly, or dynlab-course, which
-/// makes versions.
+/// Returns the program that does this work, in the folder of `dynlab`: dynlab-boxed, which starts fastest, or
+/// dynlab-course, which creates versions.
 std::filesystem::path program_for(const std::string& work, const std::filesystem::path& dynlab);
 
-/// The bytes of it, as the box wrote them.
-BoxedResult<std::string> run_boxed_bytes(Box& box, const std::filesystem::path& program, const std::string& work,
-                                         const std::string& job, const TimeLimits& time, std::uint64_t output_bytes);
+/// Runs the work and returns the bytes that the sandbox wrote.
+SandboxResult<std::string> run_bytes_in_sandbox(Sandbox& sandbox, const std::filesystem::path& program,
+                                                const std::string& work, const std::string& job, const TimeLimits& time,
+                                                std::uint64_t output_bytes);
 
-/// Of what is read inside a box and of what comes out of it: texts are made UTF-8.
-ValueLimits boxed_limits(std::uint64_t bytes = Box::Limits{}.output_bytes);
+/// Limits for values that are read inside a sandbox or come from one. Texts are converted to UTF-8.
+ValueLimits sandbox_limits(std::uint64_t bytes = Sandbox::Limits{}.output_bytes);
 
-/// Runs one piece of work, `boxed WORK`, in the box, by the program for it beside `program` (dynlab). Starting it there
-/// comes on top of `time`; its output may have `output_bytes`.
+/// Runs `boxed WORK` in the sandbox with the program for this work (see program_for). The time to start the program is
+/// added to `time`. The output may have `output_bytes`.
 template <class Job>
-BoxedResult<typename Job::Result> run_boxed(Box& box, const std::filesystem::path& program, const Job& job,
-                                            const TimeLimits& time,
-                                            std::uint64_t output_bytes = Box::Limits{}.output_bytes) {
-    const BoxedResult<std::string> child = run_boxed_bytes(box, program, Job::kWork, cbor_of(job), time, output_bytes);
-    BoxedResult<typename Job::Result> result{{}, child.reason, child.seconds, child.waited};
+SandboxResult<typename Job::Result> run_in_sandbox(Sandbox& sandbox, const std::filesystem::path& program,
+                                                   const Job& job, const TimeLimits& time,
+                                                   std::uint64_t output_bytes = Sandbox::Limits{}.output_bytes) {
+    const SandboxResult<std::string> child =
+        run_bytes_in_sandbox(sandbox, program, Job::kWork, cbor_of(job), time, output_bytes);
+    SandboxResult<typename Job::Result> result{{}, child.reason, child.seconds, child.waited};
     if (!child.output) return result;
     try {
-        result.output = from_cbor<typename Job::Result>(*child.output, boxed_limits(output_bytes));
+        result.output = from_cbor<typename Job::Result>(*child.output, sandbox_limits(output_bytes));
     } catch (const ValueError&) {
         result.reason = Message("the result of the run cannot be read");
     }

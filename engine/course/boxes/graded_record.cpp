@@ -4,8 +4,8 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kPrinted = 4000;               // characters that are kept of the end
-constexpr std::size_t kMostGiven = kMostGraded / 2;  // bytes as they are, which escapes can make more
+constexpr std::size_t kPrinted = 4000;                      // characters that are kept of the end
+constexpr std::size_t kMostGiven = kMaxGradedRunBytes / 2;  // bytes as they are, which escapes can make more
 
 std::string end_of_printed(const RunRecord& record, const PercentScript& script) {
     std::string printed;

@@ -94,14 +94,14 @@ GradedRun run_for_grading(const RunJob& job) {
         const auto start = processor_time();
         const StopAtLimit stop(runtime, std::chrono::milliseconds(job.time_ms));
         GradedRun run = graded_run(runtime.run(script), script);
-        if (run.error) run.error = told_outside(*run.error, job.script.parent_path());
+        if (run.error) run.error = without_sandbox_paths(*run.error, job.script.parent_path());
         run.lesson = script.header.lesson;
         run.seconds = std::chrono::duration<double>(processor_time() - start).count();
         return run;
     } catch (const DocumentError& error) {
         GradedRun unread;
         unread.began = false;
-        unread.error = told_outside(error.message(), job.script.parent_path());
+        unread.error = without_sandbox_paths(error.message(), job.script.parent_path());
         return unread;
     }
 }

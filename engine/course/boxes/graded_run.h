@@ -11,9 +11,9 @@
 
 namespace dynlab::inline course {
 
-constexpr std::uint64_t kMostGraded = 4ull << 20;  ///< bytes of a GradedRun outside its box
+constexpr std::uint64_t kMaxGradedRunBytes = 4ull << 20;  ///< bytes of a GradedRun outside its box
 
-/// What the checks may see of a run. A script that cannot be read at all has an error and nothing else.
+/// Results of a run that checks can read. A script that cannot be read has only an error.
 struct GradedRun {
     std::map<std::string, RecordedAnswer> answers;
     std::vector<std::string> figures, values;  ///< their names
@@ -24,8 +24,8 @@ struct GradedRun {
     bool began = true;                         ///< false for a script that cannot be read
 };
 
-/// What they may see of this run of the script. Answers, and names of figures and values, that would need more than
-/// kMostGraded are left out.
+/// Returns the results that checks can read. Answers and names of figures and values that exceed kMaxGradedRunBytes are
+/// omitted.
 GradedRun graded_run(RunRecord&& record, const PercentScript& script);
 
 /// One run of a student's script for grading.
@@ -41,7 +41,7 @@ struct RunJob {
     bool recalls = false;                 ///< long calls, from the cache of its environment: never of a submission
 };
 
-/// Runs the script in this process, which should be in a box and is confined here. The data are those of DYNLAB_HOME.
+/// Runs the script in this process, which must be in a sandbox and is confined here. DYNLAB_HOME names the data.
 GradedRun run_for_grading(const RunJob& job);
 
 }  // namespace dynlab::inline course

@@ -22,6 +22,6 @@ void describe(T& object, V& member) {
     member("latex_format", latex_format), member("lualatex_fonts", lualatex_fonts), member("to", to);
 }
 
-DYNLAB_DESCRIBE(BoxedOutcome, error, notes)
+DYNLAB_DESCRIBE(SandboxOutcome, error, notes)
 
 }  // namespace dynlab::inline course

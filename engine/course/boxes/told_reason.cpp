@@ -29,28 +29,28 @@ Message with_changed_arguments(const Message& message, const Change& change) {
 Message with_changed_text(const Message& message, const Change& change) {
     if (message.empty()) return message;
     Message changed = with_changed_arguments(message, change);
-    std::string wanted = change(message_text(message));
-    return message_text(changed) == wanted ? changed : Message::verbatim(std::move(wanted));
+    std::string requested = change(message_text(message));
+    return message_text(changed) == requested ? changed : Message::verbatim(std::move(requested));
 }
 
-std::string told_outside(const std::string& said, const std::filesystem::path& folder) {
+std::string without_sandbox_paths(const std::string& said, const std::filesystem::path& folder) {
     constexpr std::string_view kProgramSays = "dynlab: ";
-    const std::string told = said.starts_with(kProgramSays) ? said.substr(kProgramSays.size()) : said;
-    return replaced(told, folder.string() + "/", "");
+    const std::string reported = said.starts_with(kProgramSays) ? said.substr(kProgramSays.size()) : said;
+    return replaced(reported, folder.string() + "/", "");
 }
 
-Message told_outside(const Message& said, const std::filesystem::path& folder) {
-    return with_changed_text(said, [&folder](const std::string& text) { return told_outside(text, folder); });
+Message without_sandbox_paths(const Message& said, const std::filesystem::path& folder) {
+    return with_changed_text(said, [&folder](const std::string& text) { return without_sandbox_paths(text, folder); });
 }
 
 Message with_place(const RecordedError& error) {
     return error.line > 0 ? placed({error.file, error.line}, error.message) : error.message;
 }
 
-Message shortened_trouble(const Message& trouble) {
-    constexpr std::size_t kLongest = 2000;
-    return with_changed_text(trouble, [](const std::string& text) {
-        return text.size() > kLongest ? text.substr(0, kLongest) + " ..." : text;
+Message shortened_error(const Message& error_reason) {
+    constexpr std::size_t kMaxLength = 2000;
+    return with_changed_text(error_reason, [](const std::string& text) {
+        return text.size() > kMaxLength ? text.substr(0, kMaxLength) + " ..." : text;
     });
 }
 

@@ -12,16 +12,16 @@ namespace dynlab::inline course {
 /// effect; else the changed text is verbatim.
 Message with_changed_text(const Message& message, const std::function<std::string(const std::string&)>& change);
 
-/// What was said in a box about work that lay in `folder` there, as its author may read it: files by their names in
-/// the work ("analysis.lua:98: ..."), without the program's name in front.
-std::string told_outside(const std::string& said, const std::filesystem::path& folder);
-Message told_outside(const Message& said, const std::filesystem::path& folder);
+/// Converts a message from a sandbox for the author of the work in `folder`: file names are relative to the work
+/// ("analysis.lua:98: ..."), and the name of the program is removed.
+std::string without_sandbox_paths(const std::string& said, const std::filesystem::path& folder);
+Message without_sandbox_paths(const Message& said, const std::filesystem::path& folder);
 
 /// The message of an error with its place: "analysis.lua:98: ...".
 Message with_place(const RecordedError& error);
 
-/// What an error says, cut where it is long.
-Message shortened_trouble(const Message& trouble);
+/// The message of an error, truncated if it is long.
+Message shortened_error(const Message& error_reason);
 
 /// What stands before the full stop of another sentence.
 std::string without_full_stop(std::string text);

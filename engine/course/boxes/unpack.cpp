@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using Archive = std::unique_ptr<archive, int (*)(archive*)>;
 
 constexpr std::size_t kReadBlock = 64u << 10;
-constexpr int kDeepestArchive = 20;
+constexpr int kMaxArchiveDepth = 20;
 
 /// Why an entry of this name must not be in a folder, as a clause; nothing where it may.
 std::optional<Message> objection_to(const fs::path& path) {
@@ -36,7 +36,8 @@ std::optional<Message> objection_to(const fs::path& path) {
     int depth = 0;
     for (const fs::path& part : path) {
         if (part == "..") return outside;
-        if (++depth > kDeepestArchive) return Message("\"{}\" is nested deeper than {} folders", text, kDeepestArchive);
+        if (++depth > kMaxArchiveDepth)
+            return Message("\"{}\" is nested deeper than {} folders", text, kMaxArchiveDepth);
         if (part.native().size() > kLongestName) return Message("\"{}\" has a name that is too long", text);
         for (const unsigned char c : part.native())
             if (c < 0x20 || c == 0x7F) return Message("\"{}\" has a name with control characters", text);

@@ -25,8 +25,8 @@ struct UnpackJob {
     bool keep_times = false;            ///< files keep theirs
 };
 
-/// Unpacks it in this process, which should be in a box and is confined here. Only files and folders come out, below
-/// `to`; rights are not kept. Names become UTF-8, read as platform/text/foreign_text.h tells where they are not.
+/// Unpacks the archive in this process, which must be in a sandbox and is confined here. Only files and folders are
+/// unpacked, below `to` and without their permissions. Names are converted to UTF-8 (see platform/text/foreign_text.h).
 Unpacked unpack_archive(const UnpackJob& job);
 
 }  // namespace dynlab::inline course

@@ -10,7 +10,7 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr double kMostPoints = 1000;
+constexpr double kMaxPointCount = 1000;
 
 /// Those that an instructor's own file can change.
 constexpr std::array kChangedOptions = {
@@ -38,19 +38,19 @@ bool plain_id(const std::string& id) {
 }
 
 /// The option's place in Lua's registry; 0 where it is not given and need not be.
-int kept_option(const Options& options, const char* name, int type, const Message& owner, const Message& wanted,
+int kept_option(const Options& options, const char* name, int type, const Message& owner, const Message& requested,
                 bool needed) {
     lua_State* L = options.call().state();
     const int index = options.push(name);
     if (lua_isnil(L, index) && !needed) return 0;
-    if (lua_type(L, index) != type) throw InvalidArgument("\"{}\" of {} must be {}", name, owner, wanted);
+    if (lua_type(L, index) != type) throw InvalidArgument("\"{}\" of {} must be {}", name, owner, requested);
     lua_pushvalue(L, index);
     return luaL_ref(L, LUA_REGISTRYINDEX);
 }
 
 double points_option(const Options& options, const std::string& id, double fallback) {
     const double points = options.number("points", fallback);
-    if (!(points > 0) || points > kMostPoints)
+    if (!(points > 0) || points > kMaxPointCount)
         throw InvalidArgument("the points of \"{}\" must be a number above 0, at most 1000", id);
     return points;
 }

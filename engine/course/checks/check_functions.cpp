@@ -26,7 +26,7 @@ CheckSession& session_of(const Call& call) {
 }
 
 /// A judgement: {share =, message =}.
-int give_judgement(const Call& call, double share, const Message& message) {
+int give_result(const Call& call, double share, const Message& message) {
     const std::string text = message_text(message);
     session_of(call).said[text] = message;
     return give_table(call, "share", share, "message", text);
@@ -57,24 +57,24 @@ struct Compared {
     explicit Compared(const Call& call) {
         if (call.type(1) == LUA_TNUMBER && call.type(2) == LUA_TNUMBER) {
             given = Vector::Constant(1, lua_tonumber(call.state(), 1));
-            wanted = Vector::Constant(1, lua_tonumber(call.state(), 2));
+            expected = Vector::Constant(1, lua_tonumber(call.state(), 2));
         } else {
             given = call.vector(1, "x");
-            wanted = call.vector(2, "wanted");
+            expected = call.vector(2, "wanted");
         }
     }
 
-    bool comparable() const { return given.size() == wanted.size() && given.allFinite(); }
+    bool comparable() const { return given.size() == expected.size() && given.allFinite(); }
 
     /// The largest, relative to the largest wanted value unless `absolute`; infinite where there is none.
     double distance(bool absolute) const {
         if (!comparable()) return std::numeric_limits<double>::infinity();
-        if (wanted.size() == 0) return 0;
-        const double apart = (given - wanted).cwiseAbs().maxCoeff(), size = wanted.cwiseAbs().maxCoeff();
+        if (expected.size() == 0) return 0;
+        const double apart = (given - expected).cwiseAbs().maxCoeff(), size = expected.cwiseAbs().maxCoeff();
         return absolute || apart == 0 ? apart : apart / size;
     }
 
-    Vector given, wanted;
+    Vector given, expected;
 };
 
 /// Whether this check looks at records that students must not learn anything about: how far away an answer is would
@@ -106,17 +106,16 @@ int near(Call& call) {
     const auto measured = [&](double x) {
         return absolute ? Message("{}", significant(x, 3)) : Message("{} %", significant(100 * x, 3));
     };
-    if (apart <= most) return give_judgement(call, 1, {});
-    if (!absolute && compared.comparable() && compared.wanted.isZero(0))
+    if (apart <= most) return give_result(call, 1, {});
+    if (!absolute && compared.comparable() && compared.expected.isZero(0))
         throw InvalidArgument("a relative tolerance of 0 allows no error: give an absolute tolerance, {abs = ...}");
     if (!std::isfinite(apart))
-        return give_judgement(call, 0, Message("The answer is not a finite number, or has the wrong size."));
+        return give_result(call, 0, Message("The answer is not a finite number, or has the wrong size."));
     if (on_secret_record(call))
-        return give_judgement(call, apart <= half ? 0.5 : 0,
-                              Message("On a data set that you have not seen, the error is too large."));
-    return give_judgement(
-        call, apart <= half ? 0.5 : 0,
-        Message("The error is {}; the largest allowed error is {}.", measured(apart), measured(most)));
+        return give_result(call, apart <= half ? 0.5 : 0,
+                           Message("On a data set that you have not seen, the error is too large."));
+    return give_result(call, apart <= half ? 0.5 : 0,
+                       Message("The error is {}; the largest allowed error is {}.", measured(apart), measured(most)));
 }
 
 int points_between(Call& call) {
@@ -124,19 +123,19 @@ int points_between(Call& call) {
     const double x = call.number(1, "x"), low = call.number(2, "low"), high = call.number(3, "high");
     if (!(low != high)) throw InvalidArgument("low and high must differ");
     const double share = std::isfinite(x) ? std::clamp((x - low) / (high - low), 0.0, 1.0) : 0;
-    if (share == 1) return give_judgement(call, 1, {});
+    if (share == 1) return give_result(call, 1, {});
     if (on_secret_record(call))
-        return give_judgement(call, share,
-                              Message("On a data set that you have not seen, the answer does not earn full points."));
-    return give_judgement(call, share,
-                          Message("Score {}; full points from {}, no points at {}.", significant(x, 3),
-                                  significant(high, 3), significant(low, 3)));
+        return give_result(call, share,
+                           Message("On a data set that you have not seen, the answer does not earn full points."));
+    return give_result(call, share,
+                       Message("Score {}; full points from {}, no points at {}.", significant(x, 3),
+                               significant(high, 3), significant(low, 3)));
 }
 
 /// What a test may return at a stack index: true or false, a share, a judgement.
-Verdict verdict_at(const Call& call, int index) {
+CheckOutcome check_outcome_at(const Call& call, int index) {
     lua_State* L = call.state();
-    Verdict verdict;
+    CheckOutcome verdict;
     switch (lua_type(L, index)) {
         case LUA_TNIL:
         case LUA_TNONE:
@@ -153,7 +152,7 @@ Verdict verdict_at(const Call& call, int index) {
         }
         case LUA_TTABLE:
             lua_getfield(L, index, "share");
-            verdict = verdict_at(call, lua_gettop(L));
+            verdict = check_outcome_at(call, lua_gettop(L));
             lua_getfield(L, index, "message");
             if (lua_type(L, -1) == LUA_TSTRING) verdict.message = message_said(call, lua_tostring(L, -1));
             lua_pop(L, 2);
@@ -170,30 +169,30 @@ int all_of(Call& call) {
     double least = 1;
     std::vector<Message> said;
     for (int i = 1; i <= call.count(); ++i) {
-        const Verdict one = verdict_at(call, i);
+        const CheckOutcome one = check_outcome_at(call, i);
         least = std::min(least, one.share);
         if (!(one.share < 1) || one.message.empty()) continue;
         for (Message& sentence : sentences_of(one.message))
             if (std::ranges::find(said, sentence) == said.end()) said.push_back(std::move(sentence));
     }
-    return give_judgement(call, least, sentences(std::move(said)));
+    return give_result(call, least, sentences(std::move(said)));
 }
 
 int any_of(Call& call) {
-    Verdict best;
+    CheckOutcome best;
     for (int i = 1; i <= call.count(); ++i) {
-        const Verdict one = verdict_at(call, i);
+        const CheckOutcome one = check_outcome_at(call, i);
         if (i == 1 || one.share > best.share) best = one;
     }
-    return give_judgement(call, best.share, best.message);
+    return give_result(call, best.share, best.message);
 }
 
 /// Whether two answers differ by more than rounding: what is computed from another record does.
 int differs(Call& call) {
     call.at_most(2);
     constexpr double kEqualityTolerance = 1e-9;
-    if (Compared(call).distance(false) > kEqualityTolerance) return give_judgement(call, 1, {});
-    return give_judgement(call, 0, Message("The answer is the same for another data set: compute it from the data."));
+    if (Compared(call).distance(false) > kEqualityTolerance) return give_result(call, 1, {});
+    return give_result(call, 0, Message("The answer is the same for another data set: compute it from the data."));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -201,7 +200,7 @@ int differs(Call& call) {
 
 int has(Call& call, const std::vector<std::string>& names, const Message& otherwise) {
     const bool there = std::ranges::find(names, call.text(1, "name")) != names.end();
-    return there ? give_judgement(call, 1, {}) : give_judgement(call, 0, otherwise);
+    return there ? give_result(call, 1, {}) : give_result(call, 0, otherwise);
 }
 
 int has_figure(Call& call) {
@@ -222,13 +221,13 @@ int no_finding(Call& call) {
     for (int i = 1; i <= call.count(); ++i) ids.push_back(call.text(i, "id"));
     static const std::set<std::string> no_document = {"document-fails", "analysis-fails", "analysis-missing",
                                                       "folder-too-large"};
-    for (const Finding& finding : session_of(call).findings) {
-        const bool concerned = no_document.contains(finding.id) || ids.empty()
-                                   ? finding.severity == Severity::kRule
-                                   : std::find(ids.begin(), ids.end(), finding.id) != ids.end();
-        if (concerned) return give_judgement(call, 0, finding.what);
+    for (const Issue& issue : session_of(call).findings) {
+        const bool concerned = no_document.contains(issue.id) || ids.empty()
+                                   ? issue.severity == Severity::kRule
+                                   : std::find(ids.begin(), ids.end(), issue.id) != ids.end();
+        if (concerned) return give_result(call, 0, issue.what);
     }
-    return give_judgement(call, 1, {});
+    return give_result(call, 1, {});
 }
 
 constexpr const char* kArea = "checks";
@@ -281,8 +280,8 @@ void multiply_on_top(lua_State* L, double factor) {
 
 /// Why an answer cannot be had, in words for the student. Of other runs than that on the student's own records nothing
 /// is told that the script chose itself.
-Message answer_trouble(const std::string& name, const std::string& run,
-                       const std::map<std::string, RecordedAnswer>& answers) {
+Message answer_error(const std::string& name, const std::string& run,
+                     const std::map<std::string, RecordedAnswer>& answers) {
     const auto given = answers.find(name);
     if (run != kMainRun && given != answers.end())
         return Message("The answer \"{}\" was submitted in a different form than requested.", name);
@@ -306,10 +305,10 @@ int answer_of(Call& call) {
     lua_State* L = call.state();
     const std::string name = call.text(2, "name"), run = lua_tostring(L, lua_upvalueindex(3));
     CheckSession& session = session_of(call);
-    const auto refuse = [&session](const Message& why) { throw InvalidArgument(session.answer_trouble = why); };
+    const auto refuse = [&session](const Message& why) { throw InvalidArgument(session.answer_error = why); };
     const auto& answers = session.runs[run].answers;
     const auto answer = answers.find(name);
-    if (answer == answers.end() || answer->second.kind == kRefusedAnswer) refuse(answer_trouble(name, run, answers));
+    if (answer == answers.end() || answer->second.kind == kRefusedAnswer) refuse(answer_error(name, run, answers));
     const auto& [kind, text] = answer->second;
     if (kind != "data" && kind != "text" && holds_no_numbers(parsed_json(text)))
         refuse(Message("The answer \"{}\" contains NaN or infinite numbers.", name));
@@ -349,7 +348,7 @@ std::optional<Message> mistake_made(const Call& call, const DeclaredCheck& check
         lua_pushvalue(L, answers);
         lua_pushvalue(L, answers + 1);
         // A mistake that cannot be looked for was not made.
-        const bool made = lua_pcall(L, 2, 1, 0) == LUA_OK && verdict_at(call, lua_gettop(L)).share == 1;
+        const bool made = lua_pcall(L, 2, 1, 0) == LUA_OK && check_outcome_at(call, lua_gettop(L)).share == 1;
         if (made) said = Message::verbatim(lua_tostring(L, -2));
     }
     lua_settop(L, top);
@@ -358,9 +357,9 @@ std::optional<Message> mistake_made(const Call& call, const DeclaredCheck& check
 
 /// On a record that students must not learn anything about, what an error says may quote it, and so may a number in
 /// what the test says: these words are the instructor's.
-void keep_secret(const CheckSession& session, bool ended, Verdict& verdict) {
+void keep_secret(const CheckSession& session, bool ended, CheckOutcome& verdict) {
     const bool has_number = message_text(verdict.message).find_first_of("0123456789") != std::string::npos;
-    if (ended ? !has_number : verdict.message == session.answer_trouble) return;
+    if (ended ? !has_number : verdict.message == session.answer_error) return;
     if (verdict.for_instructor.empty()) verdict.for_instructor = std::move(verdict.message);
     verdict.message = ended ? Message("On a data set that you have not seen, the answer does not earn full points.")
                             : Message(
@@ -374,7 +373,7 @@ int verdict(Call& call) {
     const DeclaredCheck& check = session.checks.at(static_cast<std::size_t>(call.size(1, "number")));
     session.current = &check;
     session.took_hidden = false;
-    session.answer_trouble = Message();
+    session.answer_error = Message();
     const int answers = lua_gettop(L) + 1;
     push_answers(call, kMainRun);
     push_answers(call, check.rerun.empty() ? kMainRun : check.rerun);
@@ -382,9 +381,9 @@ int verdict(Call& call) {
     lua_pushvalue(L, answers);
     lua_pushvalue(L, answers + 1);
     const bool ended = lua_pcall(L, 2, 2, 0) == LUA_OK;
-    Verdict found;
+    CheckOutcome found;
     if (ended) {
-        found = verdict_at(call, answers + 2);
+        found = check_outcome_at(call, answers + 2);
         if (lua_type(L, answers + 3) == LUA_TSTRING && found.share < 1)
             found.message = message_said(call, lua_tostring(L, answers + 3));
     } else {
@@ -393,8 +392,8 @@ int verdict(Call& call) {
             lua_type(L, -1) == LUA_TSTRING ? error_at(L, -1) : PlacedMessage{Message("The check failed.")};
         // Where in the checks it happened is nothing to the student.
         found.message = error.message;
-        if (message_text(found.message) == message_text(session.answer_trouble))
-            found.message = session.answer_trouble;
+        if (message_text(found.message) == message_text(session.answer_error))
+            found.message = session.answer_error;
         else
             found.for_instructor = error.with_place();
     }

@@ -6,8 +6,8 @@
 
 namespace dynlab::inline course {
 
-/// What checks.lua may call besides everything that lessons may, and besides check_record_functions. Their state is the
-/// CheckSession that they are added with.
+/// Functions for checks.lua in addition to those of lessons and to check_record_functions. They use the CheckSession
+/// with which they are added.
 FunctionEntries check_declarations();      ///< check, change_check, drop_check, declare_rig
 FunctionEntries check_functions();         ///< near, points_between, all_of, any_of, differs, has_figure, ...
 FunctionEntries check_source_functions();  ///< source, calls

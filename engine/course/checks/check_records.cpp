@@ -89,14 +89,14 @@ std::pair<std::string, std::uint32_t> specimen_meant(const Call& call, CheckSess
         call.at_most(1);
         note_hidden(session);
         const std::string name = call.text(1, "name");
-        const Specimens& hidden = session.specimens[kHiddenRecords];
+        const PlantVariants& hidden = session.specimens[kHiddenRecords];
         const auto found = hidden.find(name);
         if (found == hidden.end()) throw InvalidArgument("no hidden data set with true values is named \"{}\"", name);
         return *found;
     }
     call.at_most(2);
     const std::string run = run_of_answers(call, 1);
-    const Specimens& own = session.specimens[run];
+    const PlantVariants& own = session.specimens[run];
     const std::string name = call.given(2) ? call.text(2, "name") : run;
     const auto found = own.find(name);
     if (found != own.end()) return *found;

@@ -13,32 +13,33 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::uint64_t kMostVerdicts = 4u << 20;  // bytes of what the checks say of one submission
+constexpr std::uint64_t kMaxCheckResultBytes = 4u << 20;  // bytes of what the checks say of one submission
 
 /// In a copy of this process.
-JudgedSubmission judged_in_a_copy(const ChecksJob& job, const SubmissionToJudge& submission) {
+GradedSubmission judged_in_a_copy(const ChecksJob& job, const SubmissionToGrade& submission) {
     GuardLimits limits;
     limits.time = {std::chrono::milliseconds(job.most_ms), job.clock_multiple};
     limits.memory_bytes = ProcessLimits().memory_bytes;
-    limits.output_bytes = kMostVerdicts;
+    limits.output_bytes = kMaxCheckResultBytes;
     limits.one_task = false;  // checks read files of several kinds
     const auto start = std::chrono::steady_clock::now();
     const ChildResult copy = run_guarded(
         [&] {
             ::setenv("DYNLAB_HOME", submission.home.c_str(), 1);
-            JudgedSubmission judged;
+            GradedSubmission judged;
             ReadChecks checks(job, &submission);
             if (checks.error())
                 judged.reason = *checks.error();
             else
-                judged.checks = checks.tried(job.only);
+                judged.checks = checks.evaluated(job.only);
             return cbor_of(judged);
         },
         limits);
-    JudgedSubmission judged;
+    GradedSubmission judged;
     judged.reason = reason_of_end(copy, limits.time);
     try {
-        if (judged.reason.empty()) judged = from_cbor<JudgedSubmission>(copy.output, boxed_limits(kMostVerdicts));
+        if (judged.reason.empty())
+            judged = from_cbor<GradedSubmission>(copy.output, sandbox_limits(kMaxCheckResultBytes));
     } catch (const ValueError&) {
         judged.reason = Message("the result of the run cannot be read");
     }
@@ -59,7 +60,7 @@ CheckResults try_checks(const ChecksJob& job) {
     }
     limit_process({});
     hide_memory();
-    for (const SubmissionToJudge& submission : job.submissions)
+    for (const SubmissionToGrade& submission : job.submissions)
         results.judged.push_back(judged_in_a_copy(job, submission));
     return results;
 }

@@ -26,48 +26,48 @@ struct AnswerChange {
 /// What is known of a submission when the checks are tried on it.
 struct CheckedSubmission {
     std::map<std::string, GradedRun> runs;  ///< kMainRun, and one for each rerun
-    Findings findings;                      ///< of `dynlab check`
+    Issues findings;                        ///< of `dynlab check`
     std::string source;                     ///< its script
     std::optional<AnswerChange> change;
 };
 
-/// What one check says; nothing but its description when the checks are only listed.
-struct TriedCheck {
+/// Result of one check; only the description if the checks are listed.
+struct EvaluatedCheck {
     CheckDescription check;
     std::optional<double> share;      ///< of the points; nothing for a check that could not be tried
     Message message, for_instructor;  ///< see Verdict
     double seconds = 0;               ///< of processor time that it took
 };
 
-/// A submission that the checks are tried on, with the records of its group.
-struct SubmissionToJudge {
+/// A submission to be checked, with the records of its group.
+struct SubmissionToGrade {
     CheckedSubmission work;
-    std::filesystem::path home;                  ///< DYNLAB_HOME while it is judged
-    std::map<std::string, Specimens> specimens;  ///< see CheckSession
+    std::filesystem::path home;                      ///< DYNLAB_HOME while it is judged
+    std::map<std::string, PlantVariants> specimens;  ///< see CheckSession
 };
 
-/// What the checks say of one submission.
-struct JudgedSubmission {
-    std::vector<TriedCheck> checks;
+/// Check results of one submission.
+struct GradedSubmission {
+    std::vector<EvaluatedCheck> checks;
     Message reason;  ///< why there are none: "it used more than 60 s of processor time", "it crashed (signal 11)", ...
     double seconds = 0;  ///< wall clock
 };
 
 struct CheckResults {
-    std::vector<TriedCheck> checks;                                   ///< as they are declared
-    std::vector<JudgedSubmission> judged;                             ///< of ChecksJob::submissions, one by one
+    std::vector<EvaluatedCheck> checks;                               ///< as they are declared
+    std::vector<GradedSubmission> judged;                             ///< of ChecksJob::submissions, one by one
     std::vector<std::string> rigs;                                    ///< data sets of the rigs that the files declare
     std::vector<std::map<std::string, std::vector<double>>> records;  ///< of ChecksJob::records, one by one
     std::optional<Message> error;  ///< a sentence, when a file cannot be read; then there is nothing else
 };
 
 /// A record to be made by a rig that the files declare.
-struct WantedRecord {
+struct RequestedRecord {
     std::string rig;
     std::uint32_t specimen = 0, seed = 1;
 };
 
-/// Check files to be tried on submissions, or to be listed.
+/// Job: check files, and the submissions to be checked.
 struct ChecksJob {
     static constexpr char kWork[] = "checks";
     using Result = CheckResults;
@@ -78,13 +78,13 @@ struct ChecksJob {
     std::int64_t most_ms = 0;                    ///< for each submission
     int clock_multiple = 0;                      ///< the clock's limits, see TimeLimits
     std::optional<std::size_t> only;             ///< the number of the one that is wanted; nothing for all
-    std::vector<SubmissionToJudge> submissions;  ///< none to list the checks only
-    std::vector<WantedRecord> records;
+    std::vector<SubmissionToGrade> submissions;  ///< none to list the checks only
+    std::vector<RequestedRecord> records;
 };
 
-/// Reads the files and tries their checks, in this process, which should be in a box. Each submission is judged in a
-/// confined copy of its own, so that none sees another's answers or is harmed by them; without submissions this process
-/// itself is confined.
+/// Reads the check files and runs the checks in this process, which must be in a sandbox. Each submission is checked in
+/// a separate confined child process, so that it can neither read nor change the answers of another one. Without
+/// submissions, this process itself is confined.
 CheckResults try_checks(const ChecksJob& job);
 
 }  // namespace dynlab::inline course

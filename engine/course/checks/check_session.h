@@ -31,14 +31,14 @@ struct DeclaredCheck : CheckDescription {
 };
 
 /// What a check says of a submission.
-struct Verdict {
+struct CheckOutcome {
     double share = 0;             ///< of the points, 0 to 1
     Message message;              ///< one or two sentences for the student; may be empty
     Message for_instructor = {};  ///< what it said before where that may quote a secret record
 };
 
 /// An apparatus that a file of checks declares; functions of {specimen =, seed =}, as indices in Lua's registry.
-struct DeclaredRig {
+struct DeclaredPlant {
     int record = 0, truth = 0;  ///< truth: 0 where the file does not tell
 };
 
@@ -46,26 +46,26 @@ inline constexpr char kMainRun[] = "main";       ///< the run that is handed in
 inline constexpr char kOtherSeedRun[] = "seed";  ///< the rerun with other random numbers, which changes no record
 
 /// Specimens of the apparatus by data set.
-using Specimens = std::map<std::string, std::uint32_t>;
+using PlantVariants = std::map<std::string, std::uint32_t>;
 inline constexpr char kHiddenRecords[] = "hidden";  ///< stands for a run where specimens are named
 inline constexpr char kRunOfAnswers[] = "run";      ///< field of a metatable: from which run the answers came
 
 /// What the functions of checks.lua share while a submission is checked.
 struct CheckSession {
     std::vector<DeclaredCheck> checks;
-    std::map<std::string, DeclaredRig> rigs;     ///< by data set
-    std::map<std::string, GradedRun> runs;       ///< kMainRun, and one for each rerun
-    std::string source;                          ///< the student's script
-    Findings findings;                           ///< of the document
-    std::map<std::string, Specimens> specimens;  ///< whose records each run read, "hidden" those of hidden(); the data
-                                                 ///< sets that are not named are those of all, specimen 0
-    std::filesystem::path hidden_folder;         ///< holds NAME.mat or NAME.csv
-    bool visible_file = true;                    ///< of the file that is being read
+    std::map<std::string, DeclaredPlant> rigs;       ///< by data set
+    std::map<std::string, GradedRun> runs;           ///< kMainRun, and one for each rerun
+    std::string source;                              ///< the student's script
+    Issues findings;                                 ///< of the document
+    std::map<std::string, PlantVariants> specimens;  ///< whose records each run read, "hidden" those of hidden(); the
+                                                     ///< data sets that are not named are those of all, specimen 0
+    std::filesystem::path hidden_folder;  ///< holds NAME.mat or NAME.csv
+    bool visible_file = true;             ///< of the file that is being read
     const DeclaredCheck* current = nullptr;
     bool took_hidden = false;  ///< the current check asked for a hidden record or what theory says of one
-    Message answer_trouble;    ///< why an answer that the current check asked for cannot be had; quotes no record
+    Message answer_error;      ///< why an answer that the current check asked for cannot be had; quotes no record
     std::map<std::string, Message> said;  ///< what the messages of judgements stand for: Lua has their English text
-    std::optional<Verdict> verdict;
+    std::optional<CheckOutcome> verdict;
     std::optional<std::pair<std::string, double>> change;  ///< an answer that is seen multiplied
     std::map<std::string, std::vector<double>> record;     ///< what `_record` made last
 };

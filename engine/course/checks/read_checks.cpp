@@ -14,18 +14,18 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kLongestMessage = 400;
+constexpr std::size_t kMaxMessageLength = 400;
 
 Message shortened_message(const Message& message) {
     return with_changed_text(message, [](const std::string& text) {
         const std::string line = replaced(text, "\n", " ");
-        return line.size() > kLongestMessage ? line.substr(0, kLongestMessage) + " ..." : line;
+        return line.size() > kMaxMessageLength ? line.substr(0, kMaxMessageLength) + " ..." : line;
     });
 }
 
 /// Tries every check, or the only one wanted, each with a time limit of its own.
-std::vector<TriedCheck> verdicts(Runtime& runtime, CheckSession& session, std::optional<std::size_t> only) {
-    std::vector<TriedCheck> all;
+std::vector<EvaluatedCheck> verdicts(Runtime& runtime, CheckSession& session, std::optional<std::size_t> only) {
+    std::vector<EvaluatedCheck> all;
     for (std::size_t k = 0; k < session.checks.size(); ++k) {
         if (only && *only != k) continue;
         session.verdict.reset();
@@ -35,7 +35,7 @@ std::vector<TriedCheck> verdicts(Runtime& runtime, CheckSession& session, std::o
         }
         const auto start = processor_time();
         const RunRecord record = runtime.run_code("_verdict(" + std::to_string(k) + ")", session.checks[k].id);
-        TriedCheck& one = all.emplace_back();
+        EvaluatedCheck& one = all.emplace_back();
         one.check = session.checks[k];
         one.seconds = std::chrono::duration<double>(processor_time() - start).count();
         if (session.verdict && !record.error) {
@@ -58,7 +58,7 @@ RunOptions options_of_checks(const ChecksJob& job) {
 
 }  // namespace
 
-ReadChecks::ReadChecks(const ChecksJob& job, const SubmissionToJudge* submission)
+ReadChecks::ReadChecks(const ChecksJob& job, const SubmissionToGrade* submission)
     : runtime_(options_of_checks(job), renderer_) {
     session_.hidden_folder = job.hidden_folder;
     if (submission != nullptr) hand_over(*submission);
@@ -74,16 +74,16 @@ ReadChecks::ReadChecks(const ChecksJob& job, const SubmissionToJudge* submission
     }
 }
 
-std::vector<TriedCheck> ReadChecks::tried(std::optional<std::size_t> only) {
+std::vector<EvaluatedCheck> ReadChecks::evaluated(std::optional<std::size_t> only) {
     return verdicts(runtime_, session_, only);
 }
 
-CheckResults ReadChecks::listed(const std::vector<WantedRecord>& records) {
+CheckResults ReadChecks::listed(const std::vector<RequestedRecord>& records) {
     CheckResults results;
     for (const auto& [name, rig] : session_.rigs) results.rigs.push_back(name);
-    for (const WantedRecord& wanted : records) {
+    for (const RequestedRecord& requested : records) {
         const RunRecord record = runtime_.run_code(
-            fmt::format("_record(\"{}\", {}, {})", wanted.rig, wanted.specimen, wanted.seed), wanted.rig);
+            fmt::format("_record(\"{}\", {}, {})", requested.rig, requested.specimen, requested.seed), requested.rig);
         if (record.error) {
             results.error = with_place(*record.error);
             return results;
@@ -94,7 +94,7 @@ CheckResults ReadChecks::listed(const std::vector<WantedRecord>& records) {
     return results;
 }
 
-void ReadChecks::hand_over(const SubmissionToJudge& submission) {
+void ReadChecks::hand_over(const SubmissionToGrade& submission) {
     session_.specimens = submission.specimens;
     session_.runs = submission.work.runs;
     session_.findings = submission.work.findings;

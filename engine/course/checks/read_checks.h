@@ -14,19 +14,19 @@ namespace dynlab::inline course {
 /// others that wants a process of its own (check_run.h); in a browser the page has one.
 class ReadChecks {
   public:
-    ReadChecks(const ChecksJob& job, const SubmissionToJudge* submission);
+    ReadChecks(const ChecksJob& job, const SubmissionToGrade* submission);
 
     /// A sentence, when a file cannot be read.
     const std::optional<Message>& error() const { return error_; }
 
-    /// What they say of the submission; of one alone, by its number.
-    std::vector<TriedCheck> tried(std::optional<std::size_t> only = {});
+    /// Check results of the submission, or the result of the check with this number.
+    std::vector<EvaluatedCheck> evaluated(std::optional<std::size_t> only = {});
 
-    /// The checks as they are declared, the rigs, and the records that are wanted of these.
-    CheckResults listed(const std::vector<WantedRecord>& records);
+    /// Lists the declared checks and simulated plants, and creates the requested records of these plants.
+    CheckResults listed(const std::vector<RequestedRecord>& records);
 
   private:
-    void hand_over(const SubmissionToJudge& submission);
+    void hand_over(const SubmissionToGrade& submission);
 
     CheckSession session_;
     GnuplotRenderer renderer_;

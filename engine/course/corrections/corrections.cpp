@@ -22,25 +22,29 @@ struct Found {
 };
 
 /// What a correction is about, as it lies in the store.
-class WantedFiles {
+class SelectedFiles {
   public:
-    WantedFiles(Course& course, const Assignment& assignment, const HandedInWanted& wanted)
-        : db_(course.database()), assignment_(assignment), wanted_(wanted), group_(group_named(course, wanted.group)) {
-        if (wanted.stage == "review") pair_ = reviewed_pair(review_pairs(course, assignment), group_, wanted.report).id;
+    SelectedFiles(Course& course, const Assignment& assignment, const SubmissionSelection& requested)
+        : db_(course.database()),
+          assignment_(assignment),
+          requested_(requested),
+          group_(group_named(course, requested.group)) {
+        if (requested.stage == "review")
+            pair_ = reviewed_pair(review_pairs(course, assignment), group_, requested.report).id;
     }
 
     const Group& group() const { return group_; }
     std::optional<std::int64_t> pair() const { return pair_; }
-    std::string what() const { return fmt::format("{} of {}", stage_name(wanted_.stage), group_.name); }
+    std::string what() const { return fmt::format("{} of {}", stage_name(requested_.stage), group_.name); }
 
     /// Those that are withdrawn, or those that are not.
     std::vector<Found> all(bool withdrawn) const {
-        const std::vector<std::string> parts = parts_of(assignment_, wanted_.stage);
-        if (!wanted_.part.empty()) {
-            if (wanted_.part != kUnreadable && std::ranges::find(parts, wanted_.part) == parts.end())
-                throw InvalidArgument("{} has no part {}: its parts are {}", assignment_.name, wanted_.part,
+        const std::vector<std::string> parts = parts_of(assignment_, requested_.stage);
+        if (!requested_.part.empty()) {
+            if (requested_.part != kUnreadable && std::ranges::find(parts, requested_.part) == parts.end())
+                throw InvalidArgument("{} has no part {}: its parts are {}", assignment_.name, requested_.part,
                                       listed(parts));
-            return {one(wanted_.part, withdrawn)};
+            return {one(requested_.part, withdrawn)};
         }
         std::optional<Found> document = newest(assignment_.is_lab() ? "" : parts.front(), withdrawn);
         std::vector<Found> found = {document ? *document : one("pack", withdrawn)};
@@ -62,20 +66,21 @@ class WantedFiles {
             "SELECT id, number, part FROM arrived WHERE assignment = ? AND group_id = ? AND stage = ? AND ifnull(pair, "
             "0) = ? AND (part = ?5 OR (?5 = '' AND part IN ('script', 'pack'))) AND withdrawn = ? AND number = "
             "ifnull(?, number) ORDER BY CASE ?5 WHEN '' THEN received_at ELSE number END DESC, id DESC",
-            assignment_.id, group_.id, wanted_.stage, pair_.value_or(0), part, std::int64_t{withdrawn}, wanted_.number);
+            assignment_.id, group_.id, requested_.stage, pair_.value_or(0), part, std::int64_t{withdrawn},
+            requested_.number);
         if (!rows.next()) return {};
         return Found{rows.integer(0), rows.integer(1), rows.text(2)};
     }
     Found one(const std::string& part, bool withdrawn) const {
         if (const auto found = newest(part, withdrawn)) return *found;
-        const std::string version = wanted_.number ? fmt::format("{} v{}", part, *wanted_.number) : part;
+        const std::string version = requested_.number ? fmt::format("{} v{}", part, *requested_.number) : part;
         throw withdrawn ? InvalidArgument("{} ({}) of {} has not been withdrawn", what(), version, assignment_.name)
                         : InvalidArgument("{} ({}) does not exist for {}", what(), version, assignment_.name);
     }
 
     Database& db_;
     const Assignment& assignment_;
-    const HandedInWanted& wanted_;
+    const SubmissionSelection& requested_;
     Group group_;
     std::optional<std::int64_t> pair_;
 };
@@ -114,13 +119,13 @@ void confirm_arrivals(Course& course, const Assignment& a, const std::vector<std
     transaction.commit();
 }
 
-std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& a, const HandedInWanted& wanted,
+std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& a, const SubmissionSelection& requested,
                                           Instant received, const std::string& reason, Instant now) {
     refuse_without_reason(reason);
     Transaction transaction(course.database());
-    const WantedFiles files(course, a, wanted);
+    const SelectedFiles files(course, a, requested);
     const std::vector<Found> all = files.all(false);
-    const auto is_recorded = [&, due = due_for(course, a, files.group().id, wanted.stage)](const Found& one) {
+    const auto is_recorded = [&, due = due_for(course, a, files.group().id, requested.stage)](const Found& one) {
         Rows newest = course.database().query(
             "SELECT received_at = ? AND due_at = ? AND reason = ? FROM arrivals WHERE version = ? ORDER BY id DESC "
             "LIMIT 1",
@@ -136,11 +141,11 @@ std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& a, c
     return ids_of(all);
 }
 
-std::vector<std::int64_t> withdraw(Course& course, const Assignment& a, const HandedInWanted& wanted, bool withdrawn,
-                                   const std::string& reason, Instant now) {
+std::vector<std::int64_t> withdraw(Course& course, const Assignment& a, const SubmissionSelection& requested,
+                                   bool withdrawn, const std::string& reason, Instant now) {
     refuse_without_reason(reason);
     Transaction transaction(course.database());
-    const WantedFiles files(course, a, wanted);
+    const SelectedFiles files(course, a, requested);
     const std::vector<Found> all = files.all(!withdrawn);
     std::string parts;
     for (const Found& one : all) {
@@ -176,14 +181,14 @@ void extend(Course& course, const Assignment& a, const std::string& group, const
     transaction.commit();
 }
 
-void hold(Course& course, const Assignment& a, const HandedInWanted& wanted, bool held, const std::string& reason,
-          Instant now) {
+void hold(Course& course, const Assignment& a, const SubmissionSelection& requested, bool held,
+          const std::string& reason, Instant now) {
     refuse_without_reason(reason);
     refuse_without_reviews(a);
-    if (wanted.stage == "final")
+    if (requested.stage == "final")
         throw InvalidArgument("a final version is not sent to other groups and cannot be withheld");
     Transaction transaction(course.database());
-    const WantedFiles files(course, a, wanted);
+    const SelectedFiles files(course, a, requested);
     if (is_held(course, a, files.group().id, files.pair()) == held)
         throw held ? InvalidArgument("the {} is withheld already", files.what())
                    : InvalidArgument("the {} is not withheld", files.what());

@@ -8,21 +8,22 @@
 
 namespace dynlab::inline course {
 
-// What an instructor corrects later. Every correction is an entry of its own with a reason, the newest of which holds,
-// and a line in the journal; what was received and signed stays as it was. All throw InvalidArgument for a reason that
-// is empty, and where there is nothing to be corrected.
+// Amendments by the instructor. Each amendment is a separate entry with a reason and a line in the journal; the newest
+// entry is valid. Received and signed files do not change. All functions throw InvalidArgument for an empty reason, and
+// if there is nothing to amend.
 
 /// What a correction is about.
-struct HandedInWanted {
+struct SubmissionSelection {
     std::string group, stage = "first";  ///< "first", "review", "final"
     std::string part;    ///< report, slides, script, review, pack; empty: the document and all that came with it
     std::string report;  ///< of a review: the pseudonym of the report; may be empty where the group wrote one only
-    std::optional<std::int64_t> number;  ///< of the version; the newest that stands unless given
+    std::optional<std::int64_t> number;  ///< number of the version; default: the newest version that is not withdrawn
 };
 
 /// The files were received at that time; each gets a further signed receipt. Returns their versions' ids.
-std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& assignment, const HandedInWanted& wanted,
-                                          Instant received, const std::string& reason, Instant now);
+std::vector<std::int64_t> correct_arrival(Course& course, const Assignment& assignment,
+                                          const SubmissionSelection& requested, Instant received,
+                                          const std::string& reason, Instant now);
 
 /// Within a transaction, and without a line in the journal: the same of one version.
 void record_arrival(Course& course, const Assignment& assignment, std::int64_t version, Instant received,
@@ -31,16 +32,17 @@ void record_arrival(Course& course, const Assignment& assignment, std::int64_t v
 void confirm_arrivals(Course& course, const Assignment& assignment, const std::vector<std::int64_t>& versions,
                       Instant now);
 
-/// Withdraws versions, as if they had not come, or lets them stand again. Returns their ids.
-std::vector<std::int64_t> withdraw(Course& course, const Assignment& assignment, const HandedInWanted& wanted,
+/// Withdraws versions, so that they do not count, or reinstates them. Returns the ids of the versions.
+std::vector<std::int64_t> withdraw(Course& course, const Assignment& assignment, const SubmissionSelection& requested,
                                    bool withdrawn, const std::string& reason, Instant now);
 
-/// A deadline of its own for one group; without `due` that of all again.
+/// Sets the deadline of one group; without `due`, restores the deadline of the class.
 void extend(Course& course, const Assignment& assignment, const std::string& group, const std::string& stage,
             std::optional<Instant> due, const std::string& reason, Instant now);
 
-/// Keeps a group's report (stage "first") from its reviewers, or a review from the authors, or gives it free again.
-void hold(Course& course, const Assignment& assignment, const HandedInWanted& wanted, bool held,
+/// Withholds the report of a group (stage "first") from its reviewers, or a review from the authors, or stops
+/// withholding it.
+void hold(Course& course, const Assignment& assignment, const SubmissionSelection& requested, bool held,
           const std::string& reason, Instant now);
 
 struct JournalLine {

@@ -47,9 +47,9 @@ std::string readme_of(const Lesson& lesson, const BundleOptions& options) {
 }
 
 std::uint32_t drawn_seed(std::set<std::uint32_t>& taken) {
-    constexpr std::size_t kMost = 999'999;
+    constexpr std::size_t kMax = 999'999;
     while (true) {
-        const auto seed = static_cast<std::uint32_t>(secure_below(kMost)) + 1;
+        const auto seed = static_cast<std::uint32_t>(secure_below(kMax)) + 1;
         if (taken.insert(seed).second) return seed;
     }
 }

@@ -120,7 +120,7 @@ std::uintmax_t write_autograder(const AutograderRequest& request, const fs::path
         fmt::format(kRun, fmt::arg("slug", request.lesson.slug), fmt::arg("timeout", request.timeout_seconds),
                     fmt::arg("checks", request.more_checks ? " --checks \"$source/checks\"" : ""));
     contents["secret"] = request.secret;
-    for (const fs::path& program : programs_beside(request.program)) {
+    for (const fs::path& program : programs_next_to(request.program)) {
         contents["program/" + program.filename().string()] = read_file(program);
         add_libraries(program, contents);
     }

@@ -61,7 +61,7 @@ fs::path feedback_of(const fs::path& marks, const std::string& submission) {
     return {};
 }
 
-std::vector<MarkedStudent> marked_students(const HandBackRequest& request) {
+std::vector<MarkedStudent> marked_students(const GradeExportRequest& request) {
     const fs::path file = request.marks / "gradebook.csv";
     if (!fs::exists(file))
         throw EnvironmentError("{} contains no gradebook.csv; give the folder that dynlab grade --out wrote",
@@ -148,7 +148,7 @@ std::string comments_on(const fs::path& marks, const MarkedStudent& student) {
     } catch (const EnvironmentError& error) {
         throw EnvironmentError("{}: {}", file.string(), error.message());
     }
-    if (student.points.empty()) return LessonReader(grade.language, grade.lesson).text(grade.trouble);
+    if (student.points.empty()) return LessonReader(grade.language, grade.lesson).text(grade.error_reason);
     MessageList lines{{Message("{} of {} points.", points_in_cell(student.points), points_in_cell(student.possible))},
                       Join::kLines};
     for (const ShownResult& one : shown) {
@@ -180,7 +180,7 @@ Delivered read_deliveries(const fs::path& file) {
 /// What is written, into the folder handed_back.
 class Outbox {
   public:
-    explicit Outbox(const HandBackRequest& request)
+    explicit Outbox(const GradeExportRequest& request)
         : request_(request), folder_(request.marks / "handed_back"), students_(marked_students(request)) {
         fs::create_directories(folder_);
         if (request.worksheet)
@@ -195,7 +195,7 @@ class Outbox {
         look_for_news();
     }
 
-    HandedBack fill() {
+    GradeExport fill() {
         if (!sheet_ || sheet_->platform() == PlatformSheet::Platform::kMoodle) moodle();
         if (!sheet_ || sheet_->platform() == PlatformSheet::Platform::kCanvas) canvas();
         write("mail.csv", csv_text(mail_));
@@ -213,7 +213,7 @@ class Outbox {
     void read_sheet() {
         sheet_.emplace(*request_.worksheet, request_.assignment);
         const bool moodle = sheet_->platform() == PlatformSheet::Platform::kMoodle;
-        result_.notes = sheet_->unrecognised();
+        result_.notes = sheet_->unrecognized();
         for (MarkedStudent& student : students_)
             if (moodle) student.moodle.clear();
         std::int64_t unknown = 0;
@@ -353,19 +353,19 @@ class Outbox {
             mail_.rows[i].insert(mail_.rows[i].end(), more[i].begin(), more[i].end());
     }
 
-    const HandBackRequest& request_;
+    const GradeExportRequest& request_;
     fs::path folder_;
     std::vector<MarkedStudent> students_;
     std::vector<bool> is_new_;  ///< by student
     TextTable mail_;
     std::optional<PlatformSheet> sheet_;
     std::map<std::size_t, PlatformSheet::Person> rows_;  ///< of the sheet, by student
-    HandedBack result_;
+    GradeExport result_;
 };
 
 }  // namespace
 
-HandedBack hand_back(const HandBackRequest& request) {
+GradeExport write_grade_export(const GradeExportRequest& request) {
     return Outbox(request).fill();
 }
 

@@ -9,7 +9,7 @@
 namespace dynlab::inline course {
 
 /// What goes back to students and platforms from a folder of marks.
-struct HandBackRequest {
+struct GradeExportRequest {
     std::filesystem::path marks;                     ///< the OUT of dynlab grade
     std::string assignment;                          ///< its column in Canvas's gradebook, such as "Lab 4 (1234)"
     std::optional<std::filesystem::path> roster;     ///< for addresses and the platforms' numbers
@@ -17,7 +17,7 @@ struct HandBackRequest {
     bool all = false;                                ///< feedback that was delivered before goes into the zip, too
 };
 
-struct HandedBack {
+struct GradeExport {
     std::vector<std::filesystem::path> files;
     std::vector<Message> notes;       ///< whole sentences
     std::vector<Message> complaints;  ///< who could not be entered, in whole sentences
@@ -42,7 +42,7 @@ struct HandedBack {
 /// Where dynlab grade --answers left model answers in `marks`, everybody with feedback gets them as well.
 /// Who has no marks has no grade, and a platform that nobody has a number of no file; where that leaves none, everybody
 /// with marks could not be entered. Throws EnvironmentError where there is no gradebook.csv, or one of another kind.
-HandedBack hand_back(const HandBackRequest& request);
+GradeExport write_grade_export(const GradeExportRequest& request);
 
 /// Records that the feedback listed in `marks`/handed_back/mail.csv was delivered: it is not new any more. Returns how
 /// many files were new. Throws EnvironmentError where nothing was written yet.

@@ -29,7 +29,7 @@ constexpr const char* kMaximumWords[] = {"maxim", "maximal", "bestwertung", "mas
 constexpr const char* kCommentWords[] = {"comment", "kommentar", "comentari", "opmerking", "retroaliment"};
 
 std::string words_of_header(const std::string& text) {
-    return fmt::format("{}", fmt::join(words_of_name(text), " "));
+    return fmt::format("{}", fmt::join(name_words(text), " "));
 }
 
 template <std::size_t n>

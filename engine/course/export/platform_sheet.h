@@ -33,7 +33,7 @@ class PlatformSheet {
 
     Platform platform() const { return platform_; }
     const std::vector<Person>& people() const { return people_; }
-    const std::vector<Message>& unrecognised() const { return unrecognised_; }  ///< sentences
+    const std::vector<Message>& unrecognized() const { return unrecognised_; }  ///< sentences
     std::optional<double> maximum() const;  ///< the most points in the column of grades, where the table has it
     void set_grade(const Person& person, const std::string& points);
     void set_comment(const Person& person, const std::string& comment);  ///< where the table has such a column

@@ -25,28 +25,28 @@ class Gaps {
     Gaps(Course& course, const Assignment& assignment, const Group& group, Instant now, bool early)
         : course_(course), assignment_(assignment), group_(group), now_(now), early_(early) {}
 
-    void document(const char* stage, const HandedInParts& parts, const Message& what) {
+    void document(const char* stage, const SubmittedParts& parts, const Message& what) {
         const auto found = parts.find(parts_of(assignment_, stage).front()), unread = parts.find(kUnreadable);
         const Message due = Message("due {}", date_of(course_.clock(), due_of(stage)));
         const bool replaced =
             unread != parts.end() && (found == parts.end() || found->second.received_at < unread->second.received_at);
-        if (replaced || (found != parts.end() && !found->second.trouble.empty()))
+        if (replaced || (found != parts.end() && !found->second.error_reason.empty()))
             missing_.push_back(Message("{}, {}: the submitted file cannot be read; submit it again", what, due));
         else if (found == parts.end() && parts.contains("pack"))
             missing_.push_back(Message("{}, {}: the submitted pack contains no PDF", what, due));
-        else if (found == parts.end() && is_wanted(stage))
+        else if (found == parts.end() && is_requested(stage))
             missing_.push_back(Message("{}, {}", what, due));
     }
 
-    void script(const HandedInParts& parts) {
-        if (!parts.contains("script") && !parts.contains("pack") && is_wanted("first"))
+    void script(const SubmittedParts& parts) {
+        if (!parts.contains("script") && !parts.contains("pack") && is_requested("first"))
             missing_.push_back(Message("the script, due {}", date_of(course_.clock(), due_of("first"))));
     }
 
     void reviews(const std::vector<ReviewPair>& pairs) {
         if (!assignment_.review_due) return;
         for (const ReviewPair& pair : pairs)
-            if (pair.reviewer == group_.id && !pair.ended && !pair.written && is_wanted("review"))
+            if (pair.reviewer == group_.id && !pair.ended && !pair.written && is_requested("review"))
                 missing_.push_back(Message("the review of {}, due {}", pair.report_pseudonym(),
                                            date_of(course_.clock(), due_of("review"))));
     }
@@ -55,7 +55,7 @@ class Gaps {
 
   private:
     Instant due_of(const char* stage) { return due_for(course_, assignment_, group_.id, stage); }
-    bool is_wanted(const char* stage) { return early_ || now_ > due_of(stage) + assignment_.grace; }
+    bool is_requested(const char* stage) { return early_ || now_ > due_of(stage) + assignment_.grace; }
 
     Course& course_;
     const Assignment& assignment_;

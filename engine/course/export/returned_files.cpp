@@ -42,7 +42,7 @@ class Returner {
         for (const Group& group : groups_of(course_)) collect(group);
         if (outcome_.files.empty()) return std::move(outcome_);
         lay_out();
-        remember();
+        save_entry();
         return std::move(outcome_);
     }
 
@@ -97,7 +97,7 @@ class Returner {
     }
 
     void lay_out() {
-        make_whole_folder(request_.folder, [this](const fs::path& growing) {
+        make_complete_folder(request_.folder, [this](const fs::path& growing) {
             fs::permissions(growing, fs::perms::owner_all);
             std::vector<Mailing> mailings;
             MoodleFeedback moodle;
@@ -130,7 +130,7 @@ class Returner {
         if (!reached) outcome_.without_mail.push_back(group.name);
     }
 
-    void remember() {
+    void save_entry() {
         Transaction transaction(course_.database());
         std::int64_t count = 0;
         for (const auto& [group, files] : groups_)
@@ -161,15 +161,15 @@ ReturnOutcome return_files(Course& course, const Assignment& assignment, const R
 
 std::map<std::string, std::string> participants_for(Course& course, const Assignment& assignment,
                                                     const fs::path& table) {
-    std::map<std::string, std::string> all = participants_of(course, assignment.id), told;
+    std::map<std::string, std::string> all = participants_of(course, assignment.id), reported;
     if (table.empty()) return all;
     try {
         if (const PlatformSheet sheet(table, ""); sheet.platform() == PlatformSheet::Platform::kMoodle)
-            told = numbers_in(sheet, students_of(course));
+            reported = numbers_in(sheet, students_of(course));
     } catch (const EnvironmentError&) {  // a table of something else
     }
-    told.merge(all);
-    return told;
+    reported.merge(all);
+    return reported;
 }
 
 }  // namespace dynlab::inline course

@@ -23,20 +23,20 @@ struct ReturnOutcome {
     std::int64_t other_numbers = 0;  ///< students whose number in the roster is another one: of another assignment
 };
 
-/// Lays what groups are to get and have not got yet into a new folder: copies to review, reviews, receipts.
+/// Writes the files that groups have not received yet into a new folder: copies to review, reviews, receipts.
 ///
 ///     FOLDER/GROUP/NAME   the files
-///     FOLDER/mail.csv     a row a student, see mailing_list
-///     FOLDER/moodle.zip   for each student, if wanted, see MoodleFeedback
+///     FOLDER/mail.csv     one row per student, see mailing_list
+///     FOLDER/moodle.zip   for each student, if requested, see MoodleFeedback
 ///
-/// Participants have the number in the worksheet, else the one in the names of what was received for this assignment,
-/// else the roster's, unless one of these is known to be of another assignment.
-/// What another version replaced is new again. The store remembers what was returned. Throws InvalidArgument where the
-/// folder is not new.
+/// The participant number of a student comes from the worksheet, else from the names of the files received for this
+/// assignment, else from the roster. A number that is known to belong to another assignment is not used. A file that
+/// replaces an older version counts as new. The store records the returned files.
+/// Throws InvalidArgument if the folder exists.
 ReturnOutcome return_files(Course& course, const Assignment& assignment, const ReturnRequest& request);
 
-/// Numbers of participants in this assignment, by student: those in `table`, where that is Moodle's worksheet, else
-/// those in the names of what was received.
+/// Participant numbers of this assignment by student: from `table` if it is Moodle's worksheet, otherwise from the
+/// names of the received files.
 std::map<std::string, std::string> participants_for(Course& course, const Assignment& assignment,
                                                     const std::filesystem::path& table);
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Finding file_finding(const PdfRefusal& refusal) {
+Issue file_finding(const PdfRefusal& refusal) {
     switch (refusal.fault()) {
         case PdfFault::kNotPdf:
             return {"not-pdf", Severity::kRule,   0,
@@ -59,10 +59,10 @@ DocumentStandard known_standard(const char* name) {
 
 /// How many of the demanded sections a document has.
 std::ptrdiff_t sections_in(const DocumentText& text, const DocumentStandard& standard) {
-    const Findings found = section_findings(text, standard.rules, "en");
+    const Issues found = section_findings(text, standard.rules, "en");
     const auto demanded = [](const SectionRule& section) { return !section.optional; };
     return std::ranges::count_if(standard.rules.sections, demanded) -
-           std::ranges::count_if(found, [](const Finding& f) { return f.id == "section-missing"; });
+           std::ranges::count_if(found, [](const Issue& f) { return f.id == "section-missing"; });
 }
 
 DocumentStandard usual_standard(const DocumentText& text) {
@@ -71,10 +71,10 @@ DocumentStandard usual_standard(const DocumentText& text) {
     return sections_in(text, review) > sections_in(text, report) ? review : report;
 }
 
-DocumentStandard standard_for(const DocumentText& text, const CheckOptions& wishes) {
-    DocumentStandard standard = wishes.standard ? *wishes.standard : usual_standard(text);
-    if (wishes.pages) {
-        standard.rules.pages = *wishes.pages;
+DocumentStandard standard_for(const DocumentText& text, const CheckOptions& check_options) {
+    DocumentStandard standard = check_options.standard ? *check_options.standard : usual_standard(text);
+    if (check_options.pages) {
+        standard.rules.pages = *check_options.pages;
         standard.rules.appendix_pages.reset();
     }
     return standard;
@@ -102,7 +102,7 @@ void check_text(const PdfLayout& layout, const DocumentText& text, const Documen
     const bool is_report = !standard.rules.sections.empty() && !text.is_slides();
     const FigureFindings figures = figure_findings(text, is_report ? Severity::kRule : Severity::kHint);
     const std::string titles = standard.language ? *standard.language : language.language == "fr" ? "fr" : "en";
-    for (const Findings& found :
+    for (const Issues& found :
          {page_findings(text, result.pages, standard.rules), section_findings(text, standard.rules, titles),
           figures.findings, leftover_findings(text, standard.guidance), language.findings,
           layout_findings(text, layout)}) {
@@ -129,11 +129,11 @@ void check_names(const fs::path& file, const PdfLayout& layout, const IdentityMa
 }  // namespace
 
 bool CheckResult::passed() const {
-    return std::ranges::none_of(findings, [](const Finding& finding) { return finding.severity == Severity::kRule; });
+    return std::ranges::none_of(findings, [](const Issue& issue) { return issue.severity == Severity::kRule; });
 }
 
-void sort_findings(Findings& findings) {
-    std::ranges::stable_sort(findings, [](const Finding& a, const Finding& b) {
+void sort_issues(Issues& findings) {
+    std::ranges::stable_sort(findings, [](const Issue& a, const Issue& b) {
         return std::tie(a.severity, a.page) < std::tie(b.severity, b.page);
     });
 }
@@ -160,22 +160,22 @@ DocumentStandard standard_of_lesson(const Lesson& lesson, const std::string& lan
     return demands || !fs::exists(report) ? named : standard_of(report.string());
 }
 
-CheckResult check_pdf(const fs::path& file, const CheckOptions& wishes, const PdfLimits& limits) {
+CheckResult check_pdf(const fs::path& file, const CheckOptions& check_options, const PdfLimits& limits) {
     CheckResult result;
     result.subject = file.string();
     try {
         const PdfLayout layout = read_pdf_layout(file, limits);
         const DocumentText text = text_of_layout(layout);
-        const DocumentStandard standard = standard_for(text, wishes);
+        const DocumentStandard standard = standard_for(text, check_options);
         result.template_name = standard.template_name;
         result.pages = static_cast<int>(layout.pages.size());
-        if (wishes.names) check_names(file, layout, *wishes.names, result);
+        if (check_options.names) check_names(file, layout, *check_options.names, result);
         if (text.words.empty()) {
             result.findings.push_back(
                 {"scanned", Severity::kRule, 0, "",
                  Message("The document has no text: its pages are pictures, such as a scan or photographs."),
                  Message("Submit the PDF that dynlab report writes, not a scan of a printout.")});
-            sort_findings(result.findings);
+            sort_issues(result.findings);
             return result;
         }
         check_text(layout, text, standard, result);
@@ -188,7 +188,7 @@ CheckResult check_pdf(const fs::path& file, const CheckOptions& wishes, const Pd
         if (refusal.fault() == PdfFault::kNotThere) throw;
         result.findings.push_back(file_finding(refusal));
     }
-    sort_findings(result.findings);
+    sort_issues(result.findings);
     return result;
 }
 

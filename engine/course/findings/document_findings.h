@@ -51,8 +51,8 @@ struct CheckResult {
     std::string language;          ///< "en", "fr", or empty
     std::string lesson;            ///< of a folder: as analysis.lua names it; empty where it cannot be read
     int pages = 0;                 ///< 0 when the document could not be read
-    std::vector<Message> checked;  ///< what was looked at, in words
-    Findings findings;             ///< in page order, rules first
+    std::vector<Message> checked;  ///< names of the completed checks
+    Issues findings;               ///< in page order, rules first
     bool passed() const;           ///< no rule is broken
 };
 
@@ -61,8 +61,9 @@ struct CheckResult {
 /// (landscape) are held against the template "slides", documents with more headings of the form "peer_review" than of
 /// "lab_report" against that, and others against "lab_report". Throws PdfRefusal when there is no such file or it may
 /// not be read.
-CheckResult check_pdf(const std::filesystem::path& file, const CheckOptions& wishes = {}, const PdfLimits& limits = {});
+CheckResult check_pdf(const std::filesystem::path& file, const CheckOptions& check_options = {},
+                      const PdfLimits& limits = {});
 
-void sort_findings(Findings& findings);  ///< rules first, then by page
+void sort_issues(Issues& findings);  ///< rules first, then by page
 
 }  // namespace dynlab::inline course

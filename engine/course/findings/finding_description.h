@@ -15,7 +15,7 @@ constexpr std::array<const char*, 2> names_of(Severity) {
     return {"rule", "hint"};
 }
 
-template <Is<Finding> T, class V>
+template <Is<Issue> T, class V>
 void describe(T& object, V& member) {
     auto& [id, severity, page, place, what, remedy] = object;
     member("id", id), member("severity", severity), member.null_if_empty("page", page);

@@ -41,33 +41,33 @@ std::string wrapped(const std::string& sentence, const std::string& first) {
 
 /// As the page of a document counts them (app/page/findings.js).
 enum class Counted { kAnswers, kRules, kHints, kChecks };
-Counted counted_as(const Finding& finding) {
-    if (finding.id == "answer-missing") return Counted::kAnswers;
-    if (finding.id == "check-failed") return Counted::kChecks;
-    return finding.severity == Severity::kRule ? Counted::kRules : Counted::kHints;
+Counted counted_as(const Issue& issue) {
+    if (issue.id == "answer-missing") return Counted::kAnswers;
+    if (issue.id == "check-failed") return Counted::kChecks;
+    return issue.severity == Severity::kRule ? Counted::kRules : Counted::kHints;
 }
 
 class Writer {
   public:
-    Writer(bool in_colour, const Reader& reader) : in_colour_(in_colour), reader_(reader) {}
+    Writer(bool in_color, const Reader& reader) : in_color_(in_color), reader_(reader) {}
 
     std::string words(const Message& message) const { return message_text(message, reader_); }
 
     std::string styled(const char* style, const std::string& text) const {
-        return in_colour_ ? style + text + kPlain : text;
+        return in_color_ ? style + text + kPlain : text;
     }
 
     /// Findings that belong together, those of one kind behind one another; a remedy they share stands once.
     std::string group(const CheckResult& result, Counted as, const char* style, const Message& title) const {
-        std::vector<std::pair<std::string, std::vector<const Finding*>>> kinds;
+        std::vector<std::pair<std::string, std::vector<const Issue*>>> kinds;
         std::size_t count = 0;
-        for (const Finding& finding : result.findings) {
-            if (counted_as(finding) != as) continue;
+        for (const Issue& issue : result.findings) {
+            if (counted_as(issue) != as) continue;
             ++count;
-            const auto same = [&finding](const auto& kind) { return kind.first == finding.id; };
+            const auto same = [&issue](const auto& kind) { return kind.first == issue.id; };
             const auto known = std::find_if(kinds.begin(), kinds.end(), same);
-            (known == kinds.end() ? kinds.emplace_back(finding.id, std::vector<const Finding*>()) : *known)
-                .second.push_back(&finding);
+            (known == kinds.end() ? kinds.emplace_back(issue.id, std::vector<const Issue*>()) : *known)
+                .second.push_back(&issue);
         }
         if (count == 0) return "";
         std::string text = "\n" + styled(style, fmt::format("{} ({})", words(title), count)) + "\n";
@@ -75,7 +75,7 @@ class Writer {
         return text;
     }
 
-    std::string all_of(const std::vector<const Finding*>& findings) const {
+    std::string all_of(const std::vector<const Issue*>& findings) const {
         std::string text;
         for (std::size_t i = 0; i < findings.size(); ++i) {
             text += wrapped(printable(words(placed(*findings[i])), 2000), "    ");
@@ -86,34 +86,34 @@ class Writer {
     }
 
   private:
-    static Message placed(const Finding& finding) {
-        if (!finding.place.empty()) return Message("{}{}", finding.place + ": ", finding.what);
-        return finding.page > 0 ? Message("page {}: {}", finding.page, finding.what) : finding.what;
+    static Message placed(const Issue& issue) {
+        if (!issue.place.empty()) return Message("{}{}", issue.place + ": ", issue.what);
+        return issue.page > 0 ? Message("page {}: {}", issue.page, issue.what) : issue.what;
     }
 
-    bool in_colour_;
+    bool in_color_;
     Reader reader_;
 };
 
 /// The outcome with nothing in its texts that a terminal would obey, and none of them too long.
 CheckResult printable_result(CheckResult result) {
-    constexpr std::size_t kLongest = 4000;
+    constexpr std::size_t kMaxLength = 4000;
     for (std::string* text : {&result.subject, &result.template_name, &result.language})
-        *text = printable(*text, kLongest);
-    const auto shown = [](const std::string& text) { return printable(text, kLongest); };
+        *text = printable(*text, kMaxLength);
+    const auto shown = [](const std::string& text) { return printable(text, kMaxLength); };
     for (Message& part : result.checked) part = with_changed_text(part, shown);
-    for (Finding& finding : result.findings) {
-        finding.place = shown(finding.place);
-        finding.what = with_changed_text(finding.what, shown);
-        finding.remedy = with_changed_text(finding.remedy, shown);
+    for (Issue& issue : result.findings) {
+        issue.place = shown(issue.place);
+        issue.what = with_changed_text(issue.what, shown);
+        issue.remedy = with_changed_text(issue.remedy, shown);
     }
     return result;
 }
 
 }  // namespace
 
-std::string findings_in_words(const CheckResult& result, bool in_colour, const Reader& reader) {
-    const Writer writer(in_colour, reader);
+std::string issues_as_text(const CheckResult& result, bool in_color, const Reader& reader) {
+    const Writer writer(in_color, reader);
     Message checked =
         result.template_name.empty() ? Message("checked") : Message("checked as {}", printable(result.template_name));
     if (!result.checked.empty()) checked = Message("{}: {}", checked, MessageList{result.checked});
@@ -123,7 +123,7 @@ std::string findings_in_words(const CheckResult& result, bool in_colour, const R
                                     writer.styled(kGreen, writer.words(Message("nothing to fix"))), checked)) +
                "\n";
     const auto rules = std::count_if(result.findings.begin(), result.findings.end(),
-                                     [](const Finding& finding) { return finding.severity == Severity::kRule; });
+                                     [](const Issue& issue) { return issue.severity == Severity::kRule; });
     std::string text =
         writer.words(result.checked.empty() ? Message::verbatim(writer.styled(kBold, subject))
                                             : Message("{}: {}", writer.styled(kBold, subject), checked)) +
@@ -136,7 +136,7 @@ std::string findings_in_words(const CheckResult& result, bool in_colour, const R
     return text;
 }
 
-std::string findings_as_json(const CheckResult& result) {
+std::string issues_as_json(const CheckResult& result) {
     JsonWriter writer;
     writer.begin_object();
     write_members(writer, printable_result(result));
@@ -146,7 +146,7 @@ std::string findings_as_json(const CheckResult& result) {
     return writer.dump(2) + "\n";
 }
 
-CheckResult findings_from_json(const std::string& json) {
+CheckResult issues_from_json(const std::string& json) {
     try {
         return from_json<CheckResult>(json);
     } catch (const ValueError& error) {

@@ -8,7 +8,7 @@ namespace dynlab::inline course {
 
 /// The outcome for a reader: rules broken, then hints, each with its place and remedy; one line when there is nothing
 /// to mend. Text from the document is shown without control characters.
-std::string findings_in_words(const CheckResult& result, bool in_colour, const Reader& reader = {});
+std::string issues_as_text(const CheckResult& result, bool in_color, const Reader& reader = {});
 
 /// The outcome for a program, as JSON in UTF-8:
 ///
@@ -19,9 +19,9 @@ std::string findings_in_words(const CheckResult& result, bool in_colour, const R
 /// severity is "rule" or "hint"; template, language, pages, page and place are null where nothing is known. The
 /// messages that the texts were made of stand beside them, as what_message, remedy_message and checked_messages
 /// (data_io/values/message_values.h).
-std::string findings_as_json(const CheckResult& result);
+std::string issues_as_json(const CheckResult& result);
 
-/// The outcome that findings_as_json wrote. Throws EnvironmentError for any other text.
-CheckResult findings_from_json(const std::string& json);
+/// The outcome that issues_as_json wrote. Throws EnvironmentError for any other text.
+CheckResult issues_from_json(const std::string& json);
 
 }  // namespace dynlab::inline course

@@ -67,8 +67,8 @@ std::vector<Language> word_languages(const DocumentText& text) {
 }
 
 /// Passages whose function words are those of `other`, one a page.
-Findings passages(const DocumentText& text, const std::vector<Language>& languages, Language other) {
-    Findings findings;
+Issues passages(const DocumentText& text, const std::vector<Language>& languages, Language other) {
+    Issues findings;
     int foreign = 0, own = 0, last_page = 0;
     const auto count = [&](std::size_t i, int change) {
         foreign += languages[i] == other ? change : 0;
@@ -111,7 +111,7 @@ LanguageFindings language_findings(const DocumentText& text, const std::optional
                                            "figure and table depend on it.",
                                            result.language)});
     }
-    const Findings mixed = passages(text, languages, is_french ? Language::kEnglish : Language::kFrench);
+    const Issues mixed = passages(text, languages, is_french ? Language::kEnglish : Language::kFrench);
     result.findings.insert(result.findings.end(), mixed.begin(), mixed.end());
     return result;
 }

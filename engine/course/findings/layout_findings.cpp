@@ -8,7 +8,7 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr double kPointsPerMm = 72 / 25.4;
-constexpr double kSmallestText = 9.5, kRounding = 0.05;  ///< points
+constexpr double kMinTextSize = 9.5, kRounding = 0.05;  ///< points
 constexpr double kSlideHeight = 96 * kPointsPerMm;
 constexpr double kSide = 15 * kPointsPerMm, kTopAndBottom = 12 * kPointsPerMm;
 constexpr int kManyAtSides = 5, kManyAtTop = 3;
@@ -49,22 +49,22 @@ Message too_small(double size, bool slides, const std::vector<int>& pages) {
         return slides
                    ? Message(
                          "The text is too small: {} pt, measured on a slide 96 mm high; at least {} pt are required.",
-                         found, kSmallestText)
-                   : Message("The text is too small: {} pt; at least {} pt are required.", found, kSmallestText);
+                         found, kMinTextSize)
+                   : Message("The text is too small: {} pt; at least {} pt are required.", found, kMinTextSize);
     return slides ? Message(
                         "The text is too small: {} pt, measured on a slide 96 mm high (pages {}); at least {} pt are "
                         "required.",
-                        found, where, kSmallestText)
+                        found, where, kMinTextSize)
                   : Message("The text is too small: {} pt (pages {}); at least {} pt are required.", found, where,
-                            kSmallestText);
+                            kMinTextSize);
 }
 
-void check_size(const DocumentText& text, int pages, Findings& findings) {
+void check_size(const DocumentText& text, int pages, Issues& findings) {
     std::vector<int> small;
-    double smallest = kSmallestText;
+    double smallest = kMinTextSize;
     for (int page = 1; page <= pages; ++page) {
         const double size = prose_size(text, page) * scale_of(text);
-        if (size == 0 || size >= kSmallestText - kRounding) continue;
+        if (size == 0 || size >= kMinTextSize - kRounding) continue;
         small.push_back(page);
         smallest = std::min(smallest, size);
     }
@@ -91,9 +91,9 @@ Strays strays_on(const DocumentText& text, const PdfPage& page, int number) {
     return unmatched_names;
 }
 
-void check_margins(const DocumentText& text, const PdfLayout& layout, Findings& findings) {
+void check_margins(const DocumentText& text, const PdfLayout& layout, Issues& findings) {
     std::vector<int> narrow;
-    Findings overflows;
+    Issues overflows;
     for (std::size_t i = 0; i < layout.pages.size(); ++i) {
         const int page = static_cast<int>(i) + 1;
         const Strays unmatched_names = strays_on(text, layout.pages[i], page);
@@ -118,7 +118,7 @@ void check_margins(const DocumentText& text, const PdfLayout& layout, Findings& 
     findings.insert(findings.end(), overflows.begin(), overflows.end());
 }
 
-void check_edges(const PdfLayout& layout, Findings& findings) {
+void check_edges(const PdfLayout& layout, Issues& findings) {
     for (std::size_t i = 0; i < layout.pages.size(); ++i) {
         const PdfPage& page = layout.pages[i];
         const auto cut = std::find_if(page.words.begin(), page.words.end(), [&page](const PdfWord& word) {
@@ -134,8 +134,8 @@ void check_edges(const PdfLayout& layout, Findings& findings) {
 
 }  // namespace
 
-Findings layout_findings(const DocumentText& text, const PdfLayout& layout) {
-    Findings findings;
+Issues layout_findings(const DocumentText& text, const PdfLayout& layout) {
+    Issues findings;
     check_size(text, static_cast<int>(layout.pages.size()), findings);
     if (!text.is_slides()) check_margins(text, layout, findings);
     check_edges(layout, findings);

@@ -12,7 +12,7 @@ namespace dynlab::inline course {
 namespace {
 
 constexpr std::size_t kWordsToKnow = 6;  ///< a shorter sentence may stand in a report by chance
-constexpr std::size_t kMostLeftovers = 10;
+constexpr std::size_t kMaxLeftovers = 10;
 
 struct Sign {
     const char *text, *id;
@@ -66,11 +66,11 @@ bool is_placeholder(const std::string& word) {
     return placeholders.contains(letters);
 }
 
-Finding leftover(const char* id, int page, const Message& what, const Message& remedy) {
+Issue leftover(const char* id, int page, const Message& what, const Message& remedy) {
     return {id, Severity::kRule, page, "", what, remedy};
 }
 
-void check_line(const TextLine& line, Findings& findings) {
+void check_line(const TextLine& line, Issues& findings) {
     const std::string text = line.text();
     const std::string lower = in_small_letters(text);
     for (const Sign& sign : signs()) {
@@ -91,7 +91,7 @@ std::string spaced(const std::vector<std::string>& words) {
     return text;
 }
 
-void check_guidance(const DocumentText& text, const std::vector<std::string>& guidance, Findings& findings) {
+void check_guidance(const DocumentText& text, const std::vector<std::string>& guidance, Issues& findings) {
     std::string all = " ";
     std::vector<std::pair<std::ptrdiff_t, int>> page_starts;
     for (const TextWord& word : text.words) {
@@ -131,13 +131,13 @@ std::vector<std::string> guidance_of(const std::string& markdown) {
     return sentences;
 }
 
-Findings leftover_findings(const DocumentText& text, const std::vector<std::string>& guidance) {
-    Findings findings;
+Issues leftover_findings(const DocumentText& text, const std::vector<std::string>& guidance) {
+    Issues findings;
     for (const TextLine& line : text.lines) {
-        if (!line.fixed_width && findings.size() < kMostLeftovers) check_line(line, findings);
+        if (!line.fixed_width && findings.size() < kMaxLeftovers) check_line(line, findings);
     }
     check_guidance(text, guidance, findings);
-    if (findings.size() > kMostLeftovers) findings.resize(kMostLeftovers);
+    if (findings.size() > kMaxLeftovers) findings.resize(kMaxLeftovers);
     return findings;
 }
 

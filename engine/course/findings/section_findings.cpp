@@ -29,21 +29,21 @@ std::vector<std::string> key_words(const std::string& title) {
 }
 
 /// "conclusion" and "conclusions", "data" and "dataset".
-bool same_word(const std::string& wanted, const std::string& given) {
+bool same_word(const std::string& requested, const std::string& given) {
     for (const char* ending : {"", "s", "es", "x", "set", "sets"}) {
-        if (given == wanted + ending || wanted == given + ending) return true;
+        if (given == requested + ending || requested == given + ending) return true;
     }
     return false;
 }
 
 /// How well a heading fits a title, 0 to 1: most of the title's words must be there, the fewer others the better.
 double likeness(const std::string& title, const std::string& heading) {
-    const std::vector<std::string> wanted = key_words(title), given = key_words(heading);
-    const auto found = std::ranges::count_if(wanted, [&](const std::string& word) {
+    const std::vector<std::string> requested = key_words(title), given = key_words(heading);
+    const auto found = std::ranges::count_if(requested, [&](const std::string& word) {
         return std::ranges::any_of(given, [&](const std::string& other) { return same_word(word, other); });
     });
-    if (2 * found <= static_cast<std::ptrdiff_t>(wanted.size())) return 0;
-    return 2 * static_cast<double>(found) / static_cast<double>(wanted.size() + given.size());
+    if (2 * found <= static_cast<std::ptrdiff_t>(requested.size())) return 0;
+    return 2 * static_cast<double>(found) / static_cast<double>(requested.size() + given.size());
 }
 
 double likeness(const SectionRule& section, const std::string& heading) {
@@ -98,7 +98,7 @@ double filled_pages(const DocumentText& text, int pages) {
     return pages - 1 + (text.height > 0 ? lowest / text.height : 1);
 }
 
-Findings too_few_pages(const DocumentText& text, int pages, const DocumentRules& rules) {
+Issues too_few_pages(const DocumentText& text, int pages, const DocumentRules& rules) {
     if (!rules.least_pages || filled_pages(text, pages) > *rules.least_pages - kMarginOfPage) return {};
     const Number filled = decimals(filled_pages(text, pages), 1);
     return {{"pages-few", Severity::kHint, pages, "",
@@ -126,8 +126,8 @@ Message too_many(Message (*counted)(int), int pages, int allowed, int in_appendi
 
 }  // namespace
 
-Findings section_findings(const DocumentText& text, const DocumentRules& rules, const std::string& language) {
-    Findings findings;
+Issues section_findings(const DocumentText& text, const DocumentRules& rules, const std::string& language) {
+    Issues findings;
     for (const SectionRule& section : rules.sections) {
         const std::string title = section.title(language);
         const auto found = find_section(section, text.headings);
@@ -155,7 +155,7 @@ Findings section_findings(const DocumentText& text, const DocumentRules& rules, 
     return findings;
 }
 
-Findings page_findings(const DocumentText& text, int pages, const DocumentRules& rules) {
+Issues page_findings(const DocumentText& text, int pages, const DocumentRules& rules) {
     if (!rules.pages) return {};
     const int allowed = *rules.pages, in_appendix = rules.appendix_pages.value_or(0);
     int appendix = 0;  // the page on which it begins

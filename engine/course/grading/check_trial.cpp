@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr double kScaled = 1.5;
 constexpr double kSlow = 0.5;  // s: a check that takes longer is told
 
-bool full(const TriedCheck& check) {
+bool full(const EvaluatedCheck& check) {
     return check.check.by_hand || check.share == 1;
 }
 
@@ -106,9 +106,9 @@ CheckedSubmission work_of(const GradingRules& rules, const std::string& source) 
     return rules.work_in(folder.path(), {}, log);
 }
 
-std::string points_of_script(const TriedScript& script) {
+std::string points_of_script(const EvaluatedScript& script) {
     double earned = 0, possible = 0;
-    for (const TriedCheck& one : script.checks) {
+    for (const EvaluatedCheck& one : script.checks) {
         if (one.check.by_hand) continue;
         earned += one.check.points * one.share.value_or(0);
         possible += one.check.points;
@@ -117,13 +117,13 @@ std::string points_of_script(const TriedScript& script) {
 }
 
 /// A line for the script and one for each check that it does not pass wholly.
-std::string lines_of_script(const TriedScript& script) {
+std::string lines_of_script(const EvaluatedScript& script) {
     std::string text = fmt::format("{}: {} points\n", script.name, points_of_script(script));
-    if (!script.trouble.empty()) text += fmt::format("    stopped: {}\n", message_text(script.trouble));
-    for (const TriedCheck& one : script.checks) {
+    if (!script.error_reason.empty()) text += fmt::format("    stopped: {}\n", message_text(script.error_reason));
+    for (const EvaluatedCheck& one : script.checks) {
         if (full(one)) continue;
-        const std::string told = message_text(one.for_instructor.empty() ? one.message : one.for_instructor);
-        text += fmt::format("    {:<20} {:>3.0f} %  {}\n", one.check.id, 100 * one.share.value_or(0), told);
+        const std::string reported = message_text(one.for_instructor.empty() ? one.message : one.for_instructor);
+        text += fmt::format("    {:<20} {:>3.0f} %  {}\n", one.check.id, 100 * one.share.value_or(0), reported);
     }
     return text;
 }
@@ -131,7 +131,7 @@ std::string lines_of_script(const TriedScript& script) {
 }  // namespace
 
 bool CheckTrial::fails_sometimes(std::size_t check) const {
-    const auto fails = [check](const TriedScript& script) { return !full(script.checks.at(check)); };
+    const auto fails = [check](const EvaluatedScript& script) { return !full(script.checks.at(check)); };
     return std::any_of(scripts.begin(), scripts.end(), fails) || std::any_of(mutants.begin(), mutants.end(), fails);
 }
 
@@ -140,7 +140,7 @@ bool CheckTrial::solution_passes(std::size_t check) const {
 }
 
 bool CheckTrial::sound() const {
-    return solution.trouble.empty() && std::all_of(solution.checks.begin(), solution.checks.end(), full);
+    return solution.error_reason.empty() && std::all_of(solution.checks.begin(), solution.checks.end(), full);
 }
 
 CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
@@ -180,9 +180,9 @@ CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
             submissions.push_back(std::move(one));
             names.push_back(name);
         }
-    const std::vector<std::vector<TriedCheck>> verdicts = rules.tried(submissions);
+    const std::vector<std::vector<EvaluatedCheck>> verdicts = rules.evaluated(submissions);
     for (std::size_t k = 0; k < verdicts.size(); ++k) {
-        TriedScript script{names[k], submissions[k].runs.at(kMainRun).error.value_or(Message()), verdicts[k]};
+        EvaluatedScript script{names[k], submissions[k].runs.at(kMainRun).error.value_or(Message()), verdicts[k]};
         if (k == 0)
             trial.solution = std::move(script);
         else
@@ -196,11 +196,11 @@ CheckTrial try_checks_of(const GradingSetup& setup, Mutants mutants) {
 
 std::string trial_in_words(const CheckTrial& trial) {
     std::string text = lines_of_script(trial.solution);
-    for (const TriedScript& script : trial.scripts) text += lines_of_script(script);
+    for (const EvaluatedScript& script : trial.scripts) text += lines_of_script(script);
     text += fmt::format("\n{} changes of one answer of the reference solution:\n", trial.mutants.size());
-    for (const TriedScript& mutant : trial.mutants) {
+    for (const EvaluatedScript& mutant : trial.mutants) {
         std::string failed;
-        for (const TriedCheck& one : mutant.checks)
+        for (const EvaluatedCheck& one : mutant.checks)
             if (!full(one)) failed += " " + one.check.id;
         text += fmt::format("    {:<44}{}\n", mutant.name, failed.empty() ? " detected by no check" : failed);
     }

@@ -7,19 +7,19 @@
 namespace dynlab::inline course {
 
 /// What one script, or one change of the worked solution's answers, gets from the checks.
-struct TriedScript {
+struct EvaluatedScript {
     std::string name;
-    Message trouble;                 ///< why it did not run to its end
-    std::vector<TriedCheck> checks;  ///< in the order of CheckTrial::checks
+    Message error_reason;                ///< why it did not run to its end
+    std::vector<EvaluatedCheck> checks;  ///< in the order of CheckTrial::checks
 };
 
 /// Checks that are tried on scripts of which one knows what they are worth.
 struct CheckTrial {
     std::vector<CheckDescription> checks;
-    TriedScript solution;
-    std::vector<TriedScript> scripts;  ///< the starter, wrong_*.lua, right_*.lua, and those of the folder's own
-    std::vector<TriedScript> mutants;  ///< the solution with one answer scaled, of the other sign, or left out
-    std::vector<TriedScript> typed;    ///< the starter with a number of checks.lua typed in as an answer: "K = 8.5"
+    EvaluatedScript solution;
+    std::vector<EvaluatedScript> scripts;  ///< the starter, wrong_*.lua, right_*.lua, and those of the folder's own
+    std::vector<EvaluatedScript> mutants;  ///< the solution with one answer scaled, of the other sign, or left out
+    std::vector<EvaluatedScript> typed;    ///< the starter with a number of checks.lua typed in as an answer: "K = 8.5"
 
     /// Of every check by its place: whether something tried here fails it, and whether the solution passes it.
     bool fails_sometimes(std::size_t check) const;

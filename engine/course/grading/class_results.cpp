@@ -289,18 +289,18 @@ Attention what_needs_attention(const ClassResults& results) {
         if (!entry.grade) continue;
         const Grade& grade = *entry.grade;
         if (grade.without_marks()) {
-            add(Message("\"{}\" cannot be read: {}", name, grade.trouble));
+            add(Message("\"{}\" cannot be read: {}", name, grade.error_reason));
             ++attention.unreadable;
         } else {
             if (waits_for_a_hand(grade))
                 by_hand.push_back(fmt::format("\"{}\"", name));
             else if (!whole(grade) && some_whole)
                 add(Message("\"{}\" is not graded completely", name));
-            if (grade.trouble.empty() && grade.silent)
+            if (grade.error_reason.empty() && grade.silent)
                 add(Message("\"{}\" ran to completion but gave no answer", name));
-            if (!grade.trouble.empty())
-                add(grade.began ? Message("the script of \"{}\" stopped: {}", name, grade.trouble)
-                                : Message("the script of \"{}\" could not be started: {}", name, grade.trouble));
+            if (!grade.error_reason.empty())
+                add(grade.began ? Message("the script of \"{}\" stopped: {}", name, grade.error_reason)
+                                : Message("the script of \"{}\" could not be started: {}", name, grade.error_reason));
             if (!grade.remark.empty()) add(Message("\"{}\": {}", name, grade.remark));
             if (grade.penalty > 0)
                 add(Message("\"{}\" was late and loses {} points: {}", name, points_text(grade.penalty),

@@ -21,7 +21,7 @@ struct ClassResults {
     std::filesystem::path out;
     const GradingSetup* setup = nullptr;
     bool pdf = true;
-    const BoxedDocuments* documents = nullptr;
+    const SandboxedDocuments* documents = nullptr;
     std::vector<Message> complaints;
 };
 

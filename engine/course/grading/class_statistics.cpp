@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kFewestForCorrelation = 5;
-constexpr std::size_t kMostMistakes = 5;
+constexpr std::size_t kMaxMistakes = 5;
 
 /// What two messages have in common that differ in their numbers only.
 Message without_numbers(const Message& message) {
@@ -32,11 +32,11 @@ Message without_numbers(const Message& message) {
 }
 
 double correlation(const std::vector<double>& x, const std::vector<double>& y) {
-    const auto centred = [](const std::vector<double>& values) {
+    const auto centered = [](const std::vector<double>& values) {
         const Eigen::Map<const Vector> all(values.data(), static_cast<Index>(values.size()));
         return Vector(all.array() - all.mean());
     };
-    const Vector a = centred(x), b = centred(y);
+    const Vector a = centered(x), b = centered(y);
     const double size = a.norm() * b.norm();
     // Rounding apart, one of them is constant.
     constexpr double kNothing = 1e-9;
@@ -58,7 +58,7 @@ double discrimination(const std::vector<Grade>& grades, const std::string& id) {
 std::vector<std::pair<std::string, int>> most_frequent(const std::map<std::string, int>& counts) {
     std::vector<std::pair<std::string, int>> sorted(counts.begin(), counts.end());
     std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-    if (sorted.size() > kMostMistakes) sorted.resize(kMostMistakes);
+    if (sorted.size() > kMaxMistakes) sorted.resize(kMaxMistakes);
     return sorted;
 }
 
@@ -84,7 +84,7 @@ json json_of_work(const Grade& grade) {
     for (const CheckGrade& check : grade.checks) checks[check.id] = check.graded ? json(check.earned) : json();
     return {{"submission", grade.submission}, {"points", grade.whole() ? json(grade.earned()) : json()},
             {"possible", grade.possible()},   {"penalty", grade.penalty},
-            {"whole", grade.whole()},         {"trouble", message_text(grade.trouble)},
+            {"whole", grade.whole()},         {"trouble", message_text(grade.error_reason)},
             {"checks", std::move(checks)}};
 }
 

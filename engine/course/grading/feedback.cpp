@@ -60,8 +60,8 @@ class FeedbackText {
         return text;
     }
 
-    std::string trouble() const {
-        if (grade_.trouble.empty())
+    std::string error_reason() const {
+        if (grade_.error_reason.empty())
             return words(grade_.silent ? Message("Your script ran to completion but gave no answer.")
                                        : Message("Your script ran to completion."));
         const std::string why = shown_trouble();
@@ -102,14 +102,14 @@ class FeedbackText {
     /// In French, a space comes before a colon, which is none of "analysis.lua:3": as code the place stays as it is.
     std::string shown_trouble() const {
         static const RE2 kPlace(R"(([\w.-]+\.lua:\d+): )", RE2::Latin1);
-        const Message& trouble = grade_.trouble;
-        const bool placed = trouble.arguments().size() == 2;
-        const auto* const first = placed ? std::get_if<std::string>(&trouble.arguments()[0]) : nullptr;
-        const auto* const sentence = placed ? std::get_if<MessageList>(&trouble.arguments()[1]) : nullptr;
+        const Message& error_reason = grade_.error_reason;
+        const bool placed = error_reason.arguments().size() == 2;
+        const auto* const first = placed ? std::get_if<std::string>(&error_reason.arguments()[0]) : nullptr;
+        const auto* const sentence = placed ? std::get_if<MessageList>(&error_reason.arguments()[1]) : nullptr;
         std::string place;
         if (reader_.reader().catalog == nullptr || first == nullptr || sentence == nullptr ||
             !RE2::FullMatch(*first, kPlace, &place))
-            return escaped(words(trouble));
+            return escaped(words(error_reason));
         return "`" + place + "`: " + escaped(words(Message("{}", *sentence)));
     }
 
@@ -128,7 +128,7 @@ RunRecord feedback_record(const FeedbackText& text) {
     record.script = "feedback";
     record.texts["result"] = {text.result()};
     record.texts["checks"] = {text.checks()};
-    record.texts["trouble"] = {text.trouble()};
+    record.texts["trouble"] = {text.error_reason()};
     record.texts["closing"] = {text.closing()};
     return record;
 }
@@ -187,11 +187,11 @@ std::string escaped_markdown(const std::string& text) {
 
 std::string feedback_markdown(const Grade& grade) {
     const FeedbackText text(grade, readable_markdown);
-    return fmt::format("# {}\n\n{}\n\n{}\n\n## {}\n\n{}\n{}\n", text.heading(), text.result(), text.trouble(),
+    return fmt::format("# {}\n\n{}\n\n{}\n\n## {}\n\n{}\n{}\n", text.heading(), text.result(), text.error_reason(),
                        text.checks_heading(), text.checks(), text.closing());
 }
 
-void set_feedback(const Grade& grade, const fs::path& pdf, const fs::path& made, const BoxedDocuments* documents) {
+void set_feedback(const Grade& grade, const fs::path& pdf, const fs::path& made, const SandboxedDocuments* documents) {
     const std::string markdown = feedback_markdown(grade);
     if (fs::exists(pdf) && fs::exists(made) && read_file(made) == text_and_document(markdown, pdf)) return;
     fs::remove(pdf);

@@ -24,6 +24,6 @@ std::string feedback_markdown(const Grade& grade);
 /// The same as `pdf`, set from report_templates/feedback.md. The file `made` remembers from what text and to which
 /// bytes it was set: where both are the same it is not set again. Without `documents` a PDF of another text goes.
 void set_feedback(const Grade& grade, const std::filesystem::path& pdf, const std::filesystem::path& made,
-                  const BoxedDocuments* documents);
+                  const SandboxedDocuments* documents);
 
 }  // namespace dynlab::inline course

@@ -88,10 +88,10 @@ class FolderCheck {
         fs::create_directory(out());
     }
 
-    CheckResult check(CheckOptions wishes) {
+    CheckResult check(CheckOptions check_options) {
         if (!has_its_files() || !copied()) return result_;
         const std::optional<PercentScript> script = readable_script();
-        wishes.begins(CheckStep::kAnalysis);
+        check_options.begins(CheckStep::kAnalysis);
         const bool made = script && makes_report();
         if (script) {
             result_.lesson = script->header.lesson;
@@ -103,20 +103,20 @@ class FolderCheck {
                 check_answers(*script, run);
                 check_places(*script, run);
             }
-            wishes.begins(CheckStep::kLessonChecks);
-            if (wishes.lesson_checks && !stopped_by_file()) try_lesson_checks(script->header.lesson);
+            check_options.begins(CheckStep::kLessonChecks);
+            if (check_options.lesson_checks && !stopped_by_file()) try_lesson_checks(script->header.lesson);
         }
-        if (!wishes.standard) wishes.standard = own_standard(script);
-        add_members(wishes);
-        wishes.begins(CheckStep::kReport);
-        const std::optional<fs::path> handed_in = pdf_in_folder();
+        if (!check_options.standard) check_options.standard = own_standard(script);
+        add_members(check_options);
+        check_options.begins(CheckStep::kReport);
+        const std::optional<fs::path> submitted_pdf = pdf_in_folder();
         if (made || fs::exists(report()))
-            check_report(report(), wishes);
-        else if (handed_in)
-            check_report(*handed_in, wishes);
-        if (made && handed_in) compare_with(*handed_in);
+            check_report(report(), check_options);
+        else if (submitted_pdf)
+            check_report(*submitted_pdf, check_options);
+        if (made && submitted_pdf) compare_with(*submitted_pdf);
         if (of_notebook_) tell_in_cells();
-        sort_findings(result_.findings);
+        sort_issues(result_.findings);
         return std::move(result_);
     }
 
@@ -176,10 +176,10 @@ class FolderCheck {
         const auto in_cells = [&source](const auto& text) {
             return with_places_in_notebook(text, kOwnScript, kOwnNotebook, source);
         };
-        for (Finding& finding : result_.findings) {
-            finding.place = in_cells(finding.place);
-            finding.what = in_cells(finding.what);
-            finding.remedy = in_cells(finding.remedy);
+        for (Issue& issue : result_.findings) {
+            issue.place = in_cells(issue.place);
+            issue.what = in_cells(issue.what);
+            issue.remedy = in_cells(issue.remedy);
         }
     }
 
@@ -187,7 +187,7 @@ class FolderCheck {
         try {
             return read_percent_script(copy() / "analysis.lua");
         } catch (const DocumentError& error) {
-            add_failure(told_outside(error.message(), copy()));
+            add_failure(without_sandbox_paths(error.message(), copy()));
             return std::nullopt;
         }
     }
@@ -221,7 +221,7 @@ class FolderCheck {
     /// What the checks say of a run that stopped there speaks of answers that are given further down.
     bool stopped_by_file() const {
         return std::any_of(result_.findings.begin(), result_.findings.end(),
-                           [](const Finding& finding) { return finding.id == "file-outside"; });
+                           [](const Issue& issue) { return issue.id == "file-outside"; });
     }
 
     /// "Your answer:" of the line "-- *Your answer:*".
@@ -374,19 +374,19 @@ class FolderCheck {
     }
 
     /// The authors themselves are looked for, whoever else is.
-    void add_members(CheckOptions& wishes) {
-        IdentityMatcher names = wishes.names ? *wishes.names : IdentityMatcher();
+    void add_members(CheckOptions& check_options) {
+        IdentityMatcher names = check_options.names ? *check_options.names : IdentityMatcher();
         const std::vector<Student> members = members_of(copy() / "group.toml");
         for (const Student& member : members) names.add(member, true);
         if (members.empty() && fs::exists(copy() / "group.toml"))
             add("members-missing", Severity::kHint, "group.toml",
                 Message("No members are listed, so the report was not searched for your names."),
                 Message("Add them: members = [\"Ada Lovelace\", \"Rudolf Kalman\"]."));
-        wishes.names = std::make_shared<const IdentityMatcher>(std::move(names));
+        check_options.names = std::make_shared<const IdentityMatcher>(std::move(names));
     }
 
-    void check_report(const fs::path& file, const CheckOptions& wishes) {
-        const CheckResult found = check_pdf(file, wishes, limits_.pdf);
+    void check_report(const fs::path& file, const CheckOptions& check_options) {
+        const CheckResult found = check_pdf(file, check_options, limits_.pdf);
         result_.template_name = found.template_name;
         result_.language = found.language;
         result_.pages = found.pages;
@@ -412,9 +412,9 @@ class FolderCheck {
         return Message("Make the PDF again: dynlab report FOLDER -o FOLDER/{}", name);
     }
 
-    void compare_with(const fs::path& handed_in) {
-        const std::string name = handed_in.filename().string();
-        if (read_file(handed_in) == read_file(report())) {
+    void compare_with(const fs::path& submitted_pdf) {
+        const std::string name = submitted_pdf.filename().string();
+        if (read_file(submitted_pdf) == read_file(report())) {
             result_.checked.push_back(Message("{} is up to date", name));
             return;
         }
@@ -440,9 +440,9 @@ class FolderCheck {
 
 }  // namespace
 
-CheckResult check_folder(const fs::path& folder, const fs::path& program, const CheckOptions& wishes,
+CheckResult check_folder(const fs::path& folder, const fs::path& program, const CheckOptions& check_options,
                          const FolderLimits& limits) {
-    return FolderCheck(folder, program, limits).check(wishes);
+    return FolderCheck(folder, program, limits).check(check_options);
 }
 
 }  // namespace dynlab::inline course

@@ -16,17 +16,20 @@ struct FolderLimits {
     PdfLimits pdf;
 };
 
-/// Checks a folder made by `dynlab new`: copies it, without links that lead elsewhere, runs its analysis and makes its
-/// report there with `program` (dynlab), in a box as grading does (the strongest isolation of this machine), with
-/// limits of time, without caches and without any file but the folder's and the installed data; then checks that
-/// report. Nothing is written into the folder. Findings besides those of check_pdf: analysis-missing, folder-too-large,
-/// file-outside (the analysis loads what is not in the folder), analysis-fails, answer-open, answer-missing (rules),
-/// not-shown (reported without a place in the text), members-missing (group.toml names nobody), pdf-outdated,
-/// pdf-differs, link-left-out, and check-failed, by the lesson's own checks (hints), which are tried on
-/// the group's own records where the folder has such. The standard is the template that the header of analysis.lua
-/// names, or report.md's own header when that demands nothing. Throws MissingProgram when something is missing on this
-/// machine rather than in the folder.
+/// Checks a folder created by `dynlab new`. dynlab copies the folder without links that lead outside, runs its analysis
+/// and creates its report with `program` (dynlab), and then checks the report. The sandbox is that of grading: the
+/// strongest isolation of this machine, time limits, no caches, and no files except those of the folder and the
+/// installed data. The folder itself is not changed.
+/// Findings in addition to those of check_pdf:
+/// * rules: analysis-missing, folder-too-large, file-outside (the analysis loads a file outside the folder),
+///   analysis-fails, answer-open, answer-missing
+/// * hints: not-shown (reported, but without a place in the text), members-missing (group.toml contains no names),
+///   pdf-outdated, pdf-differs, link-left-out, and check-failed, by the checks of the lesson; these use the records of
+///   the group if the folder has some
+/// The standard is the template in the header of analysis.lua, or the header of report.md if the template demands
+/// nothing.
+/// Throws MissingProgram if a program is missing on this machine.
 CheckResult check_folder(const std::filesystem::path& folder, const std::filesystem::path& program,
-                         const CheckOptions& wishes = {}, const FolderLimits& limits = {});
+                         const CheckOptions& check_options = {}, const FolderLimits& limits = {});
 
 }  // namespace dynlab::inline course

@@ -19,23 +19,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMissingProgramCode = 3;  ///< dynlab's exit code when pandoc or the like is not installed
-constexpr std::uint64_t kMostCheckOutput = 16u << 20, kLargestMade = 200u << 20;
+constexpr std::uint64_t kMostCheckOutput = 16u << 20, kMaxMadeBytes = 200u << 20;
 constexpr char kInBox[] = "/box/submission", kRecord[] = "record.json", kMessages[] = "messages";
 
 ChildResult run_report(const fs::path& folder, const fs::path& out, const fs::path& program, Isolation isolation,
                        const TimeLimits& time) {
-    Box box(isolation);
-    box.add_document_home(shared_folder() / "data");
-    const fs::path inside = box.add(folder, kInBox), made = box.add_writable(out, "/box/made");
-    const fs::path dynlab = box.add_program(program);
-    box.set_environment(kFileOfSaidMessages, (made / kMessages).string());
-    Box::Limits most;
+    Sandbox sandbox(isolation);
+    sandbox.add_document_home(shared_folder() / "data");
+    const fs::path inside = sandbox.add(folder, kInBox), made = sandbox.add_writable(out, "/box/made");
+    const fs::path dynlab = sandbox.add_program(program);
+    sandbox.set_environment(kFileOfCommandMessages, (made / kMessages).string());
+    Sandbox::Limits most;
     most.time = time;
     most.output_bytes = kMostCheckOutput;
-    most.file_bytes = kLargestMade;
-    return box.run({dynlab.string(), "report", inside.string(), "-o", (made / "report.pdf").string(), "--record",
-                    (made / kRecord).string(), "--stay-in-folder"},
-                   made, "", most);
+    most.file_bytes = kMaxMadeBytes;
+    return sandbox.run({dynlab.string(), "report", inside.string(), "-o", (made / "report.pdf").string(), "--record",
+                        (made / kRecord).string(), "--stay-in-folder"},
+                       made, "", most);
 }
 
 std::optional<RecordedError> error_of_run(const fs::path& record) {
@@ -49,7 +49,7 @@ std::optional<RecordedError> error_of_run(const fs::path& record) {
 /// What the program said before it ended without a report.
 Message complaint(const ChildResult& made, const fs::path& messages, const fs::path& folder) {
     MessageList said{{}, Join::kSentences};
-    for (const Message& one : read_said_messages(messages).complaints) {
+    for (const Message& one : read_command_messages(messages).complaints) {
         const auto* const lines = one.id() == "{}" ? std::get_if<MessageList>(&one.arguments().front()) : nullptr;
         if (lines == nullptr)
             said.items.push_back(one);
@@ -83,7 +83,7 @@ FolderReport make_folder_report(const fs::path& folder, const fs::path& out, con
     else if (made.output_exceeded)
         none.failure = Message("the script prints more than 16 MB.");
     else if (made.exit_code == 128 + SIGXFSZ)
-        none.failure = Message("the script writes a file of more than {} MB.", kLargestMade >> 20);
+        none.failure = Message("the script writes a file of more than {} MB.", kMaxMadeBytes >> 20);
     else if (made.error_output.empty())
         none.failure = Message("the script ends with code {} and without a message.", made.exit_code);
     else

@@ -82,7 +82,7 @@ std::string to_results_json(const Grade& grade, const Grade& marked) {
     own["whole"] = marked.whole();
     const bool costs = marked.penalty > 0;
     MessageList output{{}, Join::kLines};
-    if (!grade.trouble.empty()) output.items.push_back(grade.trouble);
+    if (!grade.error_reason.empty()) output.items.push_back(grade.error_reason);
     if (costs)
         output.items.push_back(Message("Late, minus {} points: {}.", decimals(marked.penalty, 2), grade.lateness));
     if (marked.whole_mark) output.items.push_back(Message("Marked as a whole: {}", marked.whole_reason));

@@ -24,8 +24,8 @@ struct CheckGrade {
 struct Grade {
     std::string submission, lesson, isolation;
     std::string fingerprint;  ///< of all that it depends on: an equal one need not be made again
-    Message trouble;          ///< why the script did not run to its end, in a sentence for the student
-    bool unreadable = false;  ///< nothing could be run, as `trouble` says: no marks, which is not the mark 0
+    Message error_reason;     ///< why the script did not run to its end, in a sentence for the student
+    bool unreadable = false;  ///< nothing could be run, as `error_reason` says: no marks, which is not the mark 0
     bool began = true;        ///< false where the script could not even be begun
     bool silent = false;      ///< the script gave no answer at all
     Message remark;           ///< for the instructor: which version was taken

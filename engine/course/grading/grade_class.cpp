@@ -23,13 +23,13 @@ namespace fs = std::filesystem;
 /// Sends the work of a class through the pipeline, by several threads.
 class ClassGrader {
   public:
-    ClassGrader(const ClassWork& work, const TriedRules& tried, const GradingOptions& options)
-        : work_(work), options_(options), pipeline_(tried.rules, options, work), graded_(work.items.size()) {
+    ClassGrader(const ClassWork& work, const EvaluatedRules& evaluated, const GradingOptions& options)
+        : work_(work), options_(options), pipeline_(evaluated.rules, options, work), graded_(work.items.size()) {
         outcome_.submissions = static_cast<int>(work.items.size());
-        outcome_.complaints = tried.complaints;
+        outcome_.complaints = evaluated.complaints;
         outcome_.complaints.insert(outcome_.complaints.end(), work.complaints.begin(), work.complaints.end());
         outcome_.notes = work.notes;
-        if (tried.note) outcome_.notes.push_back(*tried.note);
+        if (evaluated.note) outcome_.notes.push_back(*evaluated.note);
         outcome_.late = work.late;
         outcome_.unconfirmed = work.unconfirmed;
     }
@@ -68,9 +68,9 @@ class ClassGrader {
 
     /// How many are checked in one box: enough to forget its start, few enough to keep all threads busy.
     std::size_t checked_together() const {
-        constexpr std::size_t kMost = 16, kSharesOfAThread = 4;
+        constexpr std::size_t kMax = 16, kSharesOfAThread = 4;
         const auto threads = static_cast<std::size_t>(std::max(1, options_.setup.jobs));
-        return std::clamp<std::size_t>(work_.chosen.size() / (kSharesOfAThread * threads), 1, kMost);
+        return std::clamp<std::size_t>(work_.chosen.size() / (kSharesOfAThread * threads), 1, kMax);
     }
 
     void grade_some() {
@@ -107,7 +107,7 @@ class ClassGrader {
     std::optional<GradingPipeline::ToCheck> run(std::size_t place) {
         const WorkItem& item = work_.items[place];
         const std::string key = pipeline_.key_of(item);
-        if (std::optional<Grade> kept = pipeline_.kept_grade(item, key)) {
+        if (std::optional<Grade> kept = pipeline_.cached_grade(item, key)) {
             finish(place, *std::move(kept), outcome_.kept);
             return {};
         }
@@ -147,9 +147,9 @@ class ClassGrader {
 
     void keep(std::size_t place, GradingPipeline::Finished finished) {
         graded_[place] = std::move(finished.marked);
-        if (finished.trouble.empty()) return;
+        if (finished.error_reason.empty()) return;
         const std::lock_guard lock(mutex_);
-        outcome_.complaints.push_back(Message("\"{}\": {}", work_.items[place].submission.name, finished.trouble));
+        outcome_.complaints.push_back(Message("\"{}\": {}", work_.items[place].submission.name, finished.error_reason));
     }
 
     /// What the grader itself cannot do costs no points and stops no other submission; nothing is written, so that the
@@ -231,35 +231,36 @@ FileLock lock_results(const fs::path& out) {
     return lock;
 }
 
-TriedRules::TriedRules(const GradingOptions& options) : rules(isolated(options.setup)) {
+EvaluatedRules::EvaluatedRules(const GradingOptions& options) : rules(isolated(options.setup)) {
     complaints = rules.try_solution(options.out / "runs/.worked_solution.cbor", options.regrade);
     note = rules.note_on_time();
 }
 
-GradingOutcome grade_class(const ClassWork& work, const TriedRules& tried, const GradingOptions& options) {
-    ClassGrader grader(work, tried, options);
+GradingOutcome grade_class(const ClassWork& work, const EvaluatedRules& evaluated, const GradingOptions& options) {
+    ClassGrader grader(work, evaluated, options);
     grader.grade_chosen();
     return grader.conclude();
 }
 
-GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, const TriedRules& tried,
+GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, const EvaluatedRules& evaluated,
                                    const GradingOptions& options) {
     ClassWork own = work;
     own.chosen.clear();
     for (std::size_t k = 0; k < work.chosen.size(); ++k)
         if (part.has(k)) own.chosen.push_back(work.chosen[k]);
-    ClassGrader grader(own, tried, options);
+    ClassGrader grader(own, evaluated, options);
     grader.grade_chosen();
     return grader.outcome();
 }
 
-MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& tried, const GradingOptions& options) {
-    const GradingPipeline pipeline(tried.rules, options, work);
+MissingParts ungraded_parts(const ClassWork& work, int parts, const EvaluatedRules& evaluated,
+                            const GradingOptions& options) {
+    const GradingPipeline pipeline(evaluated.rules, options, work);
     MissingParts missing;
     for (std::size_t k = 0; k < work.chosen.size(); ++k) {
         const int part = WorkPart{1, parts}.part_of(k);
         const WorkItem& item = work.items[work.chosen[k]];
-        if (!missing.parts.contains(part) && !pipeline.kept_grade(item, pipeline.key_of(item)))
+        if (!missing.parts.contains(part) && !pipeline.cached_grade(item, pipeline.key_of(item)))
             missing.parts.insert(part);
     }
     return missing;

@@ -23,10 +23,10 @@ struct GradingOutcome {
 FileLock lock_results(const std::filesystem::path& out);
 
 /// The rules of a class, tried on the worked solution of the lesson.
-struct TriedRules {
+struct EvaluatedRules {
     /// Throws EnvironmentError: isolation that this machine does not have, checks that cannot be read, and results of
     /// another lesson in the folder.
-    explicit TriedRules(const GradingOptions& options);
+    explicit EvaluatedRules(const GradingOptions& options);
 
     GradingRules rules;
     std::vector<Message> complaints;  ///< of checks that the worked solution fails: they are left ungraded
@@ -35,16 +35,17 @@ struct TriedRules {
 
 /// Grades one part of the chosen submissions, and writes nothing that is of the whole class. Several parts may be
 /// graded at a time, on several machines.
-GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, const TriedRules& tried,
+GradingOutcome grade_part_of_class(const ClassWork& work, const WorkPart& part, const EvaluatedRules& evaluated,
                                    const GradingOptions& options);
 /// Of so many parts those in which a chosen submission has no result of these files, rules and program.
-MissingParts ungraded_parts(const ClassWork& work, int parts, const TriedRules& tried, const GradingOptions& options);
+MissingParts ungraded_parts(const ClassWork& work, int parts, const EvaluatedRules& evaluated,
+                            const GradingOptions& options);
 
 /// Grades a class. In `options.out`: results/NAME/ with results.json and feedback.md and .pdf for each submission,
 /// logs/NAME/log.txt, which may quote hidden records, gradebook.csv, summary.md or .pdf, marks.csv. Each submission is
 /// graded alone, in boxes, by as many threads as `setup.jobs`; a result whose inputs are unchanged is kept, so that a
 /// run that was ended goes on where it was. Marks depend on neither the order nor the threads. The caller has the lock
 /// of the folder. Throws Interrupted after Ctrl-C.
-GradingOutcome grade_class(const ClassWork& work, const TriedRules& tried, const GradingOptions& options);
+GradingOutcome grade_class(const ClassWork& work, const EvaluatedRules& evaluated, const GradingOptions& options);
 
 }  // namespace dynlab::inline course

@@ -20,12 +20,12 @@ void describe(T& object, V& member) {
 
 template <Is<Grade> T, class V>
 void describe(T& object, V& member) {
-    auto& [submission, lesson, isolation, fingerprint, trouble, unreadable, began, silent, remark, printed, checks,
+    auto& [submission, lesson, isolation, fingerprint, error_reason, unreadable, began, silent, remark, printed, checks,
            late_hours, penalty, lateness, title, language, counts_instead, newest_counts, whole_mark, whole_reason,
            log] = object;
     member("submission", submission), member("lesson", lesson), member("isolation", isolation);
     member("fingerprint", fingerprint), member("unreadable", unreadable);
-    store_text_with_message(member, "trouble", "stored_trouble", trouble);
+    store_text_with_message(member, "trouble", "stored_trouble", error_reason);
     member("began", began), member("silent", silent), member("printed", printed);
     store_text_with_message(member, "remark", "stored_remark", remark);
     member("checks", checks), member("late_hours", late_hours), member("penalty", penalty);

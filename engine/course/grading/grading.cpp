@@ -20,7 +20,7 @@ GradingPipeline::GradingPipeline(const GradingRules& rules, const GradingOptions
       manual_(options.out, work, rules.checks(), options.above_maximum),
       documents_(options.setup.isolation, options.setup.program) {}
 
-std::optional<Grade> GradingPipeline::kept_grade(const WorkItem& item, const std::string& key) const {
+std::optional<Grade> GradingPipeline::cached_grade(const WorkItem& item, const std::string& key) const {
     std::optional<Grade> grade = options_.regrade ? std::nullopt : earlier_grade(results_of(item));
     return grade && grade->fingerprint == key ? grade : std::nullopt;
 }
@@ -29,12 +29,12 @@ std::optional<Grade> GradingPipeline::kept_grade(const WorkItem& item, const std
 GradingPipeline::Run GradingPipeline::run(const WorkItem& item) const {
     std::string log;
     const std::string key = rules_.run_fingerprint(item.content, item.seed);
-    KeptRuns runs = cached(kept_in(item) / "run.cbor", key, options_.regrade, [&] {
+    CachedRuns runs = cached(kept_in(item) / "run.cbor", key, options_.regrade, [&] {
         const TemporaryFolder folder;
         const StagedWork staged =
             stage_submission(item.submission, folder.path(), options_.setup.isolation, options_.setup.program);
         CheckedSubmission work = rules_.work_in(staged.folder, item.seed, log, staged.of_notebook);
-        return KeptRuns{key, std::move(work), staged.remark, staged.language};
+        return CachedRuns{key, std::move(work), staged.remark, staged.language};
     });
     return {std::move(runs), log.empty() ? "the earlier runs were used\n" : log};
 }
@@ -66,8 +66,8 @@ GradingPipeline::Finished GradingPipeline::finish(const WorkItem& item, Grade gr
     grade.penalty = 0;
     Grade marked = manual_.applied(grade);
     if (!marked.whole_mark) grade.penalty = marked.penalty = marked.earned() * item.lateness.percent / 100;
-    Message trouble = write_files(item, grade, marked, again);
-    return {std::move(marked), std::move(trouble)};
+    Message error_reason = write_files(item, grade, marked, again);
+    return {std::move(marked), std::move(error_reason)};
 }
 
 /// The file of results last, as it says that the work is done.
@@ -78,13 +78,13 @@ Message GradingPipeline::write_files(const WorkItem& item, const Grade& grade, c
                          fs::exists(folder / "results.json") && read_file(folder / "results.json") == results;
     if (written && !again) return {};
     fs::create_directories(folder);
-    Message trouble;
+    Message error_reason;
     try {
         const fs::path made = kept_in(item) / "feedback";
         if (again) fs::remove(made);
         set_feedback(marked, folder / "feedback.pdf", made, options_.pdf ? &documents_ : nullptr);
     } catch (const EnvironmentError& error) {  // one that cannot be set stops no other, and no mark
-        trouble = error.message();
+        error_reason = error.message();
     }
     std::vector<NewFile> files = {{folder / "feedback.md", feedback_markdown(marked)}};
     if (!grade.log.empty()) {
@@ -94,7 +94,7 @@ Message GradingPipeline::write_files(const WorkItem& item, const Grade& grade, c
     }
     files.push_back({folder / "results.json", results});
     write_files_atomically(files);
-    return trouble;
+    return error_reason;
 }
 
 std::optional<GradingPipeline::Finished> GradingPipeline::finish_as_counted(const WorkItem& item, const Grade& now,

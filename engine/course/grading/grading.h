@@ -33,10 +33,10 @@ class GradingPipeline {
     std::string key_of(const WorkItem& item) const { return rules_.fingerprint(item.content, item.seed); }
 
     /// The grade that an earlier run made under this key; nothing where there is none, or to be made again.
-    std::optional<Grade> kept_grade(const WorkItem& item, const std::string& key) const;
+    std::optional<Grade> cached_grade(const WorkItem& item, const std::string& key) const;
     /// Staged and run. Throws SubmissionError where there is nothing to run.
     struct Run {
-        KeptRuns runs;
+        CachedRuns runs;
         std::string log;
     };
     Run run(const WorkItem& item) const;
@@ -50,10 +50,10 @@ class GradingPipeline {
     Grade unreadable(const WorkItem& item, const std::string& key, const Message& why) const;
 
     /// Marked, with the penalty and what the instructor marked, and its files written where they say anything else, or
-    /// `again`; `trouble`: why there is no PDF.
+    /// `again`; `error_reason`: why there is no PDF.
     struct Finished {
         Grade marked;
-        Message trouble;
+        Message error_reason;
     };
     Finished finish(const WorkItem& item, Grade grade, bool again) const;
     /// The same once it is known which submission of the same student counts; empty where it is this one. Nothing where
@@ -65,7 +65,7 @@ class GradingPipeline {
     }
     const GradingRules& rules() const { return rules_; }
     const ManualMarks& manual() const { return manual_; }
-    const BoxedDocuments& documents() const { return documents_; }
+    const SandboxedDocuments& documents() const { return documents_; }
 
   private:
     std::filesystem::path kept_in(const WorkItem& item) const { return options_.out / "runs" / item.submission.name; }
@@ -75,7 +75,7 @@ class GradingPipeline {
     const GradingOptions& options_;
     bool newest_counts_;
     ManualMarks manual_;
-    BoxedDocuments documents_;
+    SandboxedDocuments documents_;
 };
 
 }  // namespace dynlab::inline course

@@ -24,7 +24,7 @@ std::uint32_t GradingRules::drawn(const std::string& what) const {
 /// second together.
 void GradingRules::make_records() {
     fs::create_directories(records_.path() / kHiddenRecords);
-    for (const Rig& rig : rig_catalogue()) make_record(rig.name, kHiddenRecords, records_.path() / kHiddenRecords);
+    for (const Plant& rig : plant_catalog()) make_record(rig.name, kHiddenRecords, records_.path() / kHiddenRecords);
     for (const std::string& rerun : reruns_) {
         if (rerun == kOtherSeedRun) continue;
         const fs::path data = records_.path() / rerun / "data";
@@ -37,7 +37,7 @@ void GradingRules::make_records() {
         if (const auto file = own_record("rerun", rerun)) {
             fs::copy_file(*file, data / rerun / file->filename());
             own_records_ += sha256_of_file(*file);
-        } else if (find_rig(rerun)) {
+        } else if (find_plant(rerun)) {
             make_record(rerun, rerun, data / rerun);
         }
     }
@@ -47,10 +47,10 @@ void GradingRules::make_records() {
             if (!own_record(kHiddenRecords, name)) continue;
             fs::remove(records_.path() / kHiddenRecords / (name + ".mat"));
             fs::copy_file(entry.path(), records_.path() / kHiddenRecords / entry.path().filename());
-            specimens_[kHiddenRecords].erase(name);  // the instructor's file stands for the simulated one
+            variants_[kHiddenRecords].erase(name);  // the instructor's file stands for the simulated one
             own_records_ += sha256_of_file(entry.path());
         }
-    make_records_of_declared_rigs();
+    make_data_of_declared_plants();
 }
 
 /// A record from the instructor's folder of checks.
@@ -64,21 +64,21 @@ std::optional<fs::path> GradingRules::own_record(const std::string& folder, cons
 }
 
 /// Hidden ones, and those of reruns, of all rigs that the files declare.
-void GradingRules::make_records_of_declared_rigs() {
-    if (declared_rigs_.empty()) return;
-    std::vector<WantedRecord> wanted;
+void GradingRules::make_data_of_declared_plants() {
+    if (declared_plants_.empty()) return;
+    std::vector<RequestedRecord> requested;
     std::vector<fs::path> files;
-    for (const std::string& rig : declared_rigs_)
+    for (const std::string& rig : declared_plants_)
         for (const std::string& run : {std::string(kHiddenRecords), rig}) {
             const bool hidden = run == kHiddenRecords;
             if (!hidden && !reruns_.contains(rig)) continue;
             const std::uint32_t specimen = drawn(rig);
-            wanted.push_back({rig, specimen, drawn(noise_of(rig, run))});
+            requested.push_back({rig, specimen, drawn(noise_of(rig, run))});
             files.push_back((hidden ? records_.path() / kHiddenRecords : records_.path() / rig / "data" / rig) /
                             (rig + ".mat"));
-            specimens_[run][rig] = specimen;
+            variants_[run][rig] = specimen;
         }
-    const BoxedResult<CheckResults> made = listed(wanted);
+    const SandboxResult<CheckResults> made = listed(requested);
     if (!made.output)
         throw EnvironmentError("the simulated plants that the checks declare cannot be run: {}", made.reason);
     if (made.output->error) throw EnvironmentError(*made.output->error);
@@ -92,9 +92,9 @@ void GradingRules::make_records_of_declared_rigs() {
 
 void GradingRules::make_record(const std::string& data_set, const std::string& run, const fs::path& folder) {
     // Without the run: hidden records are further experiments with the apparatus of the rerun.
-    const RigChoice choice{.specimen = drawn(data_set), .seed = drawn(noise_of(data_set, run))};
-    specimens_[run][data_set] = choice.specimen;
-    write_specimen_record(data_set, choice, folder);
+    const PlantChoice choice{.specimen = drawn(data_set), .seed = drawn(noise_of(data_set, run))};
+    variants_[run][data_set] = choice.specimen;
+    write_variant_data(data_set, choice, folder);
 }
 
 void GradingRules::bring_lesson_data() {
@@ -134,8 +134,8 @@ fs::path GradingRules::data_of(const GroupSeed& group_seed) const {
     return data;
 }
 
-std::map<std::string, Specimens> GradingRules::specimens_of(const GroupSeed& group_seed) const {
-    std::map<std::string, Specimens> all = specimens_;
+std::map<std::string, PlantVariants> GradingRules::variants_of(const GroupSeed& group_seed) const {
+    std::map<std::string, PlantVariants> all = variants_;
     if (!group_seed) return all;
     const std::lock_guard lock(*making_);
     for (const std::string& name : simulated())

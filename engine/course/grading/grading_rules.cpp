@@ -61,7 +61,7 @@ std::string hash_of_parts(const std::vector<std::string>& parts) {
 
 [[noreturn]] void refuse_rerun(const std::string& check, const std::string& rerun) {
     std::vector<std::string> names;
-    for (const Rig& rig : rig_catalogue()) names.push_back(rig.name);
+    for (const Plant& rig : plant_catalog()) names.push_back(rig.name);
     throw EnvironmentError(
         "the check \"{}\" requests a rerun on \"{}\". Use {}, a plant that the checks declare, or rerun/NAME.csv in "
         "the folder of the checks; \"seed\" changes the seed",
@@ -98,11 +98,11 @@ void GradingRules::read_checks() {
         std::ranges::sort(more);
         for (const fs::path& file : more) files_.push_back({file.filename().string(), read_text(file), false});
     }
-    const BoxedResult<CheckResults> read = listed();
+    const SandboxResult<CheckResults> read = listed();
     if (!read.output) throw EnvironmentError("the checks cannot be read: {}", read.reason);
     if (read.output->error) throw EnvironmentError(*read.output->error);
-    for (const TriedCheck& one : read.output->checks) checks_.push_back(one.check);
-    declared_rigs_ = read.output->rigs;
+    for (const EvaluatedCheck& one : read.output->checks) checks_.push_back(one.check);
+    declared_plants_ = read.output->rigs;
     if (checks_.empty()) throw EnvironmentError("lesson {} declares no check", setup_.lesson.slug);
     for (const CheckDescription& check : checks_) {
         const std::string& rerun = check.rerun;
@@ -113,36 +113,36 @@ void GradingRules::read_checks() {
                 "report.en.md in their folder",
                 check.id, setup_.lesson.slug);
         if (rerun.empty()) continue;
-        const bool declared = std::ranges::find(declared_rigs_, rerun) != declared_rigs_.end();
-        if (rerun != kOtherSeedRun && !find_rig(rerun) && !declared && !own_record("rerun", rerun))
+        const bool declared = std::ranges::find(declared_plants_, rerun) != declared_plants_.end();
+        if (rerun != kOtherSeedRun && !find_plant(rerun) && !declared && !own_record("rerun", rerun))
             refuse_rerun(check.id, rerun);
         reruns_.insert(rerun);
     }
 }
 
-fs::path GradingRules::add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const {
+fs::path GradingRules::add_home(Sandbox& sandbox, const std::string& run, const GroupSeed& group_seed) const {
     const bool own = run != kMainRun && run != kOtherSeedRun;
     const fs::path data = own ? records_.path() / run / "data" : data_of(group_seed);
-    return box.add(data, "/box/home/data").parent_path();
+    return sandbox.add(data, "/box/home/data").parent_path();
 }
 
 /// One run of the script, in a box of its own: there are neither records of other runs nor what they left behind.
 GradedRun GradingRules::run(const std::string& name, const fs::path& folder, const GroupSeed& group_seed,
                             std::string& log) const {
-    Box box(setup_.isolation);
-    box.set_environment("DYNLAB_HOME", add_home(box, name, group_seed).string());
+    Sandbox sandbox(setup_.isolation);
+    sandbox.set_environment("DYNLAB_HOME", add_home(sandbox, name, group_seed).string());
     RunJob job;
-    job.script = box.add(folder, "/box/submission") / "analysis.lua";
+    job.script = sandbox.add(folder, "/box/submission") / "analysis.lua";
     job.seed = name == kOtherSeedRun ? drawn("seed") : seed_;
     job.answers = answers_;
     job.memory_bytes = kScriptMemory;
     job.time_ms = setup_.time.processor.count();
     job.recalls = setup_.call_memory.has_value();
     if (job.recalls)
-        box.set_environment("XDG_CACHE_HOME",
-                            box.add_writable(*setup_.call_memory, "/box/caches/dynlab").parent_path());
+        sandbox.set_environment("XDG_CACHE_HOME",
+                                sandbox.add_writable(*setup_.call_memory, "/box/caches/dynlab").parent_path());
     const TimeLimits limits{setup_.time.processor, kClockMultiple};
-    const auto result = run_boxed(box, setup_.program, job, limits, kMostGraded);
+    const auto result = run_in_sandbox(sandbox, setup_.program, job, limits, kMaxGradedRunBytes);
     if (result.waited)
         throw EnvironmentError(
             "the machine was too busy: the script had not used its {} s of processor time after {} s. Grade it again "
@@ -154,7 +154,7 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     log += fmt::format(
         "run {}: {:.3f} s of processor time{}, {:.3f} s elapsed time in its sandbox\n{}", name, run.seconds,
         solution == solution_seconds_.end() ? "" : fmt::format(" (reference solution: {:.3f} s)", solution->second),
-        result.seconds, run.error ? "  " + message_text(shortened_trouble(*run.error)) + "\n" : "");
+        result.seconds, run.error ? "  " + message_text(shortened_error(*run.error)) + "\n" : "");
     return run;
 }
 
@@ -176,21 +176,21 @@ std::map<std::string, GradedRun> GradingRules::runs(const fs::path& folder, cons
     return all;
 }
 
-Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed) const {
+Issues GradingRules::findings(const fs::path& folder, const GroupSeed& group_seed) const {
     const TakenCore core(*free_cores_);
-    Box box(setup_.isolation);
-    box.add_document_home(data_of(group_seed));
-    const fs::path inside = box.add(folder, "/box/submission"), program = box.add_program(setup_.program);
+    Sandbox sandbox(setup_.isolation);
+    sandbox.add_document_home(data_of(group_seed));
+    const fs::path inside = sandbox.add(folder, "/box/submission"), program = sandbox.add_program(setup_.program);
     const bool file = standard_.ends_with(".md");
-    const std::string standard = file ? box.add(standard_, "/box/standard/report.md").string() : standard_;
-    Box::Limits limits;
+    const std::string standard = file ? sandbox.add(standard_, "/box/standard/report.md").string() : standard_;
+    Sandbox::Limits limits;
     limits.time = setup_.time;
     limits.time.processor += kDocumentTime;
     const ChildResult child =
-        box.run({program.string(), "check", "--json", "--document-only", "--template", standard, inside.string()}, {},
-                "", limits);
+        sandbox.run({program.string(), "check", "--json", "--document-only", "--template", standard, inside.string()},
+                    {}, "", limits);
     try {
-        return findings_from_json(child.output).findings;
+        return issues_from_json(child.output).findings;
     } catch (const EnvironmentError&) {
         return {{kDocumentFails, Severity::kRule, 0, "",
                  child.timed_out ? Message("The report cannot be made: {}.", reason_of_end(child, limits.time))
@@ -199,26 +199,26 @@ Findings GradingRules::findings(const fs::path& folder, const GroupSeed& group_s
     }
 }
 
-BoxedResult<CheckResults> GradingRules::listed(std::vector<WantedRecord> records) const {
+SandboxResult<CheckResults> GradingRules::listed(std::vector<RequestedRecord> records) const {
     const TakenCore core(*free_cores_);
-    Box box(setup_.isolation);
-    box.set_environment("DYNLAB_HOME", add_home(box, kMainRun, {}).string());
+    Sandbox sandbox(setup_.isolation);
+    sandbox.set_environment("DYNLAB_HOME", add_home(sandbox, kMainRun, {}).string());
     ChecksJob job;
     job.files = files_;
     job.time_ms = kCheckTime.count();
     job.clock_multiple = setup_.time.clock_multiple;
     job.records = std::move(records);
-    return run_boxed(box, setup_.program, job, {kSingleTime, setup_.time.clock_multiple});
+    return run_in_sandbox(sandbox, setup_.program, job, {kSingleTime, setup_.time.clock_multiple});
 }
 
 /// Each may take `most`.
-BoxedResult<CheckResults> GradingRules::checked(const std::vector<Work>& works, std::chrono::milliseconds most,
-                                                std::optional<std::size_t> only) const {
+SandboxResult<CheckResults> GradingRules::checked(const std::vector<Work>& works, std::chrono::milliseconds most,
+                                                  std::optional<std::size_t> only) const {
     const TakenCore core(*free_cores_);
-    Box box(setup_.isolation);
+    Sandbox sandbox(setup_.isolation);
     ChecksJob job;
     job.files = files_;
-    job.hidden_folder = box.add(records_.path() / kHiddenRecords, "/box/hidden");
+    job.hidden_folder = sandbox.add(records_.path() / kHiddenRecords, "/box/hidden");
     job.time_ms = kCheckTime.count();
     job.most_ms = most.count();
     job.clock_multiple = setup_.time.clock_multiple;
@@ -228,21 +228,23 @@ BoxedResult<CheckResults> GradingRules::checked(const std::vector<Work>& works, 
         const auto [home, fresh] = homes.try_emplace(work.group_seed);
         if (fresh)
             home->second =
-                box.add(data_of(work.group_seed), fmt::format("/box/home-{}/data", homes.size())).parent_path();
-        job.submissions.push_back({work.submission, home->second, specimens_of(work.group_seed)});
+                sandbox.add(data_of(work.group_seed), fmt::format("/box/home-{}/data", homes.size())).parent_path();
+        job.submissions.push_back({work.submission, home->second, variants_of(work.group_seed)});
     }
-    box.set_environment("DYNLAB_HOME", job.submissions.front().home.string());
-    return run_boxed(box, setup_.program, job, {most * static_cast<int>(works.size()), setup_.time.clock_multiple});
+    sandbox.set_environment("DYNLAB_HOME", job.submissions.front().home.string());
+    return run_in_sandbox(sandbox, setup_.program, job,
+                          {most * static_cast<int>(works.size()), setup_.time.clock_multiple});
 }
 
-std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<CheckedSubmission>& submissions) const {
+std::vector<std::vector<EvaluatedCheck>> GradingRules::evaluated(
+    const std::vector<CheckedSubmission>& submissions) const {
     if (submissions.empty()) return {};
     std::vector<Work> works;
     for (const CheckedSubmission& submission : submissions) works.push_back({"", submission, {}, ""});
     auto result = checked(works, kSingleTime);
     if (!result.output) throw EnvironmentError("the checks do not terminate: {}", result.reason);
-    std::vector<std::vector<TriedCheck>> all;
-    for (JudgedSubmission& judged : result.output->judged) {
+    std::vector<std::vector<EvaluatedCheck>> all;
+    for (GradedSubmission& judged : result.output->judged) {
         if (!judged.reason.empty()) throw EnvironmentError("the checks do not terminate: {}", judged.reason);
         all.push_back(std::move(judged.checks));
     }
@@ -250,15 +252,15 @@ std::vector<std::vector<TriedCheck>> GradingRules::tried(const std::vector<Check
 }
 
 /// Each check in a box of its own; only those stay without a verdict that come to no end there.
-std::vector<GradingRules::Tried> GradingRules::verdicts_one_by_one(const Work& work) const {
+std::vector<GradingRules::CheckAttempt> GradingRules::verdicts_one_by_one(const Work& work) const {
     const Message unreadable_result = Message("the result of the run cannot be read");
-    std::vector<Tried> all;
+    std::vector<CheckAttempt> all;
     for (std::size_t k = 0; k < checks_.size(); ++k) {
         const auto alone = checked({work}, kSingleTime / static_cast<int>(checks_.size()), k);
         const bool answered = alone.output && alone.output->judged.size() == 1;
         if (!answered)
             all.push_back({{}, alone.output ? unreadable_result : alone.reason});
-        else if (const JudgedSubmission& judged = alone.output->judged.front(); judged.checks.size() == 1)
+        else if (const GradedSubmission& judged = alone.output->judged.front(); judged.checks.size() == 1)
             all.push_back({judged.checks.front(), {}});
         else
             all.push_back({{}, judged.reason.empty() ? unreadable_result : judged.reason});
@@ -268,12 +270,12 @@ std::vector<GradingRules::Tried> GradingRules::verdicts_one_by_one(const Work& w
 
 /// Answers that crash one check, or hold it up, take the others of their submission with them; then each is tried by
 /// itself.
-std::vector<std::vector<GradingRules::Tried>> GradingRules::verdicts(std::vector<Work>& works) const {
-    const BoxedResult<CheckResults> together = checked(works, kSingleTime);
+std::vector<std::vector<GradingRules::CheckAttempt>> GradingRules::verdicts(std::vector<Work>& works) const {
+    const SandboxResult<CheckResults> together = checked(works, kSingleTime);
     const bool answered = together.output && together.output->judged.size() == works.size();
-    std::vector<std::vector<Tried>> all(works.size());
+    std::vector<std::vector<CheckAttempt>> all(works.size());
     for (std::size_t i = 0; i < works.size(); ++i) {
-        JudgedSubmission judged{{}, together.reason, together.seconds};
+        GradedSubmission judged{{}, together.reason, together.seconds};
         if (answered) judged = together.output->judged[i];
         works[i].log += fmt::format("checks: {:.3f} s in their box{}\n", judged.seconds,
                                     judged.reason.empty() ? "" : "; " + message_text(judged.reason));
@@ -281,14 +283,14 @@ std::vector<std::vector<GradingRules::Tried>> GradingRules::verdicts(std::vector
             all[i] = verdicts_one_by_one(works[i]);
             continue;
         }
-        for (TriedCheck& one : judged.checks) all[i].push_back({std::move(one), {}});
+        for (EvaluatedCheck& one : judged.checks) all[i].push_back({std::move(one), {}});
     }
     return all;
 }
 
-Grade GradingRules::unreadable(const std::string& name, const Message& trouble) const {
+Grade GradingRules::unreadable(const std::string& name, const Message& error_reason) const {
     Grade grade = ungraded(name);
-    grade.trouble = trouble;
+    grade.error_reason = error_reason;
     grade.unreadable = true;
     for (CheckGrade& check : grade.checks) check.graded = false;
     return grade;
@@ -338,12 +340,12 @@ Grade GradingRules::grade(const std::string& name, const fs::path& folder, const
 std::vector<Grade> GradingRules::judged(std::vector<Work> works) const {
     std::vector<Grade> grades;
     if (works.empty()) return grades;
-    const std::vector<std::vector<Tried>> found = verdicts(works);
+    const std::vector<std::vector<CheckAttempt>> found = verdicts(works);
     for (std::size_t i = 0; i < works.size(); ++i) grades.push_back(grade_of(std::move(works[i]), found[i]));
     return grades;
 }
 
-Grade GradingRules::grade_of(Work&& work, const std::vector<Tried>& found) const {
+Grade GradingRules::grade_of(Work&& work, const std::vector<CheckAttempt>& found) const {
     Grade grade = ungraded(work.name);
     grade.log = std::move(work.log);
     const GradedRun& main = work.submission.runs.at(kMainRun);
@@ -351,7 +353,7 @@ Grade GradingRules::grade_of(Work&& work, const std::vector<Tried>& found) const
         return unreadable(work.name, Message("This is the script of lesson {}, not of {}.", main.lesson, lesson_));
     grade.began = main.began;
     grade.silent = main.answers.empty();
-    if (main.error) grade.trouble = shortened_trouble(*main.error);
+    if (main.error) grade.error_reason = shortened_error(*main.error);
     grade.printed = main.printed;
     for (std::size_t k = 0; k < grade.checks.size(); ++k) {
         CheckGrade& check = grade.checks[k];
@@ -384,7 +386,7 @@ std::string GradingRules::run_fingerprint(const std::string& content_hash, const
                           setup_.secret, std::to_string(setup_.time.processor.count()),
                           isolation_name(setup_.isolation), fmt::format("{}", fmt::join(reruns_, " ")),
                           document_ ? standard_ : "", own_records_,
-                          declared_rigs_.empty() ? "" : json_of(files_),  // which make records
+                          declared_plants_.empty() ? "" : json_of(files_),  // which make records
                           group_seed ? std::to_string(*group_seed) : ""});
 }
 

@@ -19,7 +19,7 @@
 namespace dynlab::inline course {
 
 template <class Result>
-struct BoxedResult;
+struct SandboxResult;
 
 struct GradingSetup {
     Lesson lesson;
@@ -59,23 +59,25 @@ class GradingRules {
         GroupSeed group_seed;
         std::string log;
     };
-    /// What the checks say of each of these. One box serves them all, as its start takes longer than most checks; in it
-    /// each has a process of its own.
+    /// Runs the checks on all submissions. One sandbox serves all of them, because starting a sandbox takes longer than
+    /// most checks; inside, each submission has its own process.
     std::vector<Grade> judged(std::vector<Work> works) const;
-    /// Runs and checks the submission whose script stands in `folder`.
+    /// Runs and checks the submission in `folder`.
     Grade grade(const std::string& name, const std::filesystem::path& folder, const GroupSeed& group_seed = {}) const;
-    /// Of a submission in which nothing can be run: no check is graded.
-    Grade unreadable(const std::string& name, const Message& trouble) const;
+    /// Grade of a submission that cannot be run: no check is graded.
+    Grade unreadable(const std::string& name, const Message& error_reason) const;
 
-    /// Tries the worked solution. Checks that it does not pass are broken: from now on they are left ungraded. Returns
-    /// a sentence for each. The file `memory` keeps what it did (KeptRuns), which is not run again for other checks
-    /// unless `anew`; an empty name keeps nothing.
+    /// Runs the checks on the reference solution. Checks that it does not pass are broken and stay ungraded. The
+    /// results of its runs are cached in the file `memory` (CachedRuns), so that other checks do not run the solution
+    /// again unless `anew` is true. An empty name disables the cache.
+    /// Returns a sentence for each broken check.
     std::vector<Message> try_solution(const std::filesystem::path& memory = {}, bool anew = false);
 
     /// What the checks say of each of these. Throws EnvironmentError where they come to no end.
-    std::vector<std::vector<TriedCheck>> tried(const std::vector<CheckedSubmission>& submissions) const;
+    std::vector<std::vector<EvaluatedCheck>> evaluated(const std::vector<CheckedSubmission>& submissions) const;
 
-    /// Of all that a submission's marks depend on, and of what its runs do, which other checks may leave as it is.
+    /// Fingerprint of everything that the marks of a submission depend on, and of everything that its runs depend on
+    /// (independent of the checks).
     std::string fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
     std::string run_fingerprint(const std::string& content_hash, const GroupSeed& group_seed) const;
     const GradingSetup& setup() const { return setup_; }
@@ -90,7 +92,7 @@ class GradingRules {
     void read_checks();
     void make_records();
     void make_record(const std::string& data_set, const std::string& run, const std::filesystem::path& folder);
-    void make_records_of_declared_rigs();
+    void make_data_of_declared_plants();
     std::optional<std::filesystem::path> own_record(const std::string& folder, const std::string& data_set) const;
     void bring_lesson_data();
     std::filesystem::path official_data() const;
@@ -98,24 +100,24 @@ class GradingRules {
                   std::string& log) const;
     std::map<std::string, GradedRun> runs(const std::filesystem::path& folder, const GroupSeed& group_seed,
                                           std::string& log) const;
-    Findings findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
+    Issues findings(const std::filesystem::path& folder, const GroupSeed& group_seed) const;
     /// The checks as they are declared, and these records.
-    BoxedResult<CheckResults> listed(std::vector<WantedRecord> records = {}) const;
-    BoxedResult<CheckResults> checked(const std::vector<Work>& works, std::chrono::milliseconds most,
-                                      std::optional<std::size_t> only = {}) const;
+    SandboxResult<CheckResults> listed(std::vector<RequestedRecord> records = {}) const;
+    SandboxResult<CheckResults> checked(const std::vector<Work>& works, std::chrono::milliseconds most,
+                                        std::optional<std::size_t> only = {}) const;
     /// Nothing of a check for which no verdict can be had, and why, instead of one.
-    struct Tried {
-        std::optional<TriedCheck> result;
+    struct CheckAttempt {
+        std::optional<EvaluatedCheck> result;
         Message reason;
     };
-    std::vector<std::vector<Tried>> verdicts(std::vector<Work>& works) const;
-    std::vector<Tried> verdicts_one_by_one(const Work& work) const;
-    Grade grade_of(Work&& work, const std::vector<Tried>& found) const;
-    std::map<std::string, Specimens> specimens_of(const GroupSeed& group_seed) const;
+    std::vector<std::vector<CheckAttempt>> verdicts(std::vector<Work>& works) const;
+    std::vector<CheckAttempt> verdicts_one_by_one(const Work& work) const;
+    Grade grade_of(Work&& work, const std::vector<CheckAttempt>& found) const;
+    std::map<std::string, PlantVariants> variants_of(const GroupSeed& group_seed) const;
     std::vector<std::string> simulated() const;
     Grade ungraded(const std::string& name) const;
     std::filesystem::path data_of(const GroupSeed& group_seed) const;
-    std::filesystem::path add_home(Box& box, const std::string& run, const GroupSeed& group_seed) const;
+    std::filesystem::path add_home(Sandbox& sandbox, const std::string& run, const GroupSeed& group_seed) const;
     std::uint32_t drawn(const std::string& what) const;
 
     GradingSetup setup_;
@@ -126,10 +128,10 @@ class GradingRules {
     std::uint32_t seed_ = 1;
     std::string standard_;  ///< the template, or the file of one, whose rules a document must keep
     mutable std::optional<std::vector<std::string>> simulated_;  ///< once they were asked for
-    std::map<std::string, Specimens> specimens_;                 ///< of hidden records and reruns (CheckSession)
+    std::map<std::string, PlantVariants> variants_;              ///< of hidden records and reruns (CheckSession)
     std::set<std::string> reruns_, broken_;
     std::map<std::string, double> solution_seconds_;
-    std::vector<std::string> declared_rigs_;
+    std::vector<std::string> declared_plants_;
     std::string own_records_;  ///< hashes of all data sets that scripts find, and of the instructor's records
     bool document_ = false;
     std::unique_ptr<std::counting_semaphore<>> free_cores_;  ///< for what runs in boxes

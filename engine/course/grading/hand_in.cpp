@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostPackedBytes = 200ull << 20;
-constexpr int kMostFiles = 2000;
+constexpr std::uint64_t kMaxPackedBytes = 200ull << 20;
+constexpr int kMaxFiles = 2000;
 
 }  // namespace
 
@@ -23,10 +23,10 @@ Pack pack_folder(const fs::path& folder, const fs::path& file) {
     if (!has("analysis.lua") && !has("analysis.ipynb"))
         throw EnvironmentError("{} has no analysis.lua; pack the folder that dynlab new created", folder.string());
     const TemporaryFolder copy;
-    const FolderCopy copied = copy_folder(folder, copy.path(), kMostPackedBytes, kMostFiles);
+    const FolderCopy copied = copy_folder(folder, copy.path(), kMaxPackedBytes, kMaxFiles);
     if (copied.too_large)
         throw EnvironmentError("{} is too large: a submission has at most {} files and {} MB", folder.string(),
-                               kMostFiles, kMostPackedBytes >> 20);
+                               kMaxFiles, kMaxPackedBytes >> 20);
     take_notebooks(copy.path());
     PackFile made = pack_of(contents_of(copy.path()));
     write_file_atomically(file, made.bytes);

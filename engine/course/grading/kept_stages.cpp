@@ -7,7 +7,7 @@
 
 namespace dynlab::inline course {
 
-DYNLAB_DESCRIBE(KeptRuns, fingerprint, work, remark, language)
+DYNLAB_DESCRIBE(CachedRuns, fingerprint, work, remark, language)
 
 namespace fs = std::filesystem;
 
@@ -21,28 +21,28 @@ std::optional<Grade> earlier_grade(const fs::path& folder) {
     }
 }
 
-std::optional<KeptRuns> read_kept_runs(const fs::path& file, const std::string& fingerprint) {
+std::optional<CachedRuns> read_cached_runs(const fs::path& file, const std::string& fingerprint) {
     if (!fs::exists(file)) return {};
     try {
-        auto runs = from_cbor<KeptRuns>(read_file(file));
+        auto runs = from_cbor<CachedRuns>(read_file(file));
         if (runs.fingerprint == fingerprint) return runs;
     } catch (const EnvironmentError&) {
     }
     return {};
 }
 
-void write_kept_runs(const fs::path& file, KeptRuns runs, KeptTimes times) {
-    if (times == KeptTimes::kNo)
+void write_cached_runs(const fs::path& file, CachedRuns runs, CachedTimes times) {
+    if (times == CachedTimes::kNo)
         for (auto& [name, run] : runs.work.runs) run.seconds = 0;
     fs::create_directories(file.parent_path());
     write_file_atomically(file, cbor_of(runs));
 }
 
-KeptRuns cached(const fs::path& file, const std::string& key, bool again, const std::function<KeptRuns()>& stage) {
-    if (auto kept = again ? std::nullopt : read_kept_runs(file, key)) return *std::move(kept);
-    KeptRuns made = stage();
+CachedRuns cached(const fs::path& file, const std::string& key, bool again, const std::function<CachedRuns()>& stage) {
+    if (auto kept = again ? std::nullopt : read_cached_runs(file, key)) return *std::move(kept);
+    CachedRuns made = stage();
     made.fingerprint = key;
-    write_kept_runs(file, made);
+    write_cached_runs(file, made);
     return made;
 }
 

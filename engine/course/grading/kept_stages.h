@@ -10,23 +10,24 @@
 
 namespace dynlab::inline course {
 
-/// What a script did when it was run, kept apart from what the checks say of it: with other checks it need not run
-/// again.
-struct KeptRuns {
+/// Cached results of the runs of a script, independent of the checks: if only the checks change, the script does not
+/// run again.
+struct CachedRuns {
     std::string fingerprint;  ///< of the submission and of all that its runs depend on
     CheckedSubmission work;
     Message remark;  ///< see StagedWork
     std::string language;
 };
 
-std::optional<KeptRuns> read_kept_runs(const std::filesystem::path& file, const std::string& fingerprint);
+std::optional<CachedRuns> read_cached_runs(const std::filesystem::path& file, const std::string& fingerprint);
 /// Without the runs' times equal classes give equal files.
-enum class KeptTimes { kNo, kYes };
-void write_kept_runs(const std::filesystem::path& file, KeptRuns runs, KeptTimes times = KeptTimes::kNo);
+enum class CachedTimes { kNo, kYes };
+void write_cached_runs(const std::filesystem::path& file, CachedRuns runs, CachedTimes times = CachedTimes::kNo);
 
-/// What `stage` gives: as an earlier run kept it in `file` under this key, unless `again`; else made now, and kept.
-KeptRuns cached(const std::filesystem::path& file, const std::string& key, bool again,
-                const std::function<KeptRuns()>& stage);
+/// Returns the result of `stage`: the one cached in `file` under this key, unless `again` is true; otherwise computes
+/// and caches it.
+CachedRuns cached(const std::filesystem::path& file, const std::string& key, bool again,
+                  const std::function<CachedRuns()>& stage);
 
 /// What an earlier run wrote into a submission's folder of results; nothing where there is none that can be read.
 std::optional<Grade> earlier_grade(const std::filesystem::path& folder);

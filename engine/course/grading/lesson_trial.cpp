@@ -114,31 +114,33 @@ std::vector<Intended> intended_failures(const fs::path& file) {
     return all;
 }
 
-int line_of_trouble(const TriedScript& script) {
-    return take_apart(message_text(script.trouble)).line;
+int line_of_error(const EvaluatedScript& script) {
+    return take_apart(message_text(script.error_reason)).line;
 }
 
-bool is_full(const TriedCheck& one) {
+bool is_full(const EvaluatedCheck& one) {
     return one.check.by_hand || one.share == 1;
 }
 
-void look_at_starter(const Lesson& lesson, const TriedScript& starter, Faults& faults) {
-    for (const TriedCheck& one : starter.checks)
+void look_at_starter(const Lesson& lesson, const EvaluatedScript& starter, Faults& faults) {
+    for (const EvaluatedCheck& one : starter.checks)
         if (!one.check.by_hand && one.share.value_or(0) > 0)
             faults.add(lesson.script(), 0,
                        Message("the untouched starter gets points by the check \"{}\"", one.check.id));
 }
 
 /// Of wrong_*.lua and right_*.lua, which has nothing to expect.
-void look_at_attempt(const fs::path& file, const TriedScript& tried, Faults& faults) {
+void look_at_attempt(const fs::path& file, const EvaluatedScript& evaluated, Faults& faults) {
     const std::vector<Intended> intended = intended_failures(file);
-    if (!tried.trouble.empty()) faults.add(file, line_of_trouble(tried), Message("the run stops: {}", tried.trouble));
-    if (intended.empty() && tried.name.starts_with("wrong_"))
+    if (!evaluated.error_reason.empty())
+        faults.add(file, line_of_error(evaluated), Message("the run stops: {}", evaluated.error_reason));
+    if (intended.empty() && evaluated.name.starts_with("wrong_"))
         faults.add(file, 0, Message("no line \"-- expects: CHECK: words\" names the check that the script fails"));
     for (const Intended& one : intended) {
-        const auto check = std::find_if(tried.checks.begin(), tried.checks.end(),
-                                        [&](const TriedCheck& candidate) { return candidate.check.id == one.check; });
-        if (check == tried.checks.end())
+        const auto check =
+            std::find_if(evaluated.checks.begin(), evaluated.checks.end(),
+                         [&](const EvaluatedCheck& candidate) { return candidate.check.id == one.check; });
+        if (check == evaluated.checks.end())
             faults.add(file, one.line, Message("unknown check \"{}\"", one.check));
         else if (is_full(*check))
             faults.add(file, one.line, Message("the script passes the check \"{}\", which it must fail", one.check));
@@ -147,7 +149,7 @@ void look_at_attempt(const fs::path& file, const TriedScript& tried, Faults& fau
                        Message("the check \"{}\" gives the message \"{}\", which does not contain \"{}\"", one.check,
                                check->message, one.words));
     }
-    for (const TriedCheck& one : tried.checks) {
+    for (const EvaluatedCheck& one : evaluated.checks) {
         const bool meant = std::any_of(intended.begin(), intended.end(),
                                        [&](const Intended& line) { return line.check == one.check.id; });
         if (!meant && !is_full(one))
@@ -162,12 +164,12 @@ DocumentStandard standard_of_report(const Lesson& lesson, const std::string& lan
 }
 
 void look_at_pdf(const fs::path& pdf, const fs::path& source, const DocumentStandard& standard, Faults& faults) {
-    CheckOptions wishes;
-    wishes.standard = standard;
-    for (const Finding& finding : check_pdf(pdf, wishes).findings)
-        if (finding.severity == Severity::kRule && std::find(std::begin(kFindingsOfPages), std::end(kFindingsOfPages),
-                                                             finding.id) != std::end(kFindingsOfPages))
-            faults.add(source, 0, Message("its report, page {}: {}", finding.page, finding.what));
+    CheckOptions check_options;
+    check_options.standard = standard;
+    for (const Issue& issue : check_pdf(pdf, check_options).findings)
+        if (issue.severity == Severity::kRule &&
+            std::find(std::begin(kFindingsOfPages), std::end(kFindingsOfPages), issue.id) != std::end(kFindingsOfPages))
+            faults.add(source, 0, Message("its report, page {}: {}", issue.page, issue.what));
     for (const PdfPage& page : read_pdf_layout(pdf).pages)
         for (const PdfWord& word : page.words)
             if (word.text.find("SOLUTION") != std::string::npos)
@@ -266,7 +268,7 @@ LessonFaults faults_of_texts(const Lesson& lesson) {
         const bool checks = file.filename() == "checks.lua";
         faults.attempt(file, [&] {
             const std::string source = text_of_source(file);
-            for (const LintFinding& found :
+            for (const LintIssue& found :
                  lint_script(source, file, checks ? names_of_check_functions() : std::vector<std::string>()))
                 if (file != lesson.script() || found.kind != "header") faults.add(file, found.line, found.message);
         });
@@ -285,16 +287,16 @@ LessonFaults faults_of_texts(const Lesson& lesson) {
 
 LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial) {
     Faults faults(lesson);
-    if (!trial.solution.trouble.empty())
-        faults.add(lesson.script(), line_of_trouble(trial.solution),
-                   Message("the reference solution stops: {}", trial.solution.trouble));
-    for (const TriedCheck& one : trial.solution.checks)
+    if (!trial.solution.error_reason.empty())
+        faults.add(lesson.script(), line_of_error(trial.solution),
+                   Message("the reference solution stops: {}", trial.solution.error_reason));
+    for (const EvaluatedCheck& one : trial.solution.checks)
         if (!is_full(one))
             faults.add(lesson.script(), 0,
                        Message("the reference solution does not pass the check \"{}\": {}", one.check.id,
                                one.for_instructor.empty() ? one.message : one.for_instructor));
     bool wrong = false;
-    for (const TriedScript& script : trial.scripts) {
+    for (const EvaluatedScript& script : trial.scripts) {
         wrong = wrong || script.name.starts_with("wrong_");
         if (script.name.starts_with("wrong_") || script.name.starts_with("right_"))
             look_at_attempt(lesson.folder / script.name, script, faults);
@@ -307,8 +309,8 @@ LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial) {
 
 LessonFaults giveaways_of(const CheckTrial& trial) {
     LessonFaults found;
-    for (const TriedScript& script : trial.typed)
-        for (const TriedCheck& one : script.checks)
+    for (const EvaluatedScript& script : trial.typed)
+        for (const EvaluatedCheck& one : script.checks)
             if (one.check.visible && !one.check.by_hand && one.share.value_or(0) == 1)
                 found.push_back(
                     {"checks.lua", 0,

@@ -41,12 +41,12 @@ class MarkedItems {
 
     struct Found {
         std::vector<const WorkItem*> items;
-        Message trouble;  ///< a clause, where there are none
+        Message error_reason;  ///< a clause, where there are none
     };
     Found find(const std::string& who) const {
         Found found;
         if (who.empty()) {
-            found.trouble = Message("the row has points but no name; fill in the column who");
+            found.error_reason = Message("the row has points but no name; fill in the column who");
             return found;
         }
         const auto take = [&](const auto& fits) {
@@ -67,12 +67,12 @@ class MarkedItems {
         for (const WorkItem* item : found.items) owners.insert(owner_of(*item));
         if (owners.size() > 1 || owner.doubtful) {
             const std::vector<std::string> names(owners.begin(), owners.end());
-            found.trouble = owner.doubtful ? Message("\"{}\" is ambiguous: {}", who, owner.trouble)
-                                           : Message("\"{}\" is ambiguous: {}", who, base::listed(names));
+            found.error_reason = owner.doubtful ? Message("\"{}\" is ambiguous: {}", who, owner.error_reason)
+                                                : Message("\"{}\" is ambiguous: {}", who, base::listed(names));
             found.items.clear();
         } else if (found.items.empty()) {
-            found.trouble = owner.anybody() ? Message("\"{}\" has submitted nothing", who)
-                                            : Message("no submission, group or student is named \"{}\"", who);
+            found.error_reason = owner.anybody() ? Message("\"{}\" has submitted nothing", who)
+                                                 : Message("no submission, group or student is named \"{}\"", who);
         }
         return found;
     }
@@ -210,7 +210,7 @@ ManualMarks::ManualMarks(const fs::path& results, const ClassWork& work, const s
         const MarkedItems::Found found = items.find(row.who);
         const auto check = most.find(row.check);
         if (found.items.empty())
-            complain(found.trouble);
+            complain(found.error_reason);
         else if (check == most.end())
             complain(Message("unknown check \"{}\" (for \"{}\"); * means the complete submission", row.check, row.who));
         else if (*row.points > check->second && !above_maximum)

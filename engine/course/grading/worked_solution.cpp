@@ -21,16 +21,16 @@ Message complaint_about(const CheckDescription& check, const std::map<std::strin
     for (const std::string& name : {std::string(kMainRun), check.rerun}) {
         const auto run = runs.find(name);
         if (run == runs.end() || !run->second.error) continue;
-        const Message trouble = shortened_trouble(*run->second.error);
+        const Message error_reason = shortened_error(*run->second.error);
         if (name == kMainRun)
             return Message(
                 "the reference solution does not pass the check \"{}\", which is left ungraded: its run stopped: {}; "
                 "{}",
-                check.id, trouble, said);
+                check.id, error_reason, said);
         return Message(
             "the reference solution does not pass the check \"{}\", which is left ungraded: its run on {} stopped: {}; "
             "{}",
-            check.id, name, trouble, said);
+            check.id, name, error_reason, said);
     }
     return Message("the reference solution does not pass the check \"{}\", which is left ungraded: {}", check.id, said);
 }
@@ -38,7 +38,7 @@ Message complaint_about(const CheckDescription& check, const std::map<std::strin
 /// Whether nothing stood in the way that may be gone another time, such as a busy machine.
 bool went_well(const CheckedSubmission& work) {
     const auto failed = [](const auto& run) { return run.second.error.has_value(); };
-    const auto fails = [](const Finding& finding) { return finding.id == kDocumentFails; };
+    const auto fails = [](const Issue& issue) { return issue.id == kDocumentFails; };
     return std::ranges::none_of(work.runs, failed) && std::ranges::none_of(work.findings, fails);
 }
 
@@ -52,24 +52,24 @@ std::vector<Message> GradingRules::try_solution(const fs::path& memory, bool ane
     std::string log, content = sha256_of_file(work.path() / "analysis.lua");
     if (fs::exists(work.path() / "report.md")) content += sha256_of_file(work.path() / "report.md");
     const std::string fingerprint = run_fingerprint(content, {});
-    std::optional<KeptRuns> kept = anew || memory.empty() ? std::nullopt : read_kept_runs(memory, fingerprint);
+    std::optional<CachedRuns> kept = anew || memory.empty() ? std::nullopt : read_cached_runs(memory, fingerprint);
     if (!kept) {
-        kept = KeptRuns{fingerprint, work_in(work.path(), {}, log), {}, ""};
-        if (!memory.empty() && went_well(kept->work)) write_kept_runs(memory, *kept, KeptTimes::kYes);
+        kept = CachedRuns{fingerprint, work_in(work.path(), {}, log), {}, ""};
+        if (!memory.empty() && went_well(kept->work)) write_cached_runs(memory, *kept, CachedTimes::kYes);
     }
     for (const auto& [name, run] : kept->work.runs) solution_seconds_[name] = run.seconds;
     std::vector<Message> complaints;
     const std::map<std::string, GradedRun> runs = kept->work.runs;
     const Grade solution = judged({{"solution", std::move(kept->work), {}, log}}).front();
-    if (!solution.trouble.empty())
-        complaints.push_back(Message("the reference solution stopped: {}", solution.trouble));
+    if (!solution.error_reason.empty())
+        complaints.push_back(Message("the reference solution stopped: {}", solution.error_reason));
     for (std::size_t k = 0; k < solution.checks.size(); ++k) {
         const CheckGrade& check = solution.checks[k];
         if (check.by_hand || (check.graded && check.earned == check.points)) continue;
         broken_.insert(check.id);
-        const Message& told = check.for_instructor.empty() ? check.message : check.for_instructor;
+        const Message& reported = check.for_instructor.empty() ? check.message : check.for_instructor;
         complaints.push_back(
-            complaint_about(checks_.at(k), runs, told.empty() ? Message("the check returned false") : told));
+            complaint_about(checks_.at(k), runs, reported.empty() ? Message("the check returned false") : reported));
     }
     return complaints;
 }

@@ -56,7 +56,7 @@ std::string in_figures(const std::string& text) {
     static const RE2 kForm(R"((?:\pL+,? )?(\d{1,2})\.? (?:d[e'’] ?)?(\pL+) (?:de[l]? )?(\d{4}),? (\d{1,2}:\d{2}))");
     std::string day, name, year, time;
     if (!RE2::FullMatch(text, kForm, &day, &name, &year, &time)) return "";
-    const std::string word = fmt::format(" {} ", fmt::join(words_of_name(name), ""));
+    const std::string word = fmt::format(" {} ", fmt::join(name_words(name), ""));
     for (std::size_t month = 0; month < std::size(kMonths); ++month)
         if (kMonths[month].find(word) != std::string_view::npos)
             return fmt::format("{}-{}-{} {}", year, month + 1, day, time);
@@ -64,7 +64,7 @@ std::string in_figures(const std::string& text) {
 }
 
 bool is_time_of_submission(const std::string& header) {
-    const std::vector<std::string> words = words_of_name(header);
+    const std::vector<std::string> words = name_words(header);
     const std::string plain = fmt::format("{}", fmt::join(words, " "));
     const bool modified =
         std::ranges::any_of(kModified, [&](const char* beginning) { return plain.starts_with(beginning); });
@@ -133,9 +133,9 @@ std::optional<Instant> time_in_archive(const std::filesystem::path& file) {
 
 Message doubt_about_zone(std::vector<std::int64_t> late, std::size_t files) {
     constexpr std::int64_t kWidestZone = 14 * 3600;
-    constexpr std::size_t kFewest = 3;
+    constexpr std::size_t kMinCount = 3;
     std::ranges::sort(late);
-    if (files < kFewest || 10 * late.size() < 9 * files || late.back() > kWidestZone) return {};
+    if (files < kMinCount || 10 * late.size() < 9 * files || late.back() > kWidestZone) return {};
     const char* const set = std::getenv("TZ");
     const Message half = duration_message(late[late.size() / 2]);
     if (set == nullptr)

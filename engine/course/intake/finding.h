@@ -9,7 +9,7 @@ namespace dynlab::inline course {
 enum class Severity { kRule, kHint };  ///< a rule of the course is broken; something worth a look
 
 /// Something that is wrong with a document and how to mend it. Ids are stable: programs may rely on them.
-struct Finding {
+struct Issue {
     std::string id;  ///< such as "figure-not-mentioned"
     Severity severity = Severity::kRule;
     int page = 0;       ///< 1-based; 0 concerns the whole document
@@ -18,6 +18,6 @@ struct Finding {
     Message remedy;     ///< one sentence
 };
 
-using Findings = std::vector<Finding>;
+using Issues = std::vector<Issue>;
 
 }  // namespace dynlab::inline course

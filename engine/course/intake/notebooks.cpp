@@ -32,7 +32,7 @@ bool notebook_holds(const fs::path& notebook, const fs::path& script, const std:
 
 }  // namespace
 
-std::string script_of_handed_in(const fs::path& notebook) {
+std::string script_of_submitted_notebook(const fs::path& notebook) {
     const std::string name = notebook.filename().string();
     const GuardLimits limits;
     const ChildResult read = run_guarded(
@@ -62,7 +62,7 @@ std::vector<fs::path> take_notebooks(const fs::path& folder) {
     std::vector<fs::path> taken;
     for (const fs::path& notebook : notebooks_in(folder)) {
         const fs::path script = notebook.parent_path() / kScriptName;
-        const std::string source = script_of_handed_in(notebook);
+        const std::string source = script_of_submitted_notebook(notebook);
         if (notebook_holds(notebook, script, source)) {
             const auto written = fs::last_write_time(notebook);
             write_file_atomically(script, source);

@@ -7,14 +7,16 @@
 
 namespace dynlab::inline course {
 
-/// The script that a handed-in notebook says, read in a guarded child: the file is anybody's. Throws SubmissionError
-/// with a sentence for the student.
-std::string script_of_handed_in(const std::filesystem::path& notebook);
+/// Returns the script of a submitted notebook. A guarded child process reads the notebook, because it is untrusted
+/// input.
+/// Throws SubmissionError with a sentence for the student.
+std::string script_of_submitted_notebook(const std::filesystem::path& notebook);
 
-/// In a private copy of what was handed in: every analysis.ipynb becomes the analysis.lua beside it, as old as it was,
-/// and goes, with its outputs and whatever its metadata say of people. Where both lie there, the newer holds. Returns
-/// the folders whose script was a notebook. Throws SubmissionError: it cannot be read; both say different
-/// things, and which is newer cannot be told.
+/// Replaces every analysis.ipynb in a private copy of a submission by analysis.lua with the same modification time. The
+/// notebook, its outputs and its metadata are deleted. If a folder contains both files, the newer one is used.
+/// Returns the folders whose script was a notebook.
+/// Throws SubmissionError if a notebook cannot be read, or if both files differ and their times do not show which one
+/// is newer.
 std::vector<std::filesystem::path> take_notebooks(const std::filesystem::path& folder);
 
 }  // namespace dynlab::inline course

@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr std::size_t kShortestInside = 4;  ///< bytes of what is looked for in the middle of a name
+constexpr std::size_t kMinInnerLength = 4;  ///< bytes of what is looked for in the middle of a name
 
 bool is_number_word(const std::string& word) {
     return !word.empty() && word.front() >= '0' && word.front() <= '9';
@@ -79,14 +79,14 @@ const std::string& own_name(const Submission& submission) {
 
 }  // namespace
 
-std::vector<std::string> words_of_name(std::string_view given) {
+std::vector<std::string> name_words(std::string_view given) {
     const std::string whole = composed(given);
     std::string_view text = whole;
     Words words;
     enum class Kind { kNone, kLetters, kDigits } kind = Kind::kNone;
     while (!text.empty()) {
         const char32_t c = next_character(text);
-        if (is_silent(c)) continue;
+        if (is_ignorable(c)) continue;
         const std::string letter = folded_letter(c);
         if (letter.empty()) {
             kind = Kind::kNone;
@@ -103,13 +103,13 @@ std::vector<std::string> words_of_name(std::string_view given) {
 }
 
 bool same_person(const std::string& a, const std::string& b) {
-    Words one = words_of_name(a), other = words_of_name(b);
+    Words one = name_words(a), other = name_words(b);
     std::ranges::sort(one), std::ranges::sort(other);
     return !one.empty() && one == other;
 }
 
 bool is_word_for_group(const std::string& word) {
-    const Words words = words_of_name(word);
+    const Words words = name_words(word);
     return words.size() == 1 && names_a_group(words.front());
 }
 
@@ -132,7 +132,7 @@ std::size_t Owners::owner_of_group(const std::string& name) {
     const auto [place, fresh] = group_names_.emplace(name, owners_.size());
     if (!fresh) return place->second;
     owners_.push_back({name, {}, true});
-    Words words = with_plain_groups(words_of_name(name));
+    Words words = with_plain_groups(name_words(name));
     if (words.empty()) return place->second;
     group_words_.emplace(words, place->second);
     if (words.size() == 1 && is_number_word(words.front()))
@@ -146,7 +146,7 @@ void Owners::add_person(const Student& student, std::size_t index) {
     std::set<Words> in_words;
     const auto add_name = [&](const std::string& name) {
         for (const std::string& spelling : {name, spelt_out(name)})
-            for (const Words& words : rotations_of(words_of_name(spelling))) {
+            for (const Words& words : rotations_of(name_words(spelling))) {
                 joined.insert(joined_words(words));
                 if (words.size() > 1) in_words.insert(words);
             }
@@ -154,11 +154,11 @@ void Owners::add_person(const Student& student, std::size_t index) {
     add_name(student.name);
     for (const FormerName& former : student.former) add_name(former.name);
     for (const std::string& text : {student.id, student.mail}) {
-        const Words words = words_of_name(text);
+        const Words words = name_words(text);
         joined.insert(joined_words(words));
-        if (joined_words(words).size() >= kShortestInside) in_words.insert(words);
+        if (joined_words(words).size() >= kMinInnerLength) in_words.insert(words);
     }
-    joined.insert(joined_words(words_of_name(student.mail.substr(0, student.mail.find('@')))));
+    joined.insert(joined_words(name_words(student.mail.substr(0, student.mail.find('@')))));
     joined.erase("");
     for (const std::string& name : joined) joined_names_.emplace(name, index);
     for (const Words& words : in_words) {
@@ -218,7 +218,7 @@ std::vector<std::string> Owners::unmatched_names(const std::vector<Submission>& 
 
 std::optional<std::size_t> Owners::group_called(const std::string& name) const {
     if (const auto found = group_names_.find(name); found != group_names_.end()) return found->second;
-    const auto [first, last] = group_words_.equal_range(with_plain_groups(words_of_name(name)));
+    const auto [first, last] = group_words_.equal_range(with_plain_groups(name_words(name)));
     if (first == last || std::next(first) != last) return {};
     return first->second;
 }
@@ -226,7 +226,7 @@ std::optional<std::size_t> Owners::group_called(const std::string& name) const {
 std::vector<std::size_t> Owners::students_called(const std::string& name) const {
     std::vector<std::size_t> students, exactly;
     for (const std::string& spelling : {name, spelt_out(name)}) {
-        const auto [first, last] = joined_names_.equal_range(joined_words(words_of_name(spelling)));
+        const auto [first, last] = joined_names_.equal_range(joined_words(name_words(spelling)));
         for (auto person = first; person != last; ++person) students.push_back(person->second);
     }
     students = without_doubles(students);
@@ -247,7 +247,7 @@ std::vector<Owners::Evidence> Owners::evidence_in(const Words& words) const {
             const auto [first, last] = person_words_.equal_range(part);
             for (auto person = first; person != last; ++person)
                 all.push_back({begin, end, owner_of_[person->second], person->second, false});
-            const bool tells = begin == 0 || (joined_words(part).size() >= kShortestInside &&
+            const bool tells = begin == 0 || (joined_words(part).size() >= kMinInnerLength &&
                                               !(part.size() == 1 && is_number_word(part.front())));
             const auto [one, beyond] = group_words_.equal_range(part);
             for (auto group = one; tells && group != beyond; ++group)
@@ -273,23 +273,23 @@ std::vector<std::size_t> Owners::whole(const std::string& name, std::vector<std:
     return {};
 }
 
-Owners::Found Owners::found(const std::vector<std::size_t>& owners, bool by_beginning) const {
+Owners::Found Owners::found(const std::vector<std::size_t>& owners, bool by_prefix) const {
     Found result;
     if (owners.empty()) {
-        result.trouble = Message("it matches no group and no student");
+        result.error_reason = Message("it matches no group and no student");
         return result;
     }
     if (owners.size() > 1) {
         std::vector<std::string> names;
         for (const std::size_t owner : owners) names.push_back(owners_[owner].name);
-        result.trouble = Message("it matches several: {}", base::listed(names));
+        result.error_reason = Message("it matches several: {}", base::listed(names));
         result.doubtful = true;
         return result;
     }
     const Owner& owner = owners_[owners.front()];
     result.students = owner.students;
     if (owner.group) result.group = owner.name;
-    result.by_beginning = by_beginning;
+    result.by_prefix = by_prefix;
     return result;
 }
 
@@ -309,7 +309,7 @@ Owners::Found Owners::by_list(const std::vector<Submitter>& submitters) const {
     if (owners.size() < 2 || !single) return found(owners);
     Found together;
     together.students = students;
-    together.by_beginning = true;
+    together.by_prefix = true;
     return together;
 }
 
@@ -324,22 +324,22 @@ Owners::Found Owners::find(const Submission& submission) const {
         const bool fresh = std::none_of(others.begin(), others.end(), [&](const Found& before) {
             return before.students == other.students && before.group == other.group;
         });
-        if (other.anybody() && other.by_beginning && fresh) others.push_back(std::move(other));
+        if (other.anybody() && other.by_prefix && fresh) others.push_back(std::move(other));
     }
     return others.size() == 1 ? others.front() : written;
 }
 
 Owners::Found Owners::called(const std::string& name) const {
     std::vector<std::size_t> students, owners = whole(name, students);
-    const Words wanted = words_of_name(name);
+    const Words requested = name_words(name);
     for (std::size_t i = 0; i < students_.size() && owners.empty(); ++i)
         if (!name.empty() && (students_[i].moodle == name || students_[i].canvas == name))
             owners.push_back(owner_of_[i]);
-    const bool nobody = owners.empty() && !wanted.empty();
+    const bool nobody = owners.empty() && !requested.empty();
     for (std::size_t i = 0; i < students_.size() && nobody; ++i) {
-        const Words parts = words_of_name(students_[i].name);
+        const Words parts = name_words(students_[i].name);
         const auto bears = [&parts](const std::string& word) { return std::ranges::find(parts, word) != parts.end(); };
-        if (std::ranges::all_of(wanted, bears)) owners.push_back(owner_of_[i]);
+        if (std::ranges::all_of(requested, bears)) owners.push_back(owner_of_[i]);
     }
     return found(without_doubles(owners));
 }
@@ -355,11 +355,11 @@ Owners::Found Owners::as_written(const Submission& submission) const {
     }
     const std::string& own = own_name(submission);
     std::vector<std::size_t> students, owners = whole(own, students);
-    bool by_beginning = !owners.empty();
+    bool by_prefix = !owners.empty();
     if (owners.empty()) {
-        for (const Evidence& e : evidence_in(with_plain_groups(words_of_name(own)))) {
+        for (const Evidence& e : evidence_in(with_plain_groups(name_words(own)))) {
             owners.push_back(e.owner);
-            by_beginning = by_beginning || e.begin == 0;
+            by_prefix = by_prefix || e.begin == 0;
         }
         owners = without_doubles(owners);
     }
@@ -371,14 +371,14 @@ Owners::Found Owners::as_written(const Submission& submission) const {
         if (!both.empty()) return found(both);
         Found contradiction;
         contradiction.doubtful = true;
-        contradiction.trouble = Message("its number {} belongs to {}, but its name matches {}", submission.lms_id,
-                                        owners_[numbered.front()].name, owners_[owners.front()].name);
+        contradiction.error_reason = Message("its number {} belongs to {}, but its name matches {}", submission.lms_id,
+                                             owners_[numbered.front()].name, owners_[owners.front()].name);
         return contradiction;
     }
     if (owners.empty()) return found(owners_of(by_id));
     if (owners.size() > 1 && !by_id.empty())
         if (const auto both = in_both(owners, owners_of(by_id)); !both.empty()) return found(both);
-    return found(owners, by_beginning);
+    return found(owners, by_prefix);
 }
 
 std::vector<std::string> Owners::names() const {

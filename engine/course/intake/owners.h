@@ -11,10 +11,10 @@
 
 namespace dynlab::inline course {
 
-/// Whose a hand-in is: the one matcher of `grade` and `course submit`. It goes by names and numbers that a platform or
-/// a person wrote on the outside, never by what stands in the work. Names are compared by their letters, folded as
-/// Unicode has them ("LEFEVRE Élise", "lefevreelise", "Müller" and "Mueller"), in any order of their parts; groups by
-/// their words and numbers ("group-03", "Group 3", "gruppe_03_final"). What one member hands in is the group's.
+/// Finds the owner of a submission, for `grade` and `course submit`. The matcher uses names and numbers that a platform
+/// or a person wrote on the outside, never the content of the work. It compares the letters of names after Unicode case
+/// folding ("LEFEVRE Élise", "lefevreelise", "Müller" and "Mueller") and in any order of their parts, and groups by
+/// words and numbers ("group-03", "Group 3", "gruppe_03_final"). A submission of one member belongs to the group.
 class Owners {
   public:
     /// `groups`: names besides those of the students' groups. `students` must outlive it.
@@ -30,13 +30,13 @@ class Owners {
     struct Found {
         std::vector<std::size_t> students;  ///< places in `students`: all of the group; may be none of an empty group
         std::string group;                  ///< empty for a student without one
-        bool by_beginning = false;  ///< the name is, or begins with, the owner's; else it stands somewhere in it
-        Message trouble;            ///< nobody, and why: "it fits several: group-1, group-2"
-        bool doubtful = false;      ///< nobody, as more than one could be meant
-        bool anybody() const { return trouble.empty(); }
+        bool by_prefix = false;  ///< the name is, or begins with, the owner's; else it stands somewhere in it
+        Message error_reason;    ///< nobody, and why: "it fits several: group-1, group-2"
+        bool doubtful = false;   ///< nobody, as more than one could be meant
+        bool anybody() const { return error_reason.empty(); }
     };
-    /// A name that fits nobody and came from an archive without a character set is tried in those of other scripts,
-    /// too: where all that fits is one owner, it is theirs.
+    /// If a name matches no owner and comes from an archive without a character set, it is also read in the character
+    /// sets of other scripts. The submission belongs to an owner if all matches are the same owner.
     Found find(const Submission& submission) const;
     /// Who is called so and no more: a group in any spelling, a student's name, id, address or number of a platform, or
     /// a part of a name that only the members of one group bear.
@@ -66,7 +66,7 @@ class Owners {
     std::vector<std::size_t> students_called(const std::string& name) const;
     std::vector<Evidence> evidence_in(const Words& words) const;
     std::vector<std::size_t> whole(const std::string& name, std::vector<std::size_t>& students) const;
-    Found found(const std::vector<std::size_t>& owners, bool by_beginning = true) const;
+    Found found(const std::vector<std::size_t>& owners, bool by_prefix = true) const;
     Found by_list(const std::vector<Submitter>& submitters) const;
     std::optional<std::size_t> listed(const Submission& submission) const;
 
@@ -82,7 +82,7 @@ class Owners {
 };
 
 /// A text in words that can be compared: runs of folded letters, and numbers without leading zeros.
-std::vector<std::string> words_of_name(std::string_view text);
+std::vector<std::string> name_words(std::string_view text);
 
 /// Whether two names have the same words, in any order.
 bool same_person(const std::string& a, const std::string& b);

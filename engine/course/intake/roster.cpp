@@ -49,7 +49,7 @@ std::string digits_at_end(const std::string& text) {
 }
 
 std::string our_column(const std::string& header) {
-    const std::string words = fmt::format("|{}|", fmt::join(words_of_name(header), " "));
+    const std::string words = fmt::format("|{}|", fmt::join(name_words(header), " "));
     for (const auto& [ours, theirs] : kPlatformColumns)
         if (theirs.find(words) != std::string_view::npos) return ours;
     return in_small_letters(header);

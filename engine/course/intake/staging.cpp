@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kScript[] = "analysis.lua";
-constexpr int kMostArchives = 8, kDeepestNesting = 3;
+constexpr int kMostArchives = 8, kMaxNesting = 3;
 constexpr auto kSameTime = std::chrono::seconds(2);  // the step of times in a zip
 
 /// A place where a script was found.
@@ -50,7 +50,7 @@ struct VersionName {
 VersionName version_of(const std::string& shown) {
     static const std::set<std::string> kVersion = {"v", "version", "copy", "vers"};
     VersionName version;
-    for (const std::string& word : words_of_name(archive_stem(shown).value_or(shown))) {
+    for (const std::string& word : name_words(archive_stem(shown).value_or(shown))) {
         const bool number = word.front() >= '0' && word.front() <= '9';
         if (number && word.size() < 10) version.number = std::stol(word);
         if (!number && !kVersion.contains(word)) version.words.push_back(word);
@@ -232,7 +232,7 @@ class Stager {
             }
             const std::vector<FoundScript> here = scripts_in(to, name);
             found.insert(found.end(), here.begin(), here.end());
-            if (here.empty() && depth < kDeepestNesting) open_archives(to, name, depth + 1, found);
+            if (here.empty() && depth < kMaxNesting) open_archives(to, name, depth + 1, found);
         }
     }
 
@@ -279,8 +279,8 @@ class Stager {
 
     template <class Item>
     static std::vector<Item> shortened_list(std::vector<Item> items) {
-        constexpr std::size_t kMost = 3;
-        if (items.size() > kMost) items.resize(kMost), items.push_back(Item("..."));
+        constexpr std::size_t kMax = 3;
+        if (items.size() > kMax) items.resize(kMax), items.push_back(Item("..."));
         return items;
     }
 

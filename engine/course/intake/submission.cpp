@@ -252,19 +252,19 @@ std::vector<Submission> submissions_in(const fs::path& folder, std::vector<Messa
 std::vector<Message> unpack_submission(const fs::path& archive, const fs::path& to, Isolation level,
                                        const fs::path& program, const SubmissionLimits& limits) {
     fs::create_directories(to);
-    Box box(level);
+    Sandbox sandbox(level);
     // Times in zips have no zone: they are in the course's, which this process has, or in the machine's.
     if (const char* zone = std::getenv("TZ"))
-        box.set_environment("TZ", zone);
+        sandbox.set_environment("TZ", zone);
     else if (fs::exists("/etc/localtime"))
-        box.add("/etc/localtime", "/etc/localtime");
+        sandbox.add("/etc/localtime", "/etc/localtime");
     UnpackJob job;
-    job.archive = box.add(archive, "/box/archive");
-    job.to = box.add_writable(to, "/box/unpacked");
+    job.archive = sandbox.add(archive, "/box/archive");
+    job.to = sandbox.add_writable(to, "/box/unpacked");
     job.bytes = limits.bytes;
     job.files = limits.files;
     job.keep_times = limits.keep_times;
-    const auto result = run_boxed(box, program, job, {std::chrono::seconds(60)});
+    const auto result = run_in_sandbox(sandbox, program, job, {std::chrono::seconds(60)});
     if (!result.output) throw SubmissionError("The archive cannot be unpacked: {}.", result.reason);
     if (result.output->error) throw SubmissionError("The file cannot be unpacked: {}.", *result.output->error);
     return result.output->left_out;

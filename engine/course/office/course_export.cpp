@@ -38,10 +38,10 @@ std::string hours_text(std::int64_t seconds) {
 }
 
 /// When the newest version was received, as spreadsheets read it, and how many hours late it counts.
-std::pair<std::string, std::string> arrival(Course& course, const HandedInParts& parts, const char* part) {
+std::pair<std::string, std::string> arrival(Course& course, const SubmittedParts& parts, const char* part) {
     const auto found = parts.find(part);
     if (found == parts.end()) return {"missing", ""};
-    const HandedIn& h = found->second;
+    const SubmittedFile& h = found->second;
     return {course.clock().show_exactly(h.received_at).substr(0, std::string_view("2026-03-01 15:00").size()),
             hours_text(h.is_late() ? h.late : 0)};
 }
@@ -177,7 +177,7 @@ void insert_row(Database& db, const std::string& table, const StoredRow& row) {
 /// Makes the imported course in `folder`, an empty one: with the tables that the exported one had, which opening it
 /// then brings to today's.
 void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::string, std::string>& settings,
-                   const std::vector<fs::path>& handed_in, const CourseExport& all) {
+                   const std::vector<fs::path>& submitted_files, const CourseExport& all) {
     if (fs::exists(from / "course.key")) fs::copy_file(from / "course.key", folder / "course.key");
     Course::create(folder, settings["name"], settings["zone"]);
     {
@@ -200,7 +200,7 @@ void fill_imported(const fs::path& folder, const fs::path& from, std::map<std::s
     }
     Course course(folder);
     std::vector<std::string> hashes;
-    for (const fs::path& kept : handed_in) hashes.push_back(course.keep(read_file(kept)));
+    for (const fs::path& kept : submitted_files) hashes.push_back(course.keep(read_file(kept)));
     course.settle(hashes);
     Transaction(course.database()).commit();  // seals what the exported course had not sealed
 }
@@ -303,29 +303,29 @@ std::string course_json(Course& course) {
 void import_course(const fs::path& file, const fs::path& from, const fs::path& folder) {
     CourseExport all;
     std::map<std::string, std::string> settings;
-    std::vector<fs::path> handed_in;
+    std::vector<fs::path> submitted_files;
     try {
         all = read_export(file);
         for (const StoredRow& row : all.tables["course"]) settings[text_in(row, "key")] = text_in(row, "value");
         for (const StoredRow& row : all.tables["files"]) {
             const std::string& hash = text_in(row, "hash");
-            handed_in.push_back(from / "files" / hash.substr(0, 2) / hash);
+            submitted_files.push_back(from / "files" / hash.substr(0, 2) / hash);
         }
     } catch (const ValueError& error) {
         throw EnvironmentError("{}: the file is not an export of dynlab course ({})", file.string(), message_of(error));
     }
     for (const char* needed : {"name", "zone"})
         if (!settings.contains(needed)) throw EnvironmentError("{}: the course's {} is missing", file.string(), needed);
-    for (const fs::path& kept : handed_in)
+    for (const fs::path& kept : submitted_files)
         if (!fs::exists(kept))
             throw EnvironmentError(
                 "{} is not the folder of the exported course: it lacks the submitted file {}. Give that folder with "
                 "--from. Nothing was created",
                 from.string(), kept.filename().string());
-    make_whole_folder(folder, [&](const fs::path& growing) {
+    make_complete_folder(folder, [&](const fs::path& growing) {
         fs::permissions(growing, fs::perms::owner_all);
         try {
-            fill_imported(growing, from, settings, handed_in, all);
+            fill_imported(growing, from, settings, submitted_files, all);
         } catch (const EnvironmentError& error) {
             throw EnvironmentError("{}: {}; nothing was created", file.string(), message_of(error));
         }

@@ -14,9 +14,9 @@ std::string marks_csv(Course& course, const Assignment& assignment, Instant now 
 /// All of the store but the handed-in files, as JSON: tables with their rows.
 std::string course_json(Course& course);
 
-/// Makes a course from course_json in `folder`, a new or empty one, with the handed-in files and the key from `from`,
-/// the folder of the course that was exported: whole, or not at all. Throws EnvironmentError: no such export, a file
-/// missing, rows that the tables refuse.
+/// Creates a course from course_json in `folder`, a new or empty folder. Submitted files and the key come from `from`,
+/// the folder of the exported course. The import is atomic.
+/// Throws EnvironmentError if there is no such export, if a file is missing, or if a table refuses a row.
 void import_course(const std::filesystem::path& json, const std::filesystem::path& from,
                    const std::filesystem::path& folder);
 

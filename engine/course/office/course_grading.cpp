@@ -49,10 +49,10 @@ class JoinedMarks {
   public:
     JoinedMarks(Course& course, const Assignment& assignment)
         : course_(course), setting_(fmt::format("marks joined {}", assignment.id)) {}
-    std::optional<std::int64_t> last() const { return read_number<std::int64_t>(course_.remembered(setting_)); }
+    std::optional<std::int64_t> last() const { return read_number<std::int64_t>(course_.saved_entry(setting_)); }
     void note(std::int64_t mark) const {
         Transaction transaction(course_.database());
-        course_.remember(setting_, std::to_string(mark));
+        course_.save_entry(setting_, std::to_string(mark));
         transaction.commit();
     }
 
@@ -145,10 +145,10 @@ GradingOptions grading_options(const Assignment& assignment, const CourseGrading
     return options;
 }
 
-void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const TriedRules& tried,
+void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const EvaluatedRules& evaluated,
                 const GradingOptions& options, bool file_alone) {
     std::map<std::string, double> most;  // points by check; with --force any
-    for (const CheckDescription& check : tried.rules.checks())
+    for (const CheckDescription& check : evaluated.rules.checks())
         most[check.id] = check.points, most[kWholeItem] += check.points;
     if (options.above_maximum)
         for (auto& [check, points] : most) points = std::numeric_limits<double>::infinity();
@@ -178,9 +178,9 @@ GradingOutcome grade_assignment(Course& course, const Assignment& assignment, co
         throw InvalidArgument("nothing was submitted for {} yet: dynlab course submit FILE... --assignment {}",
                               assignment.name, assignment.name);
     work.choose(course, request.only);
-    const TriedRules tried(options);
-    join_marks(course, assignment, work, tried, options, false);
-    GradingOutcome outcome = grade_class(work.work(), tried, options);
+    const EvaluatedRules evaluated(options);
+    join_marks(course, assignment, work, evaluated, options, false);
+    GradingOutcome outcome = grade_class(work.work(), evaluated, options);
     record_results(course, assignment, work, options.out);
     return outcome;
 }

@@ -30,7 +30,7 @@ std::string secret_in(const std::string& file);
 GradingOptions grading_options(const Assignment& assignment, const CourseGradingRequest& request,
                                const std::filesystem::path& out);
 /// Brings marks.csv and the marks of the store together. `file_alone`: a row that is taken out takes its mark back.
-void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const TriedRules& tried,
+void join_marks(Course& course, const Assignment& assignment, const CourseWork& work, const EvaluatedRules& evaluated,
                 const GradingOptions& options, bool file_alone);
 /// Enters what the checks gave.
 void record_results(Course& course, const Assignment& assignment, const CourseWork& work,

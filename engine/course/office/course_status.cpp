@@ -24,19 +24,19 @@ std::string when(const CourseClock& clock, Instant due, Instant now) {
 }
 
 /// "v2", "v1 late 2 h 5 min", "v2 (v1 in time)", "v1, 3 rules broken", "v1 damaged", "-".
-std::string cell_of(const HandedInParts& parts, const std::string& main) {
+std::string cell_of(const SubmittedParts& parts, const std::string& main) {
     const auto found = parts.find(main);
     if (const auto unread = parts.find(kUnreadable); found == parts.end() && unread != parts.end())
-        return fmt::format("came, cannot be read ({})", unread->second.trouble);
+        return fmt::format("came, cannot be read ({})", unread->second.error_reason);
     if (found == parts.end()) return parts.empty() ? "-" : fmt::format("only the {}", parts.begin()->first);
-    const HandedIn& h = found->second;
+    const SubmittedFile& h = found->second;
     std::string cell = fmt::format("v{}", h.version);
     if (h.late > 0 && h.in_time > 0)
         cell += fmt::format(" (v{} in time)", h.in_time);
     else if (h.late > 0)
         cell += " late " + duration_text(h.late);
-    if (!h.trouble.empty())
-        cell += " " + h.trouble;
+    if (!h.error_reason.empty())
+        cell += " " + h.error_reason;
     else if (h.rules_broken > 0)
         cell += ", " + message_text(plural(h.rules_broken, "{} rule violated", "{} rules violated"));
     return cell;
@@ -59,10 +59,10 @@ std::map<std::int64_t, std::vector<std::string>> groups_with_the_same_file(Cours
 
 /// "group-01 and group-02"; of many the first two and how many others.
 std::string shortened(std::vector<std::string> names) {
-    constexpr std::size_t kMost = 3;
-    if (names.size() > kMost) {
+    constexpr std::size_t kMax = 3;
+    if (names.size() > kMax) {
         names[2] = fmt::format("{} others", names.size() - 2);
-        names.resize(kMost);
+        names.resize(kMax);
     }
     return fmt::format("{}", fmt::join(names, " and "));
 }
@@ -144,9 +144,9 @@ class Status {
         const auto& stages = versions_[group.id];
         const auto parts = [&](const char* stage) {
             const auto found = stages.find(stage);
-            return found == stages.end() ? HandedInParts() : found->second;
+            return found == stages.end() ? SubmittedParts() : found->second;
         };
-        const HandedInParts first = parts("first"), last = parts("final");
+        const SubmittedParts first = parts("first"), last = parts("final");
         if (group.dropped_out && first.empty() && last.empty()) return;
         ++groups_;
         const std::vector<ToDo> things = to_do(group, first, last);
@@ -187,7 +187,7 @@ class Status {
         count(group, first, last);
     }
 
-    void count(const Group& group, const HandedInParts& first, const HandedInParts& last) {
+    void count(const Group& group, const SubmittedParts& first, const SubmittedParts& last) {
         if (group.dropped_out) return;
         const auto found = first.find(main_);
         if (found == first.end()) {
@@ -195,7 +195,7 @@ class Status {
         } else {
             ++present_;
             if (found->second.is_late()) ++late_;
-            if (!found->second.trouble.empty()) ++unreadable_;
+            if (!found->second.error_reason.empty()) ++unreadable_;
             unassigned_ += !in_allocation(group.id);
         }
         finals_ += last.contains(main_);
@@ -211,7 +211,7 @@ class Status {
     }
 
     /// What the instructor may want to do about this group.
-    std::vector<ToDo> to_do(const Group& group, const HandedInParts& first, const HandedInParts& last) const {
+    std::vector<ToDo> to_do(const Group& group, const SubmittedParts& first, const SubmittedParts& last) const {
         if (group.dropped_out) return {{"dropped", "", "", "dropped out"}};
         std::vector<ToDo> things;
         const auto due_over = [&](const char* stage) {
@@ -219,22 +219,23 @@ class Status {
             return given && now_ > due_for(course_, assignment_, group.id, stage) + assignment_.grace;
         };
         const auto found = first.find(main_);
-        const auto only_pack = [&](const HandedInParts& parts, const char* stage, const char* of) {
+        const auto only_pack = [&](const SubmittedParts& parts, const char* stage, const char* of) {
             if (parts.contains("pack") && !parts.contains(main_))
                 things.push_back(
                     {"no-pdf", stage, "", fmt::format("the pack contains no PDF{}: ask for this file", of)});
         };
-        const auto ask_for_readable = [&](const char* stage, const std::string& trouble) {
+        const auto ask_for_readable = [&](const char* stage, const std::string& error_reason) {
             const char* const what = std::string_view(stage) == "final" ? "final version"
                                      : assignment_.is_report()          ? "first version"
                                                                         : "file";
-            things.push_back({"unreadable", stage, trouble, fmt::format("ask for a readable {} ({})", what, trouble)});
+            things.push_back(
+                {"unreadable", stage, error_reason, fmt::format("ask for a readable {} ({})", what, error_reason)});
         };
-        const auto unread = [&](const HandedInParts& parts, const char* stage) {
+        const auto unread = [&](const SubmittedParts& parts, const char* stage) {
             const auto there = parts.find(kUnreadable), readable = parts.find(main_);
             if (there != parts.end() &&
                 (readable == parts.end() || readable->second.received_at < there->second.received_at))
-                ask_for_readable(stage, there->second.trouble);
+                ask_for_readable(stage, there->second.error_reason);
         };
         unread(first, "first");
         unread(last, "final");
@@ -251,9 +252,10 @@ class Status {
             if (!first.contains("script") && !first.contains("pack") && due_over("first"))
                 things.push_back({"missing-script", "first", "", "ask for the script"});
         }
-        const auto readable = [&](const HandedInParts& parts, const char* stage) {
+        const auto readable = [&](const SubmittedParts& parts, const char* stage) {
             const auto there = parts.find(main_);
-            if (there != parts.end() && !there->second.trouble.empty()) ask_for_readable(stage, there->second.trouble);
+            if (there != parts.end() && !there->second.error_reason.empty())
+                ask_for_readable(stage, there->second.error_reason);
         };
         readable(first, "first");
         readable(last, "final");
@@ -357,7 +359,7 @@ class Status {
     const Assignment& assignment_;
     Instant now_;
     std::string main_;
-    std::map<std::int64_t, std::map<std::string, HandedInParts>> versions_;
+    std::map<std::int64_t, std::map<std::string, SubmittedParts>> versions_;
     std::vector<ReviewPair> pairs_;
     std::map<std::int64_t, std::vector<std::string>> twins_;
     std::vector<LabMark> labs_;

@@ -20,7 +20,7 @@ struct ToDo {
 /// What a group submitted for an assignment, and what to do about it.
 struct GroupState {
     Group group;
-    HandedInParts first, last;
+    SubmittedParts first, last;
     std::vector<ToDo> to_do;
 };
 

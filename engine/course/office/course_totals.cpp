@@ -98,7 +98,7 @@ void note_export(Course& course, const std::string& assignment, const std::strin
     Transaction transaction(course.database());
     if (!hash.empty()) {
         course.record_file(hash, std::ssize(totals), now);
-        course.remember(kExported, fmt::format("{} {}", hash, now));
+        course.save_entry(kExported, fmt::format("{} {}", hash, now));
     }
     course.note(assignment.empty() ? fmt::format("marks of the course written into {}", file)
                                    : fmt::format("{}: marks written into {}", assignment, file),
@@ -108,11 +108,11 @@ void note_export(Course& course, const std::string& assignment, const std::strin
 
 ExportChanges changed_since_export(Course& course, const std::string& totals) {
     ExportChanges changes;
-    const std::string remembered = course.remembered(kExported);
-    const std::size_t blank = remembered.find(' ');
-    if (blank == remembered.npos) return changes;
-    changes.exported = read_number<Instant>(remembered.substr(blank + 1));
-    const TextTable before = read_text_table(course.file(remembered.substr(0, blank)));
+    const std::string saved_entry = course.saved_entry(kExported);
+    const std::size_t blank = saved_entry.find(' ');
+    if (blank == saved_entry.npos) return changes;
+    changes.exported = read_number<Instant>(saved_entry.substr(blank + 1));
+    const TextTable before = read_text_table(course.file(saved_entry.substr(0, blank)));
     const TemporaryFolder folder;
     write_file_atomically(folder.path() / "totals.csv", totals);
     const TextTable now = read_text_table(folder.path() / "totals.csv");

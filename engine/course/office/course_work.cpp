@@ -36,7 +36,7 @@ std::vector<CourseWork::Stored> CourseWork::read(Course& course, const Assignmen
              assignment.id, kUnreadable);
          rows.next();) {
         const Inspection seen = inspection_from(rows.text(10));
-        if (seen.trouble == kBeside) continue;
+        if (seen.error_reason == kBeside) continue;
         versions.push_back({rows.integer(0), rows.integer(1), rows.integer(2), rows.text(3), rows.text(4), rows.text(5),
                             rows.integer(6), rows.integer(7), rows.integer(8), rows.integer(9) != 0, seen.reason});
     }
@@ -118,12 +118,12 @@ void CourseWork::address(WorkItem& item) const {
 }
 
 void CourseWork::choose(Course& course, const std::vector<std::string>& names) {
-    std::vector<bool> wanted(work_.items.size(), names.empty());
+    std::vector<bool> requested(work_.items.size(), names.empty());
     for (const std::string& name : names) {
         bool found = false;
         const auto take = [&](const auto& fits) {
-            for (std::size_t i = 0; i < wanted.size(); ++i)
-                if (fits(work_.items[i])) wanted[i] = found = true;
+            for (std::size_t i = 0; i < requested.size(); ++i)
+                if (fits(work_.items[i])) requested[i] = found = true;
         };
         take([&](const WorkItem& item) {
             const Submission& s = item.submission;
@@ -135,8 +135,8 @@ void CourseWork::choose(Course& course, const std::vector<std::string>& names) {
         }
         if (!found) throw EnvironmentError("no submission, group or student is named \"{}\"", name);
     }
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-        if (wanted[i]) work_.chosen.push_back(i);
+    for (std::size_t i = 0; i < requested.size(); ++i)
+        if (requested[i]) work_.chosen.push_back(i);
 }
 
 std::vector<const WorkItem*> CourseWork::waiting() const {

@@ -50,9 +50,9 @@ class DeadlineTable {
         if (!value) fail(row, column, Message("a time such as 15 min, 3 h or 2 d"));
         return value;
     }
-    [[noreturn]] void fail(std::size_t row, const char* column, const Message& wanted) const {
+    [[noreturn]] void fail(std::size_t row, const char* column, const Message& requested) const {
         throw EnvironmentError("{}, line {}: {} must be {}, but \"{}\" was given", file_.string(), table_.lines[row],
-                               column, wanted, cell(row, column));
+                               column, requested, cell(row, column));
     }
     [[noreturn]] void fail(std::size_t row, const Message& what) const {
         throw EnvironmentError("{}, line {}: {}", file_.string(), table_.lines[row], what);
@@ -90,22 +90,22 @@ class RowsOfGroups {
     }
     /// `others`: when the work of all others was received.
     int correct_times(std::optional<Instant> others) {
-        std::map<std::int64_t, Instant> wanted;  // by version
+        std::map<std::int64_t, Instant> requested;  // by version
         for (Rows rows = course_.database().query(
                  "SELECT id, group_id, received_at FROM standing WHERE assignment = ? AND stage = 'first'",
                  assignment_.id);
              rows.next();) {
             const auto row = rows_.find(rows.integer(1));
             const std::optional<Instant> received = row == rows_.end() ? others : row->second.received;
-            if (received && *received != rows.integer(2)) wanted[rows.integer(0)] = *received;
+            if (received && *received != rows.integer(2)) requested[rows.integer(0)] = *received;
         }
-        if (wanted.empty()) return 0;
+        if (requested.empty()) return 0;
         Transaction transaction(course_.database());
-        for (const auto& [version, received] : wanted)
+        for (const auto& [version, received] : requested)
             record_arrival(course_, assignment_, version, received, reason_, now_);
-        course_.note(fmt::format("{}: {} times of receipt {}", assignment_.name, wanted.size(), reason_), now_);
+        course_.note(fmt::format("{}: {} times of receipt {}", assignment_.name, requested.size(), reason_), now_);
         transaction.commit();
-        return static_cast<int>(wanted.size());
+        return static_cast<int>(requested.size());
     }
 
   private:

@@ -58,7 +58,7 @@ void with_course(const FolderRequest& request, const std::function<void(Course&)
         throw_if_interrupted();
         if (const FileLock lock(request.out / ".course.lock"); lock.held()) {
             if (!is_graded_folder(request.out))
-                make_whole_folder(folder, [&](const fs::path& growing) {
+                make_complete_folder(folder, [&](const fs::path& growing) {
                     fs::permissions(growing, fs::perms::owner_all);
                     Course::create(growing, fs::weakly_canonical(request.out).filename().string(),
                                    request.timezone.empty() ? machine_zone() : request.timezone);
@@ -89,9 +89,9 @@ Message shown(const GradingInput& input) {
 void refuse_differences(const GradingInputs& then, const GradingInputs& now, const FolderRequest& request) {
     std::vector<Message> clauses;
     for (const auto& [key, what] : input_names()) {
-        const auto before = then.inputs.find(key), wanted = now.inputs.find(key);
-        if (before == then.inputs.end() || before->second.hash == wanted->second.hash) continue;
-        const GradingInput &a = before->second, &b = wanted->second;
+        const auto before = then.inputs.find(key), requested = now.inputs.find(key);
+        if (before == then.inputs.end() || before->second.hash == requested->second.hash) continue;
+        const GradingInput &a = before->second, &b = requested->second;
         if (a.name == b.name)
             clauses.push_back(Message("{} ({} has changed)", what, b.name));
         else
@@ -110,9 +110,9 @@ void refuse_differences(const GradingInputs& then, const GradingInputs& now, con
         request.out.string(), all);
 }
 
-void remember(Course& course, const char* key, const std::string& value) {
+void save_entry(Course& course, const char* key, const std::string& value) {
     Transaction transaction(course.database());
-    course.remember(key, value);
+    course.save_entry(key, value);
     transaction.commit();
 }
 
@@ -161,7 +161,7 @@ FolderGrading::FolderGrading(FolderRequest request) : request_(std::move(request
 /// Options, rules and students.
 void FolderGrading::prepare(Course& course) {
     assignment_ = wanted_assignment(course, request_);
-    const std::string memory = course.remembered(kMemory);
+    const std::string memory = course.saved_entry(kMemory);
     const GradingInputs then = memory.empty() ? GradingInputs() : from_json<GradingInputs>(memory);
     GradingInputs now = then;
     if (!request_.isolation.empty()) now.isolation = request_.isolation;
@@ -188,7 +188,7 @@ void FolderGrading::prepare(Course& course) {
     set_assignment(course, assignment_, assignments_of(course).empty() ? "" : "dynlab grade");
     assignment_ = assignment_named(course, assignment_.name);
     if (!request_.owners.empty()) set_owners(course, assignment_, request_.owners);
-    if (zone != course.clock().zone()) course.remember("zone", CourseClock(zone).zone());
+    if (zone != course.clock().zone()) course.save_entry("zone", CourseClock(zone).zone());
     memory_ = json_of(now);
 }
 
@@ -210,7 +210,7 @@ void FolderGrading::receive(Course& course) {
     if (request_.accept_late && confirm_late(course)) work_.emplace(course, assignment_, received);
     work_->choose(course, request_.grading.only);
     if (!request_.part) join_marks(course, assignment_, *work_, *tried_, options_, true);
-    if (course.remembered(kMemory) != memory_) remember(course, kMemory, memory_);
+    if (course.saved_entry(kMemory) != memory_) save_entry(course, kMemory, memory_);
 }
 
 /// The times of receipt are confirmed as they are.

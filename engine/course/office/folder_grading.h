@@ -50,7 +50,7 @@ class FolderGrading {
     GradingOptions options_;
     std::string memory_;               ///< what the results are made with, for the course
     std::vector<Message> complaints_;  ///< of the roster
-    std::optional<TriedRules> tried_;
+    std::optional<EvaluatedRules> tried_;
     std::optional<ClassSubmissions> submissions_;
     std::optional<CourseWork> work_;
 };

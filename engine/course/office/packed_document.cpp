@@ -37,7 +37,7 @@ OpenedPack made_document(const std::vector<fs::path>& files, const std::string& 
     scripts = highest(scripts);
     if (scripts.size() != 1) return {{}, Message("the pack contains no PDF")};
     fs::create_directories(to);
-    const Message reason = make_version_in_box(scripts.front().parent_path(), to, true, level, program);
+    const Message reason = make_version_in_sandbox(scripts.front().parent_path(), to, true, level, program);
     const fs::path pdf = to / "report.pdf";
     if (!reason.empty() || fs::symlink_status(pdf).type() != fs::file_type::regular)
         return {{},

@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = 200u << 20;
+constexpr std::uintmax_t kMaxByteCount = 200u << 20;
 
 /// A file on its way into the store.
 struct Candidate {
@@ -54,9 +54,9 @@ struct Candidate {
     std::map<std::string, double> scores;  ///< of a review's pack, by criterion
 };
 
-class HandInReceiver {
+class SubmissionReceiver {
   public:
-    HandInReceiver(Course& course, const ReceiveRequest& request)
+    SubmissionReceiver(Course& course, const ReceiveRequest& request)
         : course_(course),
           request_(request),
           outcome_{assignment_named(course, request.assignment), {}, {}, {}},
@@ -104,7 +104,7 @@ class HandInReceiver {
         } catch (const std::runtime_error& error) {
             if (!incoming_.batch()) throw EnvironmentError("{}: {}", file.source, message_of(error));
             outcome_.refused.push_back(Message("{}: {}", file.source, message_of(error)));
-            const bool too_large = static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes;
+            const bool too_large = static_cast<std::uintmax_t>(candidate.bytes) > kMaxByteCount;
             candidate.refused = candidate.group.id != 0 && (too_large || !file.left_out.empty());
             make_trace(candidate,
                        !candidate.refused ? kNotTaken
@@ -116,9 +116,9 @@ class HandInReceiver {
         return candidate;
     }
 
-    static void make_trace(Candidate& candidate, const char* trouble, const Message& reason) {
+    static void make_trace(Candidate& candidate, const char* error_reason, const Message& reason) {
         candidate.part = kUnreadable, candidate.name = terminal_line(candidate.file->name);
-        candidate.inspection = unreadable_inspection(trouble, reason);
+        candidate.inspection = unreadable_inspection(error_reason, reason);
         candidate.silent = true, candidate.unreadable = false, candidate.pair = {};
     }
 
@@ -131,12 +131,12 @@ class HandInReceiver {
         if (!group) throw EnvironmentError(senders_.complaint(file.sender));
         candidate.group = *group;
         if (!file.left_out.empty()) return;
-        if (static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes)
-            throw EnvironmentError("the file has more than {} MB", kMostBytes >> 20);
-        RecognisedFile found = recognise(file, outcome_.assignment, request_.stage);
+        if (static_cast<std::uintmax_t>(candidate.bytes) > kMaxByteCount)
+            throw EnvironmentError("the file has more than {} MB", kMaxByteCount >> 20);
+        RecognizedFile found = recognize(file, outcome_.assignment, request_.stage);
         candidate.part = found.part, candidate.name = terminal_line(found.name), candidate.remark = found.remark;
         candidate.unreadable = found.text;
-        if (!found.trouble.empty()) candidate.inspection = unreadable_inspection(found.trouble, found.reason);
+        if (!found.error_reason.empty()) candidate.inspection = unreadable_inspection(found.error_reason, found.reason);
         if (request_.stage == "first" && !request_.take_as_first) refuse_after_reviews(candidate);
         if (request_.stage == "review") candidate.pair = reviewed_pair(pairs_, *group, report_of(file));
     }
@@ -241,7 +241,7 @@ class HandInReceiver {
                 pack.missing = found[i].missing;
                 if (request_.stage == "review") pack.scores = scores_in_pack(opened_.path() / std::to_string(i));
             } catch (const SubmissionError&) {
-                pack.inspection.trouble = "damaged";
+                pack.inspection.error_reason = "damaged";
             }
         });
         for (std::size_t i = 0; i < packs.size(); ++i)
@@ -267,9 +267,9 @@ class HandInReceiver {
         if (inspector && candidates_.size() > 1) prepare_to_read_pdfs();
         std::vector<fs::path> files;
         for (const Candidate& candidate : candidates_)
-            files.push_back(static_cast<std::uintmax_t>(candidate.bytes) > kMostBytes ? nothing()
-                                                                                      : candidate.file->file);
-        const auto look = [&](std::size_t i, const KeptFile& kept) {
+            files.push_back(static_cast<std::uintmax_t>(candidate.bytes) > kMaxByteCount ? nothing()
+                                                                                         : candidate.file->file);
+        const auto look = [&](std::size_t i, const StoredFile& kept) {
             candidates_[i].hash = kept.hash, candidates_[i].bytes = kept.bytes;
             inspect(candidates_[i], inspector);
         };
@@ -312,7 +312,7 @@ class HandInReceiver {
             Received received = take(candidate);
             if (!candidate.pair && candidate.part != kUnreadable) received.waiting = waiting_percent(received);
             if (candidate.silent) {
-                if (!received.known && received.trouble == kNotTaken)
+                if (!received.known && received.error_reason == kNotTaken)
                     course_.note(fmt::format("{}: {} was not taken: {}", outcome_.assignment.name, candidate.name,
                                              message_text(candidate.inspection.reason)),
                                  request_.at);
@@ -376,7 +376,7 @@ class HandInReceiver {
         if (c.pair) pair = c.pair->id;
         Received received;
         received.group = c.group.name, received.part = c.part;
-        received.rules_broken = c.inspection.rules_broken, received.trouble = c.inspection.trouble;
+        received.rules_broken = c.inspection.rules_broken, received.error_reason = c.inspection.error_reason;
         received.names = c.inspection.names;
         received.from_pack = c.from_pack, received.made = c.made;
         received.remark = c.remark;
@@ -440,7 +440,7 @@ class HandInReceiver {
 }  // namespace
 
 ReceiveOutcome receive(Course& course, const ReceiveRequest& request) {
-    return HandInReceiver(course, request).run();
+    return SubmissionReceiver(course, request).run();
 }
 
 }  // namespace dynlab::inline course

@@ -45,8 +45,8 @@ struct Received {
     bool marked_late = false;  ///< the platform wrote LATE into the name, though the time says nothing of it
     int scores = 0;            ///< that the pack of a review brought
     int rules_broken = 0;
-    bool names = false;   ///< of a review: it names somebody of the course
-    std::string trouble;  ///< when the file cannot be read: "damaged"
+    bool names = false;        ///< of a review: it names somebody of the course
+    std::string error_reason;  ///< when the file cannot be read: "damaged"
 };
 
 struct ReceiveOutcome {

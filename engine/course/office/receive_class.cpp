@@ -76,21 +76,21 @@ class ClassReceiver {
         std::int64_t bytes = 0;
         Instant at = 0;
         bool by_table = false;  ///< `at` is of the platform's table
-        Message trouble;        ///< why it cannot be kept
+        Message error_reason;   ///< why it cannot be kept
     };
 
     void find_owners() {
         for (const Group& group : groups_of(course_)) groups_[group.name] = group;
         if (students_.empty()) return;
         Owners owners(students_);
-        const std::string list = course_.remembered(owners_setting(assignment_));
+        const std::string list = course_.saved_entry(owners_setting(assignment_));
         if (!list.empty()) owners.read_list(course_.file(list));
         std::vector<Submission> all;
         for (WorkItem& one : received_.items) {
             Owners::Found found = owners.find(one.submission);
             one.students = std::move(found.students);
             one.group = std::move(found.group);
-            one.unmatched = std::move(found.trouble);
+            one.unmatched = std::move(found.error_reason);
             all.push_back(one.submission);
         }
         for (const std::string& name : owners.unmatched_names(all))
@@ -117,8 +117,8 @@ class ClassReceiver {
             file.bytes = static_cast<std::int64_t>(fs::file_size(file.path));
             one.content = sha256_of_file(file.path);
         } catch (const std::exception& error) {
-            file.trouble = message_of(error);
-            one.content = message_text(file.trouble);
+            file.error_reason = message_of(error);
+            one.content = message_text(file.error_reason);
         }
     }
 
@@ -136,8 +136,8 @@ class ClassReceiver {
         bool refused = !left_out_.empty();
         for (std::size_t i = 0; i < files_.size(); ++i) {
             WorkItem& one = received_.items[i];
-            refused = refused || !files_[i].trouble.empty();
-            if (!files_[i].trouble.empty()) continue;
+            refused = refused || !files_[i].error_reason.empty();
+            if (!files_[i].error_reason.empty()) continue;
             std::set<Instant> received;  // then, and as it was corrected
             if (is_known(one, received)) {
                 if (stands_with_others(one)) moved.push_back(i);
@@ -148,7 +148,7 @@ class ClassReceiver {
             paths.push_back(files_[i].path);
         }
         if (fresh.empty() && moved.empty() && corrected.empty() && !refused) return;
-        if (!fresh.empty()) course_.keep_files(paths, [](std::size_t, const KeptFile&) {});
+        if (!fresh.empty()) course_.keep_files(paths, [](std::size_t, const StoredFile&) {});
         const std::string nothing = refused ? course_.keep("") : "";
         if (refused) course_.settle({nothing});
         Transaction transaction(course_.database());
@@ -158,8 +158,8 @@ class ClassReceiver {
                            "according to the platform's table of times", now_);
         for (const std::size_t i : moved) take_from_others(received_.items[i]);
         for (std::size_t i = 0; i < files_.size(); ++i)
-            if (!files_[i].trouble.empty())
-                refuse(received_.items[i].submission.name, files_[i].trouble, files_[i].at, nothing);
+            if (!files_[i].error_reason.empty())
+                refuse(received_.items[i].submission.name, files_[i].error_reason, files_[i].at, nothing);
         for (const Message& clause : left_out_) refuse("-", clause, now_, nothing);
         if (!fresh.empty()) course_.note(fmt::format("{}: {} received, first", assignment_.name, fresh.size()), now_);
         transaction.commit();
@@ -287,10 +287,10 @@ void set_owners(Course& course, const Assignment& assignment, const fs::path& li
     Owners(students).read_list(list);
     const std::string hash = course.keep(read_file(list));
     course.settle({hash});
-    if (course.remembered(owners_setting(assignment)) == hash) return;
+    if (course.saved_entry(owners_setting(assignment)) == hash) return;
     Transaction transaction(course.database());
     course.record_file(hash, static_cast<std::int64_t>(fs::file_size(list)), CourseClock::now());
-    course.remember(owners_setting(assignment), hash);
+    course.save_entry(owners_setting(assignment), hash);
     course.note(fmt::format("{}: owners of submissions imported", assignment.name));
     transaction.commit();
 }

@@ -58,17 +58,17 @@ std::string closed_archive(const std::string& bytes) {
     return "";
 }
 
-void explain_unreadable(const IncomingFile& file, const Assignment& assignment, RecognisedFile& found) {
+void explain_unreadable(const IncomingFile& file, const Assignment& assignment, RecognizedFile& found) {
     const std::string bytes = magic_bytes(file.file);
     if (bytes.empty()) {
-        found.trouble = "empty", found.reason = Message("The file is empty.");
+        found.error_reason = "empty", found.reason = Message("The file is empty.");
     } else if (bytes.starts_with("PK\x05\x06")) {
-        found.trouble = "empty", found.reason = Message("The zip file is empty.");
+        found.error_reason = "empty", found.reason = Message("The zip file is empty.");
     } else if (const std::string kind = closed_archive(bytes); !kind.empty()) {
-        found.trouble = "closed-archive";
+        found.error_reason = "closed-archive";
         found.reason = Message("The file is a {} archive, which cannot be opened; zip and tar can.", kind);
     } else {
-        found.trouble = "other-kind";
+        found.error_reason = "other-kind";
         found.reason = assignment.is_lab() ? Message("The file is neither a script (.lua) nor a pack (.zip, .tar.gz).")
                        : assignment.is_report()
                            ? Message("The file is neither a PDF nor a pack (.zip, .tar.gz).")
@@ -82,8 +82,8 @@ std::string kind_of_file_at(const std::string& name, const fs::path& file) {
     return kind_of_file(name, start_of(name, file));
 }
 
-RecognisedFile recognise(const IncomingFile& file, const Assignment& assignment, const std::string& stage) {
-    RecognisedFile found{kUnreadable, file.name, {}, {}, {}};
+RecognizedFile recognize(const IncomingFile& file, const Assignment& assignment, const std::string& stage) {
+    RecognizedFile found{kUnreadable, file.name, {}, {}, {}};
     const std::string kind = kind_of_file_at(file.name, file.file);
     const std::vector<std::string> parts = parts_of(assignment, stage);
     const bool document = kind == "pdf" || kind == "text";

@@ -14,15 +14,15 @@ namespace dynlab::inline course {
 std::string kind_of_file_at(const std::string& name, const std::filesystem::path& file);
 
 /// What a file that came in is. Its content says so; its name counts only where the content leaves it open.
-struct RecognisedFile {
-    std::string part;     ///< report, slides, script, review, pack; kUnreadable
-    std::string name;     ///< under which it is kept: a PDF's ends in .pdf, so that all that follows knows it
-    std::string trouble;  ///< id of why nobody can read it: "empty", "closed-archive", "other-kind"; else empty
-    Message reason;       ///< the same in a sentence
-    Message remark;       ///< a clause where name and content differ
-    bool text = false;    ///< a word processor's: kept as the document, which it is, though no PDF
+struct RecognizedFile {
+    std::string part;          ///< report, slides, script, review, pack; kUnreadable
+    std::string name;          ///< under which it is kept: a PDF's ends in .pdf, so that all that follows knows it
+    std::string error_reason;  ///< id of why nobody can read it: "empty", "closed-archive", "other-kind"; else empty
+    Message reason;            ///< the same in a sentence
+    Message remark;            ///< a clause where name and content differ
+    bool text = false;         ///< a word processor's: kept as the document, which it is, though no PDF
 };
 /// `stage`: "first", "review" or "final". Throws EnvironmentError for a file that cannot be opened.
-RecognisedFile recognise(const IncomingFile& file, const Assignment& assignment, const std::string& stage);
+RecognizedFile recognize(const IncomingFile& file, const Assignment& assignment, const std::string& stage);
 
 }  // namespace dynlab::inline course

@@ -7,8 +7,8 @@
 
 namespace dynlab::inline course {
 
-std::vector<StoredFindings> stored_findings(Course& course, const Assignment& assignment, const Group& group,
-                                            const std::string& stage, std::optional<std::int64_t> number) {
+std::vector<StoredIssues> loaded_issues(Course& course, const Assignment& assignment, const Group& group,
+                                        const std::string& stage, std::optional<std::int64_t> number) {
     const std::vector<ReviewPair> pairs = review_pairs(course, assignment);
     Rows rows = course.database().query(
         "SELECT part, ifnull(pair, 0), number, received_at, findings FROM standing v WHERE assignment = ? AND "
@@ -16,13 +16,13 @@ std::vector<StoredFindings> stored_findings(Course& course, const Assignment& as
         "w.assignment = v.assignment AND w.group_id = v.group_id AND w.stage = v.stage AND w.part = v.part AND "
         "ifnull(w.pair, 0) = ifnull(v.pair, 0))) ORDER BY part, pair",
         assignment.id, group.id, stage, number);
-    std::vector<StoredFindings> found;
+    std::vector<StoredIssues> found;
     while (rows.next()) {
-        StoredFindings& one = found.emplace_back();
+        StoredIssues& one = found.emplace_back();
         one.part = rows.text(0), one.version = rows.integer(2), one.received_at = rows.integer(3);
         const auto pair = std::ranges::find(pairs, rows.integer(1), &ReviewPair::id);
         if (pair != pairs.end()) one.about = pair->report_pseudonym();
-        if (!rows.text(4).empty()) one.result = findings_from_json(rows.text(4));
+        if (!rows.text(4).empty()) one.result = issues_from_json(rows.text(4));
     }
     return found;
 }

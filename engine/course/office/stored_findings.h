@@ -10,7 +10,7 @@
 namespace dynlab::inline course {
 
 /// What was found in a version when it was received.
-struct StoredFindings {
+struct StoredIssues {
     std::string part;   ///< report, slides, script, pack, review
     std::string about;  ///< of a review: the pseudonym of the report
     std::int64_t version = 0;
@@ -20,7 +20,7 @@ struct StoredFindings {
 
 /// Of a group's files for a stage ("first", "review", "final"): the newest version of each, or version `number` where
 /// that is given.
-std::vector<StoredFindings> stored_findings(Course& course, const Assignment& assignment, const Group& group,
-                                            const std::string& stage, std::optional<std::int64_t> number = {});
+std::vector<StoredIssues> loaded_issues(Course& course, const Assignment& assignment, const Group& group,
+                                        const std::string& stage, std::optional<std::int64_t> number = {});
 
 }  // namespace dynlab::inline course

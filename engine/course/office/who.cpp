@@ -87,7 +87,7 @@ class WhoIs {
             const Inspection seen = inspection_from(rows.text(6));
             work.versions.push_back({name_of(group), rows.text(1), rows.text(2), rows.text(7), rows.text(9),
                                      rows.integer(0), rows.integer(3), rows.integer(8), rows.integer(4),
-                                     rows.integer(5) != 0, seen.trouble.empty() ? Message() : seen.reason});
+                                     rows.integer(5) != 0, seen.error_reason.empty() ? Message() : seen.reason});
         }
     }
 
@@ -145,10 +145,11 @@ std::string work_text(const WhoWork& work, const CourseClock& clock) {
     for (const WhoVersion& version : work.versions)
         rows.push_back({version.group, fmt::format("{} {} v{}", version.stage, version.part, version.number),
                         clock.show(version.received),
-                        version.withdrawn          ? "withdrawn"
-                        : !version.trouble.empty() ? fmt::format("{}: {}", version.name, message_text(version.trouble))
-                        : version.late > 0         ? "late by " + duration_text(version.late)
-                                                   : "in time",
+                        version.withdrawn ? "withdrawn"
+                        : !version.error_reason.empty()
+                            ? fmt::format("{}: {}", version.name, message_text(version.error_reason))
+                        : version.late > 0 ? "late by " + duration_text(version.late)
+                                           : "in time",
                         fmt::format("{:05}", version.id)});
     std::string text = fmt::format("\n{} ({})\n", work.assignment.name, work.assignment.kind);
     if (!rows.empty()) text += aligned_table({"group", "what", "received", "state", "receipt"}, rows);

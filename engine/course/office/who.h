@@ -18,7 +18,7 @@ struct WhoVersion {
     std::int64_t id = 0, number = 0, late = 0;  ///< id: the number of its receipt
     Instant received = 0;
     bool withdrawn = false;
-    Message trouble;  ///< why it cannot be read; else empty
+    Message error_reason;  ///< why it cannot be read; else empty
 };
 struct WhoExtension {
     std::string stage;

@@ -59,7 +59,7 @@ class Allocator {
         for (int i = 0; i < problem.groups; ++i)
             if (problem.active[static_cast<std::size_t>(i)]) order_.push_back(i);
         shuffle_items(order_, draw_);
-        wanted_ = std::max(0, std::min(problem.reviews, static_cast<int>(order_.size()) - 1));
+        requested_ = std::max(0, std::min(problem.reviews, static_cast<int>(order_.size()) - 1));
     }
 
     Allocation run() {
@@ -69,7 +69,7 @@ class Allocator {
         else
             keep_loose();
         mix();
-        for (int more = 0; more <= 2 && open() > 0; ++more) fill(wanted_ + more);
+        for (int more = 0; more <= 2 && open() > 0; ++more) fill(requested_ + more);
         avoid_swaps();
         return result();
     }
@@ -92,7 +92,7 @@ class Allocator {
     void start_with_circle() {
         const std::size_t n = order_.size();
         for (std::size_t i = 0; i < n; ++i)
-            for (int step = 1; step <= wanted_; ++step) {
+            for (int step = 1; step <= requested_; ++step) {
                 const int author = order_[(i + static_cast<std::size_t>(step)) % n];
                 if (board_.free(order_[i], author)) board_.add(order_[i], author);
             }
@@ -102,7 +102,8 @@ class Allocator {
 
     void keep_loose() {
         for (const auto& [r, a] : problem_.loose)
-            if (active(r) && active(a) && board_.free(r, a) && board_.writes(r) < wanted_ && board_.gets(a) < wanted_)
+            if (active(r) && active(a) && board_.free(r, a) && board_.writes(r) < requested_ &&
+                board_.gets(a) < requested_)
                 board_.add(r, a);
     }
 
@@ -150,23 +151,23 @@ class Allocator {
     int open() const {
         int sum = 0;
         for (const int i : order_)
-            sum += std::max(0, wanted_ - board_.writes(i)) + std::max(0, wanted_ - board_.gets(i));
+            sum += std::max(0, requested_ - board_.writes(i)) + std::max(0, requested_ - board_.gets(i));
         return sum;
     }
 
     /// Looks for reviewers below what is wanted while no report gets more than `most`; then for reports.
     void fill(int most) {
         for (const int i : order_)
-            while (board_.writes(i) < wanted_ && extend(i, most)) continue;
+            while (board_.writes(i) < requested_ && extend(i, most)) continue;
         for (const int i : order_)
-            while (board_.gets(i) < wanted_ && extend_backwards(i, most)) continue;
+            while (board_.gets(i) < requested_ && extend_backwards(i, most)) continue;
     }
 
     /// One more review for reviewer `from`: straight, or along the shortest chain in which each reviewer hands a loose
     /// review on and takes another. The chain ends at a report that gets less than `most`, of these one that gets
     /// less than wanted first.
     bool extend(int from, int most) {
-        for (const int limit : most > wanted_ ? std::vector{wanted_, most} : std::vector{most})
+        for (const int limit : most > requested_ ? std::vector{requested_, most} : std::vector{most})
             if (chain(from, [&](int author) { return board_.gets(author) < limit; })) return true;
         return false;
     }
@@ -174,7 +175,7 @@ class Allocator {
     template <class Ends>
     bool chain(int from, const Ends& ends) {
         const auto n = static_cast<std::size_t>(board_.size());
-        std::vector<int> taken_from(n, -1), handed_by(n, -1);  // report -> reviewer who takes it; -> who hands it on
+        std::vector<int> taken_from(n, -1), submitted_by(n, -1);  // report -> reviewer who takes it; -> who hands it on
         std::vector<int> queue = {from};
         for (std::size_t head = 0; head < queue.size(); ++head) {
             const int reviewer = queue[head];
@@ -184,13 +185,13 @@ class Allocator {
                     if (board_.any(author, reviewer) != couple) continue;
                     taken_from[static_cast<std::size_t>(author)] = reviewer;
                     if (ends(author)) {
-                        follow(author, from, taken_from, handed_by);
+                        follow(author, from, taken_from, submitted_by);
                         return true;
                     }
                     for (const int other : order_)
                         if (board_.loose(other, author) && other != from &&
-                            handed_by[static_cast<std::size_t>(other)] < 0) {
-                            handed_by[static_cast<std::size_t>(other)] = author;
+                            submitted_by[static_cast<std::size_t>(other)] < 0) {
+                            submitted_by[static_cast<std::size_t>(other)] = author;
                             queue.push_back(other);
                         }
                 }
@@ -199,11 +200,11 @@ class Allocator {
         return false;
     }
 
-    void follow(int author, int from, const std::vector<int>& taken_from, const std::vector<int>& handed_by) {
+    void follow(int author, int from, const std::vector<int>& taken_from, const std::vector<int>& submitted_by) {
         for (int reviewer = taken_from[static_cast<std::size_t>(author)];;) {
             board_.add(reviewer, author);
             if (reviewer == from) return;
-            author = handed_by[static_cast<std::size_t>(reviewer)];
+            author = submitted_by[static_cast<std::size_t>(reviewer)];
             board_.remove(reviewer, author);
             reviewer = taken_from[static_cast<std::size_t>(author)];
         }
@@ -253,23 +254,23 @@ class Allocator {
 
     void explain(Allocation& allocation) const {
         const auto say = [&](const Message& sentence) { allocation.remarks.push_back(sentence); };
-        if (wanted_ < problem_.reviews)
+        if (requested_ < problem_.reviews)
             say(Message("Only {} groups remain, so each can write at most {} of the {} requested reviews.",
-                        order_.size(), wanted_, problem_.reviews));
+                        order_.size(), requested_, problem_.reviews));
         int few_written = 0, few_got = 0, more = 0;
         for (const int i : order_) {
-            few_written += board_.writes(i) < wanted_;
-            few_got += board_.gets(i) < wanted_;
-            more += board_.writes(i) > wanted_ || board_.gets(i) > wanted_;
+            few_written += board_.writes(i) < requested_;
+            few_got += board_.gets(i) < requested_;
+            more += board_.writes(i) > requested_ || board_.gets(i) > requested_;
         }
         if (few_written + few_got > 0)
             say(
                 Message("{} groups write and {} reports get fewer than {} reviews: common members and existing reviews "
                         "allow no other allocation.",
-                        few_written, few_got, wanted_));
+                        few_written, few_got, requested_));
         if (more > 0)
             say(Message("{} groups write or get one review more than {}: existing reviews and sent copies are kept.",
-                        more, wanted_));
+                        more, requested_));
         if (allocation.swapped > 0)
             say(plural(allocation.swapped,
                        "{} pair of groups review each other; no exchange of two reviews avoids this.",
@@ -280,7 +281,7 @@ class Allocator {
     Board board_;
     const UniformDraw& draw_;
     std::vector<int> order_;
-    int wanted_ = 0;
+    int requested_ = 0;
 };
 
 }  // namespace

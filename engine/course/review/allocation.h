@@ -15,15 +15,15 @@ using ReviewEdge = std::pair<int, int>;
 struct AllocationProblem {
     int groups = 0;
     int reviews = 1;                ///< that each active group should write and each of their reports get
-    std::vector<bool> active;       ///< hands in and reviews; false: dropped out, or has handed in nothing
+    std::vector<bool> active;       ///< false: the group dropped out or has submitted nothing
     std::vector<ReviewEdge> kin;    ///< groups who share a member, in either order
     std::vector<ReviewEdge> fixed;  ///< reviews that are written, or sent to an active reviewer of an active author
-    std::vector<ReviewEdge> loose;  ///< allotted before, nobody knows of it yet: kept where possible
+    std::vector<ReviewEdge> loose;  ///< assigned earlier but not sent yet: kept if possible
 };
 
 struct Allocation {
     std::vector<ReviewEdge> pairs;  ///< all that hold now: the fixed ones first, then the others, sorted
-    int open_reviews = 0;           ///< that active groups should write and for which nobody could be found
+    int open_reviews = 0;           ///< reviews that active groups should write, but for which no report was found
     int swapped = 0;                ///< couples who review each other
     std::vector<Message> remarks;   ///< whole sentences: what could not be had, and why
 };

@@ -98,7 +98,7 @@ RunRecord record_of(const GroupChanges& g, const Course& course, const Assignmen
                      {"course", {{}, cell(course.name())}}};
     RecordedTable& files = record.tables["files"] = {{"version", "file", "received", ""}, {}};
     for (const auto* stage : {&g.first, &g.final})
-        for (const StandingFile& file : *stage)
+        for (const ValidFile& file : *stage)
             files.rows.push_back({stage == &g.first ? "first" : "final", fmt::format("{} v{}", file.part, file.number),
                                   clock.show(file.received_at),
                                   file.late > 0 ? "late " + duration_text(file.late) : "in time"});
@@ -166,7 +166,7 @@ std::string changes_table(const Assignment& assignment, const std::vector<GroupC
 }
 
 std::size_t write_changes(const std::vector<GroupChanges>& groups, Course& course, const Assignment& assignment,
-                          const fs::path& folder, const BoxedDocuments& documents,
+                          const fs::path& folder, const SandboxedDocuments& documents,
                           const std::function<void(std::size_t, std::size_t)>& progress) {
     std::vector<const GroupChanges*> finals;
     for (const GroupChanges& g : groups)

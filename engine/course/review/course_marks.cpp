@@ -35,7 +35,7 @@ class CostTaker {
     void take_off_work(GroupMark& mark) {
         const char* const part = a_.document();
         for (const char* stage : {"first", "final"}) {
-            const HandedInParts& parts = versions_[mark.group][stage];
+            const SubmittedParts& parts = versions_[mark.group][stage];
             const auto found = parts.find(part);
             if (found == parts.end() || !found->second.is_late()) continue;
             const double percent = late_percent(a_.costs, found->second.late);
@@ -67,7 +67,7 @@ class CostTaker {
     Course& course_;
     const Assignment& a_;
     Instant now_;
-    std::map<std::int64_t, std::map<std::string, HandedInParts>> versions_;
+    std::map<std::int64_t, std::map<std::string, SubmittedParts>> versions_;
     const std::vector<ReviewPair>& pairs_;
 };
 

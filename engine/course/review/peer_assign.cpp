@@ -46,8 +46,9 @@ class ReviewAssigner {
         }
         for (const auto& [a, b] : kindred_groups(course_))
             if (index_.contains(a) && index_.contains(b)) keep_apart(index_[a], index_[b]);
-        for (const PairWish& wish : pair_wishes(course_, assignment_))
-            if (wish.wish == "forbid") keep_apart(index_.at(wish.reviewer), index_.at(wish.author));
+        for (const PairConstraint& constraint : pair_constraints(course_, assignment_))
+            if (constraint.constraint == "forbid")
+                keep_apart(index_.at(constraint.reviewer), index_.at(constraint.author));
         for (const ReviewPair& pair : review_pairs(course_, assignment_)) {
             if (pair.ended) continue;
             const ReviewEdge edge(index_.at(pair.reviewer), index_.at(pair.author));
@@ -71,9 +72,9 @@ class ReviewAssigner {
 
     /// The instructor's own pairs hold as if they had been sent.
     void add_wished_pairs() {
-        for (const PairWish& wish : pair_wishes(course_, assignment_)) {
-            if (wish.wish != "set") continue;
-            const ReviewEdge edge(index_.at(wish.reviewer), index_.at(wish.author));
+        for (const PairConstraint& constraint : pair_constraints(course_, assignment_)) {
+            if (constraint.constraint != "set") continue;
+            const ReviewEdge edge(index_.at(constraint.reviewer), index_.at(constraint.author));
             const auto& fixed = problem_.fixed;
             if (std::find(fixed.begin(), fixed.end(), edge) != fixed.end()) continue;
             const bool both = problem_.active[static_cast<std::size_t>(edge.first)] &&
@@ -115,10 +116,10 @@ class ReviewAssigner {
     }
 
     void write(const Allocation& allocation) {
-        const std::set<ReviewEdge> wanted(allocation.pairs.begin(), allocation.pairs.end());
-        outcome_.pairs = static_cast<int>(wanted.size());
+        const std::set<ReviewEdge> requested(allocation.pairs.begin(), allocation.pairs.end());
+        outcome_.pairs = static_cast<int>(requested.size());
         for (const auto& [edge, pair] : known_) {
-            if (wanted.contains(edge)) continue;
+            if (requested.contains(edge)) continue;
             const auto gone = [&](int index) { return !problem_.active[static_cast<std::size_t>(index)]; };
             const std::string reason = gone(edge.first)          ? "the reviewer dropped out"
                                        : gone(edge.second)       ? "the author dropped out"
@@ -128,7 +129,7 @@ class ReviewAssigner {
             ++outcome_.ended;
         }
         std::vector<ReviewEdge> fresh;
-        for (const ReviewEdge& edge : wanted)
+        for (const ReviewEdge& edge : requested)
             if (!known_.contains(edge)) fresh.push_back(edge);
         outcome_.fresh = static_cast<int>(fresh.size());
         if (outcome_.fresh + outcome_.ended == 0) return;
@@ -158,30 +159,30 @@ class ReviewAssigner {
 
 }  // namespace
 
-std::vector<PairWish> pair_wishes(Course& course, const Assignment& assignment) {
-    std::vector<PairWish> wishes;
+std::vector<PairConstraint> pair_constraints(Course& course, const Assignment& assignment) {
+    std::vector<PairConstraint> constraints;
     for (Rows rows = course.database().query(
              "SELECT w.reviewer, w.author, w.wish FROM pair_wishes w WHERE w.assignment = ? AND w.wish <> 'free' AND "
              "w.id = (SELECT max(n.id) FROM pair_wishes n WHERE n.assignment = w.assignment AND n.reviewer = "
              "w.reviewer AND n.author = w.author) ORDER BY w.id",
              assignment.id);
          rows.next();)
-        wishes.push_back({rows.integer(0), rows.integer(1), rows.text(2)});
-    return wishes;
+        constraints.push_back({rows.integer(0), rows.integer(1), rows.text(2)});
+    return constraints;
 }
 
-void wish_pair(Course& course, const Assignment& assignment, const std::string& reviewer, const std::string& author,
-               const std::string& wish, const std::string& reason, Instant now) {
+void constrain_pair(Course& course, const Assignment& assignment, const std::string& reviewer,
+                    const std::string& author, const std::string& constraint, const std::string& reason, Instant now) {
     refuse_without_reason(reason);
     refuse_without_reviews(assignment);
     Transaction transaction(course.database());
     const Group reads = group_named(course, reviewer), writes = group_named(course, author);
     if (reads.id == writes.id) throw InvalidArgument("{} cannot review its own report", reads.name);
-    if (wish == "set")
+    if (constraint == "set")
         for (const auto& [a, b] : kindred_groups(course))
             if ((a == reads.id && b == writes.id) || (a == writes.id && b == reads.id))
                 throw InvalidArgument("{} and {} share or shared a member", reads.name, writes.name);
-    if (wish == "set" && !newest_file(course, assignment, writes.id, "first", "report"))
+    if (constraint == "set" && !newest_file(course, assignment, writes.id, "first", "report"))
         throw InvalidArgument("{} has submitted no report for {}: there is nothing to review", writes.name,
                               assignment.name);
     const auto enter = [&](const Group& one, const Group& other, const std::string& what) {
@@ -189,12 +190,12 @@ void wish_pair(Course& course, const Assignment& assignment, const std::string& 
             "INSERT INTO pair_wishes (assignment, reviewer, author, wish, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)",
             assignment.id, one.id, other.id, what, reason, now);
     };
-    enter(reads, writes, wish);
-    if (wish != "set") enter(writes, reads, wish);
+    enter(reads, writes, constraint);
+    if (constraint != "set") enter(writes, reads, constraint);
     course.note(fmt::format("{}: {} {} {}; reason: {}", assignment.name, reads.name,
-                            wish == "set"      ? "is to review"
-                            : wish == "forbid" ? "is kept apart from"
-                                               : "may review again, or not,",
+                            constraint == "set"      ? "is to review"
+                            : constraint == "forbid" ? "is kept apart from"
+                                                     : "may review again, or not,",
                             writes.name, reason),
                 now);
     transaction.commit();

@@ -20,15 +20,15 @@ struct AssignOutcome {
 AssignOutcome assign_reviews(Course& course, const Assignment& assignment, Instant now, bool early);
 
 /// What the instructor wants of a pair: "set" (this group reviews that one) or "forbid" (neither reviews the other).
-struct PairWish {
+struct PairConstraint {
     std::int64_t reviewer = 0, author = 0;
-    std::string wish;
+    std::string constraint;
 };
-std::vector<PairWish> pair_wishes(Course& course, const Assignment& assignment);
+std::vector<PairConstraint> pair_constraints(Course& course, const Assignment& assignment);
 /// "set", "forbid", or "free", which takes back what was wished before; for the next assign_reviews. Throws
 /// InvalidArgument: no reason, a group and itself, one that shares a member with the other.
-void wish_pair(Course& course, const Assignment& assignment, const std::string& reviewer, const std::string& author,
-               const std::string& wish, const std::string& reason, Instant now);
+void constrain_pair(Course& course, const Assignment& assignment, const std::string& reviewer,
+                    const std::string& author, const std::string& constraint, const std::string& reason, Instant now);
 
 /// A copy that must not show whose it is. Only `copy`, one PDF, leaves the course: the text and script of a pack stay,
 /// so that only the PDF made from them is searched for names.

@@ -152,7 +152,7 @@ class CopySender {
         }
         const std::string& author = to_reviewers() ? pair.author_name : pair.reviewer_name;
         const TemporaryFolder scratch;
-        const auto under_its_name = [&](const StandingFile& v) {  // the store's own names tell no kind
+        const auto under_its_name = [&](const ValidFile& v) {  // the store's own names tell no kind
             const fs::path file = scratch.path() / fs::path(v.name).filename();
             fs::copy_file(course_.file(v.hash), file);
             return file;
@@ -189,7 +189,7 @@ class CopySender {
     }
 
     /// `accepted`: the group whose hits were accepted; else empty.
-    void record(const ReviewPair& pair, const StandingFile& version, const std::string& content,
+    void record(const ReviewPair& pair, const ValidFile& version, const std::string& content,
                 const std::string& accepted) {
         if (has_ended(pair)) return;  // while the copy was made
         const std::string hash = course_.keep(content);

@@ -54,7 +54,7 @@ struct GroupMark {
     double work_costs = 0;                ///< what was taken off the work, in percent points
     int scored = 0;                       ///< scored reviews of its report, the instructor's included
     std::vector<std::string> zeros;       ///< criteria of an oral without points, which count 0
-    std::vector<StudentMark> students;    ///< those whose points differ from the group's
+    std::vector<StudentMark> students;    ///< students whose points differ from those of the group
     const StudentMark* own_points_of(const std::string& student) const;  ///< null where the group's points count
 };
 

@@ -13,12 +13,12 @@ namespace {
 /// The numbers behind "report" or "review" in a file's name, however they are joined: "review-report-07.pdf",
 /// "Review 68.pdf", "report_07.PDF", "Report47".
 std::vector<std::int64_t> report_numbers(const std::string& name) {
-    constexpr std::size_t kMostDigits = 6;
+    constexpr std::size_t kMaxDigits = 6;
     static const RE2 form("(?i)(?:report|review)[ _.#-]*([0-9]+)", RE2::Latin1);
     std::vector<std::int64_t> numbers;
     std::string digits;
     for (re2::StringPiece rest = name; RE2::FindAndConsume(&rest, form, &digits);)
-        if (digits.size() <= kMostDigits) numbers.push_back(std::stoll(digits));
+        if (digits.size() <= kMaxDigits) numbers.push_back(std::stoll(digits));
     return numbers;
 }
 

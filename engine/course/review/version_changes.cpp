@@ -19,7 +19,7 @@ struct Task {
 };
 
 /// The newest version of which copies were sent to reviewers, and which is not withdrawn.
-std::optional<StandingFile> reviewed_version(Course& course, const Assignment& assignment, std::int64_t group) {
+std::optional<ValidFile> reviewed_version(Course& course, const Assignment& assignment, std::int64_t group) {
     Rows rows = course.database().query(
         "SELECT max(s.version) FROM sendings s JOIN pairs p ON p.id = s.pair WHERE p.assignment = ? AND p.author = ? "
         "AND s.way = 'to reviewer'",
@@ -29,7 +29,7 @@ std::optional<StandingFile> reviewed_version(Course& course, const Assignment& a
 
 /// The report of a stage and its source.
 VersionFiles files_of(Course& course, const Assignment& assignment, std::int64_t group, const std::string& stage,
-                      std::optional<StandingFile> report, std::vector<StandingFile>& compared) {
+                      std::optional<ValidFile> report, std::vector<ValidFile>& compared) {
     if (!report) report = newest_file(course, assignment, group, stage, "report");
     const auto pack =
         report ? pack_of_document(course, report->id) : newest_file(course, assignment, group, stage, "pack");
@@ -49,7 +49,7 @@ std::optional<Task> task_of(Course& course, const Assignment& assignment, const 
         files_of(course, assignment, group.id, "first", reviewed_version(course, assignment, group.id), changes.first);
     task.final = files_of(course, assignment, group.id, "final", {}, changes.final);
     if (changes.first.empty() && changes.final.empty()) return {};
-    changes.same_files = std::ranges::equal(changes.first, changes.final, {}, &StandingFile::hash, &StandingFile::hash);
+    changes.same_files = std::ranges::equal(changes.first, changes.final, {}, &ValidFile::hash, &ValidFile::hash);
     for (const ReviewPair& pair : pairs) {
         if (pair.author != group.id || !pair.released) continue;
         Rows rows = course.database().query(

@@ -24,7 +24,7 @@ struct ReleasedReview {
 struct GroupChanges {
     std::string group;
     bool dropped_out = false;
-    std::vector<StandingFile> first, final;  ///< the compared files: report, pack
+    std::vector<ValidFile> first, final;  ///< the compared files: report, pack
     bool same_files = false;
     std::optional<int> pages_before, pages_after;
     std::optional<WordDiff> text;
@@ -53,7 +53,7 @@ std::string changes_table(const Assignment& assignment, const std::vector<GroupC
 /// report_templates/version_changes.md: the text with its changes marked, the values that changed, the reviews. Returns
 /// the number of groups. Throws EnvironmentError when a document cannot be made.
 std::size_t write_changes(const std::vector<GroupChanges>& groups, Course& course, const Assignment& assignment,
-                          const std::filesystem::path& folder, const BoxedDocuments& documents,
+                          const std::filesystem::path& folder, const SandboxedDocuments& documents,
                           const std::function<void(std::size_t done, std::size_t total)>& progress);
 
 }  // namespace dynlab::inline course

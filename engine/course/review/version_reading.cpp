@@ -39,7 +39,7 @@ void read_pack(const fs::path& pack, Isolation level, const fs::path& program, R
     submission.archive = true;
     try {
         const fs::path folder = stage_submission(submission, staged.path(), level, program).folder;
-        const Message reason = make_version_in_box(folder, made.path(), false, level, program);
+        const Message reason = make_version_in_sandbox(folder, made.path(), false, level, program);
         if (!reason.empty()) {
             version.problems.push_back(Message("The pack's analysis cannot be run: {}.", reason));
             return;
@@ -78,7 +78,7 @@ void make_document(const ReportRequest& request, RunRecord record, const fs::pat
 
 }  // namespace
 
-BoxedOutcome make_version(const VersionJob& job) {
+SandboxOutcome make_version(const VersionJob& job) {
     const fs::path &folder = job.folder, &to = job.to;
     try {
         const ReportRequest request = report_of(folder.string(), to / "report.md");
@@ -99,18 +99,18 @@ BoxedOutcome make_version(const VersionJob& job) {
     }
 }
 
-Message make_version_in_box(const fs::path& folder, const fs::path& made, bool pdf, Isolation level,
-                            const fs::path& program) {
-    Box box(level);
-    box.add_document_home(shared_folder() / "data");
+Message make_version_in_sandbox(const fs::path& folder, const fs::path& made, bool pdf, Isolation level,
+                                const fs::path& program) {
+    Sandbox sandbox(level);
+    sandbox.add_document_home(shared_folder() / "data");
     VersionJob job;
-    job.folder = box.add_writable(folder, "/box/submission");
-    job.to = box.add_writable(made, "/box/made");
+    job.folder = sandbox.add_writable(folder, "/box/submission");
+    job.to = sandbox.add_writable(made, "/box/made");
     job.pdf = pdf;
-    const auto result = run_boxed(box, program, job, {kReadingTime});
+    const auto result = run_in_sandbox(sandbox, program, job, {kReadingTime});
     const Message& reason = result.output && result.output->error ? *result.output->error : result.reason;
     return with_changed_text(reason, [&job](const std::string& text) {
-        return without_full_stop(told_outside(first_line(text), job.folder));
+        return without_full_stop(without_sandbox_paths(first_line(text), job.folder));
     });
 }
 

@@ -32,13 +32,13 @@ ReadVersion read_version(const VersionFiles& files, Isolation level, const std::
 
 /// Runs the analysis in `folder` and makes its record.json, report.md and, if wanted, report.pdf in `made`, an empty
 /// folder, in a box by `program`. Returns why that did not go to its end, without a full stop; empty where it did.
-Message make_version_in_box(const std::filesystem::path& folder, const std::filesystem::path& made, bool pdf,
-                            Isolation level, const std::filesystem::path& program);
+Message make_version_in_sandbox(const std::filesystem::path& folder, const std::filesystem::path& made, bool pdf,
+                                Isolation level, const std::filesystem::path& program);
 
-/// A version to be made inside a box; all paths are those in the box.
+/// Job that creates a version inside a sandbox. All paths are paths in the sandbox.
 struct VersionJob {
     static constexpr char kWork[] = "version";
-    using Result = BoxedOutcome;
+    using Result = SandboxOutcome;
 
     std::filesystem::path folder;  ///< of analysis.lua and report.md
     std::filesystem::path to;      ///< an empty folder
@@ -46,6 +46,6 @@ struct VersionJob {
 };
 
 /// The part of it inside the box. Writes record.json, report.md and report.pdf into `to`.
-BoxedOutcome make_version(const VersionJob& job);
+SandboxOutcome make_version(const VersionJob& job);
 
 }  // namespace dynlab::inline course

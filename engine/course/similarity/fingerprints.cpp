@@ -20,7 +20,7 @@ const std::set<std::string_view>& names_of_the_library() {
         std::set<std::string_view> all = {
             "math", "string", "table", "ipairs", "pairs",  "print", "tostring", "tonumber", "pcall", "error",  "select",
             "type", "unpack", "sqrt",  "format", "insert", "max",   "min",      "report",   "value", "figure", "text"};
-        for (const FunctionEntry& entry : catalogue_of_functions()) all.insert(entry.name);
+        for (const FunctionEntry& entry : catalog_of_functions()) all.insert(entry.name);
         return all;
     }();
     return names;

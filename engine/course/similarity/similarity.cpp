@@ -15,13 +15,13 @@
 namespace dynlab::inline course {
 namespace {
 
-constexpr std::size_t kFewest = 8;         // fingerprints in common, about thirty tokens
+constexpr std::size_t kMinCount = 8;       // fingerprints in common, about thirty tokens
 constexpr double kLeastEvidence = 1.5;     // their weight: as if so many stood in no third script
 constexpr double kNearlyAll = 0.95;        // a share so large is told however many have that code,
 constexpr std::size_t kManyInCommon = 40;  // if it is so much of it
 constexpr double kCopyOfLonger = 0.8;      // a copy has so much of the longer one's code, too
 constexpr std::size_t kGap = 3;            // fingerprints that may lie between two of one passage
-constexpr std::size_t kMostPassages = 3, kMostLines = 30;
+constexpr std::size_t kMaxPassages = 3, kMaxLineCount = 30;
 
 using Hashes = std::unordered_set<std::uint64_t>;
 
@@ -72,7 +72,7 @@ class ScriptComparison {
                 const auto [count, weight] = common(hashes_[a], hashes_[b]);
                 const double whole = std::min(weights[a], weights[b]), share = whole > 0 ? weight / whole : 0;
                 const bool enough = weight >= kLeastEvidence || (share >= kNearlyAll && count >= kManyInCommon);
-                if (count < kFewest || !enough || share < line) continue;
+                if (count < kMinCount || !enough || share < line) continue;
                 const double longer = std::max(weights[a], weights[b]);
                 found.push_back({a, b, std::min(share, 1.0), same_lines(a, b), std::min(weight / longer, 1.0), {}});
             }
@@ -80,7 +80,7 @@ class ScriptComparison {
         std::ranges::stable_sort(found, [](const SimilarPair& x, const SimilarPair& y) { return x.share > y.share; });
         std::set<std::pair<std::size_t, std::size_t>> shown;
         for (const SimilarGroup& group : similar_groups(scripts_, found))
-            if (shown.size() < kMostShownGroups) shown.insert({group.shown.a, group.shown.b});
+            if (shown.size() < kMaxShownGroups) shown.insert({group.shown.a, group.shown.b});
         for (SimilarPair& pair : found)
             if (shown.contains({pair.a, pair.b})) pair.passages = passages(pair.a, pair.b);
         return found;
@@ -134,7 +134,7 @@ class ScriptComparison {
         }
         std::ranges::stable_sort(
             all, [](const CommonPassage& x, const CommonPassage& y) { return x.fingerprints > y.fingerprints; });
-        if (all.size() > kMostPassages) all.resize(kMostPassages);
+        if (all.size() > kMaxPassages) all.resize(kMaxPassages);
         return all;
     }
 
@@ -173,7 +173,7 @@ std::string quoted_lines(const ComparedScript& script, int first, int last) {
     std::string text = fmt::format("*{}*, lines {} to {}:\n\n", readable_markdown(script.name), first, last);
     int shown = 0;
     for (int number = first; number <= last && number <= static_cast<int>(lines.size()); ++number) {
-        if (++shown > static_cast<int>(kMostLines)) return text + "        ...\n\n";
+        if (++shown > static_cast<int>(kMaxLineCount)) return text + "        ...\n\n";
         std::string line = lines[static_cast<std::size_t>(number - 1)];
         std::erase_if(line, [](unsigned char c) { return c < 0x20 && c != '\t'; });
         text += fmt::format("    {:>4}  {}\n", number, line);
@@ -286,7 +286,7 @@ std::vector<SimilarGroup> similar_groups(const std::vector<ComparedScript>& scri
 
 std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, const std::vector<SimilarGroup>& groups,
                                    double line) {
-    constexpr std::size_t most = kMostShownGroups;
+    constexpr std::size_t most = kMaxShownGroups;
     std::string text = fmt::format(
         "# Similar scripts\n\n{} scripts were compared without comments, layout and chosen names; code of the starter "
         "does not count. The list contains copies, and pairs with {} or more of the shorter script's own code in "

@@ -37,7 +37,7 @@ struct SimilarGroup {
     bool has(std::size_t script) const;
 };
 
-inline constexpr std::size_t kMostShownGroups = 100;
+inline constexpr std::size_t kMaxShownGroups = 100;
 
 /// Every pair whose share is `line` or more, the largest first. What stands in `starter`, which all were given, counts
 /// for nothing; what many have counts little: a fingerprint weighs one over the number of different scripts with it.
@@ -52,7 +52,7 @@ std::vector<SimilarGroup> similar_groups(const std::vector<ComparedScript>& scri
                                          const std::vector<SimilarPair>& pairs);
 
 /// The groups for the instructor, as Markdown: names, shares, and of each passage both sides. It says nothing of
-/// who did what. At most kMostShownGroups are shown.
+/// who did what. At most kMaxShownGroups are shown.
 std::string similarity_in_markdown(const std::vector<ComparedScript>& scripts, const std::vector<SimilarGroup>& groups,
                                    double line);
 

@@ -102,10 +102,10 @@ bool only_later(Assignment a, const Assignment& b, const CourseClock& clock) {
 }
 
 /// What submissions and scores depend on does not change after them.
-void refuse_change_of_form(Course& course, const Assignment& known, const Assignment& wanted, bool has_work) {
-    if (has_work && wanted.kind != known.kind)
+void refuse_change_of_form(Course& course, const Assignment& known, const Assignment& requested, bool has_work) {
+    if (has_work && requested.kind != known.kind)
         throw InvalidArgument("files were submitted for {} already: its kind stays {}", known.name, known.kind);
-    if (criteria_text(wanted.criteria) == criteria_text(known.criteria)) return;
+    if (criteria_text(requested.criteria) == criteria_text(known.criteria)) return;
     Rows scored = course.database().query(
         "SELECT 1 FROM marks m JOIN criteria c ON c.assignment = m.assignment AND c.name = m.item WHERE c.assignment = "
         "?",
@@ -138,25 +138,25 @@ std::vector<std::pair<std::string, std::string>> named_numbers(const std::string
 
 }  // namespace
 
-bool set_assignment(Course& course, Assignment wanted, const std::string& reason) {
-    refuse_odd_name("the assignment's name", wanted.name);
-    if (!wanted.is_report()) wanted.reviews = 0;
-    refuse_bad_deadlines(wanted, course.clock());
+bool set_assignment(Course& course, Assignment requested, const std::string& reason) {
+    refuse_odd_name("the assignment's name", requested.name);
+    if (!requested.is_report()) requested.reviews = 0;
+    refuse_bad_deadlines(requested, course.clock());
     Database& db = course.database();
     Transaction transaction(db);
-    std::string note = fmt::format("assignment {} added", wanted.name);
+    std::string note = fmt::format("assignment {} added", requested.name);
     for (const Assignment& known : assignments_of(course)) {
-        if (::strcasecmp(known.name.c_str(), wanted.name.c_str()) != 0) continue;
-        const std::vector<std::string> changes = differences(known, wanted, course.clock());
+        if (::strcasecmp(known.name.c_str(), requested.name.c_str()) != 0) continue;
+        const std::vector<std::string> changes = differences(known, requested, course.clock());
         if (changes.empty()) return false;
         const bool has_work = db.query("SELECT 1 FROM versions WHERE assignment = ?", known.id).next();
-        refuse_change_of_form(course, known, wanted, has_work);
-        if (has_work && reason.empty() && !only_later(known, wanted, course.clock()))
+        refuse_change_of_form(course, known, requested, has_work);
+        if (has_work && reason.empty() && !only_later(known, requested, course.clock()))
             throw InvalidArgument(
                 "files were submitted for {} already: you can only postpone deadlines and increase the grace; give "
                 "--reason to change more",
                 known.name);
-        wanted.name = known.name;
+        requested.name = known.name;
         note = fmt::format("assignment {} changed: {}", known.name, fmt::join(changes, ", "));
     }
     db.run(
@@ -167,10 +167,11 @@ bool set_assignment(Course& course, Assignment wanted, const std::string& reason
         "excluded.grace, reviews = excluded.reviews, costs = excluded.costs, final_weight = excluded.final_weight, "
         "weight = excluded.weight, reviews_weight = excluded.reviews_weight, checks = excluded.checks, secret = "
         "excluded.secret, keep = excluded.keep",
-        wanted.name, wanted.kind, wanted.lesson, wanted.first_due, wanted.review_due, wanted.final_due, wanted.grace,
-        wanted.reviews, CourseClock::now(), costs_text(wanted.costs), wanted.final_weight, wanted.weight,
-        wanted.reviews_weight, wanted.checks, wanted.secret, wanted.keep);
-    write_criteria(db, assignment_named(course, wanted.name).id, wanted.criteria);
+        requested.name, requested.kind, requested.lesson, requested.first_due, requested.review_due,
+        requested.final_due, requested.grace, requested.reviews, CourseClock::now(), costs_text(requested.costs),
+        requested.final_weight, requested.weight, requested.reviews_weight, requested.checks, requested.secret,
+        requested.keep);
+    write_criteria(db, assignment_named(course, requested.name).id, requested.criteria);
     course.note(note + (reason.empty() ? "" : "; reason: " + reason));
     transaction.commit();
     return true;
@@ -271,7 +272,7 @@ std::vector<Criterion> usual_criteria(const std::string& kind) {
 Costs costs_of(const std::string& text) {
     Costs costs;
     for (const auto& [name, points] : named_numbers(text)) {
-        const auto is_named = [&wanted = name](const auto& cost) { return cost.first == wanted; };
+        const auto is_named = [&requested = name](const auto& cost) { return cost.first == requested; };
         const auto known = std::find_if(std::begin(kCosts), std::end(kCosts), is_named);
         const auto value = read_number<double>(points);
         if (known == std::end(kCosts) || !value || !(*value >= 0 && *value <= 100))

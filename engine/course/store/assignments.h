@@ -37,7 +37,7 @@ struct Assignment {
     std::vector<Criterion> criteria;
     Costs costs;
     double final_weight = 50;    ///< percent of the work's mark, where the final version is scored
-    double weight = 1;           ///< in the course's total, beside those of the other assignments
+    double weight = 1;           ///< weight of the assignment in the total of the course
     double reviews_weight = 20;  ///< percent of a report's mark that the mark of the reviews makes
     std::string checks;          ///< of a lab: folder with the instructor's own checks; may be empty
     std::string secret;          ///< of a lab: file from which hidden records are drawn; may be empty
@@ -55,7 +55,7 @@ struct Assignment {
 /// report without them, a lab or a talk with those of a review, a name that cannot be a file name; once work was
 /// submitted another kind, or without a reason anything but later deadlines or more grace; other criteria once scores
 /// were given.
-bool set_assignment(Course& course, Assignment wanted, const std::string& reason = "");
+bool set_assignment(Course& course, Assignment requested, const std::string& reason = "");
 /// Takes an assignment out. Throws InvalidArgument where something hangs on it: files, pairs, scores, marks.
 void remove_assignment(Course& course, const Assignment& assignment, const std::string& reason);
 
@@ -85,8 +85,8 @@ std::vector<Criterion> usual_criteria(const std::string& kind);
 /// "late-day:10,missing-review:25"; empty for none. Throws InvalidArgument.
 Costs costs_of(const std::string& text);
 
-// What the instructor allowed or kept from a group besides what holds for all. Corrections make such entries
-// (corrections/corrections.h), each with a reason; the newest holds.
+// Exceptions for one group, such as an extended deadline. The functions of corrections/corrections.h record each
+// exception with a reason; the newest one is valid.
 
 /// Throws InvalidArgument for an empty reason.
 void refuse_without_reason(const std::string& reason);

@@ -194,12 +194,12 @@ void Course::settle(const std::vector<std::string>& hashes) const {
 }
 
 void Course::keep_files(const std::vector<fs::path>& files,
-                        const std::function<void(std::size_t, const KeptFile&)>& look,
+                        const std::function<void(std::size_t, const StoredFile&)>& look,
                         const std::function<void(std::size_t, std::size_t)>& progress) const {
     constexpr std::size_t kGivenUp = std::numeric_limits<std::size_t>::max();
-    std::vector<KeptFile> kept(files.size());
+    std::vector<StoredFile> kept(files.size());
     std::atomic<std::size_t> done = 0;  // of them
-    const auto tell = [&done](std::size_t now) {
+    const auto notify = [&done](std::size_t now) {
         done = now;
         done.notify_all();
     };
@@ -207,10 +207,10 @@ void Course::keep_files(const std::vector<fs::path>& files,
     {
         const std::jthread keeper([&](const std::stop_token& stop) {
             try {
-                keep_in_batches(files, kept, tell, stop);
+                keep_in_batches(files, kept, notify, stop);
             } catch (...) {
                 failure = std::current_exception();
-                tell(kGivenUp);
+                notify(kGivenUp);
             }
         });
         const auto work = [&](std::size_t i) {
@@ -222,14 +222,14 @@ void Course::keep_files(const std::vector<fs::path>& files,
     }
     if (failure) std::rethrow_exception(failure);
     std::vector<std::string> hashes;
-    for (const KeptFile& file : kept) hashes.push_back(file.hash);
+    for (const StoredFile& file : kept) hashes.push_back(file.hash);
     settle(hashes);
 }
 
 /// So many at a time that they wait for the disk together, and so few that the first is soon there and that little
 /// memory is copied with each process that looks at one.
-void Course::keep_in_batches(const std::vector<fs::path>& files, std::vector<KeptFile>& kept,
-                             const std::function<void(std::size_t)>& tell, const std::stop_token& stop) const {
+void Course::keep_in_batches(const std::vector<fs::path>& files, std::vector<StoredFile>& kept,
+                             const std::function<void(std::size_t)>& notify, const std::stop_token& stop) const {
     constexpr std::int64_t kMostTogether = 2 << 20;
     std::vector<std::string> contents;
     std::int64_t bytes = 0;
@@ -241,7 +241,7 @@ void Course::keep_in_batches(const std::vector<fs::path>& files, std::vector<Kep
         std::size_t next = i + 1 - contents.size();
         for (std::string& hash : keep(std::exchange(contents, {}))) kept[next++].hash = std::move(hash);
         bytes = 0;
-        tell(next);
+        notify(next);
     }
 }
 
@@ -249,12 +249,12 @@ void Course::record_file(const std::string& hash, std::int64_t bytes, Instant at
     database_.run("INSERT OR IGNORE INTO files VALUES (?, ?, ?)", hash, bytes, at);
 }
 
-std::string Course::remembered(const std::string& key) {
+std::string Course::saved_entry(const std::string& key) {
     Rows rows = database_.query("SELECT value FROM course WHERE key = ?", key);
     return rows.next() ? rows.text(0) : "";
 }
 
-void Course::remember(const std::string& key, const std::string& value) {
+void Course::save_entry(const std::string& key, const std::string& value) {
     database_.run(
         "INSERT INTO course VALUES (?, ?) ON CONFLICT DO UPDATE SET value = excluded.value WHERE value <> "
         "excluded.value",

@@ -14,7 +14,7 @@
 
 namespace dynlab::inline course {
 
-struct KeptFile {
+struct StoredFile {
     std::string hash;
     std::int64_t bytes = 0;
 };
@@ -53,7 +53,7 @@ class Course {
     /// Stores files and settles them. look(i, kept) hears of each as soon as it is stored, on all cores, while the disk
     /// is busy with the next ones; `progress` in the calling thread. What either throws is thrown on.
     void keep_files(const std::vector<std::filesystem::path>& files,
-                    const std::function<void(std::size_t, const KeptFile&)>& look,
+                    const std::function<void(std::size_t, const StoredFile&)>& look,
                     const std::function<void(std::size_t done, std::size_t total)>& progress = {}) const;
     /// Writes files anywhere below the course's folder, as write_files_atomically does. Their temporary files lie in
     /// files/, so that opening the course finds leftovers without searching all folders.
@@ -62,15 +62,15 @@ class Course {
     void record_file(const std::string& hash, std::int64_t bytes, Instant at);
     std::filesystem::path file(const std::string& hash) const;
     /// A setting of a command, by a name of its own; empty where it was never set. It is set within a transaction.
-    std::string remembered(const std::string& key);
-    void remember(const std::string& key, const std::string& value);
+    std::string saved_entry(const std::string& key);
+    void save_entry(const std::string& key, const std::string& value);
     /// Within a transaction: a line in the journal.
     void note(const std::string& what, Instant at = CourseClock::now());
 
   private:
     std::string setting(const char* key);
-    void keep_in_batches(const std::vector<std::filesystem::path>& files, std::vector<KeptFile>& kept,
-                         const std::function<void(std::size_t)>& tell, const std::stop_token& stop) const;
+    void keep_in_batches(const std::vector<std::filesystem::path>& files, std::vector<StoredFile>& kept,
+                         const std::function<void(std::size_t)>& notify, const std::stop_token& stop) const;
 
     std::filesystem::path folder_;
     std::vector<std::filesystem::path> leftovers_;

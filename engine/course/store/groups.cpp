@@ -32,7 +32,7 @@ std::set<std::string> names_in(const std::string& cell) {
 
 /// The same words in any order: platforms write the family's name first, or last.
 bool same_name(const std::string& a, const std::string& b) {
-    std::vector<std::string> words = words_of_name(a), others = words_of_name(b);
+    std::vector<std::string> words = name_words(a), others = name_words(b);
     std::ranges::sort(words), std::ranges::sort(others);
     return words == others;
 }
@@ -146,20 +146,20 @@ class Import {
     }
 
     void move(const Student& student) {
-        std::set<std::int64_t> wanted, present;
+        std::set<std::int64_t> requested, present;
         for (Rows rows = db_.query("SELECT group_id FROM memberships WHERE student = ? AND until IS NULL", student.id);
              rows.next();)
             present.insert(rows.integer(0));
         if (!roster_.has("group") && !present.empty()) return;
         for (const std::string& name : names_in(student.group.empty() ? student.id : student.group))
-            wanted.insert(group(name));
-        if (wanted == present) return;
+            requested.insert(group(name));
+        if (requested == present) return;
         if (!present.empty()) ++change_.moved;
         for (const std::int64_t id : present)
-            if (!wanted.contains(id))
+            if (!requested.contains(id))
                 db_.run("UPDATE memberships SET until = ? WHERE student = ? AND group_id = ? AND until IS NULL", now_,
                         student.id, id);
-        for (const std::int64_t id : wanted)
+        for (const std::int64_t id : requested)
             if (!present.contains(id))
                 // Back within the second of having left: the same membership.
                 db_.run("INSERT INTO memberships VALUES (?, ?, ?, NULL) ON CONFLICT DO UPDATE SET until = NULL",
@@ -205,7 +205,7 @@ Group group_named(Course& course, const std::string& name) {
     const Owners owners(students, names);
     const Owners::Found found = owners.called(name);
     if (const auto group = std::ranges::find(groups, found.group, &Group::name); group != groups.end()) return *group;
-    if (found.doubtful) throw InvalidArgument("\"{}\" matches several groups: {}", name, found.trouble);
+    if (found.doubtful) throw InvalidArgument("\"{}\" matches several groups: {}", name, found.error_reason);
     const auto near = nearest_word(name, owners.names());
     throw near ? InvalidArgument("this course has no group \"{}\"; did you mean {}?", name, *near)
                : InvalidArgument("this course has no group \"{}\"; dynlab course status lists the groups", name);

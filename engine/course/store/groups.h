@@ -9,7 +9,7 @@
 
 namespace dynlab::inline course {
 
-/// Those who hand in together: one student or several.
+/// Students who submit together: one or several.
 struct Group {
     std::int64_t id = 0;
     std::string name;
@@ -17,7 +17,7 @@ struct Group {
     std::vector<std::string> members;  ///< ids of the students who belong to it now
 };
 
-/// By name: those with members, and those with work or marks; not what a mistaken roster made and a later one emptied.
+/// Groups sorted by name: groups with members, work or marks. Empty groups of an earlier roster are omitted.
 std::vector<Group> groups_of(Course& course);
 /// The one that `name` means: by its own name in any spelling ("group-08", "Group 8"), or by the name, id or address of
 /// a member, or of a platform's number for one. Throws InvalidArgument with the nearest name where no group is meant,

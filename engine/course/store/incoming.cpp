@@ -79,7 +79,7 @@ void IncomingFiles::add_file(const fs::path& file, const std::string& source) {
     }
     try {  // a notebook is the script that it says
         const fs::path script = scratch_.path() / fmt::format("notebook-{}.lua", ++unpacked_);
-        write_file_atomically(script, script_of_handed_in(file));
+        write_file_atomically(script, script_of_submitted_notebook(file));
         files_.push_back({script, fs::path(name).stem().string() + ".lua", source, sender_of(name), {}, given_ - 1});
     } catch (const SubmissionError& error) {
         files_.push_back({file, name, source, sender_of(name), {}, given_ - 1, error.message()});

@@ -14,11 +14,11 @@ Inspection summary_of(const CheckResult& result, const std::string& json_text) {
                                                      "empty",   kNotTaken,        kBeside};
     Inspection inspection;
     inspection.json = json_text;
-    for (const Finding& finding : result.findings) {
-        if (finding.severity != Severity::kRule) continue;
+    for (const Issue& issue : result.findings) {
+        if (issue.severity != Severity::kRule) continue;
         ++inspection.rules_broken;
-        if (unreadable.contains(finding.id)) inspection.trouble = finding.id, inspection.reason = finding.what;
-        inspection.names = inspection.names || finding.id.starts_with("name-");
+        if (unreadable.contains(issue.id)) inspection.error_reason = issue.id, inspection.reason = issue.what;
+        inspection.names = inspection.names || issue.id.starts_with("name-");
     }
     return inspection;
 }
@@ -36,29 +36,29 @@ DocumentStandard standard_of_reports(const std::string& lesson) {
 
 Inspector::Inspector(std::shared_ptr<const IdentityMatcher> names, const std::string& lesson) {
     const auto hold_against = [this](const char* part, const char* template_name) {
-        wishes_[part].standard = standard_of(template_name);
+        options_by_part_[part].standard = standard_of(template_name);
     };
-    wishes_["report"].standard = standard_of_reports(lesson);
+    options_by_part_["report"].standard = standard_of_reports(lesson);
     hold_against("slides", "slides");
     hold_against("review", "peer_review");
-    wishes_["review"].names = std::move(names);
+    options_by_part_["review"].names = std::move(names);
 }
 
 Inspection Inspector::inspect(const std::filesystem::path& pdf, const std::string& part) const {
-    CheckResult result = check_pdf(pdf, wishes_.at(part));
+    CheckResult result = check_pdf(pdf, options_by_part_.at(part));
     result.subject = part + ".pdf";
-    return summary_of(result, findings_as_json(result));
+    return summary_of(result, issues_as_json(result));
 }
 
-Inspection unreadable_inspection(const std::string& trouble, const Message& reason) {
+Inspection unreadable_inspection(const std::string& error_reason, const Message& reason) {
     CheckResult result;
     result.subject = kUnreadable;
-    result.findings.push_back({trouble, Severity::kRule, 0, "", reason, Message("Submit a readable file.")});
-    return inspection_from(findings_as_json(result));
+    result.findings.push_back({error_reason, Severity::kRule, 0, "", reason, Message("Submit a readable file.")});
+    return inspection_from(issues_as_json(result));
 }
 
 Inspection inspection_from(const std::string& json) {
-    return json.empty() ? Inspection() : summary_of(findings_from_json(json), json);
+    return json.empty() ? Inspection() : summary_of(issues_from_json(json), json);
 }
 
 }  // namespace dynlab::inline course

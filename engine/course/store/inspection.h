@@ -9,21 +9,21 @@ namespace dynlab::inline course {
 
 struct Inspection {
     int rules_broken = 0;
-    bool names = false;   ///< somebody of the course is named
-    std::string trouble;  ///< id of the finding that keeps the file from being read: damaged, ...; else empty
-    Message reason;       ///< the same in a sentence
-    std::string json;     ///< findings_as_json; empty when nothing was looked at
+    bool names = false;        ///< somebody of the course is named
+    std::string error_reason;  ///< id of the finding that keeps the file from being read: damaged, ...; else empty
+    Message reason;            ///< the same in a sentence
+    std::string json;          ///< issues_as_json; empty when nothing was looked at
 };
 
-/// The part of files that are kept although they are not the assignment's: no file comes without a trace. Files that
-/// nobody can read have a receipt, but replace nothing.
+/// Part of a file that the course stores although it belongs to no part of the assignment. A file that cannot be read
+/// gets a receipt, but replaces no version.
 inline constexpr char kUnreadable[] = "unreadable";
-/// Troubles of files that somebody could read: nobody knows whose they are or where they belong; or they came beside
-/// the file that counts.
+/// Reasons for files that can be read: the owner or the assignment of the file is unknown (kNotTaken), or the file
+/// arrived together with the file that counts (kBeside).
 inline constexpr char kNotTaken[] = "not-taken", kBeside[] = "beside";
 
-/// What is kept beside such a file.
-Inspection unreadable_inspection(const std::string& trouble, const Message& reason);
+/// The inspection that is stored with such a file.
+Inspection unreadable_inspection(const std::string& error_reason, const Message& reason);
 
 /// Looks at PDFs as dynlab check does. Several threads may use one at once.
 class Inspector {
@@ -34,12 +34,12 @@ class Inspector {
     Inspector(std::shared_ptr<const IdentityMatcher> names, const std::string& lesson);
 
     /// Whether PDFs under this part are looked at: "report", "slides", "review".
-    bool looks_at(const std::string& part) const { return wishes_.contains(part); }
+    bool looks_at(const std::string& part) const { return options_by_part_.contains(part); }
     /// A PDF that cannot be read is no failure: the result says so.
     Inspection inspect(const std::filesystem::path& pdf, const std::string& part) const;
 
   private:
-    std::map<std::string, CheckOptions> wishes_;  ///< by part
+    std::map<std::string, CheckOptions> options_by_part_;  ///< by part
 };
 
 /// The same from the JSON that the store holds. Throws EnvironmentError for any other text.

@@ -7,17 +7,17 @@ namespace {
 
 constexpr char kStandingFile[] = "SELECT id, number, late, part, hash, name, received_at FROM standing f WHERE ";
 
-std::optional<StandingFile> file_in(Rows rows) {
+std::optional<ValidFile> file_in(Rows rows) {
     if (!rows.next()) return {};
-    return StandingFile{rows.integer(0), rows.integer(1), rows.integer(2), rows.text(3),
-                        rows.text(4),    rows.text(5),    rows.integer(6)};
+    return ValidFile{rows.integer(0), rows.integer(1), rows.integer(2), rows.text(3),
+                     rows.text(4),    rows.text(5),    rows.integer(6)};
 }
 
 }  // namespace
 
-std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Course& course,
-                                                                             const Assignment& assignment) {
-    std::map<std::int64_t, std::map<std::string, HandedInParts>> all;
+std::map<std::int64_t, std::map<std::string, SubmittedParts>> newest_versions(Course& course,
+                                                                              const Assignment& assignment) {
+    std::map<std::int64_t, std::map<std::string, SubmittedParts>> all;
     for (Rows rows = course.database().query(
              "SELECT group_id, stage, CASE ?2 WHEN 'lab' THEN replace(part, 'pack', 'script') ELSE part END, number, "
              "late, received_at, findings, EXISTS (SELECT 1 FROM arrivals a WHERE a.version = s.id) FROM standing s "
@@ -26,11 +26,11 @@ std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Cou
              assignment.id, assignment.kind);
          rows.next();) {
         const Inspection seen = inspection_from(rows.text(6));
-        if (seen.trouble == kNotTaken || seen.trouble == kBeside) continue;
-        HandedIn& newest = all[rows.integer(0)][rows.text(1)][rows.text(2)];
-        const bool timely = newest.version > 0 && newest.late == 0 && newest.trouble.empty();
-        newest = {rows.integer(3),      rows.integer(4),   rows.integer(5), timely ? newest.version : newest.in_time,
-                  rows.integer(7) != 0, seen.rules_broken, seen.trouble};
+        if (seen.error_reason == kNotTaken || seen.error_reason == kBeside) continue;
+        SubmittedFile& newest = all[rows.integer(0)][rows.text(1)][rows.text(2)];
+        const bool timely = newest.version > 0 && newest.late == 0 && newest.error_reason.empty();
+        newest = {rows.integer(3),      rows.integer(4),   rows.integer(5),  timely ? newest.version : newest.in_time,
+                  rows.integer(7) != 0, seen.rules_broken, seen.error_reason};
     }
     return all;
 }
@@ -44,7 +44,7 @@ std::vector<FileNotTaken> files_not_taken(Course& course, const Assignment& assi
              "r.group_id AND s.stage = r.stage AND s.received_at >= r.received_at))) ORDER BY id",
              assignment.id, kUnreadable);
          rows.next();)
-        if (const Inspection seen = inspection_from(rows.text(1)); seen.trouble == kNotTaken)
+        if (const Inspection seen = inspection_from(rows.text(1)); seen.error_reason == kNotTaken)
             files.push_back({rows.text(0), seen.reason, rows.integer(2), rows.text(3)});
     return files;
 }
@@ -76,19 +76,19 @@ std::map<std::string, std::int64_t> author_groups(Course& course, const Assignme
     return authors;
 }
 
-std::optional<StandingFile> newest_file(Course& course, const Assignment& assignment, std::int64_t group,
-                                        const std::string& stage, const std::string& part, std::int64_t pair) {
+std::optional<ValidFile> newest_file(Course& course, const Assignment& assignment, std::int64_t group,
+                                     const std::string& stage, const std::string& part, std::int64_t pair) {
     return file_in(course.database().query(
         std::string(kStandingFile) + "assignment = ? AND group_id = ? AND stage = ? AND part = ? AND ifnull(pair, 0) = "
                                      "? ORDER BY number DESC LIMIT 1",
         assignment.id, group, stage, part, pair));
 }
 
-std::optional<StandingFile> standing_file(Course& course, std::int64_t id) {
+std::optional<ValidFile> standing_file(Course& course, std::int64_t id) {
     return file_in(course.database().query(std::string(kStandingFile) + "id = ?", id));
 }
 
-std::optional<StandingFile> pack_of_document(Course& course, std::int64_t document) {
+std::optional<ValidFile> pack_of_document(Course& course, std::int64_t document) {
     return file_in(course.database().query(
         std::string(kStandingFile) +
             "part = 'pack' AND EXISTS (SELECT 1 FROM standing d WHERE d.id = ? AND d.assignment = f.assignment AND "

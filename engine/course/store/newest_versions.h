@@ -7,28 +7,28 @@
 
 namespace dynlab::inline course {
 
-/// The newest version of a part that a group handed in.
-struct HandedIn {
+/// The newest version of a part that a group submitted.
+struct SubmittedFile {
     std::int64_t version = 0, late = 0;
     Instant received_at = 0;
     std::int64_t in_time = 0;  ///< of a late one: the newest earlier version that was in time and can be read, or 0
     bool confirmed = false;    ///< the time of receipt was corrected or confirmed
     int rules_broken = 0;
-    std::string trouble;  ///< why it cannot be read; else empty
+    std::string error_reason;  ///< why it cannot be read; else empty
     bool is_late() const { return late > 0 && in_time == 0; }
 };
-using HandedInParts = std::map<std::string, HandedIn>;  ///< by part: report, slides, script, pack; of a lab a pack is a
-                                                        ///< script
+using SubmittedParts = std::map<std::string, SubmittedFile>;  ///< by part: report, slides, script, pack; of a lab a
+                                                              ///< pack is a script
 
 /// By group and stage ("first", "final").
-std::map<std::int64_t, std::map<std::string, HandedInParts>> newest_versions(Course& course,
-                                                                             const Assignment& assignment);
+std::map<std::int64_t, std::map<std::string, SubmittedParts>> newest_versions(Course& course,
+                                                                              const Assignment& assignment);
 
 /// The group whose work of an assignment counts for each student (by id): the group that the student belonged to when
 /// it first submitted, else the student's group now. The first membership of a student counts from the beginning.
 std::map<std::string, std::int64_t> author_groups(Course& course, const Assignment& assignment);
 
-/// A file of which nobody can say whose it is or where it belongs, until it or a later one is taken.
+/// A file whose owner or place is unknown, until the instructor assigns it or a later file.
 struct FileNotTaken {
     std::string name;
     Message reason;  ///< a sentence or a clause
@@ -38,18 +38,18 @@ struct FileNotTaken {
 std::vector<FileNotTaken> files_not_taken(Course& course, const Assignment& assignment);
 
 /// A file of a version that is not withdrawn.
-struct StandingFile {
+struct ValidFile {
     std::int64_t id = 0, number = 0, late = 0;
     std::string part, hash, name;
     Instant received_at = 0;
 };
 /// The newest report, slides or review of a group at a stage; `pair`: of a review, else 0.
-std::optional<StandingFile> newest_file(Course& course, const Assignment& assignment, std::int64_t group,
-                                        const std::string& stage, const std::string& part, std::int64_t pair = 0);
+std::optional<ValidFile> newest_file(Course& course, const Assignment& assignment, std::int64_t group,
+                                     const std::string& stage, const std::string& part, std::int64_t pair = 0);
 /// The version with this id.
-std::optional<StandingFile> standing_file(Course& course, std::int64_t id);
+std::optional<ValidFile> standing_file(Course& course, std::int64_t id);
 /// The newest pack that was submitted with this document or later, but not with a later document: the document's
 /// source.
-std::optional<StandingFile> pack_of_document(Course& course, std::int64_t document);
+std::optional<ValidFile> pack_of_document(Course& course, std::int64_t document);
 
 }  // namespace dynlab::inline course

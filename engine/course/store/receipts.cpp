@@ -47,20 +47,20 @@ std::optional<ReceiptFile> read_receipt(std::string_view text) {
     return file;
 }
 
-const ReceiptVerdict kGenuine{true, "genuine"};
-const ReceiptVerdict kNoReceipt{false, "NOT genuine: this is not a receipt"};
-const ReceiptVerdict kNotGenuine{false, "NOT genuine: altered, or signed by another course"};
-const ReceiptVerdict kNeedsCourse{false,
-                                  "cannot be decided: the receipt has a code instead of a signature, from an early "
-                                  "version of dynlab; only the course can verify it (dynlab course verify)"};
+const ReceiptCheck kGenuine{true, "genuine"};
+const ReceiptCheck kNoReceipt{false, "NOT genuine: this is not a receipt"};
+const ReceiptCheck kNotGenuine{false, "NOT genuine: altered, or signed by another course"};
+const ReceiptCheck kNeedsCourse{false,
+                                "cannot be decided: the receipt has a code instead of a signature, from an early "
+                                "version of dynlab; only the course can verify it (dynlab course verify)"};
 
-ReceiptVerdict verify_signature(const ReceiptFile& file, std::string_view public_key) {
+ReceiptCheck verify_signature(const ReceiptFile& file, std::string_view public_key) {
     const bool other_key = !file.public_key.empty() && file.public_key != public_key;
     return !other_key && is_signature(file.signature, file.content, public_key) ? kGenuine : kNotGenuine;
 }
 
 /// A genuine receipt that is shown again although the store knows better.
-ReceiptVerdict genuine_until_now(const ReceiptFile& file, Course& course) {
+ReceiptCheck genuine_until_now(const ReceiptFile& file, Course& course) {
     Rows rows = course.database().query(
         "WITH shown AS (SELECT id AS version, 0 AS arrival FROM versions WHERE signature = ?1 UNION ALL SELECT "
         "version, "
@@ -73,7 +73,7 @@ ReceiptVerdict genuine_until_now(const ReceiptFile& file, Course& course) {
     if (!rows.next()) return kGenuine;
     if (rows.integer(0)) return {true, "genuine, but the file was withdrawn"};
     if (rows.integer(1)) return {true, "genuine, but the time was corrected; a newer receipt is valid"};
-    return rows.integer(2) ? ReceiptVerdict{true, "genuine, but a newer version was submitted"} : kGenuine;
+    return rows.integer(2) ? ReceiptCheck{true, "genuine, but a newer version was submitted"} : kGenuine;
 }
 
 }  // namespace
@@ -93,13 +93,13 @@ std::string signed_receipt(const Receipt& receipt, const SigningKey& key) {
     return fmt::format("{}{}{}\n{}{}\n", text, kPublicKey, key.public_key(), kSignature, key.sign(text));
 }
 
-ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key) {
+ReceiptCheck verify_receipt(std::string_view text, std::string_view public_key) {
     const auto file = read_receipt(text);
     if (!file) return kNoReceipt;
     return file->kind == ReceiptKind::kCoded ? kNeedsCourse : verify_signature(*file, public_key);
 }
 
-ReceiptVerdict verify_receipt(std::string_view text, Course& course) {
+ReceiptCheck verify_receipt(std::string_view text, Course& course) {
     const auto file = read_receipt(text);
     if (!file) return kNoReceipt;
     const bool genuine = file->kind == ReceiptKind::kSigned

@@ -28,18 +28,18 @@ std::string receipt_text(const Receipt& receipt, ReceiptKind kind = ReceiptKind:
 /// The receipt as a file: its text, a line "public key: ..." that is not signed, and a line "signature: ...".
 std::string signed_receipt(const Receipt& receipt, const SigningKey& key);
 
-/// What somebody holds against a receipt, in words: "genuine", or why it is not.
-struct ReceiptVerdict {
+/// Result of the verification of a receipt: "genuine", or the reason why it is not genuine.
+struct ReceiptCheck {
     bool genuine = false;
     std::string reason;
 };
 
 /// Whether this text is a receipt that the owner of this public key signed, not a letter changed (line ends and blank
 /// lines aside). Coded receipts are recognised: they need the course.
-ReceiptVerdict verify_receipt(std::string_view text, std::string_view public_key);
+ReceiptCheck verify_receipt(std::string_view text, std::string_view public_key);
 /// The same by the course itself, coded receipts too. Of a genuine receipt that is not valid any more the reason says
 /// so: its file was withdrawn, its time corrected, or a newer version submitted.
-ReceiptVerdict verify_receipt(std::string_view text, Course& course);
+ReceiptCheck verify_receipt(std::string_view text, Course& course);
 /// The lines that are signed; empty for what is no receipt.
 std::string signed_part(std::string_view text);
 /// The public key that a receipt names itself: who trusts it needs to know it from elsewhere. Empty where there is

@@ -46,7 +46,7 @@ Senders::Senders(Course& course, const Assignment& assignment, const std::string
 
 bool Senders::knows(const Submission& submission) const {
     const Owners::Found found = owners_.find(submission);
-    return found.anybody() && found.by_beginning;
+    return found.anybody() && found.by_prefix;
 }
 
 /// A part of a name will do where only one group has it: "Petit.pdf" is that of the Petits, who work together.
@@ -67,7 +67,7 @@ Message Senders::complaint(const Submission& submission) const {
     const std::string& own = submission.person.empty() ? submission.name : submission.person;
     const Owners::Found found = owner_of(submission);
     if (found.doubtful)
-        return Message("the owner of \"{}\" is unknown: {}; give it with --from GROUP", own, found.trouble);
+        return Message("the owner of \"{}\" is unknown: {}; give it with --from GROUP", own, found.error_reason);
     const auto near = nearest_word(own, owners_.names());
     if (!near)
         return Message("no group or student of the course is named \"{}\"; give the owner with --from GROUP", own);
@@ -81,7 +81,7 @@ void keep_participant(Course& course, std::int64_t assignment, const Submission&
     for (const std::string& id : group.members) {
         Rows rows = course.database().query("SELECT name FROM students WHERE id = ?", id);
         if (!rows.next() || (group.members.size() > 1 && !same_person(rows.text(0), sender.person))) continue;
-        course.remember(setting_of(assignment) + id, sender.lms_id);
+        course.save_entry(setting_of(assignment) + id, sender.lms_id);
     }
 }
 

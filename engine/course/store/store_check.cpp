@@ -39,10 +39,10 @@ void check_receipts(Course& course, StoreCheck& check) {
         if (!entry.is_regular_file() || entry.path().extension() != ".txt") continue;
         const std::string text = read_file(entry.path());
         if (!verify_receipt(text, course).genuine)
-            check.troubles.push_back(Message("{} is not a genuine receipt", entry.path().string()));
+            check.error_list.push_back(Message("{} is not a genuine receipt", entry.path().string()));
         else if (!given.contains(signed_part(text)))
-            check.troubles.push_back(Message("{} is genuine, but its file is no longer in the store; restore a backup",
-                                             entry.path().string()));
+            check.error_list.push_back(Message(
+                "{} is genuine, but its file is no longer in the store; restore a backup", entry.path().string()));
     }
 }
 
@@ -50,12 +50,12 @@ void check_signatures(Course& course, StoreCheck& check) {
     Database& db = course.database();
     for (Rows rows = db.query("SELECT id, signature FROM versions ORDER BY id"); rows.next(); ++check.versions)
         if (!is_version_signature(course, receipt_of(course, rows.integer(0), 0), rows.text(1)))
-            check.troubles.push_back(Message("version {}: its data differ from the signed data", rows.integer(0)));
+            check.error_list.push_back(Message("version {}: its data differ from the signed data", rows.integer(0)));
     std::map<std::int64_t, std::int64_t> number;
     for (Rows rows = db.query("SELECT version, signature FROM arrivals ORDER BY id"); rows.next();) {
         const std::int64_t version = rows.integer(0), correction = ++number[version];
         if (!is_version_signature(course, receipt_of(course, version, correction), rows.text(1)))
-            check.troubles.push_back(
+            check.error_list.push_back(
                 Message("version {}: its correction {} differs from the signed one", version, correction));
     }
 }
@@ -84,20 +84,20 @@ StoreCheck check_store(Course& course) {
     check_leftovers(course, check);
     Database& db = course.database();
     for (Rows rows = db.query("PRAGMA integrity_check"); rows.next();)
-        if (rows.text(0) != "ok") check.troubles.push_back(Message("the database: {}", rows.text(0)));
+        if (rows.text(0) != "ok") check.error_list.push_back(Message("the database: {}", rows.text(0)));
     for (Rows rows = db.query("PRAGMA foreign_key_check"); rows.next();)
-        check.troubles.push_back(Message("the database: a row of {} refers to a missing row", rows.text(0)));
+        check.error_list.push_back(Message("the database: a row of {} refers to a missing row", rows.text(0)));
     for (Rows rows = db.query("SELECT hash FROM files ORDER BY hash"); rows.next(); ++check.files) {
         const auto file = course.file(rows.text(0));
         if (!std::filesystem::exists(file))
-            check.troubles.push_back(Message("{} is missing; restore it from a backup", file.string()));
+            check.error_list.push_back(Message("{} is missing; restore it from a backup", file.string()));
         else if (sha256_of_file(file) != rows.text(0))
-            check.troubles.push_back(Message("{} was altered; restore it from a backup", file.string()));
+            check.error_list.push_back(Message("{} was altered; restore it from a backup", file.string()));
     }
     check_signatures(course, check);
     check_receipts(course, check);
-    for (const std::string& trouble : seal_troubles(db, course.signing_key().public_key()))
-        check.troubles.push_back(Message::verbatim(trouble));
+    for (const std::string& error_reason : seal_errors(db, course.signing_key().public_key()))
+        check.error_list.push_back(Message::verbatim(error_reason));
     return check;
 }
 

@@ -8,8 +8,8 @@ namespace dynlab::inline course {
 
 struct StoreCheck {
     int files = 0, versions = 0;
-    std::vector<Message> troubles;   ///< sentences; none when all is well
-    std::vector<Message> leftovers;  ///< sentences: temporary files and folders of killed runs
+    std::vector<Message> error_list;  ///< sentences; none when all is well
+    std::vector<Message> leftovers;   ///< sentences: temporary files and folders of killed runs
 };
 
 /// Whether the database is whole, every file it speaks of is there and has its hash, every version's signature, and

@@ -99,15 +99,15 @@ void seal_store(Database& database, const SigningKey& key, Instant at) {
     database.run("INSERT INTO seals VALUES (?, ?, ?, ?)", seal.id, seal.at, seal.contents, seal.signature);
 }
 
-std::vector<std::string> seal_troubles(Database& database, std::string_view public_key) {
+std::vector<std::string> seal_errors(Database& database, std::string_view public_key) {
     const std::vector<Seal> seals = seals_of(database);
     if (seals.empty()) return {"the store has no seals: they were removed"};
-    std::vector<std::string> troubles;
+    std::vector<std::string> error_list;
     std::string before;
     std::int64_t expected = 1;
     for (const Seal& seal : seals) {
         if (seal.id != expected || !is_signature(seal.signature, sealed_text(seal, before), public_key))
-            troubles.push_back(
+            error_list.push_back(
                 fmt::format("seal {} ({}) was altered, or one before it is missing", seal.id, utc_text(seal.at)));
         before = seal.signature, expected = seal.id + 1;
     }
@@ -115,12 +115,12 @@ std::vector<std::string> seal_troubles(Database& database, std::string_view publ
     for (const auto& [table, state] : states_now(database)) {
         const auto known = sealed.find(table);
         if (known != sealed.end() && known->second == state) continue;
-        troubles.push_back(fmt::format(
+        error_list.push_back(fmt::format(
             "the table {} was changed by another program: it has {} rows, but had {} when it was last sealed ({}); "
             "restore a backup",
             table, rows_of(state), known == sealed.end() ? "none" : rows_of(known->second), utc_text(seals.back().at)));
     }
-    return troubles;
+    return error_list;
 }
 
 }  // namespace dynlab::inline course

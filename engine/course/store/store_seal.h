@@ -18,6 +18,6 @@ namespace dynlab::inline course {
 void seal_store(Database& database, const SigningKey& key, Instant at);
 
 /// Sentences: seals that are missing or not signed by this key, and tables that are not as the seals say.
-std::vector<std::string> seal_troubles(Database& database, std::string_view public_key);
+std::vector<std::string> seal_errors(Database& database, std::string_view public_key);
 
 }  // namespace dynlab::inline course

@@ -156,10 +156,10 @@ NumberStatus read_clock(std::string_view cell, double& number, ClockForms& clock
 }
 
 std::string shown_cell(std::string_view given) {
-    constexpr std::size_t kLongest = 40;
+    constexpr std::size_t kMaxLength = 40;
     given = trimmed_cell(given);
-    return given.size() <= kLongest ? fmt::format("\"{}\"", given)
-                                    : fmt::format("\"{}...\"", given.substr(0, kLongest));
+    return given.size() <= kMaxLength ? fmt::format("\"{}\"", given)
+                                      : fmt::format("\"{}...\"", given.substr(0, kMaxLength));
 }
 
 }  // namespace

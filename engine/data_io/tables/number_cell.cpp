@@ -17,8 +17,8 @@ constexpr std::array<std::string_view, 20> kMissingWords = {
 
 bool means_missing(std::string_view cell) {
     if (cell.empty()) return true;
-    constexpr std::size_t kLongest = 8;
-    if (cell.size() > kLongest) return false;
+    constexpr std::size_t kMaxLength = 8;
+    if (cell.size() > kMaxLength) return false;
     const std::string word = in_small_letters(std::string(cell));
     return std::find(kMissingWords.begin(), kMissingWords.end(), word) != kMissingWords.end();
 }
@@ -65,8 +65,8 @@ NumberStatus parse_number(std::string_view cell, double& number) {
 std::optional<GroupedNumber> grouped_number(std::string_view cell) {
     constexpr std::array<std::string_view, 8> kSigns = {",", ".", "'", " ", "\u2019", "\u00A0", "\u2009", "\u202F"};
     cell = trimmed_cell(cell);
-    constexpr std::size_t kLongest = 60, kThousand = 3;
-    if (cell.size() > kLongest) return std::nullopt;
+    constexpr std::size_t kMaxLength = 60, kThousand = 3;
+    if (cell.size() > kMaxLength) return std::nullopt;
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     std::string plain;
     if (!cell.empty() && (cell.front() == '-' || cell.front() == '+')) {

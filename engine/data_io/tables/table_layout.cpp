@@ -14,7 +14,7 @@ namespace dynlab::inline data_io {
 namespace {
 
 constexpr std::size_t kMostRecords = 300, kMostCells = 200000;  // of the sample
-constexpr std::size_t kMostColumns = 100000;
+constexpr std::size_t kMaxColumns = 100000;
 
 enum class CellKind { kNumber, kDisguised, kMissing, kText };
 
@@ -51,7 +51,7 @@ CellKind kind_of(std::string_view cell) {
 }
 
 [[noreturn]] void fail_wide(const std::filesystem::path& file, const CellScanner& scanner) {
-    throw EnvironmentError("{}, line {}: the row has more than {} cells", file.string(), scanner.line(), kMostColumns);
+    throw EnvironmentError("{}, line {}: the row has more than {} cells", file.string(), scanner.line(), kMaxColumns);
 }
 
 /// Nothing when quotation marks, or rows of no sensible length, show that the separator is another.
@@ -64,7 +64,7 @@ std::optional<TableSample> sample_of(const std::filesystem::path& file, std::str
         if (sample.records.empty()) sample.last_comment = scanner.last_comment();
         TableRecord record{scanner.place(), scanner.line(), {}, {}};
         do {
-            if (record.cells.size() == kMostColumns) fail_wide(file, scanner);
+            if (record.cells.size() == kMaxColumns) fail_wide(file, scanner);
             const std::string_view cell = scanner.next_cell();
             record.kinds.push_back(kind_of(cell));
             record.cells.emplace_back(cell);
@@ -281,7 +281,7 @@ double score_of(const std::filesystem::path& file, const TableSample& sample) {
     while (scanner.next_record()) {
         std::size_t cells = 0;
         do {
-            if (cells++ == kMostColumns) fail_wide(file, scanner);
+            if (cells++ == kMaxColumns) fail_wide(file, scanner);
             scanner.next_cell();
         } while (!scanner.record_ended());
     }

@@ -112,7 +112,7 @@ class RowReader {
 
     /// Whether no row follows the record at hand, which is none: then it and what follows it stand below the table.
     bool ends_before(const CellScanner& at) {
-        constexpr std::size_t kMostLines = 200;
+        constexpr std::size_t kMaxLineCount = 200;
         CellScanner scanner(file_, text_, layout_.separator, at.place(), at.line());
         std::string first;
         for (std::size_t lines = 0; scanner.next_record(); ++lines) {
@@ -132,7 +132,7 @@ class RowReader {
             double number = 0;
             if (lines == 0 && parse_number(first, number) != NumberStatus::kNotANumber) return false;
             const bool is_row = cells >= columns_.size() && numbers > 0 && others == 0;
-            if (is_row || lines == kMostLines) return false;
+            if (is_row || lines == kMaxLineCount) return false;
         }
         constexpr std::size_t kShown = 30;
         if (first.size() > kShown) first = first.substr(0, kShown) + "...";

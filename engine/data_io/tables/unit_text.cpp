@@ -71,8 +71,8 @@ std::string_view without_brackets(std::string_view text) {
 
 bool is_unit(std::string_view text) {
     text = trimmed_cell(text);
-    constexpr std::size_t kLongest = 24;
-    if (text.empty() || text.size() > kLongest) return false;
+    constexpr std::size_t kMaxLength = 24;
+    if (text.empty() || text.size() > kMaxLength) return false;
     if (is_symbol(text)) return true;
     bool found = false;
     for (std::string_view rest = text; !rest.empty();) {

@@ -166,8 +166,8 @@ const CborReader::Token& CborReader::peek() {
     return token_;
 }
 
-Token CborReader::take(Type wanted) {
-    if (peek().type != wanted) refuse_kind(token_name(wanted), token_name(peek().type));
+Token CborReader::take(Type requested) {
+    if (peek().type != requested) refuse_kind(token_name(requested), token_name(peek().type));
     has_token_ = false;
     return token_;
 }
@@ -228,10 +228,10 @@ std::string_view CborReader::take_text() {
     return take(Type::kText).text;
 }
 
-NumberArray CborReader::take_array(std::optional<ArrayForm> wanted) {
-    constexpr std::int64_t kMost = std::int64_t{1} << 31;
-    const auto take_tag = [this, wanted] {
-        if (peek().type != Type::kTag) refuse_kind(array_name(wanted), token_name(peek().type));
+NumberArray CborReader::take_array(std::optional<ArrayForm> requested) {
+    constexpr std::int64_t kMax = std::int64_t{1} << 31;
+    const auto take_tag = [this, requested] {
+        if (peek().type != Type::kTag) refuse_kind(array_name(requested), token_name(peek().type));
         return take(Type::kTag).value;
     };
     std::uint64_t tag = take_tag();
@@ -242,13 +242,13 @@ NumberArray CborReader::take_array(std::optional<ArrayForm> wanted) {
         const bool complex = tag == kRowsTag || dimensions == 3;
         if (dimensions != (tag == kColumnsTag && complex ? 3 : 2)) refuse(Message("an array has two dimensions"));
         if (tag == kColumnsTag && complex) whole(2, 2);
-        array.rows = whole(0, kMost);
-        array.columns = tag == kRowsTag ? whole(2, 2) - 1 : whole(0, kMost);
+        array.rows = whole(0, kMax);
+        array.columns = tag == kRowsTag ? whole(2, 2) - 1 : whole(0, kMax);
         array.form =
             tag == kRowsTag ? ArrayForm::kComplexVector : (complex ? ArrayForm::kComplexMatrix : ArrayForm::kMatrix);
         tag = take_tag();
     }
-    if (tag != kNumbersTag) refuse_kind(array_name(wanted), Message("tag {}", std::to_string(tag)));
+    if (tag != kNumbersTag) refuse_kind(array_name(requested), Message("tag {}", std::to_string(tag)));
     if (peek().type != Type::kBytes) refuse_kind(Message("the numbers of an array"), token_name(peek().type));
     const std::string_view numbers = take(Type::kBytes).text;
     const std::size_t each = array.is_complex() ? sizeof(Complex) : sizeof(double);
@@ -257,7 +257,7 @@ NumberArray CborReader::take_array(std::optional<ArrayForm> wanted) {
     const bool fits = array.columns == 0 ? count == 0 : array.rows <= count / array.columns;
     if (!fits || array.bytes() != numbers.size())
         refuse(Message("{} x {} numbers do not fit {} bytes", array.rows, array.columns, numbers.size()));
-    if (wanted && *wanted != array.form) refuse_kind(array_name(wanted), array_name(array.form));
+    if (requested && *requested != array.form) refuse_kind(array_name(requested), array_name(array.form));
     array.numbers = numbers.data();
     return array;
 }

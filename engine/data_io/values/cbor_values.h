@@ -76,10 +76,10 @@ class CborReader final : public ValueReader {
   private:
     using Type = Token::Type;
     const Token& peek();
-    Token take(Type wanted);
+    Token take(Type requested);
     std::string_view take_text() override;
     std::string take_json_text() override { return std::string(take_text()); }
-    NumberArray take_array(std::optional<ArrayForm> wanted) override;
+    NumberArray take_array(std::optional<ArrayForm> requested) override;
     std::size_t open_list() override;
     std::size_t open_map() override;
     void open_object() override;

@@ -118,8 +118,8 @@ void read_value(ValueReader& reader, T& value) {
         value = reader.truth();
     } else if constexpr (std::integral<T>) {
         using Limits = std::numeric_limits<T>;
-        constexpr auto kHighest = std::numeric_limits<std::int64_t>::max();
-        const auto high = std::cmp_greater(Limits::max(), kHighest) ? kHighest : std::int64_t(Limits::max());
+        constexpr auto kMaxInteger = std::numeric_limits<std::int64_t>::max();
+        const auto high = std::cmp_greater(Limits::max(), kMaxInteger) ? kMaxInteger : std::int64_t(Limits::max());
         value = static_cast<T>(reader.whole(std::int64_t(Limits::min()), high));
     } else if constexpr (std::floating_point<T>) {
         value = reader.number();

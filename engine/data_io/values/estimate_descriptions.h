@@ -17,7 +17,7 @@ constexpr std::array<const char*, 4> names_of(InitialState) {
     return {"zero", "steady", "estimate", "auto"};
 }
 
-constexpr std::array<const char*, 6> names_of(MissedCode) {
+constexpr std::array<const char*, 6> names_of(StructureAdviceCode) {
     return {"delay", "pole", "feedthrough", "hold", "late", "line"};
 }
 
@@ -32,7 +32,7 @@ DYNLAB_DESCRIBE(TransferChannel, denominator, zeros, delay)
 DYNLAB_DESCRIBE(TransferStructure, outputs, inputs, poles, channels, free_delays)
 DYNLAB_DESCRIBE(StartCondition, state, offset)
 DYNLAB_DESCRIBE(FitIteration, theta, loss, change)
-DYNLAB_DESCRIBE(MissedStructure, code, option, value, output, samples, fit_percent, better_fit_percent)
+DYNLAB_DESCRIBE(StructureAdvice, code, option, value, output, samples, fit_percent, better_fit_percent)
 DYNLAB_DESCRIBE(Diagnostics, missed, assessment)
 
 /// Computed when it is written, which is for programs only.

@@ -169,8 +169,8 @@ JsonReader JsonReader::of_text(std::string_view text, const ValueLimits& limits)
     return JsonReader(std::make_unique<const json>(parsed_json(text, limits)), limits);
 }
 
-void JsonReader::refuse_json(const Message& wanted) const {
-    refuse_kind(wanted, Message("JSON of the type {}", at_->type_name()));
+void JsonReader::refuse_json(const Message& requested) const {
+    refuse_kind(requested, Message("JSON of the type {}", at_->type_name()));
 }
 
 ValueReader::Kind JsonReader::next() {
@@ -235,19 +235,19 @@ void JsonReader::read_numbers(const json& list, bool complex) {
     }
 }
 
-NumberArray JsonReader::take_array(std::optional<ArrayForm> wanted) {
-    const ArrayForm form = wanted.value_or(at_->is_array() ? ArrayForm::kVector : ArrayForm::kMatrix);
+NumberArray JsonReader::take_array(std::optional<ArrayForm> requested) {
+    const ArrayForm form = requested.value_or(at_->is_array() ? ArrayForm::kVector : ArrayForm::kMatrix);
     NumberArray array{form, 0, 1, nullptr};
     if (form == ArrayForm::kVector || form == ArrayForm::kComplexVector) {
         read_numbers(*at_, array.is_complex());
         array.rows = static_cast<Index>(numbers_.size()) / (array.is_complex() ? 2 : 1);
     } else {
         const auto size = [&](const char* name) {
-            constexpr std::int64_t kMost = std::int64_t{1} << 31;
+            constexpr std::int64_t kMax = std::int64_t{1} << 31;
             if (!at_->is_object() || !at_->contains(name) || !at_->at(name).is_number_integer())
                 refuse_json(Message("a matrix with rows, columns and values"));
             const auto value = at_->at(name).get<std::int64_t>();
-            if (value < 0 || value > kMost) refuse(Message("the number of {} is out of range", name));
+            if (value < 0 || value > kMax) refuse(Message("the number of {} is out of range", name));
             return static_cast<Index>(value);
         };
         array.rows = size("rows"), array.columns = size("columns");

@@ -67,11 +67,11 @@ class JsonReader final : public ValueReader {
     double number() override;
 
   private:
-    [[noreturn]] void refuse_json(const Message& wanted) const;
+    [[noreturn]] void refuse_json(const Message& requested) const;
     void read_numbers(const nlohmann::json& list, bool complex);
     std::string_view take_text() override;
     std::string take_json_text() override;
-    NumberArray take_array(std::optional<ArrayForm> wanted) override;
+    NumberArray take_array(std::optional<ArrayForm> requested) override;
     std::size_t open_list() override;
     std::size_t open_map() override;
     void open_object() override;

@@ -29,8 +29,8 @@ void check_value(const IdData& data, const ValueLimits&) {
         if (data.Ts > 0 && experiment.t.size() > 0)
             throw InvalidArgument("regularly sampled data must not have sampling instants");
     }
-    const auto fit = [](const std::vector<std::string>& names, Index wanted) {
-        return static_cast<Index>(names.size()) == wanted;
+    const auto fit = [](const std::vector<std::string>& names, Index requested) {
+        return static_cast<Index>(names.size()) == requested;
     };
     if (!fit(data.input_names, data.input_count()) || !fit(data.input_units, data.input_count()) ||
         !fit(data.output_names, data.output_count()) || !fit(data.output_units, data.output_count()))

@@ -11,29 +11,29 @@ namespace dynlab::inline data_io {
 
 namespace fs = std::filesystem;
 
-Message SaidMessages::all() const {
+Message CommandMessages::all() const {
     MessageList lines{results, Join::kLines};
     for (const std::vector<Message>* more : {&complaints, &notes})
         lines.items.insert(lines.items.end(), more->begin(), more->end());
     return Message("{}", lines);
 }
 
-void write_said_messages(const fs::path& file, const SaidMessages& said) {
+void write_command_messages(const fs::path& file, const CommandMessages& said) {
     std::ofstream(file, std::ios::binary | std::ios::trunc) << cbor_of(said);
 }
 
-SaidMessages read_said_messages(const fs::path& file) {
-    constexpr std::uintmax_t kMostBytes = 1u << 20;
+CommandMessages read_command_messages(const fs::path& file) {
+    constexpr std::uintmax_t kMaxByteCount = 1u << 20;
     std::error_code error;
     if (fs::symlink_status(file, error).type() != fs::file_type::regular) return {};
-    if (fs::file_size(file, error) > kMostBytes || error) return {};
+    if (fs::file_size(file, error) > kMaxByteCount || error) return {};
     ValueLimits limits;
-    limits.bytes = kMostBytes;
-    limits.memory = 40 * kMostBytes;
+    limits.bytes = kMaxByteCount;
+    limits.memory = 40 * kMaxByteCount;
     limits.depth = 30;
     limits.only_utf8 = true;
     try {
-        return from_cbor<SaidMessages>(read_file(file), limits);
+        return from_cbor<CommandMessages>(read_file(file), limits);
     } catch (const EnvironmentError&) {  // its writer was ended, or it is another file
         return {};
     }

@@ -8,20 +8,20 @@ namespace dynlab::inline data_io {
 
 /// What a command of dynlab says to its user. A program that runs one for a reader of its own names a file in the
 /// command's environment, in which it finds the messages, and makes their text itself.
-struct SaidMessages {
+struct CommandMessages {
     std::vector<Message> results;            ///< on standard output
     std::vector<Message> complaints, notes;  ///< on standard error
 
     bool empty() const { return results.empty() && complaints.empty() && notes.empty(); }
     Message all() const;  ///< a line each
 };
-DYNLAB_DESCRIBE(SaidMessages, results, complaints, notes)
+DYNLAB_DESCRIBE(CommandMessages, results, complaints, notes)
 
 /// The variable of the environment that names the file.
-inline constexpr char kFileOfSaidMessages[] = "DYNLAB_MESSAGES";
+inline constexpr char kFileOfCommandMessages[] = "DYNLAB_MESSAGES";
 
-void write_said_messages(const std::filesystem::path& file, const SaidMessages& said);
-/// Nothing where there is no such file, or one that write_said_messages did not write.
-SaidMessages read_said_messages(const std::filesystem::path& file);
+void write_command_messages(const std::filesystem::path& file, const CommandMessages& said);
+/// Nothing where there is no such file, or one that write_command_messages did not write.
+CommandMessages read_command_messages(const std::filesystem::path& file);
 
 }  // namespace dynlab::inline data_io

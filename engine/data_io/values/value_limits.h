@@ -10,10 +10,10 @@ namespace dynlab::inline data_io {
 /// What reading a value may cost. Bytes count what they are stored in; memory what is made of them, which is checked
 /// before it is taken.
 struct ValueLimits {
-    static constexpr std::size_t kMost = std::min<std::uint64_t>(std::uint64_t{4} << 30, SIZE_MAX);
+    static constexpr std::size_t kMax = std::min<std::uint64_t>(std::uint64_t{4} << 30, SIZE_MAX);
 
-    std::size_t bytes = kMost;              ///< of the text or the CBOR that is read
-    std::size_t memory = kMost;             ///< of the value, and of what stands in between
+    std::size_t bytes = kMax;               ///< of the text or the CBOR that is read
+    std::size_t memory = kMax;              ///< of the value, and of what stands in between
     std::size_t depth = 200;                ///< of members in members
     std::ptrdiff_t coefficients = 1 << 20;  ///< of one polynomial of a model
     bool only_utf8 = false;                 ///< what is not UTF-8 in a text is replaced

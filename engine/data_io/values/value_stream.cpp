@@ -9,10 +9,10 @@ namespace {
 
 /// A key as messages show it: it may be anybody's.
 std::string shown_key(const std::string& key) {
-    constexpr std::size_t kLongest = 40;
+    constexpr std::size_t kMaxLength = 40;
     std::string shown;
-    for (const char c : key.substr(0, kLongest)) shown += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
-    return key.size() > kLongest ? shown + "..." : shown;
+    for (const char c : key.substr(0, kMaxLength)) shown += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
+    return key.size() > kMaxLength ? shown + "..." : shown;
 }
 
 }  // namespace
@@ -34,8 +34,8 @@ void ValueReader::refuse(const Message& sentence) const {
     throw ValueError(Message("{}: {}", location(), sentence));
 }
 
-void ValueReader::refuse_kind(const Message& wanted, const Message& given) const {
-    refuse(Message("expected {}, got {}", wanted, given));
+void ValueReader::refuse_kind(const Message& requested, const Message& given) const {
+    refuse(Message("expected {}, got {}", requested, given));
 }
 
 void ValueReader::lacks(const char* member) const {
@@ -72,8 +72,8 @@ std::size_t ValueReader::one_of(std::span<const char* const> names) {
     refuse(Message("expected one of {}, got another text", listed({names.begin(), names.end()})));
 }
 
-NumberArray ValueReader::array(std::optional<ArrayForm> wanted) {
-    const NumberArray numbers = take_array(wanted);
+NumberArray ValueReader::array(std::optional<ArrayForm> requested) {
+    const NumberArray numbers = take_array(requested);
     charge(numbers.bytes());
     return numbers;
 }

@@ -72,7 +72,7 @@ class ValueReader {
     std::string json_text();  ///< what ValueWriter::json_text() wrote; of JSON, the value that stands here
     std::size_t one_of(std::span<const char* const> names);  ///< the index of the text among them
     /// Numbers of this form, or of any; they are there until the next call.
-    NumberArray array(std::optional<ArrayForm> wanted);
+    NumberArray array(std::optional<ArrayForm> requested);
 
     /// The number of elements, each of which will take `element_bytes`; call element() before each is read.
     std::size_t begin_list(std::size_t element_bytes);
@@ -91,12 +91,12 @@ class ValueReader {
 
   protected:
     void charge(std::size_t bytes);  ///< before so much memory is taken
-    [[noreturn]] void refuse_kind(const Message& wanted, const Message& given) const;
+    [[noreturn]] void refuse_kind(const Message& requested, const Message& given) const;
 
   private:
     virtual std::string_view take_text() = 0;
     virtual std::string take_json_text() = 0;
-    virtual NumberArray take_array(std::optional<ArrayForm> wanted) = 0;
+    virtual NumberArray take_array(std::optional<ArrayForm> requested) = 0;
     virtual std::size_t open_list() = 0;
     virtual std::size_t open_map() = 0;
     virtual void open_object() = 0;

@@ -145,13 +145,13 @@ class ChunkJob {
     }
 
     SetDocument set(std::size_t& count) {
-        std::vector<bool> wanted = changed();
-        if (!set_wanted(wanted) || !agrees_with_known()) {
-            wanted.assign(chunks_.size(), true);
+        std::vector<bool> requested = changed();
+        if (!set_wanted(requested) || !agrees_with_known()) {
+            requested.assign(chunks_.size(), true);
             whole_document_ = true;
-            set_wanted(wanted);
+            set_wanted(requested);
         }
-        count = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
+        count = static_cast<std::size_t>(std::count(requested.begin(), requested.end(), true));
         return result();
     }
 
@@ -166,8 +166,8 @@ class ChunkJob {
     std::vector<bool> changed() {
         const bool known = !memory_.chunks.empty() && !memory_.complained && memory_.whole == whole_;
         whole_document_ = !known;
-        std::vector<bool> wanted(chunks_.size(), true);
-        if (!known) return wanted;
+        std::vector<bool> requested(chunks_.size(), true);
+        if (!known) return requested;
         std::multimap<std::string, const KnownChunk*> before;
         for (const KnownChunk& chunk : memory_.chunks) before.emplace(chunk.key, &chunk);
         for (std::size_t i = 0; i < set_.size(); ++i) {
@@ -178,31 +178,31 @@ class ChunkJob {
             }
             set_[i] = *same->second;
             before.erase(same);
-            wanted[i] = false;
+            requested[i] = false;
         }
         for (const auto& [key, gone] : before) whole_document_ = whole_document_ || gone->has_notes;
-        if (whole_document_) wanted.assign(chunks_.size(), true);
-        return wanted;
+        if (whole_document_) requested.assign(chunks_.size(), true);
+        return requested;
     }
 
     /// Sets the wanted chunks; false where the numbers of the others are no longer right.
-    bool set_wanted(const std::vector<bool>& wanted) {
+    bool set_wanted(const std::vector<bool>& requested) {
         MarkdownText text;
         ChunkSurroundings around;
         bool any = false;
         for (std::size_t i = 0; i < chunks_.size(); ++i) {
-            if (!wanted[i]) {
+            if (!requested[i]) {
                 around.labels.insert(set_[i].labels.begin(), set_[i].labels.end());
                 continue;
             }
             any = true;
-            if (i > 0 && !wanted[i - 1]) around.counts[static_cast<int>(i)] = set_[i - 1].end;
+            if (i > 0 && !requested[i - 1]) around.counts[static_cast<int>(i)] = set_[i - 1].end;
             append(chunks_[i], i, text);
         }
         if (!any) return true;
-        run(text, around, wanted);
+        run(text, around, requested);
         for (std::size_t i = 1; i < chunks_.size(); ++i)
-            if (!wanted[i] && set_[i].begin != set_[i - 1].end) return false;
+            if (!requested[i] && set_[i].begin != set_[i - 1].end) return false;
         return true;
     }
 
@@ -247,7 +247,7 @@ class ChunkJob {
         return job;
     }
 
-    void run(const MarkdownText& text, const ChunkSurroundings& around, const std::vector<bool>& wanted) {
+    void run(const MarkdownText& text, const ChunkSurroundings& around, const std::vector<bool>& requested) {
         PandocJob next = job(text);
         next.chunks = around;
         if (memory_.warm && memory_.warm_bibliography == bibliography_) next.started = &*memory_.warm;
@@ -259,7 +259,7 @@ class ChunkJob {
         const auto files = find_picture_files(page.pictures, text, source_.template_file, DocumentFormat::kHtml,
                                               kPicturePrefix, complaints);
         complained_ = complaints.messages();
-        take_apart(page, files, wanted);
+        take_apart(page, files, requested);
     }
 
     void check_characters(const MarkdownText& text, Complaints& complaints) const {
@@ -273,7 +273,7 @@ class ChunkJob {
 
     /// Cuts the page where chunks begin: `<div id="chunk-` is nothing that a document can contain.
     void take_apart(const PandocResult& page, const std::vector<PlacedPicture>& files,
-                    const std::vector<bool>& wanted) {
+                    const std::vector<bool>& requested) {
         std::string body = between(page.text, "<main>\n", "</main>").value_or("");
         if (whole_document_) {
             memory_.head = between(page.text, "<body>\n", "<main>").value_or("");
@@ -284,7 +284,7 @@ class ChunkJob {
         }
         std::size_t begin = body.find(kChunkBegins);
         for (std::size_t i = 0; i < chunks_.size() && begin != std::string::npos; ++i) {
-            if (!wanted[i]) continue;
+            if (!requested[i]) continue;
             const std::size_t end = end_of_division(body, begin);
             fill(i, body.substr(begin, end - begin), page, files);
             begin = body.find(kChunkBegins, end);

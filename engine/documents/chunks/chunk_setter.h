@@ -32,9 +32,9 @@ struct SetDocument {
     std::vector<Message> complaints;  ///< what is wrong with it, "file:line: sentence"
 };
 
-/// Sets documents as HTML, again and again: chunks that have not changed since the last time are not set anew, and
-/// Pandoc is started ahead of the next time. Numbers and references are those of the whole document: where a change
-/// moves them, all of it is set. What is wrong is told; the rest is set all the same.
+/// Converts a document to HTML repeatedly. Unchanged chunks are not converted again, and the next Pandoc process is
+/// started in advance. Numbers and references are those of the complete document: if a change moves them, the complete
+/// document is converted. Errors are reported, and the rest of the document is still converted.
 class ChunkSetter {
   public:
     /// What points to nothing is shown as a bold ?? where the documents are `drafts`, and is no complaint.

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr Index kMostSamples = 4000;
+constexpr Index kMaxSamples = 4000;
 constexpr double kColumns = 1000;
 
 /// A text in one piece as it is; else its pieces, each behind a sign: "=" on the line, "_" lowered, "^" raised.
@@ -71,7 +71,7 @@ json abscissas(const Vector& x, const Axis& axis) {
 
 /// What a curve of very many samples shows.
 Curve thinned(const Curve& curve, const PanelLayout& layout) {
-    if (curve.x.size() <= kMostSamples) return curve;
+    if (curve.x.size() <= kMaxSamples) return curve;
     const double width = layout.box.width(), height = layout.box.height(), cell = width / kColumns;
     const bool band = curve.style == CurveStyle::kBand;
     Trace lower, upper;
@@ -119,7 +119,7 @@ class PlotWriter {
     }
 
   private:
-    void add_block(const CentredText& block, bool upright) {
+    void add_block(const CenteredText& block, bool upright) {
         const double step = style::kTextLine * block.text.size / style::kTextSize;
         const double count = static_cast<double>(block.text.lines.size());
         for (std::size_t i = 0; i < block.text.lines.size(); ++i) {
@@ -143,7 +143,7 @@ class PlotWriter {
 
     static json curve_of(const Curve& whole, int index, const PanelLayout& layout) {
         const Curve curve = thinned(whole, layout);
-        const style::CurveLook look = style::look_of(curve, index);
+        const style::CurveAppearance look = style::appearance_of(curve, index);
         json data = {{"style", names_of(CurveStyle{})[static_cast<std::size_t>(curve.style)]},
                      {"name", pieces_of(curve.label)},
                      {"colour", look.colour},
@@ -202,7 +202,7 @@ class PlotWriter {
 
     static json motion_of(const Motion& motion) {
         json parts = json::array(), pieces = json::array();
-        for (const RigPart& part : motion.rig.parts)
+        for (const PlantPart& part : motion.rig.parts)
             parts.push_back({{"on", part.on},
                              {"turns", part.turns},
                              {"x", part.x},
@@ -210,7 +210,7 @@ class PlotWriter {
                              {"by", part.by},
                              {"at", part.drawn_at}});
         const auto rounded_length = [](double length) { return std::round(1e3 * length) / 1e3; };
-        for (const RigPiece& piece : motion.rig.pieces) {
+        for (const PlantShape& piece : motion.rig.pieces) {
             json points = json::array();
             for (std::size_t i = 0; i < piece.x.size(); ++i)
                 points.push_back({rounded_length(piece.x[i]), rounded_length(piece.y[i]), piece.part[i]});

@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kPlacesWithoutSteps = 21, kMostCombinations = 450;
+constexpr std::size_t kPlacesWithoutSteps = 21, kMaxCombinations = 450;
 
 /// Steps are added up without their last digits; places between them are round numbers.
 double with_digits(double value, int digits) {
@@ -193,9 +193,9 @@ std::vector<SliderGroup> slider_groups(const RunRecord& record) {
     for (SliderGroup& group : groups) {
         double combinations = 1;
         for (const PlacedSlider& slider : group.sliders) combinations *= static_cast<double>(slider.values.size());
-        const double most = std::pow(kMostCombinations, 1 / static_cast<double>(group.sliders.size()));
+        const double most = std::pow(kMaxCombinations, 1 / static_cast<double>(group.sliders.size()));
         for (PlacedSlider& slider : group.sliders) {
-            if (combinations > kMostCombinations)
+            if (combinations > kMaxCombinations)
                 slider.values = places_of(slider.slider, std::max<std::size_t>(2, static_cast<std::size_t>(most)));
             const auto own = std::find(slider.values.begin(), slider.values.end(), slider.slider.value);
             slider.shown = static_cast<std::size_t>(own - slider.values.begin());

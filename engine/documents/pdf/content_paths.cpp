@@ -103,8 +103,8 @@ std::string without_paths(std::string_view content) {
             if (word == "BI") break;
             if (word == "BT" || word == "ET") in_text = word == "BT";
             if (shows_strings(word) && !in_text) return std::string(content);
-            if (const std::optional<int> wanted = numbers_of_path(word)) {
-                if (!only_numbers || numbers != *wanted || in_text) return std::string(content);
+            if (const std::optional<int> requested = numbers_of_path(word)) {
+                if (!only_numbers || numbers != *requested || in_text) return std::string(content);
                 rest.append(content, kept, std::min(operands, begin) - kept);
                 kept = at;
             }

@@ -49,15 +49,15 @@ Message reason_of(const ChildResult& child, const DistillSetup& setup) {
 
 void print(const fs::path& file, const fs::path& folder, const DistillSetup& setup) {
     if (!find_program(kGhostscript)) throw MissingProgram(kGhostscript, kPackage);
-    Box box(setup.isolation);
-    box.add_document_programs();
+    Sandbox sandbox(setup.isolation);
+    sandbox.add_document_programs();
     for (const char* resources : {"/etc/ghostscript", "/var/lib/ghostscript"})  // fonts and tables of characters
-        if (fs::exists(resources)) box.add(resources, resources);
-    const fs::path in = box.add(file, "/box/in.pdf"), out = box.add_writable(folder, "/box/out");
-    Box::Limits limits;
+        if (fs::exists(resources)) sandbox.add(resources, resources);
+    const fs::path in = sandbox.add(file, "/box/in.pdf"), out = sandbox.add_writable(folder, "/box/out");
+    Sandbox::Limits limits;
     limits.time = setup.time;
     limits.file_bytes = kMaxFile;
-    const ChildResult child = box.run(
+    const ChildResult child = sandbox.run(
         {kGhostscript, "-q", "-dSAFER", "-dBATCH", "-dNOPAUSE", kMaxMemory, "-sDEVICE=pdfwrite",
          "-dCompatibilityLevel=1.7", "-dMaxInlineImageSize=0", "-dPassThroughJPEGImages=false",
          "-dPassThroughJPXImages=false", "-o", (out / "copy.pdf").string(), "-c", kPictureSettings, "-f", in.string()},

@@ -26,12 +26,12 @@ class ParagraphSigns {
     }
 
     /// Whether the time doubles with each sign, and how many there are.
-    bool doubles() const { return deepest_title_ > kMostLevels || deepest_quotes_ > kMostLevels; }
+    bool doubles() const { return deepest_title_ > kMaxLevels || deepest_quotes_ > kMaxLevels; }
     /// Those whose time grows with the square of their number.
     double signs() const { return links_ + 0.2 * backticks_ + brackets_ + tags_ + quotes_ + ampersands_; }
 
   private:
-    static constexpr std::size_t kMostLevels = 12;  // of which Pandoc 2.17 reads some 50 in a second
+    static constexpr std::size_t kMaxLevels = 12;  // of which Pandoc 2.17 reads some 50 in a second
 
     char next() const { return at_ + 1 < text_.size() ? text_[at_ + 1] : ' '; }
     char before() const { return at_ > 0 ? text_[at_ - 1] : ' '; }
@@ -90,11 +90,11 @@ class ParagraphSigns {
         const char quote = text_[at];
         const std::size_t first = at;
         std::size_t depth = 1;
-        for (at = text_.find(quote, at + 1); at != text_.npos && depth > 0 && depth <= kMostLevels;
+        for (at = text_.find(quote, at + 1); at != text_.npos && depth > 0 && depth <= kMaxLevels;
              at = text_.find(quote, at + 1))
             at + 1 < text_.size() && is_word(text_[at + 1]) ? ++depth : --depth;
         scanned_ += std::min(at, text_.size()) - first;
-        deepest_title_ = std::max(deepest_title_, scanned_ > kMostScanned ? kMostLevels + 1 : depth);
+        deepest_title_ = std::max(deepest_title_, scanned_ > kMostScanned ? kMaxLevels + 1 : depth);
     }
 
     std::string_view text_;

@@ -62,7 +62,7 @@ Vector below_nyquist(const NamedModel& model, const Vector& w) {
 }
 
 void add_bands(Panel& magnitude, Panel& phase, const std::vector<NamedModel>& models) {
-    constexpr double kLeastDecibels = 20, kLeastDegrees = 90, kMostDecibels = 40, kMostDegrees = 180;
+    constexpr double kMinDecibels = 20, kMinDegrees = 90, kMostDecibels = 40, kMostDegrees = 180;
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (!models[i].confidence) continue;
         const auto& [model, level] = *models[i].confidence;
@@ -71,8 +71,8 @@ void add_bands(Panel& magnitude, Panel& phase, const std::vector<NamedModel>& mo
         add_confidence_band(magnitude, i, width * spread.magnitude_std, level, kMostDecibels);
         add_confidence_band(phase, i, width * spread.phase_std, level, kMostDegrees);
     }
-    limit_to_readable(magnitude, models.size(), kLeastDecibels);
-    limit_to_readable(phase, models.size(), kLeastDegrees);
+    limit_to_readable(magnitude, models.size(), kMinDecibels);
+    limit_to_readable(phase, models.size(), kMinDegrees);
 }
 
 /// Logarithmic, from the lowest to the highest frequency of the responses and the corners of the models.
@@ -159,8 +159,8 @@ Figure bode_plot(const std::vector<NamedModel>& given, const Vector& w, const st
         const ReferenceLine end{false, std::numbers::pi / model.G.Ts(), {}, 2};
         if (end.at <= grid.maxCoeff() * 1.001) magnitude.references.push_back(end), phase.references.push_back(end);
     }
-    fix_colours(magnitude);
-    fix_colours(phase);
+    fix_colors(magnitude);
+    fix_colors(phase);
     add_bands(magnitude, phase, models);
     add_responses(magnitude, phase, responses, models);
     choose_phase_axis(phase);

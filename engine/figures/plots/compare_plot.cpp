@@ -76,7 +76,7 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
         curve.x = t;
         curve.y = measured.col(output);
         curve.label = Message("measured");
-        curve.colour = style::kGreyColour;
+        curve.colour = style::kGrayColor;
         curve.dash = 0;
         curve.line_width = kMeasuredWidth;
         panel.curves.push_back(std::move(curve));

@@ -42,9 +42,9 @@ double loss_near(const DelaySearch& search, double delay) {
 /// "0.1598 ± 0.0036": the error with two digits, the delay with as many decimals.
 Message delay_text(const DelaySearch& search) {
     if (!std::isfinite(search.std)) return Message("{}", search.delay);
-    const double wanted = 1 - std::floor(std::log10(search.std));
-    if (wanted > 9) return Message("{} ± {}", search.delay, significant(search.std, 2));
-    const int places = std::max(0, static_cast<int>(wanted));
+    const double requested = 1 - std::floor(std::log10(search.std));
+    if (requested > 9) return Message("{} ± {}", search.delay, significant(search.std, 2));
+    const int places = std::max(0, static_cast<int>(requested));
     return Message("{} ± {}", decimals(search.delay, places), decimals(search.std, places));
 }
 
@@ -63,7 +63,7 @@ Figure delay_plot(const DelaySearch& search) {
     panel.curves.push_back(
         mark(search.delay, search.loss(), style::kOpenCircle, 6, Message("estimate, {} s", delay_text(search))));
     if (search.rival)
-        panel.curves.push_back(mark(*search.rival, loss_near(search, *search.rival), style::kCross, style::kGreyColour,
+        panel.curves.push_back(mark(*search.rival, loss_near(search, *search.rival), style::kCross, style::kGrayColor,
                                     Message("nearly as good, {} s", *search.rival)));
     panel.x_range = x_extent.padded(0.03);
     panel.y_range = y_extent.padded(0.08);

@@ -50,7 +50,7 @@ void add_curve(Panel& panel, Curve curve, bool output) {
     if (same == panel.curves.end())
         panel.curves.push_back(std::move(curve));
     else
-        same->colour = style::kGreyColour;
+        same->colour = style::kGrayColor;
 }
 
 /// The reference that a loop's output is to follow.
@@ -59,7 +59,7 @@ Curve reference_curve(const IdData& data, std::size_t experiment, Index number) 
     curve.x = data.time(experiment);
     curve.y = data.experiments[experiment].r.col(number);
     curve.label = Message("reference");
-    curve.colour = style::kGreyColour;
+    curve.colour = style::kGrayColor;
     if (data.hold == Hold::kZoh) curve.style = CurveStyle::kStairs;
     return curve;
 }

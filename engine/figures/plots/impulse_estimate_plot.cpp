@@ -29,7 +29,7 @@ Curve band_of(const ImpulseEstimate& estimate, double Ts, double level) {
     band.y_upper = normal_half_width(level) * estimate.null_std / Ts;
     band.y = -band.y_upper;
     band.style = CurveStyle::kBand;
-    band.colour = style::kGreyColour;
+    band.colour = style::kGrayColor;
     band.label = Message("{} % chance bounds", significant(100 * level, 4));
     return band;
 }

@@ -101,13 +101,13 @@ Panel histogram_panel(const Vector& values, std::pair<double, double> range, std
 
 /// Points of {v : (v - centre)' C^-1 (v - centre) = -2 ln(1 - level)}, the chi-square quantile for two numbers.
 /// `root` is the lower triangle L of C = L L'.
-Matrix ellipse(const Eigen::Vector2d& centre, const Eigen::Matrix2d& root, double level) {
+Matrix ellipse(const Eigen::Vector2d& center, const Eigen::Matrix2d& root, double level) {
     constexpr Index kPoints = 91;
     const double radius = std::sqrt(-2 * std::log1p(-level));
     Matrix points(kPoints, 2);
     for (Index i = 0; i < kPoints; ++i) {
         const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(kPoints - 1);
-        points.row(i) = (centre + radius * root * Eigen::Vector2d(std::cos(angle), std::sin(angle))).transpose();
+        points.row(i) = (center + radius * root * Eigen::Vector2d(std::cos(angle), std::sin(angle))).transpose();
     }
     return points;
 }
@@ -153,7 +153,7 @@ void add_truth(Panel& panel, const MonteCarloResult& result, Index x, Index y, d
             Curve curve;
             curve.x = points.col(0);
             curve.y = points.col(1);
-            curve.colour = style::kGreyColour;
+            curve.colour = style::kGrayColor;
             curve.dash = 0;
             curve.line_width = 1.2;
             curve.label = Message("Cramér–Rao ellipse, {} %", significant(100 * level, 4));

@@ -17,7 +17,7 @@ constexpr double kFirstHeight = 0.5, kNoNumbers = 1e3;  // of the axis of y of p
 constexpr double kMeasuredLine = 1.6, kSimulatedLine = 0.8, kFixedLine = 0.4;  // points
 constexpr int kSimulatedColour = 0, kFixedColour = 2;
 
-void check_motion_record(const RigDrawing& rig, const MotionRecord& record) {
+void check_motion_record(const PlantDrawing& rig, const MotionRecord& record) {
     const Index parts = static_cast<Index>(rig.parts.size()), count = record.t.size();
     if (count < 2) throw InvalidArgument("an animation needs at least two instants, not {}", count);
     for (Index i = 1; i < count; ++i)
@@ -67,19 +67,19 @@ class Strokes {
     std::vector<double> x_, y_;
 };
 
-/// Where a drawing stands on the panel of pictures: in the middle at `centre` on the axis of time, above `base`.
+/// Where a drawing stands on the panel of pictures: in the middle at `center` on the axis of time, above `base`.
 struct PicturePlace {
-    double seconds_per_cm, cm_per_cm, width, centre, base;
+    double seconds_per_cm, cm_per_cm, width, center, base;
 
-    void add(const RigPiece& piece, Strokes& strokes) const {
-        RigPiece scaled = piece;
-        for (double& x : scaled.x) x = centre + (x - 0.5 * width) * cm_per_cm * seconds_per_cm;
+    void add(const PlantShape& piece, Strokes& strokes) const {
+        PlantShape scaled = piece;
+        for (double& x : scaled.x) x = center + (x - 0.5 * width) * cm_per_cm * seconds_per_cm;
         for (double& y : scaled.y) y = base + (y + kRim) * cm_per_cm;
         strokes.add(scaled.x, scaled.y);
     }
 };
 
-Panel signal_panel(const RigPart& part, const MotionRecord& record, Index column) {
+Panel signal_panel(const PlantPart& part, const MotionRecord& record, Index column) {
     Panel panel;
     panel.y_label = axis_label(Message::verbatim(part.signal), part.unit);
     const auto add = [&](const Matrix& signals, const Message& label, int colour, double width) {
@@ -90,13 +90,13 @@ Panel signal_panel(const RigPart& part, const MotionRecord& record, Index column
         curve.colour = colour, curve.dash = 0, curve.line_width = width;
         panel.curves.push_back(std::move(curve));
     };
-    add(record.measured, Message("measured"), style::kGreyColour, kMeasuredLine);
+    add(record.measured, Message("measured"), style::kGrayColor, kMeasuredLine);
     add(record.simulated, Message("simulated"), kSimulatedColour, kSimulatedLine);
     return panel;
 }
 
 /// The panel of pictures, whose frame is `width` x `height` cm; its axis of y counts these cm.
-void draw_pictures(Panel& panel, const RigDrawing& rig, const MotionRecord& record, const Vector& instants,
+void draw_pictures(Panel& panel, const PlantDrawing& rig, const MotionRecord& record, const Vector& instants,
                    double width, double height) {
     const double seconds = record.t[record.t.size() - 1] - record.t[0];
     double room = width;  // between neighbours
@@ -107,7 +107,7 @@ void draw_pictures(Panel& panel, const RigDrawing& rig, const MotionRecord& reco
     Strokes fixed, measured, simulated;
     for (const double instant : instants) {
         const PicturePlace place{seconds / width, scale, rig.width, instant, base};
-        for (const RigPiece& piece : rig.pieces) {
+        for (const PlantShape& piece : rig.pieces) {
             if (piece.filled) continue;
             if (!piece.moves()) {
                 place.add(piece, fixed);
@@ -120,7 +120,7 @@ void draw_pictures(Panel& panel, const RigDrawing& rig, const MotionRecord& reco
         }
     }
     if (!fixed.empty()) panel.curves.push_back(fixed.curve(kFixedColour, kFixedLine));
-    if (!measured.empty()) panel.curves.push_back(measured.curve(style::kGreyColour, kMeasuredLine));
+    if (!measured.empty()) panel.curves.push_back(measured.curve(style::kGrayColor, kMeasuredLine));
     if (!simulated.empty()) panel.curves.push_back(simulated.curve(kSimulatedColour, kSimulatedLine));
     panel.y_range = {kFirstHeight, kFirstHeight + height};
 }
@@ -129,7 +129,7 @@ MotionRecord thinned_motion(const MotionRecord& record) {
     std::vector<Index> kept;
     for (Index i = 0; i < record.t.size(); ++i)
         if (kept.empty() || i + 1 == record.t.size() ||
-            record.t[i] - record.t[kept.back()] >= (1 - 1e-6) / kMostPictures)
+            record.t[i] - record.t[kept.back()] >= (1 - 1e-6) / kMaxPictures)
             kept.push_back(i);
     MotionRecord result;
     result.t = record.t(kept);
@@ -140,7 +140,7 @@ MotionRecord thinned_motion(const MotionRecord& record) {
 
 }  // namespace
 
-Figure motion_plot(const RigDrawing& rig, const MotionRecord& whole, const MotionLook& look) {
+Figure motion_plot(const PlantDrawing& rig, const MotionRecord& whole, const MotionAppearance& look) {
     rig.validate();
     check_motion_record(rig, whole);
     const MotionRecord record = thinned_motion(whole);

@@ -12,18 +12,18 @@ struct MotionRecord {
     Matrix measured, simulated;
 };
 
-struct MotionLook {
+struct MotionAppearance {
     Vector instants;  ///< of the pictures, s; four, evenly spread, unless given
     Message title;
     double width_cm = 14, height_cm = 0;
 };
 
 /// So many samples a second are kept at most, of those nearer to each other the first: what eyes and screens follow.
-inline constexpr double kMostPictures = 50;
+inline constexpr double kMaxPictures = 50;
 
 /// A rig at some instants, each standing where its instant lies on the axis of time, above the signals that move it;
 /// dotted lines mark the instants. What is measured is grey, behind what is simulated. Throws InvalidArgument for sizes
 /// that do not fit, instants outside the record.
-Figure motion_plot(const RigDrawing& rig, const MotionRecord& record, const MotionLook& look = {});
+Figure motion_plot(const PlantDrawing& rig, const MotionRecord& record, const MotionAppearance& look = {});
 
 }  // namespace dynlab::inline figures

@@ -17,7 +17,7 @@ Curve guide(Vector x, Vector y) {
     Curve curve;
     curve.x = std::move(x);
     curve.y = std::move(y);
-    curve.colour = style::kGreyColour;
+    curve.colour = style::kGrayColor;
     curve.dash = 2;
     curve.line_width = 0.5;
     return curve;

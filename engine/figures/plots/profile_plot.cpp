@@ -33,7 +33,7 @@ Curve parabola(const Profile& profile, double low, double high) {
     Curve curve;
     curve.x = Vector::LinSpaced(kPoints, low, high);
     curve.y = ((curve.x.array() - profile.estimate) / profile.std).square();
-    curve.colour = style::kGreyColour;
+    curve.colour = style::kGrayColor;
     curve.dash = 1;
     curve.label = Message("from the standard error");
     return curve;

@@ -35,7 +35,7 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
     band.y = Vector::Constant(2, -bound);
     band.y_upper = Vector::Constant(2, bound);
     band.style = CurveStyle::kBand;
-    band.colour = style::kGreyColour;
+    band.colour = style::kGrayColor;
     band.label = Message("{} % bound", significant(100 * confidence, 4));
     panel.curves = {std::move(band)};
     std::vector<double> lags[2], values[2];

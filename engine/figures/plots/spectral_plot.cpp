@@ -15,7 +15,7 @@ namespace dynlab::inline figures {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kLeastDecibels = 20, kLeastDegrees = 90;
+constexpr double kMinDecibels = 20, kMinDegrees = 90;
 
 /// Unwrapped over the frequencies where it is known, NaN at the others. Single values without errors are too wild to be
 /// unwrapped and lie between -270 and 90 degrees.
@@ -46,7 +46,7 @@ Curve curve_of(const SpectralEstimate& estimate, const Vector& y, const Message&
     curve.dash = 0;
     if (estimate.std.size() == 0) {
         curve.style = CurveStyle::kPoints;
-        curve.colour = style::kGreyColour;
+        curve.colour = style::kGrayColor;
         curve.marker = 0;
     }
     return curve;
@@ -90,8 +90,8 @@ Figure spectral_plot(const SpectralEstimate& estimate, const Message& name, cons
         const Vector relative = width * estimate.std.cwiseQuotient(estimate.response.cwiseAbs());
         add_confidence_band(figure.panels[0], 0, 20 / std::numbers::ln10 * relative, level);
         add_confidence_band(figure.panels[1], 0, kDegrees * relative, level);
-        limit_to_readable(figure.panels[0], lines, kLeastDecibels);
-        limit_to_readable(figure.panels[1], lines, kLeastDegrees);
+        limit_to_readable(figure.panels[0], lines, kMinDecibels);
+        limit_to_readable(figure.panels[1], lines, kMinDegrees);
     }
     choose_phase_axis(figure.panels[1]);
     if (first < estimate.w.maxCoeff())

@@ -23,8 +23,8 @@ double longest_window(const std::vector<NamedModel>& models) {
     return end;
 }
 
-Vector instants(const TransferFunction& G, const Vector& wanted, double end) {
-    if (wanted.size() > 0) return wanted;
+Vector instants(const TransferFunction& G, const Vector& requested, double end) {
+    if (requested.size() > 0) return requested;
     if (G.continuous()) return Vector::LinSpaced(kCurvePoints, 0, end);
     const Index count = samples_within(end, G.Ts());
     return Vector::LinSpaced(count, 0, static_cast<double>(count - 1) * G.Ts());
@@ -54,9 +54,9 @@ Figure time_response_figure(const std::vector<NamedModel>& models, const Vector&
 }  // namespace
 
 Index samples_within(double end, double Ts) {
-    constexpr double kMost = 1e7;
+    constexpr double kMax = 1e7;
     const double count = std::floor(end / Ts + 1e-9) + 1;
-    if (!(count <= kMost))
+    if (!(count <= kMax))
         throw InvalidArgument("a window of {} s has too many samples for one figure of a model with Ts = {} s: {}", end,
                               Ts, significant(count, 3));
     return static_cast<Index>(count);
@@ -65,7 +65,7 @@ Index samples_within(double end, double Ts) {
 Figure step_plot(const std::vector<NamedModel>& models, const Vector& t) {
     Figure figure = time_response_figure(models, t, CurveStyle::kStairs, step_response);
     Panel& panel = figure.panels.front();
-    fix_colours(panel);
+    fix_colors(panel);
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (!models[i].confidence) continue;
         const auto& [model, level] = *models[i].confidence;

@@ -52,7 +52,7 @@ class DiscreteOutput : public OutputErrorModel {
 
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
     OutputErrorProducts products(const Vector& theta, const VectorView& y) const override;
-    bool products_come_cheap() const override { return true; }
+    bool products_are_cheap() const override { return true; }
     /// One experiment's share; its derivatives only when they are wanted.
     DrivenSignals driven(const Vector& theta, std::size_t experiment, bool with_derivatives) const;
 

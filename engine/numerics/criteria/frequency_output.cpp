@@ -142,11 +142,11 @@ void FrequencyOutput::simulate_held(const Vector& theta, ComplexVector& response
 void FrequencyOutput::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
     ComplexVector response;
     Eigen::MatrixXcd derivatives;
-    Eigen::MatrixXcd* const wanted = sensitivities == nullptr ? nullptr : &derivatives;
+    Eigen::MatrixXcd* const requested = sensitivities == nullptr ? nullptr : &derivatives;
     if (data_.inter_sample == InterSample::kBandLimited)
-        simulate_sines(theta, response, wanted);
+        simulate_sines(theta, response, requested);
     else
-        simulate_held(theta, response, wanted);
+        simulate_held(theta, response, requested);
     if (stable_ && !is_hurwitz(monic(coefficients(theta).head(poles_)))) response.setConstant(Complex(kNaN, kNaN));
     output = stacked(response);
     if (sensitivities == nullptr) return;

@@ -8,15 +8,15 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kHighestDegree = 9;
-constexpr std::size_t kMostMonomials = 2000;
+constexpr int kMaxDegree = 9;
+constexpr std::size_t kMaxMonomials = 2000;
 
 }  // namespace
 
 Monomials::Monomials(const std::string& caller, Index variables, int degree) : factors_{{}}, rest_{0} {
-    if (degree < 0 || degree > kHighestDegree)
-        throw InvalidArgument("{}: {} must be between 0 and {}, but is {}", caller, OptionName{"degree"},
-                              kHighestDegree, degree);
+    if (degree < 0 || degree > kMaxDegree)
+        throw InvalidArgument("{}: {} must be between 0 and {}, but is {}", caller, OptionName{"degree"}, kMaxDegree,
+                              degree);
     std::size_t lower = 0;  // where those of the degree before begin
     for (int d = 1; d <= degree; ++d) {
         const std::size_t end = factors_.size();
@@ -27,11 +27,11 @@ Monomials::Monomials(const std::string& caller, Index variables, int degree) : f
                 factors.insert(factors.end(), factors_[i].begin(), factors_[i].end());
                 factors_.push_back(std::move(factors));
                 rest_.push_back(static_cast<Index>(i));
-                if (factors_.size() > kMostMonomials)
+                if (factors_.size() > kMaxMonomials)
                     throw InvalidArgument(
                         "{}: {} variables have more than {} monomials up to degree {}; use fewer lags or a lower "
                         "degree",
-                        caller, variables, kMostMonomials, degree);
+                        caller, variables, kMaxMonomials, degree);
             }
         }
         lower = end;

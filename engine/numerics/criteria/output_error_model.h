@@ -28,10 +28,10 @@ class OutputErrorModel {
     /// simulate() unless a structure knows a faster way; a model may take the `y` it was made of for granted.
     virtual OutputErrorProducts products(const Vector& theta, const VectorView& y) const;
     /// Rows that are zero for every theta, and in what is fitted: they do not count as samples.
-    virtual Index silent_rows() const { return 0; }
+    virtual Index masked_rows() const { return 0; }
     /// Whether they cost little more than the output alone, so that a search asks for them before it knows whether it
     /// will go there.
-    virtual bool products_come_cheap() const { return false; }
+    virtual bool products_are_cheap() const { return false; }
 
   protected:
     void set_free(Index count) {

@@ -76,8 +76,9 @@ struct ColumnPack {
 
     template <std::size_t... pair>
     void filter_by_order(const Vector& C, const Vector& D, Index first, Index end, std::index_sequence<pair...>) {
-        const auto wanted = static_cast<std::size_t>((C.size() - 1) * (kSizedOrder + 1) + D.size() - 1);
-        ((pair == wanted ? filter_sized<pair / (kSizedOrder + 1), pair % (kSizedOrder + 1)>(C, D, first, end) : void()),
+        const auto requested = static_cast<std::size_t>((C.size() - 1) * (kSizedOrder + 1) + D.size() - 1);
+        ((pair == requested ? filter_sized<pair / (kSizedOrder + 1), pair % (kSizedOrder + 1)>(C, D, first, end)
+                            : void()),
          ...);
     }
 };

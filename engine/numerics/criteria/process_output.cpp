@@ -100,7 +100,7 @@ TransferOutput::AtRest at_rest(const ProcessStructure& structure) {
     return structure.integrator ? TransferOutput::AtRest::kNothing : TransferOutput::AtRest::kOwnGain;
 }
 
-Reparametrised process_output(const ProcessStructure& structure, const TransferOutput& output) {
+Reparametrized process_output(const ProcessStructure& structure, const TransferOutput& output) {
     const Index q = static_cast<Index>(structure.parameter_names().size()), linear = output.linear_count();
     Index longest = 0;
     for (std::size_t e = 0; e < output.experiment_count(); ++e) longest = std::max(longest, output.rows(e));
@@ -121,7 +121,7 @@ Reparametrised process_output(const ProcessStructure& structure, const TransferO
     }
     const auto coefficients_of = [structure, q, inner, linear, own_gain](const Vector& theta) {
         const ProcessCoefficients c = process_coefficients(structure, theta.head(q));
-        Reparametrised::Point point{Vector(inner + linear), Matrix::Zero(inner + linear, q + linear)};
+        Reparametrized::Point point{Vector(inner + linear), Matrix::Zero(inner + linear, q + linear)};
         point.inner.head(inner) << c.den.tail(c.den.size() - 1), c.num, theta.segment(q - 1, structure.delay ? 1 : 0),
             theta.head(own_gain ? 1 : 0);
         point.inner.tail(linear) = theta.tail(linear);
@@ -130,7 +130,7 @@ Reparametrised process_output(const ProcessStructure& structure, const TransferO
         point.derivatives.bottomRightCorner(linear, linear).setIdentity();
         return point;
     };
-    return Reparametrised(output, coefficients_of, lower, upper);
+    return Reparametrized(output, coefficients_of, lower, upper);
 }
 
 Vector process_seconds(const ProcessStructure& structure, const TransferOutput& output) {

@@ -32,7 +32,7 @@ TransferOutput::AtRest at_rest(const ProcessStructure& structure);
 /// at rest answers with, so that no other parameter bears on that part, not even by rounding. A process with an
 /// integrator has no rest but that at zero input: `output` then takes its inputs as they are, and the initial values,
 /// the integrator's among them, are those of the output itself.
-Reparametrised process_output(const ProcessStructure& structure, const TransferOutput& output);
+Reparametrized process_output(const ProcessStructure& structure, const TransferOutput& output);
 
 /// Factors that bring the parameters of process_output() back to seconds.
 Vector process_seconds(const ProcessStructure& structure, const TransferOutput& output);

@@ -86,11 +86,11 @@ RateEquations weak_equations(const IdData& data, std::size_t experiment, const F
     RateEquations equations{Matrix::Zero(rows, library.count()), Matrix::Zero(rows, record.y.cols())};
     Index first = 0;
     for (Index row = 0; row < rows; ++row) {
-        const double centre = t[0] + width + step * static_cast<double>(row);
-        while (t[first] <= centre - width && first + 1 < N && t[first + 1] <= centre - width) ++first;
+        const double center = t[0] + width + step * static_cast<double>(row);
+        while (t[first] <= center - width && first + 1 < N && t[first + 1] <= center - width) ++first;
         Index inside = 0;
-        for (Index k = first; k < N && t[k] < centre + width; ++k) {
-            const double s = (t[k] - centre) / width;
+        for (Index k = first; k < N && t[k] < center + width; ++k) {
+            const double s = (t[k] - center) / width;
             if (s <= -1) continue;
             ++inside;
             const double before = k > 0 ? (t[k] - t[k - 1]) / 2 : 0, after = k + 1 < N ? (t[k + 1] - t[k]) / 2 : 0;
@@ -106,10 +106,10 @@ RateEquations weak_equations(const IdData& data, std::size_t experiment, const F
 }
 
 double usual_width(const IdData& data) {
-    constexpr Index kLeast = 5, kShare = 10;
+    constexpr Index kMin = 5, kShare = 10;
     Index longest = 0;
     for (const Experiment& experiment : data.experiments) longest = std::max(longest, experiment.y.rows());
-    const Index most = std::max(kLeast, longest / kShare);
+    const Index most = std::max(kMin, longest / kShare);
     const auto correlation = [&](Index lag) {
         double sum = 0;
         for (const Experiment& experiment : data.experiments) {
@@ -126,7 +126,7 @@ double usual_width(const IdData& data) {
     const double start = correlation(0);
     Index lag = 1;
     while (lag < most && correlation(lag) > start / 2) lag += 1 + lag / 20;
-    return static_cast<double>(std::clamp(lag, kLeast, most)) * data.mean_step();
+    return static_cast<double>(std::clamp(lag, kMin, most)) * data.mean_step();
 }
 
 }  // namespace dynlab::inline numerics

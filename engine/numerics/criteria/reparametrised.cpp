@@ -5,12 +5,12 @@
 
 namespace dynlab::inline numerics {
 
-Reparametrised::Reparametrised(const OutputErrorModel& inner, Map map, Vector lower, Vector upper)
+Reparametrized::Reparametrized(const OutputErrorModel& inner, Map map, Vector lower, Vector upper)
     : inner_(inner), map_(std::move(map)) {
     lower_ = std::move(lower), upper_ = std::move(upper);
 }
 
-void Reparametrised::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
+void Reparametrized::simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const {
     const Point point = map_(theta);
     if (sensitivities == nullptr) {
         inner_.simulate(point.inner, output, nullptr);
@@ -26,7 +26,7 @@ void Reparametrised::simulate(const Vector& theta, Vector& output, Matrix* sensi
     }
 }
 
-OutputErrorProducts Reparametrised::products(const Vector& theta, const VectorView& y) const {
+OutputErrorProducts Reparametrized::products(const Vector& theta, const VectorView& y) const {
     const Point point = map_(theta);
     const Matrix& T = point.derivatives;
     const OutputErrorProducts inner = inner_.products(point.inner, y);

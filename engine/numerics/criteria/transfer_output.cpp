@@ -164,7 +164,7 @@ Vector TransferOutput::target() const {
     return y;
 }
 
-void TransferOutput::leave_out(double seconds) {
+void TransferOutput::mask_start(double seconds) {
     const double units = seconds / time_unit_;
     for (Record& record : experiments_) {
         const Index N = record.y.rows();
@@ -175,7 +175,7 @@ void TransferOutput::leave_out(double seconds) {
     }
 }
 
-Index TransferOutput::silent_rows() const {
+Index TransferOutput::masked_rows() const {
     Index rows = 0;
     for (const Record& record : experiments_) rows += record.silent * structure_.outputs;
     return rows;

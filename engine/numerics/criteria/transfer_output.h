@@ -43,8 +43,8 @@ class TransferOutput : public OutputErrorModel {
     /// Holds parameters of the structure at values (s), by name. Throws InvalidArgument for a name that it lacks.
     void fix(const std::map<std::string, double>& values);
     /// The samples of the first seconds of each experiment do not count: their rows are zero, in target() too.
-    void leave_out(double seconds);
-    Index silent_rows() const override;
+    void mask_start(double seconds);
+    Index masked_rows() const override;
     /// Multiplies each output's rows, in target() too; ones at first.
     void set_weights(const Vector& weights);
     const Vector& weights() const { return weights_; }
@@ -55,7 +55,7 @@ class TransferOutput : public OutputErrorModel {
     /// The initial values and offsets, which stand last.
     Index linear_count() const { return parameter_count() - initial_start(0, 0); }
     /// That count, over all experiments, of each output.
-    Index sample_count() const { return samples_ - silent_rows() / structure_.outputs; }
+    Index sample_count() const { return samples_ - masked_rows() / structure_.outputs; }
 
     std::size_t experiment_count() const { return experiments_.size(); }
     Index row(std::size_t experiment, Index output) const;  ///< the first of its N

@@ -86,12 +86,12 @@ Fit armax(const IdData& data, const PolynomialOrders& orders, const FitOptions& 
     options.validate();
     if (orders.nd > 0 || std::any_of(orders.nf.begin(), orders.nf.end(), [](int nf) { return nf > 0; }))
         throw InvalidArgument("armax has only the orders na, nb, nc and nk: nd and nf must be zero");
-    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& requested) {
         check_equation_error("armax", seen, without_noise(orders));
         const StartCondition nothing_assumed{InitialState::kEstimate, false};
         const std::vector<SampledExperiment> experiments = sampled_experiments(seen);
         return fit_prediction("armax", PredictionModel(orders, nothing_assumed, experiments), nothing_assumed, seen.Ts,
-                              starts(seen, orders), wanted);
+                              starts(seen, orders), requested);
     });
 }
 

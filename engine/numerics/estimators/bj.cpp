@@ -101,12 +101,12 @@ Fit or_from_filtered_data(Fit best, const IdData& data, const PredictionModel& m
 }
 
 Fit bj_fit(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
-    const CentredData centred = centred_for(data, options.offset);
-    const std::vector<SampledExperiment> experiments = sampled_experiments(centred.data);
+    const CenteredData centered = centered_for(data, options.offset);
+    const std::vector<SampledExperiment> experiments = sampled_experiments(centered.data);
     const auto [first, errors] = output_error_start(data, experiments, orders, options);
     const PredictionModel model(orders, first.start, experiments);
-    Fit fit = or_from_filtered_data(search_from(first, errors, model, data, options), centred.data, model, options);
-    add_operating_points(fit, centred.removed);
+    Fit fit = or_from_filtered_data(search_from(first, errors, model, data, options), centered.data, model, options);
+    add_operating_points(fit, centered.removed);
     return fit;
 }
 
@@ -115,9 +115,9 @@ Fit bj_fit(const IdData& data, const PolynomialOrders& orders, const FitOptions&
 Fit bj(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
     orders.validate();
     if (orders.na > 0) throw InvalidArgument("bj has only the orders nb, nc, nd, nf and nk: na must be zero");
-    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& requested) {
         const auto fit_with = [&](const FitOptions& how) { return bj_fit(seen, orders, how); };
-        return best_predicting_start(fit_with(wanted), wanted, fit_with);
+        return best_predicting_start(fit_with(requested), requested, fit_with);
     });
 }
 

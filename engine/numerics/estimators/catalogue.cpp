@@ -6,7 +6,7 @@
 
 namespace dynlab::inline numerics {
 
-const std::vector<MethodEntry>& method_catalogue() {
+const std::vector<MethodEntry>& method_catalog() {
     static const std::vector<MethodEntry> kMethods = {
         {"step_test",
          {"step_first_order", "step_second_order", "step_delayed"},
@@ -231,7 +231,7 @@ const std::vector<MethodEntry>& method_catalogue() {
 }
 
 std::optional<MethodEntry> find_method(const std::string& lua_name) {
-    for (const MethodEntry& method : method_catalogue())
+    for (const MethodEntry& method : method_catalog())
         if (std::ranges::find(method.lua_names, lua_name) != method.lua_names.end()) return method;
     return std::nullopt;
 }

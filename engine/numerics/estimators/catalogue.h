@@ -22,7 +22,7 @@ struct MethodEntry {
 };
 
 /// All methods, in the order a course meets them.
-const std::vector<MethodEntry>& method_catalogue();
+const std::vector<MethodEntry>& method_catalog();
 
 /// The entry with this Lua name, or nothing.
 std::optional<MethodEntry> find_method(const std::string& lua_name);

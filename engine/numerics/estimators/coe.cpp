@@ -7,8 +7,8 @@ namespace dynlab::inline numerics {
 
 Fit coe(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
     options.validate();
-    return finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
-        return search_with_chosen_start("coe", seen, structure, wanted, aids);
+    return finished_fit(data, options, [&](const IdData& seen, const FitOptions& requested) {
+        return search_with_chosen_start("coe", seen, structure, requested, aids);
     });
 }
 

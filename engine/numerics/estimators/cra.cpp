@@ -32,7 +32,7 @@ Autoregression whitening_of(const IdData& data, Index order) {
         u.segment(first, lengths.back()) = experiment.u.col(0);
         first += lengths.back();
     }
-    return fit_autoregression(u, lengths, order, AutoregressiveOrder::kHighest);
+    return fit_autoregression(u, lengths, order, AutoregressiveOrder::kMaxInteger);
 }
 
 void whiten(IdData& data, const Autoregression& filter) {

@@ -121,7 +121,7 @@ Vector numerator(const Layout& at, const Vector& theta, double last_b) {
 }
 
 /// The output of K inputs with the numerators c_i B and all else in common.
-Reparametrised hammerstein_output(const TransferOutput& channels, const TransferStructure& structure, const Layout& at,
+Reparametrized hammerstein_output(const TransferOutput& channels, const TransferStructure& structure, const Layout& at,
                                   double last_b) {
     const Index d = at.count(), inner = channels.parameter_count();
     Vector lower = Vector::Constant(d, -std::numeric_limits<double>::infinity()), upper = -lower;
@@ -131,7 +131,7 @@ Reparametrised hammerstein_output(const TransferOutput& channels, const Transfer
     }
     const auto products = [=](const Vector& theta) {
         const Vector b = numerator(at, theta, last_b);
-        Reparametrised::Point point{Vector::Zero(inner), Matrix::Zero(inner, d)};
+        Reparametrized::Point point{Vector::Zero(inner), Matrix::Zero(inner, d)};
         point.inner.head(at.n) = theta.head(at.n);
         point.derivatives.topLeftCorner(at.n, at.n).setIdentity();
         for (Index i = 0; i < at.K; ++i) {
@@ -146,7 +146,7 @@ Reparametrised hammerstein_output(const TransferOutput& channels, const Transfer
         }
         return point;
     };
-    return Reparametrised(channels, products, lower, upper);
+    return Reparametrized(channels, products, lower, upper);
 }
 
 /// B and c of the product c_i b_j closest to the coefficients, with B's last coefficient a_n, so that the gain is one.
@@ -298,7 +298,7 @@ Fit hammerstein(const IdData& data, const TransferStructure& structure, const Ha
     if (at.delay) theta[at.count() - 1] = delay / units[at.count() - 1];
 
     const Vector y = output.target();
-    Fit fit = minimise_output_error(hammerstein_output(output, channels, at, product.b[at.m]), y, theta, options);
+    Fit fit = minimize_output_error(hammerstein_output(output, channels, at, product.b[at.m]), y, theta, options);
     fit.characteristic = std::move(characteristic);
     fit.warnings = std::move(warnings);
     set_parameters(fit, at, product.b[at.m], units, delay);

@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kFewestSamplesOfImpulseest = 8, kMostLags = 400;
+constexpr Index kFewestSamplesOfImpulseest = 8, kMaxLags = 400;
 
 /// Rows [u(k) u(k-1) .. u(k-n)] and y(k) of an experiment, without their means over it (which estimates c).
 class CentredRows {
@@ -108,11 +108,11 @@ void fit_smoothly(const ResponseSums& sums, ResponseKernel kernel, RegressedResp
 }  // namespace
 
 void ImpulseestOptions::validate() const {
-    if (lags < 0 || lags > kMostLags)
+    if (lags < 0 || lags > kMaxLags)
         throw InvalidArgument(
             "impulseest: the number of lags must be between 1 and {}, but is {}; resample the data to a lower rate if "
             "the response lasts longer",
-            kMostLags, lags);
+            kMaxLags, lags);
     normal_half_width(confidence);
 }
 

@@ -79,8 +79,8 @@ double mean_square(const std::vector<Vector>& errors, Index parameters) {
 
 /// The autoregression of step 3.
 Vector noise_filter(const std::vector<Vector>& errors, const PolynomialOrders& orders, double power) {
-    const int wanted = orders.na + std::accumulate(orders.nb.begin(), orders.nb.end(), 0);
-    return start_noise(errors, 0, std::min(wanted, kLongestFilter), power).D;
+    const int requested = orders.na + std::accumulate(orders.nb.begin(), orders.nb.end(), 0);
+    return start_noise(errors, 0, std::min(requested, kLongestFilter), power).D;
 }
 
 }  // namespace

@@ -54,10 +54,10 @@ Matrix powers(const Vector& x, int degree) {
 }
 
 // The polynomial in x whose value is that of `p` at x - centre, by Horner's scheme on polynomials.
-Vector shifted_back(const Vector& p, double centre) {
+Vector shifted_back(const Vector& p, double center) {
     Vector result = p.head(1);
     for (Index i = 1; i < p.size(); ++i) {
-        result = multiply(result, Vector{{1.0, -centre}});
+        result = multiply(result, Vector{{1.0, -center}});
         result[result.size() - 1] += p[i];
     }
     return result;
@@ -103,9 +103,9 @@ PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degre
                               degree + 1, distinct);
     PolynomialFit fit;
     fit.degree = degree;
-    fit.centre = options.centred ? x.mean() : 0;
-    fit.regression = lsq(powers(x.array() - fit.centre, degree), y, options.method);
-    fit.coefficients = shifted_back(fit.regression.theta, fit.centre);
+    fit.center = options.centered ? x.mean() : 0;
+    fit.regression = lsq(powers(x.array() - fit.center, degree), y, options.method);
+    fit.coefficients = shifted_back(fit.regression.theta, fit.center);
     return fit;
 }
 
@@ -133,7 +133,7 @@ Forecast forecast(const LinearRegression& regression, const VectorView& phi, dou
 }
 
 Forecast forecast(const PolynomialFit& fit, double x, double level) {
-    return forecast(fit.regression, powers(Vector::Constant(1, x - fit.centre), fit.degree).row(0).transpose(), level);
+    return forecast(fit.regression, powers(Vector::Constant(1, x - fit.center), fit.degree).row(0).transpose(), level);
 }
 
 }  // namespace dynlab::inline numerics

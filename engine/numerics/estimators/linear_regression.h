@@ -26,14 +26,14 @@ struct LinearRegression {
 LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMethod method = RegressionMethod::kQr);
 
 struct PolyfitOptions {
-    bool centred = true;  ///< powers of x - mean(x): far better conditioned when x are years
+    bool centered = true;  ///< powers of x - mean(x): far better conditioned when x are years
     RegressionMethod method = RegressionMethod::kQr;
 };
 
 /// y = c_1 (x - centre)^n + ... + c_n (x - centre) + c_(n+1) + e.
 struct PolynomialFit {
     int degree = 0;
-    double centre = 0;            ///< 0 when not centred
+    double center = 0;            ///< 0 when not centred
     LinearRegression regression;  ///< theta = [c_1 ... c_(n+1)], highest power first
     Vector coefficients;          ///< of the same polynomial in powers of x itself, highest first
 };

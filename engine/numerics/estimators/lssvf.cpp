@@ -43,11 +43,11 @@ void warn_of_cutoff(Fit& estimate, double lambda) {
                     lambda, significant(fastest, 3)));
 }
 
-void colour_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments) {
-    if (data.sample_count() > kMostColoured) {
+void color_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments) {
+    if (data.sample_count() > kMaxColoredSamples) {
         fit.warnings.push_back(Message(
             "Standard errors for more than {} samples assume a white equation error, although the filters color it.",
-            kMostColoured));
+            kMaxColoredSamples));
         return;
     }
     for (std::size_t g = 0; g < fit.structure.poles.size(); ++g) {

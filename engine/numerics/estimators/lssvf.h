@@ -20,7 +20,7 @@ struct SvfOptions {
 ///     minimise sum_k (p^n y_f - phi' theta)^2,  phi = [-p^(n-1) y_f .. -y_f, p^m u_f .. u_f].
 /// Exact filters from rest; inputs as the data's hold says, delays fixed and of any size. Biased by noise on the
 /// output: see ivsvf, srivc. Standard errors are those of a white equation error, which the filters colour: see
-/// colour_covariance. All inputs of an
+/// color_covariance. All inputs of an
 /// output share a denominator (kPerOutput or kCommon). Memory does not grow with longer records. The fit of the
 /// simulation is not measured (measure_simulation does). Throws InvalidArgument for unsuitable data
 /// (check_transfer_data), denominators per channel with several inputs, or free delays. Reference: Young (1981);
@@ -31,13 +31,13 @@ Fit lssvf(const IdData& data, const TransferStructure& structure, const SvfOptio
 void check_carx(const char* method, const TransferStructure& structure);
 
 /// Standard errors of more samples would take far longer than the estimate.
-inline constexpr Index kMostColoured = 200'000;
+inline constexpr Index kMaxColoredSamples = 200'000;
 
 /// Replaces the covariance of an estimate by lssvf or, with `instruments`, by ivsvf, which takes the equation error as
 /// white, by one that takes its colour into account (criteria/estimating_terms.h, statistics/robust_covariance.h):
 /// the filters colour it even where the noise is white. It takes ten times as long as the estimate; records of more
-/// than kMostColoured samples keep the plain one, and a warning says so. data and options as for the estimate.
-void colour_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments);
+/// than kMaxColoredSamples samples keep the plain one, and a warning says so. data and options as for the estimate.
+void color_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments);
 
 /// Adds the warning that lambda lies far from the model's band, with the usual choice.
 void warn_of_cutoff(Fit& estimate, double lambda);

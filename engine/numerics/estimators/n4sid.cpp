@@ -16,7 +16,7 @@ namespace {
 constexpr Index kBlock = 512;  // equations worked on together
 constexpr Index kUsualBlockRows = 15;
 constexpr double kNoSignal = 1e-10;  // of a singular value against the largest
-constexpr int kMostStates = 100;
+constexpr int kMaxStates = 100;
 
 struct Sizes {
     Index n, nu, ny, s;
@@ -36,13 +36,13 @@ bool fits(const IdData& data, Index s) {
     return places(data, s) >= 2 * s * (data.input_count() + data.output_count());
 }
 
-Index chosen_block_rows(const IdData& data, int order, int wanted) {
+Index chosen_block_rows(const IdData& data, int order, int requested) {
     const Index least = order + 1;
-    Index s = wanted > 0 ? wanted : std::max(kUsualBlockRows, 2 * least - 2);
-    if (wanted > 0 && wanted < least)
+    Index s = requested > 0 ? requested : std::max(kUsualBlockRows, 2 * least - 2);
+    if (requested > 0 && requested < least)
         throw InvalidArgument("n4sid: {} must be greater than the order, {}, but is {}", OptionName{"block_rows"},
-                              order, wanted);
-    while (wanted == 0 && s > least && !fits(data, s)) --s;
+                              order, requested);
+    while (requested == 0 && s > least && !fits(data, s)) --s;
     if (fits(data, s)) return s;
     throw InvalidArgument(
         "n4sid: the {} samples of the data are too few for order {} and {} block rows: they give {} equations for {} "
@@ -249,8 +249,8 @@ void SubspaceOptions::validate() const {
 
 SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options) {
     options.validate();
-    if (order < 1 || order > kMostStates)
-        throw InvalidArgument("n4sid: the order, a number of states, must be between 1 and {}, but is {}", kMostStates,
+    if (order < 1 || order > kMaxStates)
+        throw InvalidArgument("n4sid: the order, a number of states, must be between 1 and {}, but is {}", kMaxStates,
                               order);
     check_sampled_data("n4sid", data);
     const Sizes sizes{order, data.input_count(), data.output_count(),

@@ -6,8 +6,8 @@
 namespace dynlab::inline numerics {
 
 Fit oe(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
-    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
-        return fit_discrete_output("oe", seen, orders, wanted, output_error_search(wanted));
+    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& requested) {
+        return fit_discrete_output("oe", seen, orders, requested, output_error_search(requested));
     });
 }
 

@@ -31,11 +31,11 @@ struct ProcessProblem {
     const FitOptions& options;
     Vector likely_delays = {};  // s
 
-    /// With an estimated start the first `unheard` seconds do not count (fit/transfer_refinement.h).
-    TransferOutput output(const IdData& data, const StartCondition& condition, double unheard = 0) const {
+    /// With an estimated start the first `masked_seconds` seconds do not count (fit/transfer_refinement.h).
+    TransferOutput output(const IdData& data, const StartCondition& condition, double masked_seconds = 0) const {
         TransferOutput model(transfer_structure(structure), condition, data, range.least, range.largest,
                              at_rest(structure));
-        if (condition.state == InitialState::kEstimate) model.leave_out(unheard);
+        if (condition.state == InitialState::kEstimate) model.mask_start(masked_seconds);
         return model;
     }
     Index value_count(const IdData& data, const StartCondition& condition) const {
@@ -51,7 +51,8 @@ struct ProcessProblem {
             structure.underdamped ? response_peaks(data, kMostResonances) : std::vector<double>();
         return Vector::Map(peaks.data(), static_cast<Index>(peaks.size()));
     }
-    Fit fit(const IdData& data, const StartCondition& condition, const Fit* start = nullptr, double unheard = 0) const;
+    Fit fit(const IdData& data, const StartCondition& condition, const Fit* start = nullptr,
+            double masked_seconds = 0) const;
     Fit best_fit(const IdData& data, const std::vector<StartCondition>& conditions,
                  const std::vector<Fit>& starts = {}) const;
 };
@@ -94,8 +95,9 @@ std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStru
 }
 
 /// The search under one start condition, from the best points of a grid unless a start is given.
-Fit ProcessProblem::fit(const IdData& data, const StartCondition& condition, const Fit* start, double unheard) const {
-    const TransferOutput model = output(data, condition, unheard);
+Fit ProcessProblem::fit(const IdData& data, const StartCondition& condition, const Fit* start,
+                        double masked_seconds) const {
+    const TransferOutput model = output(data, condition, masked_seconds);
     const Vector y = model.target(), seconds = process_seconds(structure, model);
     ProcessScan scan;
     if (start != nullptr)
@@ -103,7 +105,7 @@ Fit ProcessProblem::fit(const IdData& data, const StartCondition& condition, con
     else
         scan = scan_process_grid(structure, model, options.delay_count, likely_delays / model.time_unit(),
                                  resonances(data) * model.time_unit());
-    Fit fit = minimise_output_error(process_output(structure, model), y, scan.starts, options);
+    Fit fit = minimize_output_error(process_output(structure, model), y, scan.starts, options);
     keep_parameters(fit, model, condition, seconds);
     const double squares = fit.loss * static_cast<double>(model.sample_count());
     fit.fit_percent = Vector::Constant(1, fit_percent_of_sums(squares, counted_variations(model)[0]));
@@ -168,8 +170,8 @@ Vector likely_delays(const IdData& data, const ProcessProblem& problem) {
     const double spacing = (problem.range.largest - problem.range.least) / problem.options.delay_count;
     if (!problem.structure.delay || spacing <= kFineGrid * data.mean_step()) return {};
     const TransferStructure transfer = transfer_structure(problem.structure);
-    const CentredData centred = without_operating_points(data);
-    const DelayScan scan = scan_delays(centred.data, transfer, problem.options);
+    const CenteredData centered = without_operating_points(data);
+    const DelayScan scan = scan_delays(centered.data, transfer, problem.options);
     Vector delays(scan.starts.size());
     for (std::size_t i = 0; i < scan.starts.size(); ++i)
         delays[static_cast<Index>(i)] = transfer.delay(scan.starts[i], 0, 0);
@@ -203,11 +205,11 @@ Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vect
 }
 
 /// With an estimated start: without the beginning in which inputs from before the record still arrive.
-Fit without_unheard_inputs(const ProcessProblem& problem, const IdData& data, Fit fit) {
+Fit without_masked_inputs(const ProcessProblem& problem, const IdData& data, Fit fit) {
     if (!problem.structure.delay) return fit;
-    const double unheard = unheard_beginning(fit.start, fit.theta[fit.theta.size() - 1], data);
-    if (unheard == 0) return fit;
-    Fit next = problem.fit(data, fit.start, &fit, unheard);
+    const double masked_seconds = masked_start(fit.start, fit.theta[fit.theta.size() - 1], data);
+    if (masked_seconds == 0) return fit;
+    Fit next = problem.fit(data, fit.start, &fit, masked_seconds);
     next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
     return next;
 }
@@ -296,7 +298,7 @@ void warn_of_undetermined(Fit& fit, const IdData& data, const FitOptions& option
 }
 
 /// The simulated output of all experiments, its operating points included.
-Vector simulated(const Fit& fit, const ProcessProblem& problem, const CentredData& record) {
+Vector simulated(const Fit& fit, const ProcessProblem& problem, const CenteredData& record) {
     const TransferOutput model = problem.output(record.data, fit.start);
     const Vector seconds = process_seconds(problem.structure, model);
     Vector output = process_output(problem.structure, model).output_at(search_point(fit, model, seconds));
@@ -310,7 +312,7 @@ Vector simulated(const Fit& fit, const ProcessProblem& problem, const CentredDat
 Fit procsrivc(const IdData& data, const ProcessStructure& structure, const ProcsrivcOptions& options) {
     options.validate();
     check_process_data(data);
-    const CentredData record = centred_for(data, options.offset);
+    const CenteredData record = centered_for(data, options.offset);
     const ProcessProblem problem{structure, delay_range(data, options), options};
     const auto conditions = conditions_for(record.data, structure, options);
     const Index values = problem.value_count(data, conditions[0]), fewest = kSamplesPerProcessParameter * values;
@@ -318,7 +320,7 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
         throw InvalidArgument("procsrivc: at least {} samples are needed for {} values, but the data have {}", fewest,
                               values, data.sample_count());
     Fit fit = best_fit_to_long(problem, record.data, conditions);
-    fit = without_unheard_inputs(problem, record.data, std::move(fit));
+    fit = without_masked_inputs(problem, record.data, std::move(fit));
     set_process(fit, structure);
     fit.output = simulated(fit, problem, record);
     add_operating_points(fit, record.removed);

@@ -32,10 +32,10 @@ void check(const IdData& data, const NoiseOrders& orders, const TransferStructur
             "rivc: exactly one output is required, because each output has its own noise model, but the data have {}: "
             "select one output at a time",
             data.output_count());
-    const Index wanted = 3 * (structure.parameter_count() + orders.nc + orders.nd);
-    if (data.sample_count() < wanted)
+    const Index requested = 3 * (structure.parameter_count() + orders.nc + orders.nd);
+    if (data.sample_count() < requested)
         throw InvalidArgument("rivc: at least {} samples are needed for the model and its noise, but the data have {}",
-                              wanted, data.sample_count());
+                              requested, data.sample_count());
 }
 
 /// The simulated output of all experiments and its sensitivities, filtered by D/C.
@@ -172,7 +172,7 @@ class Passes {
                                 : estimate_arma(residual_records(), orders_.nc, orders_.nd, tolerance,
                                                 noise_known ? &before : nullptr);
         const WhitenedOutput whitened_output(model_, noise_, y_);
-        solution_ = minimise_output_error(whitened_output, whitened_output.target(), theta_,
+        solution_ = minimize_output_error(whitened_output, whitened_output.target(), theta_,
                                           options_.limited(options_.max_iterations, tolerance));
         const Vector last = theta_;
         theta_ = solution_.theta;
@@ -261,23 +261,23 @@ Fit rivc_fit(const IdData& data, const TransferStructure& structure, const Noise
              const FitOptions& options) {
     check_transfer_data("rivc", data, structure, options.offset);
     const Fit start = srivc(data, structure, options);
-    FitOptions wanted = options;
-    if (structure.free_delays && !wanted.largest_delay)
-        wanted.largest_delay = start.delay_grid[start.delay_grid.size() - 1];
-    const DelayRange range = structure.free_delays ? delay_range(data, wanted) : DelayRange{};
-    const CentredData centred = centred_for(data, options.offset);
-    TransferOutput model(structure, start.start, centred.data, range.least, range.largest);
-    model.leave_out(unheard_beginning(start, centred.data));
-    const Passes passes = best_passes(centred.data, model, start, range, orders, wanted);
+    FitOptions requested = options;
+    if (structure.free_delays && !requested.largest_delay)
+        requested.largest_delay = start.delay_grid[start.delay_grid.size() - 1];
+    const DelayRange range = structure.free_delays ? delay_range(data, requested) : DelayRange{};
+    const CenteredData centered = centered_for(data, options.offset);
+    TransferOutput model(structure, start.start, centered.data, range.least, range.largest);
+    model.mask_start(masked_start(start, centered.data));
+    const Passes passes = best_passes(centered.data, model, start, range, orders, requested);
     Fit result = passes.fit(start.start);
     result.structure = structure;
     result.fit_percent = Vector::Constant(
         1, fit_percent_of_sums(result.loss * static_cast<double>(model.sample_count()), counted_variations(model)[0]));
-    if (options.offset == Offset::kRemove) add_operating_points(result, centred.removed);
+    if (options.offset == Offset::kRemove) add_operating_points(result, centered.removed);
     result.delay_grid = start.delay_grid;
     result.delay_loss = start.delay_loss;
     fill_noise(result, passes, orders, data);
-    describe_search(result, data, wanted, range);
+    describe_search(result, data, requested, range);
     result.message = has_settled(result)
                          ? Message("RIVC converged after {}, simulated {}: {}.", iteration_count(result),
                                    description(result.start), simulation_text(result))
@@ -297,9 +297,9 @@ void NoiseOrders::validate() const {
 Fit rivc(const IdData& data, const TransferStructure& structure, const NoiseOrders& orders, const FitOptions& options) {
     options.validate();
     check(data, orders, structure);
-    return finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+    return finished_fit(data, options, [&](const IdData& seen, const FitOptions& requested) {
         const auto fit_with = [&](const FitOptions& how) { return rivc_fit(seen, structure, orders, how); };
-        return best_predicting_start(fit_with(wanted), wanted, fit_with);
+        return best_predicting_start(fit_with(requested), requested, fit_with);
     });
 }
 

@@ -6,10 +6,10 @@
 namespace dynlab::inline numerics {
 
 Fit sriv(const IdData& data, const PolynomialOrders& orders, const FitOptions& options) {
-    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
-        return fit_discrete_output("sriv", seen, orders, wanted, [&](const DiscreteOutput& model, const Vector& y) {
-            return iterate_instruments(model, y, instrument_start(model, y, wanted.cancel), wanted.max_iterations,
-                                       wanted.tolerance, wanted.cancel);
+    return finished_discrete_fit(data, options, [&](const IdData& seen, const FitOptions& requested) {
+        return fit_discrete_output("sriv", seen, orders, requested, [&](const DiscreteOutput& model, const Vector& y) {
+            return iterate_instruments(model, y, instrument_start(model, y, requested.cancel), requested.max_iterations,
+                                       requested.tolerance, requested.cancel);
         });
     });
 }

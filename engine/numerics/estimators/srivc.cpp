@@ -132,9 +132,9 @@ std::optional<double> typical_frequency(const Fit& estimate) {
 /// Whether a poorer structure has a loss hardly larger or smaller, by its known fit or by passes on the beginning of a
 /// long record: then the passes may have ended in a bad minimum.
 bool gains_nothing(const Fit& estimate, const IdData& data, const FitOptions& options,
-                   const std::vector<const Fit*>& poorer) {
+                   const std::vector<const Fit*>& lower_order) {
     const auto hardly_larger = [&](const Fit* fit) { return fit->loss < (1 + kNoGain) * estimate.loss; };
-    if (!poorer.empty()) return std::any_of(poorer.begin(), poorer.end(), hardly_larger);
+    if (!lower_order.empty()) return std::any_of(lower_order.begin(), lower_order.end(), hardly_larger);
     if (estimate.theta.size() < kFewestToCompare) return false;
     const bool whole = data.sample_count() <= 2 * kComparedSamples;
     const IdData part = whole ? IdData() : beginning_of(data, kComparedSamples);
@@ -163,7 +163,7 @@ bool leaves_dynamics(const Fit& estimate, const IdData& data) {
 Fit search_where_passes_fail(Fit estimate, const IdData& data, const FitOptions& options, const SearchAids& aids) {
     const bool settled = estimate.termination == Termination::kConverged;
     const bool poor = !(estimate.fit_percent.minCoeff() > kPoorFit);
-    if (!settled || poor || leaves_dynamics(estimate, data) || gains_nothing(estimate, data, options, aids.poorer))
+    if (!settled || poor || leaves_dynamics(estimate, data) || gains_nothing(estimate, data, options, aids.lower_order))
         return better_by_search(std::move(estimate), data, options, aids);
     check_transient("srivc", data, estimate, estimate.theta.size());
     return estimate;
@@ -180,18 +180,18 @@ bool srivc_passes_suffice(const TransferStructure& structure, const FitOptions& 
 
 Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptions& options, const SearchAids& aids) {
     options.validate();
-    return finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
-        const FitOptions plain = start_is_open(wanted) ? wanted.from_rest() : wanted;
+    return finished_fit(data, options, [&](const IdData& seen, const FitOptions& requested) {
+        const FitOptions plain = start_is_open(requested) ? requested.from_rest() : requested;
         if (!srivc_passes_suffice(structure, plain) || aids.start.size() > 0)
-            return search_with_chosen_start("srivc", seen, structure, wanted, aids);
+            return search_with_chosen_start("srivc", seen, structure, requested, aids);
         const auto passes = [&](const FitOptions& how) { return srivc_by_passes(seen, structure, how); };
         const auto finish = [&](Fit estimate, const FitOptions& how) {
             if (estimate.termination == Termination::kCancelled) return estimate;
             return search_where_passes_fail(std::move(estimate), seen, how, aids);
         };
-        if (!start_is_open(wanted)) return finish(passes(wanted), wanted);
+        if (!start_is_open(requested)) return finish(passes(requested), requested);
         const auto search = [&](const FitOptions& how) { return search_transfer("srivc", seen, structure, how, aids); };
-        return with_chosen_start(seen, wanted, {passes, finish, search});
+        return with_chosen_start(seen, requested, {passes, finish, search});
     });
 }
 

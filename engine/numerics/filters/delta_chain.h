@@ -5,7 +5,7 @@
 
 namespace dynlab::inline numerics {
 
-constexpr int kMostDeltaOrder = 9;
+constexpr int kMaxDeltaOrder = 9;
 
 /// A signal v filtered by 1/A(delta) with the operator delta = q - 1 (Middleton and Goodwin 1990), and the differences
 /// of what comes out: the columns
@@ -15,14 +15,14 @@ constexpr int kMostDeltaOrder = 9;
 /// v is zero before the sample `begin` of the record, at which `start` is added to the state, and after `count`
 /// samples.
 struct DeltaChain {
-    int order = 0;  ///< n <= kMostDeltaOrder
-    std::array<double, kMostDeltaOrder> alpha = {}, start = {};
+    int order = 0;  ///< n <= kMaxDeltaOrder
+    std::array<double, kMaxDeltaOrder> alpha = {}, start = {};
     const double* samples = nullptr;
     Index begin = 0, count = 0;
 };
 
 /// Largest matrix of products of two chains' columns, without memory of its own on the heap.
-using ColumnMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostDeltaOrder + 1, kMostDeltaOrder + 1>;
+using ColumnMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxDeltaOrder + 1, kMaxDeltaOrder + 1>;
 
 /// Steps without a signal after which less than rounding is left of any state, whatever its size in units of the
 /// chain's mean pole; an eighth too many at most. `most` where it would be as many.

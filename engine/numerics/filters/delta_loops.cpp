@@ -107,17 +107,17 @@ void filter_loop(const DeltaChain& first, const DeltaChain& second, const Segmen
 /// Those that regressions with one to four poles need: an output (or a signal as it is) beside an input, whose order is
 /// that of the model, or twice as much for its sensitivities, and one more for a delay between samples with inputs on
 /// straight lines, which always have the highest column; and inputs beside each other.
-DeltaLoops delta_loops(int order1, int order2, WantedProducts wanted) {
+DeltaLoops delta_loops(int order1, int order2, RequestedProducts requested) {
     constexpr std::true_type yes;
     constexpr std::false_type no;
     DeltaLoops loops;
     const auto pair = [&](auto n1, auto n2, auto first, auto without_highest) {
-        if (order1 != n1 || order2 != n2 || (wanted.first && !first)) return;
+        if (order1 != n1 || order2 != n2 || (requested.first && !first)) return;
         loops.filter = filter_loop<n1, n2>;
         loops.sum = sum_loop<n1, n2, first, n2 + 1>;
         loops.summed = {first, true};
         if constexpr (without_highest) {
-            if (wanted.highest) return;
+            if (requested.highest) return;
             loops.sum = sum_loop<n1, n2, first, n2>;
             loops.summed.highest = false;
         }

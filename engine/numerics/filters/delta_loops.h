@@ -16,7 +16,7 @@ constexpr int kDeltaLanes = Lanes::kWidth;
 
 /// What both chains have come to, in all lanes.
 struct DeltaState {
-    Lanes::Part first[kMostDeltaOrder], second[kMostDeltaOrder];
+    Lanes::Part first[kMaxDeltaOrder], second[kMaxDeltaOrder];
 
     void set_zero(int n1, int n2) {
         std::fill_n(first, n1, Lanes::Part{});
@@ -25,7 +25,7 @@ struct DeltaState {
 };
 /// The products that are summed while filtering.
 struct DeltaSums {
-    Lanes::Part first[kMostDeltaOrder + 1], both[2 * kMostDeltaOrder + 1], second[kMostDeltaOrder + 1];
+    Lanes::Part first[kMaxDeltaOrder + 1], both[2 * kMaxDeltaOrder + 1], second[kMaxDeltaOrder + 1];
 
     void set_zero(int n1, int n2) {
         std::fill_n(first, n1 + 1, Lanes::Part{});
@@ -55,10 +55,10 @@ using FilterLoop = void (*)(const DeltaChain&, const DeltaChain&, const SegmentS
 struct DeltaLoops {
     FilterLoop filter = nullptr;
     SumLoop sum = nullptr;
-    WantedProducts summed;  ///< all that are wanted, if not more
+    RequestedProducts summed;  ///< all that are wanted, if not more
 };
 
 /// Null pointers for orders that have no loop, or none that sums what is wanted.
-DeltaLoops delta_loops(int order1, int order2, WantedProducts wanted);
+DeltaLoops delta_loops(int order1, int order2, RequestedProducts requested);
 
 }  // namespace dynlab::inline numerics

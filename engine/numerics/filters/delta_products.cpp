@@ -33,14 +33,14 @@ class FreeMotion {
     DeltaState& first_units() { return columns_[0]; }
     /// After a run from rest over the end of the segments, each lane's last state is where the next one begins.
     void hand_over(DeltaState& state) const {
-        repeat<kMostDeltaOrder>([&](auto i) {
+        repeat<kMaxDeltaOrder>([&](auto i) {
             if (first_.order == i + 1) hand_over<i + 1>(&DeltaState::first, state.first);
             if (second_.order == i + 1) hand_over<i + 1>(&DeltaState::second, state.second);
         });
     }
 
   private:
-    static constexpr int kParts = (kMostDeltaOrder + kDeltaLanes - 1) / kDeltaLanes;
+    static constexpr int kParts = (kMaxDeltaOrder + kDeltaLanes - 1) / kDeltaLanes;
 
     void set_units(int part) {
         DeltaState& state = columns_[part];
@@ -60,7 +60,7 @@ class FreeMotion {
             loops_.filter(first_, second_, nothing, nothing, std::min(segment_ - k, kDeltaBlock), rest, free);
     }
     template <int n>
-    void hand_over(Part (DeltaState::*own)[kMostDeltaOrder], Part* state) const {
+    void hand_over(Part (DeltaState::*own)[kMaxDeltaOrder], Part* state) const {
         double motion[n][n] = {}, x[n] = {};
         if (back_ == segment_)
             for (int i = 0; i < n; ++i)
@@ -160,8 +160,8 @@ class Growth {
 
   private:
     int n1_, n2_;
-    Part both_[kMostDeltaOrder][kMostDeltaOrder], first_[kMostDeltaOrder][kMostDeltaOrder],
-        second_[kMostDeltaOrder][kMostDeltaOrder];
+    Part both_[kMaxDeltaOrder][kMaxDeltaOrder], first_[kMaxDeltaOrder][kMaxDeltaOrder],
+        second_[kMaxDeltaOrder][kMaxDeltaOrder];
 };
 
 class DeltaRun {
@@ -290,8 +290,8 @@ class DeltaRun {
 }  // namespace
 
 std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N,
-                                            WantedProducts wanted) {
-    const DeltaLoops loops = delta_loops(first.order, second.order, wanted);
+                                            RequestedProducts requested) {
+    const DeltaLoops loops = delta_loops(first.order, second.order, requested);
     if (!loops.sum || N < kDeltaLanes * kShortestDeltaSegment) return {};
     std::optional<DeltaProducts> products(std::in_place);
     DeltaRun(first, second, loops, N).run(*products);

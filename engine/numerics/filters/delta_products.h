@@ -12,7 +12,7 @@ struct DeltaProducts {
     ColumnMatrix second;  ///< (n2+1) x (n2+1)
 };
 /// Products that need not be summed, but may be where that saves a loop.
-struct WantedProducts {
+struct RequestedProducts {
     bool first = true;    ///< those of the first chain's columns among themselves
     bool highest = true;  ///< those with W_n2 of the second chain; `both` and `second` may lack that column otherwise
 };
@@ -26,6 +26,6 @@ struct WantedProducts {
 /// side in the lanes of a machine vector. Nothing for a pair of orders that has no loop of its own
 /// (delta_loops.cpp), or a short record.
 std::optional<DeltaProducts> delta_products(const DeltaChain& first, const DeltaChain& second, Index N,
-                                            WantedProducts wanted = {});
+                                            RequestedProducts requested = {});
 
 }  // namespace dynlab::inline numerics

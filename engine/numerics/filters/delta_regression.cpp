@@ -157,7 +157,7 @@ class DeltaSignals {
              Matrix& total) const {
         const DeltaSignal &L = signals_[left], &R = signals_[right];
         const Index columns = products.rows();
-        double weighted[kMostDeltaOrder + 1];
+        double weighted[kMaxDeltaOrder + 1];
         for (int j = 0; j < R.count; ++j) {
             for (Index a = 0; a < columns; ++a) {
                 double sum = 0;
@@ -235,8 +235,8 @@ bool needs_longer(const RegressionRecord& record) {
 
 /// Models whose chains have loops.
 bool has_loops(const VectorView& den) {
-    constexpr Index kMostPoles = 4;
-    return den.size() > 1 && den.size() - 1 <= kMostPoles;
+    constexpr Index kMaxPoles = 4;
+    return den.size() > 1 && den.size() - 1 <= kMaxPoles;
 }
 
 void append_range(std::vector<Index>& places, Index first, Index count) {

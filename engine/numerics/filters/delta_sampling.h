@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 // Continuous-time systems as delta chains, exactly for held inputs (zoh) and inputs on straight lines (foh), with any
 // delay (s). Sampling must not take longer than a short record: nothing here is on the heap.
 
-constexpr int kMostDeltaOutputs = kMostDeltaOrder;
+constexpr int kMaxDeltaOutputs = kMaxDeltaOrder;
 
 /// dx/dt = A x + [1; 0; ..] u of n <= 4 poles, in `room` for all states: the companion form of 1/den, or (`twice`) two
 /// of them in a row, the second one driven by the last state of the first. With the step over a sampling interval:
@@ -32,15 +32,15 @@ struct SampledFilter {
 template <int room>
 struct StateOutputs {
     int count = 0;
-    StateVector<room> C[kMostDeltaOutputs];
-    double D[kMostDeltaOutputs] = {};
+    StateVector<room> C[kMaxDeltaOutputs];
+    double D[kMaxDeltaOutputs] = {};
 };
 
 /// A signal's chain, and outputs as combinations of its columns.
 struct DeltaSignal {
     DeltaChain chain;
     int count = 0;
-    double outputs[kMostDeltaOutputs][kMostDeltaOrder + 1] = {};
+    double outputs[kMaxDeltaOutputs][kMaxDeltaOrder + 1] = {};
 
     /// Whether the chain's last column is part of any output.
     bool sees_highest() const {

@@ -7,13 +7,13 @@ namespace dynlab::inline numerics {
 /// State-variable filters 1/A and cascades B/A, 1/A whose coefficients may change at every sample: a step is exact for
 /// a signal on a straight line (or held), by Taylor's series of the motion itself (Al-Mohy and Higham 2011), without
 /// a matrix exponential. A state holds p^(n-1) v_f, ..., p v_f, v_f, which keep their meaning when A changes.
-inline constexpr int kMostEvolvingPoles = 8;
+inline constexpr int kMaxEvolvingPoles = 8;
 
 /// A = p^n + a_1 p^(n-1) + ... and B = b_0 p^m + ..., m <= n.
 struct EvolvingModel {
     int n = 0, m = 0;
-    std::array<double, kMostEvolvingPoles> a{};
-    std::array<double, kMostEvolvingPoles + 1> b{};
+    std::array<double, kMaxEvolvingPoles> a{};
+    std::array<double, kMaxEvolvingPoles + 1> b{};
 
     /// `theta` = [a_1..a_n b_0..b_m].
     void set(const double* theta) {
@@ -22,7 +22,7 @@ struct EvolvingModel {
     }
 };
 
-using EvolvingState = std::array<double, kMostEvolvingPoles>;
+using EvolvingState = std::array<double, kMaxEvolvingPoles>;
 
 /// The number of equal pieces in which a step h is gone so that the series converge quickly without cancellation:
 /// sum_i |a_i| (h/pieces)^i <= 1. More than `most`: 0.
@@ -60,7 +60,7 @@ double filtered_numerator(const EvolvingModel& model, const EvolvingState& state
 namespace evolving {
 
 inline constexpr double kNegligible = 1e-16;
-inline constexpr int kMostTerms = 40;
+inline constexpr int kMaxTerms = 40;
 
 /// Adds a term of a series to a state; whether it still counts.
 template <int kOrder>
@@ -93,7 +93,7 @@ void advance_filter(const EvolvingModel& model, EvolvingState& state, double fro
     evolving::add_term<kOrder>(model.n, term, state);
     term = evolving::next_term<kOrder>(model, term, to - from, h / 2);
     const int n = kOrder > 0 ? kOrder : model.n;
-    for (int k = 3; (evolving::add_term<kOrder>(model.n, term, state) || k <= n + 1) && k < evolving::kMostTerms; ++k)
+    for (int k = 3; (evolving::add_term<kOrder>(model.n, term, state) || k <= n + 1) && k < evolving::kMaxTerms; ++k)
         term = evolving::next_term<kOrder>(model, term, 0, h / k);
 }
 
@@ -112,7 +112,7 @@ void advance_cascade(const EvolvingModel& model, EvolvingState& alone, StraightS
     EvolvingState other = alone, term = first, behind = second;
     const int n = kOrder > 0 ? kOrder : model.n;
     bool counts = true;
-    for (int k = 1; (counts || k <= 2 * n + 2) && k < evolving::kMostTerms; ++k) {
+    for (int k = 1; (counts || k <= 2 * n + 2) && k < evolving::kMaxTerms; ++k) {
         const double rate = h / k;
         behind = evolving::next_term<kOrder>(model, behind, filtered_numerator<kOrder>(model, term, v.part(k)), rate);
         term = evolving::next_term<kOrder>(model, term, v.part(k), rate);

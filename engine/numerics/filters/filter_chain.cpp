@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 SampledSystem sampled(const SingleInputSystem& system, double Ts, Hold hold, double delay) {
-    return discretise(system.A, system.B, system.C, system.D, Ts, hold, delay);
+    return discretize(system.A, system.B, system.C, system.D, Ts, hold, delay);
 }
 
 /// `second`, which has no delay, driven by the first output of `first`. Its input v begins with the delayed signal and

@@ -33,7 +33,7 @@ SingleInputSystem response_system(const VectorView& num, const VectorView& den) 
 }
 
 Matrix run(const SingleInputSystem& system, double delay, const VectorView& u, double Ts, Hold hold) {
-    return ExactFilter(discretise(system.A, system.B, system.C, system.D, Ts, hold, delay)).run(u);
+    return ExactFilter(discretize(system.A, system.B, system.C, system.D, Ts, hold, delay)).run(u);
 }
 
 Matrix run(const SingleInputSystem& system, double delay, const VectorView& u, const VectorView& t, Hold hold) {

@@ -314,7 +314,7 @@ Assessment assess(const IdData& data, const Fit& fit, const ResidualOptions& opt
 
 std::optional<Assessment> assess_if_affordable(const IdData& data, const Fit& fit) {
     if (fit.termination == Termination::kCancelled || fit.covariance.rows() != fit.theta.size()) return std::nullopt;
-    if (!fit.process && data.sample_count() > kMostAssessed) return std::nullopt;
+    if (!fit.process && data.sample_count() > kMaxAssessedSamples) return std::nullopt;
     if (fit.polynomial && !fit.covariance.allFinite()) return std::nullopt;
     try {
         return assess(data, fit);

@@ -34,7 +34,7 @@ struct Assessment {
 Assessment assess(const IdData& data, const Fit& fit, const ResidualOptions& options = {});
 
 /// Samples: robust errors of longer records would take longer than the fit, but for process models.
-inline constexpr Index kMostAssessed = 200'000;
+inline constexpr Index kMaxAssessedSamples = 200'000;
 /// The assessment of a fit where it costs little beside it and has a meaning. Nothing for longer records, for cancelled
 /// fits and those without a covariance, for difference equations without finite standard errors, and for models whose
 /// output grows beyond all bounds.

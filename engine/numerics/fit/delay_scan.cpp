@@ -158,11 +158,11 @@ class DelayCurve {
     }
 
     /// Fits at a delay from a neighbour's solution (if there is such a point), from a filtered start where wanted.
-    void improve(std::size_t i, std::size_t neighbour, bool fresh) {
+    void improve(std::size_t i, std::size_t neighbor, bool fresh) {
         if (options_.cancel && options_.cancel()) return;
         structure_.channels[channel_].delay = points_[i].delay;
-        const bool known = neighbour < points_.size() && std::isfinite(points_[neighbour].loss);
-        if (known) try_start(points_[i], Vector(points_[neighbour].theta));
+        const bool known = neighbor < points_.size() && std::isfinite(points_[neighbor].loss);
+        if (known) try_start(points_[i], Vector(points_[neighbor].theta));
         if (fresh || !std::isfinite(points_[i].loss))
             try_start(points_[i], first_estimate(data_, structure_, options_));
     }
@@ -276,12 +276,12 @@ TransferStructure with_delays_of(const TransferStructure& structure, const Vecto
 }
 
 double likely_largest_delay(const IdData& data) {
-    constexpr Index kFewest = 10;
+    constexpr Index kMinCount = 10;
     constexpr double kMargin = 1.5, kNearlyPeak = 0.9;
     const double quarter = shortest_record(data) / 4;
     Index lags = std::numeric_limits<Index>::max();
     for (const Experiment& experiment : data.experiments) lags = std::min(lags, experiment.y.rows() / 4);
-    Index furthest = kFewest;
+    Index furthest = kMinCount;
     for (Index output = 0; output < data.output_count(); ++output)
         for (Index input = 0; input < data.input_count(); ++input) {
             Vector products = Vector::Zero(2 * lags + 1);

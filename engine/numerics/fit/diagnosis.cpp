@@ -62,10 +62,10 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
                               plural(structure.inputs, "{} input", "{} inputs"),
                               plural(structure.outputs, "{} output", "{} outputs"), data.input_count(),
                               data.output_count());
-    const Index wanted = kSamplesPerParameter * structure.parameter_count();
-    if (data.sample_count() < wanted)
+    const Index requested = kSamplesPerParameter * structure.parameter_count();
+    if (data.sample_count() < requested)
         throw InvalidArgument("{}: at least {} samples are needed for {} parameters, but the data have {}", method,
-                              wanted, structure.parameter_count(), data.sample_count());
+                              requested, structure.parameter_count(), data.sample_count());
     for (const TransferChannel& channel : structure.channels)
         for (std::size_t e = 0; e < data.experiments.size(); ++e)
             if (channel.delay >= data.duration(e))

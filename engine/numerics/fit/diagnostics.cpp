@@ -24,7 +24,7 @@ class SeenData {
     bool is_integrated_ = false;
 };
 
-std::optional<MissedStructure> missed_by(const Fit& fit, const IdData& data, const FitOptions& options) {
+std::optional<StructureAdvice> missed_by(const Fit& fit, const IdData& data, const FitOptions& options) {
     if (fit.polynomial || fit.process || (fit.noise && options.integration)) return std::nullopt;
     return missed_structure(SeenData(fit, data, options).get(), fit, options);
 }

@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 
 /// What speaks against a fit, as data. Estimators do not compute it: diagnose() does, when it is read.
 struct Diagnostics {
-    std::optional<MissedStructure> missed = {};
+    std::optional<StructureAdvice> missed = {};
     /// Whether its errors are white, and robust standard errors; none for long records (fit/assessment.h), and for fits
     /// with a model of their noise (rivc).
     std::shared_ptr<const Assessment> assessment = {};
@@ -33,12 +33,12 @@ class DeferredDiagnostics {
     /// As diagnose() takes them; `data` must not change any more. They are kept until all is computed.
     DeferredDiagnostics(Fit fit, std::shared_ptr<const IdData> data, FitOptions options);
 
-    const std::optional<MissedStructure>& missed() const { return missed_.get(); }
+    const std::optional<StructureAdvice>& missed() const { return missed_.get(); }
     std::shared_ptr<const Assessment> assessment() const { return assessment_.get(); }
     Diagnostics all() const { return {missed(), assessment()}; }
 
   private:
-    Deferred<std::optional<MissedStructure>> missed_;
+    Deferred<std::optional<StructureAdvice>> missed_;
     Deferred<std::shared_ptr<const Assessment>> assessment_;
 };
 

@@ -51,10 +51,10 @@ Sums sums_of_squares(const IdData& data, const ArxEquations& equations, const Fi
 /// Simulation fit of the same equations about the operating point, where it is much better than that of the data as
 /// they are: a difference equation goes through the origin.
 std::optional<double> better_without_means(const IdData& data, const Fit& estimate) {
-    const IdData centred = without_operating_points(data).data;
-    const ArxEquations equations(centred, *estimate.orders);
+    const IdData centered = without_operating_points(data).data;
+    const ArxEquations equations(centered, *estimate.orders);
     const Fit about = polynomial_fit(*estimate.orders, solve_arx(equations).theta, data.Ts);
-    const Sums sums = sums_of_squares(centred, equations, about);
+    const Sums sums = sums_of_squares(centered, equations, about);
     const double fit = fit_percent_of_sums(sums.simulation_error, sums.variation);
     return fit > estimate.fit_percent[0] + kWorse ? std::optional(fit) : std::nullopt;
 }

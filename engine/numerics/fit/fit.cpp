@@ -60,7 +60,7 @@ FitOptions FitOptions::started(const StartCondition& condition) const {
 FitOptions FitOptions::limited(int iterations, double limit) const {
     FitOptions other = *this;
     other.max_iterations = iterations;
-    other.goes_on = false;
+    other.extend_iterations = false;
     other.tolerance = limit;
     return other;
 }

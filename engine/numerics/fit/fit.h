@@ -43,10 +43,10 @@ struct FitOptions {
     std::optional<double> largest_delay;  ///< s; from the data unless given
     int delay_count = 100;                ///< most delays on the grid between the two
     int max_iterations = 50;
-    bool goes_on = true;           ///< a search that has not settled then, up to 500 iterations
-    double tolerance = 1e-6;       ///< on the largest relative parameter change, made or still to come
-    std::optional<double> lambda;  ///< rad/s, cut-off of the filter of the first estimate; several are tried without
-    Hold hold_y = Hold::kFoh;      ///< how the output behaves between its samples inside the filters
+    bool extend_iterations = true;  ///< a search that has not settled then, up to 500 iterations
+    double tolerance = 1e-6;        ///< on the largest relative parameter change, made or still to come
+    std::optional<double> lambda;   ///< rad/s, cut-off of the filter of the first estimate; several are tried without
+    Hold hold_y = Hold::kFoh;       ///< how the output behaves between its samples inside the filters
     /// Searches: true keeps to models with all poles in the left half plane; without, an unstable one is given only
     /// where it is clearly better; false gives whatever has the smallest loss.
     std::optional<bool> stable;

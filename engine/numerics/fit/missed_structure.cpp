@@ -37,7 +37,7 @@ struct Explanation {
     double fit() const { return fit_percent_of_sums(squares, variation); }
 };
 
-bool is_worth_telling(double fit, double better) {
+bool is_worth_reporting(double fit, double better) {
     const double gain = better - fit;
     return gain >= kHalfPoint || gain >= std::max(kLeastPoints, kFairShare * (100 - fit));
 }
@@ -50,7 +50,7 @@ double evidence_for(const Explanation& one, const Explanation& other) {
 
 /// Whether the second is better by more than chance, and by enough.
 bool gains(const Explanation& one, const Explanation& other) {
-    return evidence_for(one, other) > kStrongEvidence && is_worth_telling(one.fit(), other.fit());
+    return evidence_for(one, other) > kStrongEvidence && is_worth_reporting(one.fit(), other.fit());
 }
 
 /// The structure with so many more poles, and the zeros that `zeros_of` gives for the poles and zeros it has.
@@ -164,9 +164,9 @@ double correlation_of_neighbours(const Vector& errors, const TransferOutput& mod
 }
 
 /// Without the first seconds, which do not count.
-Explanation explanation_of(const IdData& record, const Fit& fit, double unheard) {
+Explanation explanation_of(const IdData& record, const Fit& fit, double masked_seconds) {
     TransferOutput model(fit.structure, fit.start, record, 0, shortest_record(record));
-    model.leave_out(unheard);
+    model.mask_start(masked_seconds);
     const Vector errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
     const bool finite = errors.allFinite();
     const double r = finite ? correlation_of_neighbours(errors, model) : 0;
@@ -180,14 +180,12 @@ struct Question {
     const Fit& given;
     const FitOptions& options;
 
-    Explanation explanation(const Fit& fit) const {
-        return explanation_of(record, fit, unheard_beginning(given, record));
-    }
+    Explanation explanation(const Fit& fit) const { return explanation_of(record, fit, masked_start(given, record)); }
 
     /// The search that a user's structure leads to; nothing where the data do not allow it.
     std::optional<Fit> fit_of(const TransferStructure& structure) const {
         FitOptions how = options;
-        how.goes_on = false;  // what settles that late is told apart from the present fit by chance alone
+        how.extend_iterations = false;  // what settles that late is told apart from the present fit by chance alone
         how.integration = false;
         how.fixed.clear();
         how.output_weights.resize(0);
@@ -208,7 +206,7 @@ bool is_direct(const Question& asked, const Explanation& direct) {
     const auto zeros = asked.fit_of(changed(structure, 0, [](int n, int m) { return std::max(m, n - 1); }));
     if (zeros && !gains(asked.explanation(*zeros), direct)) return false;
     const auto pole = asked.fit_of(changed(structure, 1, [](int, int m) { return m + 1; }));
-    if (!pole || is_worth_telling(asked.explanation(*pole).fit(), direct.fit())) return true;
+    if (!pole || is_worth_reporting(asked.explanation(*pole).fit(), direct.fit())) return true;
     double fastest = 0;
     for (const TransferFunction& G : pole->models) fastest = std::max(fastest, G.poles().cwiseAbs().maxCoeff());
     return fastest * asked.record.mean_step() > kFastestPole;
@@ -227,20 +225,20 @@ std::optional<Explanation> without_hold(const Question& asked, const Explanation
     return gains(found, direct) ? std::nullopt : std::optional(found);
 }
 
-using Candidate = std::pair<MissedCode, TransferStructure>;  ///< a structure to try
+using Candidate = std::pair<StructureAdviceCode, TransferStructure>;  ///< a structure to try
 
 std::vector<Candidate> candidates(const IdData& data, const Question& asked) {
     const TransferStructure& structure = asked.given.structure;
     std::vector<Candidate> all;
     if (structure.single_channel() && errors_follow_input(asked.record, asked.given)) {
         if (!structure.free_delays) {
-            all.push_back({MissedCode::kDelay, structure});
+            all.push_back({StructureAdviceCode::kDelay, structure});
             all.back().second.free_delays = true;
         }
-        all.push_back({MissedCode::kPole, changed(structure, 1, [](int, int m) { return m; })});
+        all.push_back({StructureAdviceCode::kPole, changed(structure, 1, [](int, int m) { return m; })});
     }
     if (!asked.options.integration && LookAhead(data, asked.given).promises())
-        all.push_back({MissedCode::kFeedthrough, with_direct_terms(structure)});
+        all.push_back({StructureAdviceCode::kFeedthrough, with_direct_terms(structure)});
     return all;
 }
 
@@ -259,8 +257,8 @@ bool may_miss_line(const Question& asked) {
 }
 
 /// The same structure on other data, where that gains over the present fit with so many more values.
-std::optional<MissedStructure> gain_on(const IdData& data, const Question& asked, const Explanation& present,
-                                       MissedCode code, const char* option, Index more_values) {
+std::optional<StructureAdvice> gain_on(const IdData& data, const Question& asked, const Explanation& present,
+                                       StructureAdviceCode code, const char* option, Index more_values) {
     const Question other{data, asked.given, asked.options};
     const std::optional<Fit> fit = other.fit_of(asked.given.structure);
     if (!fit) return std::nullopt;
@@ -268,44 +266,44 @@ std::optional<MissedStructure> gain_on(const IdData& data, const Question& asked
     found.variation = present.variation;
     found.values += more_values;
     if (!gains(present, found)) return std::nullopt;
-    return MissedStructure{
+    return StructureAdvice{
         .code = code, .option = option, .fit_percent = present.fit(), .better_fit_percent = found.fit()};
 }
 
 /// Whether the same structure does better without the straight lines of input and output.
-std::optional<MissedStructure> missed_line(const Question& asked, const Explanation& present) {
+std::optional<StructureAdvice> missed_line(const Question& asked, const Explanation& present) {
     if (!may_miss_line(asked)) return std::nullopt;
-    return gain_on(detrend(asked.record, TrendKind::kLinear), asked, present, MissedCode::kLine, "detrend",
+    return gain_on(detrend(asked.record, TrendKind::kLinear), asked, present, StructureAdviceCode::kLine, "detrend",
                    2 * static_cast<Index>(asked.record.experiments.size()));
 }
 
 /// Whether it does better with the input one sample earlier.
-std::optional<MissedStructure> missed_shift(const Question& asked, const Explanation& present) {
+std::optional<StructureAdvice> missed_shift(const Question& asked, const Explanation& present) {
     const auto& [record, given, options] = asked;
     if (!given.structure.single_channel() || options.integration || given.models.front().delay() > 0) return {};
     const int poles = given.structure.poles.front();
     if (!errors_follow_input(record, given)) return {};
-    const auto found = gain_on(record.shifted(-1), asked, present, MissedCode::kLate, "shift", 0);
+    const auto found = gain_on(record.shifted(-1), asked, present, StructureAdviceCode::kLate, "shift", 0);
     return found && late_input(record, poles, given.loss) ? found : std::nullopt;  // the quick question first
 }
 
-double value_of(MissedCode code, const Fit& fit) {
-    if (code == MissedCode::kDelay) return fit.models.front().delay();
-    return code == MissedCode::kPole ? fit.structure.poles.front() : fit.structure.channels.front().zeros;
+double value_of(StructureAdviceCode code, const Fit& fit) {
+    if (code == StructureAdviceCode::kDelay) return fit.models.front().delay();
+    return code == StructureAdviceCode::kPole ? fit.structure.poles.front() : fit.structure.channels.front().zeros;
 }
 
-const char* option_of(MissedCode code) {
-    return code == MissedCode::kDelay ? "delay" : code == MissedCode::kPole ? "poles" : "zeros";
+const char* option_of(StructureAdviceCode code) {
+    return code == StructureAdviceCode::kDelay ? "delay" : code == StructureAdviceCode::kPole ? "poles" : "zeros";
 }
 
 /// For one output.
-std::optional<MissedStructure> missed_by_output(const IdData& data, const Fit& given, const FitOptions& options) {
+std::optional<StructureAdvice> missed_by_output(const IdData& data, const Fit& given, const FitOptions& options) {
     const bool shorter = data.sample_count() > kFitted;
     const IdData beginning = shorter ? beginning_of(data, kFitted) : IdData();
     const IdData& record = shorter ? beginning : data;
     const Question asked{record, given, options};
     const Explanation present = asked.explanation(given);
-    std::optional<MissedStructure> best = missed_line(asked, present);
+    std::optional<StructureAdvice> best = missed_line(asked, present);
     if (!best) best = missed_shift(asked, present);
     if (best) {
         best->samples = shorter ? record.sample_count() : 0;
@@ -318,12 +316,12 @@ std::optional<MissedStructure> missed_by_output(const IdData& data, const Fit& g
         const Explanation found = asked.explanation(*fit);
         const double evidence = evidence_for(present, found);
         if (!gains(present, found) || !(evidence > most)) continue;
-        const bool feedthrough = code == MissedCode::kFeedthrough;
+        const bool feedthrough = code == StructureAdviceCode::kFeedthrough;
         const std::optional<Explanation> moving = feedthrough ? without_hold(asked, found) : std::nullopt;
         const bool moves = moving && gains(present, *moving);
         if (feedthrough && !moves && !is_direct(asked, found)) continue;
         most = evidence;
-        best = MissedStructure{.code = moves ? MissedCode::kHold : code,
+        best = StructureAdvice{.code = moves ? StructureAdviceCode::kHold : code,
                                .option = moves ? "hold" : option_of(code),
                                .value = value_of(code, *fit),
                                .samples = shorter ? record.sample_count() : 0,
@@ -344,34 +342,34 @@ Fit fit_of_output(const Fit& fit, const OutputProblem& problem, Index output) {
     return own;
 }
 
-Message option_text(const MissedStructure& missed) {
+Message option_text(const StructureAdvice& missed) {
     switch (missed.code) {
-        case MissedCode::kDelay:
+        case StructureAdviceCode::kDelay:
             return Message("a delay of {} s", significant(missed.value, 3));
-        case MissedCode::kPole:
+        case StructureAdviceCode::kPole:
             return Message("one more pole");
-        case MissedCode::kLine:
+        case StructureAdviceCode::kLine:
             return Message("linear trends removed (data:detrend(\"linear\"))");
-        case MissedCode::kLate:
+        case StructureAdviceCode::kLate:
             return Message("the input one sample earlier (data:shift(-1))");
-        case MissedCode::kHold:
+        case StructureAdviceCode::kHold:
             return Message("linear interpolation of the input ({} = \"foh\")", OptionName{"hold"});
         default:
             return Message("as many zeros as poles");
     }
 }
 
-Message reason_text(const MissedStructure& missed) {
+Message reason_text(const StructureAdvice& missed) {
     switch (missed.code) {
-        case MissedCode::kDelay:
+        case StructureAdviceCode::kDelay:
             return Message("the model responds earlier than the output");
-        case MissedCode::kPole:
+        case StructureAdviceCode::kPole:
             return Message("the errors are still correlated with the input");
-        case MissedCode::kLine:
+        case StructureAdviceCode::kLine:
             return Message("the output drifts, or a constant load acts on an integrator");
-        case MissedCode::kLate:
+        case StructureAdviceCode::kLate:
             return Message("the output responds before the input changes: the input was logged late");
-        case MissedCode::kHold:
+        case StructureAdviceCode::kHold:
             return Message("the input changes between its samples");
         default:
             return Message("the output responds to the input immediately (a direct feedthrough)");
@@ -416,16 +414,16 @@ bool late_input(const IdData& data, int poles, double loss) {
     return true;
 }
 
-std::optional<MissedStructure> missed_structure(const IdData& data, const Fit& fit, const FitOptions& options) {
+std::optional<StructureAdvice> missed_structure(const IdData& data, const Fit& fit, const FitOptions& options) {
     if (fit.termination == Termination::kCancelled || !fit.removed.empty()) return std::nullopt;
     if (fit.structure.outputs == 1) return missed_by_output(data, fit, options);
-    std::optional<MissedStructure> most;
+    std::optional<StructureAdvice> most;
     const bool rests = fit.start.state == InitialState::kZero && !fit.start.offset;
     if (!rests || !outputs_are_separate(fit.structure)) return most;
-    const auto gain = [](const MissedStructure& one) { return one.better_fit_percent - one.fit_percent; };
+    const auto gain = [](const StructureAdvice& one) { return one.better_fit_percent - one.fit_percent; };
     for (Index output = 0; output < fit.structure.outputs; ++output) {
         const OutputProblem problem = output_problem(data, fit.structure, output);
-        std::optional<MissedStructure> missed =
+        std::optional<StructureAdvice> missed =
             missed_by_output(problem.data, fit_of_output(fit, problem, output), options);
         if (!missed || !(gain(*missed) > (most ? gain(*most) : 0))) continue;
         missed->output = data.output_names[static_cast<std::size_t>(output)];
@@ -434,7 +432,7 @@ std::optional<MissedStructure> missed_structure(const IdData& data, const Fit& f
     return most;
 }
 
-Message sentence_of(const MissedStructure& missed) {
+Message sentence_of(const StructureAdvice& missed) {
     const Message option = option_text(missed), reason = reason_text(missed);
     const bool whole = missed.samples == 0;
     const Message fit = missed.output.empty()

@@ -7,7 +7,7 @@
 namespace dynlab::inline numerics {
 
 /// What a structure lacks.
-enum class MissedCode {
+enum class StructureAdviceCode {
     kDelay,        ///< a delay, where the structure fixes it
     kPole,         ///< one more pole
     kFeedthrough,  ///< a direct term: as many zeros as poles
@@ -17,8 +17,8 @@ enum class MissedCode {
 };
 
 /// A better structure, and the fit that it leads to.
-struct MissedStructure {
-    MissedCode code = MissedCode::kPole;
+struct StructureAdvice {
+    StructureAdviceCode code = StructureAdviceCode::kPole;
     std::string option;       ///< of the structure: "delay" (s), "poles" or "zeros"; "hold", "detrend", "shift"
     double value = 0;         ///< to ask for
     std::string output = {};  ///< name of the output whose fit rises, where there are several
@@ -54,9 +54,9 @@ bool late_input(const IdData& data, int poles, double loss);
 /// `data` and `options`: as the search was given them, with integrated inputs where it had an integrator
 /// (options.integration; no feedthrough is looked for then). Nothing for cancelled fits, those with an operating point
 /// removed, and where outputs share a denominator.
-std::optional<MissedStructure> missed_structure(const IdData& data, const Fit& fit, const FitOptions& options);
+std::optional<StructureAdvice> missed_structure(const IdData& data, const Fit& fit, const FitOptions& options);
 
 /// "With one more pole the fit is 88.1 % instead of 66.2 %: ..."
-Message sentence_of(const MissedStructure& missed);
+Message sentence_of(const StructureAdvice& missed);
 
 }  // namespace dynlab::inline numerics

@@ -4,10 +4,10 @@
 
 namespace dynlab::inline numerics {
 
-CentredData without_operating_points(const IdData& data) {
-    CentredData centred{data, {}};
-    for (Experiment& experiment : centred.data.experiments) {
-        auto& removed = centred.removed.emplace_back();
+CenteredData without_operating_points(const IdData& data) {
+    CenteredData centered{data, {}};
+    for (Experiment& experiment : centered.data.experiments) {
+        auto& removed = centered.removed.emplace_back();
         const Matrix u = experiment.u;
         for (Index output = 0; output < experiment.y.cols(); ++output) {
             removed.push_back(joint_operating_point(u, experiment.y.col(output)));
@@ -15,11 +15,11 @@ CentredData without_operating_points(const IdData& data) {
         }
         if (!removed.empty()) experiment.u.rowwise() -= removed.front().inputs.transpose();
     }
-    return centred;
+    return centered;
 }
 
-CentredData centred_for(const IdData& data, Offset offset) {
-    return offset == Offset::kRemove ? without_operating_points(data) : CentredData{data, {}};
+CenteredData centered_for(const IdData& data, Offset offset) {
+    return offset == Offset::kRemove ? without_operating_points(data) : CenteredData{data, {}};
 }
 
 void add_operating_points(Fit& fit, std::vector<std::vector<JointOperatingPoint>> removed) {

@@ -6,13 +6,13 @@
 namespace dynlab::inline numerics {
 
 /// The data counted from each experiment's operating point, and those points: [experiment][output].
-struct CentredData {
+struct CenteredData {
     IdData data;
     std::vector<std::vector<JointOperatingPoint>> removed;
 };
-CentredData without_operating_points(const IdData& data);
+CenteredData without_operating_points(const IdData& data);
 /// The data as they are, and no points, unless `offset` is kRemove.
-CentredData centred_for(const IdData& data, Offset offset);
+CenteredData centered_for(const IdData& data, Offset offset);
 /// Adds the removed outputs to the fit's offsets and keeps the points.
 void add_operating_points(Fit& fit, std::vector<std::vector<JointOperatingPoint>> removed);
 

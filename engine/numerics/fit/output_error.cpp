@@ -77,7 +77,7 @@ class Search {
     }
 
   private:
-    double samples() const { return static_cast<double>(y_.size() - model_.silent_rows()); }
+    double samples() const { return static_cast<double>(y_.size() - model_.masked_rows()); }
 
     void evaluate_here() { set_products(model_.products(theta_, y_)); }
 
@@ -126,7 +126,7 @@ class Search {
     // The sums at `next`, unless its errors are larger. Steps behind one that was taken mostly are taken, too: only
     // behind others the output is looked at by itself first.
     std::optional<OutputErrorProducts> products_below(double squares, const Vector& next) const {
-        if (!model_.products_come_cheap() && !last_was_taken_) {
+        if (!model_.products_are_cheap() && !last_was_taken_) {
             if (!((y_ - model_.output_at(next)).squaredNorm() <= squares)) return std::nullopt;
             return model_.products(next, y_);
         }
@@ -224,15 +224,15 @@ Search search_for(const OutputErrorModel& model, const VectorView& y, const Vect
 
 }  // namespace
 
-Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
+Fit minimize_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
                           const FitOptions& options) {
     Search search = search_for(model, y, start, options);
     return search.complete(search.run(start));
 }
 
-Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, const std::vector<Vector>& starts,
+Fit minimize_output_error(const OutputErrorModel& model, const VectorView& y, const std::vector<Vector>& starts,
                           const FitOptions& options) {
-    if (starts.size() == 1) return minimise_output_error(model, y, starts.front(), options);
+    if (starts.size() == 1) return minimize_output_error(model, y, starts.front(), options);
     const FitOptions rough = options.limited(std::min(kRoughIterations, options.max_iterations),
                                              std::max(kRoughTolerance, options.tolerance));
     std::vector<Fit> trials(starts.size());
@@ -241,7 +241,7 @@ Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, co
     Fit best = std::move(trials.front());
     for (std::size_t i = 1; i < trials.size() && best.termination != Termination::kCancelled; ++i)
         if (trials[i].loss < (1 - kRoughTolerance) * best.loss) best = std::move(trials[i]);
-    Fit end = minimise_output_error(model, y, best.theta, options);
+    Fit end = minimize_output_error(model, y, best.theta, options);
     end.trace.insert(end.trace.begin(), best.trace.begin(), best.trace.end());
     return end;
 }

@@ -17,11 +17,11 @@ namespace dynlab::inline numerics {
 /// noise_variance (sum of squares/(N - d), d the parameters not held), loss, condition_number, at_bound, termination
 /// and trace of a Fit, in the model's own parameters. Throws InvalidArgument for bad options, when sizes do not fit or
 /// there are no more samples than parameters.
-Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
+Fit minimize_output_error(const OutputErrorModel& model, const VectorView& y, const Vector& start,
                           const FitOptions& options = {});
 
 /// The same from several starts (one at least): each is followed a little way, the best of them to the end.
-Fit minimise_output_error(const OutputErrorModel& model, const VectorView& y, const std::vector<Vector>& starts,
+Fit minimize_output_error(const OutputErrorModel& model, const VectorView& y, const std::vector<Vector>& starts,
                           const FitOptions& options);
 
 /// What the sensitivities J at `theta` tell of the precision of the parameters `free`: by the sums of products while

@@ -72,7 +72,7 @@ struct GridProblem {
 
     const ProcessStructure& structure;
     const TransferOutput& output;
-    Reparametrised model;
+    Reparametrized model;
     Index parameters = 0, longest = 0;  // of the process alone; rows
 };
 

@@ -108,7 +108,7 @@ Vector with_root(const Vector& p, double root) {
 
 }  // namespace
 
-std::vector<TransferStructure> poorer_structures(const TransferStructure& structure) {
+std::vector<TransferStructure> lower_order_structures(const TransferStructure& structure) {
     std::vector<TransferStructure> all;
     TransferStructure poles = structure, zeros = structure;
     if (fewer_poles(poles)) all.push_back(poles);
@@ -119,22 +119,22 @@ std::vector<TransferStructure> poorer_structures(const TransferStructure& struct
     return all;
 }
 
-Vector enriched(const TransferStructure& poorer, const Vector& poorer_theta, const TransferStructure& structure,
-                double fast, double middle) {
+Vector enriched(const TransferStructure& lower_order, const Vector& lower_order_theta,
+                const TransferStructure& structure, double fast, double middle) {
     Vector theta = Vector::Zero(structure.parameter_count());
     for (std::size_t d = 0; d < structure.poles.size(); ++d) {
-        const int added_poles = structure.poles[d] - poorer.poles[d];
+        const int added_poles = structure.poles[d] - lower_order.poles[d];
         int shared = added_poles;  // poles that meet a zero in every channel
         for (std::size_t c = 0; c < structure.channels.size(); ++c)
             if (structure.channels[c].denominator == static_cast<Index>(d))
-                shared = std::min(shared, structure.channels[c].zeros - poorer.channels[c].zeros);
+                shared = std::min(shared, structure.channels[c].zeros - lower_order.channels[c].zeros);
         for (Index output = 0; output < structure.outputs; ++output)
             for (Index input = 0; input < structure.inputs; ++input) {
                 const TransferChannel& channel = structure.channel(output, input);
                 if (channel.denominator != static_cast<Index>(d)) continue;
-                Vector A = poorer.denominator(poorer_theta, output, input);
-                Vector B = poorer.numerator(poorer_theta, output, input);
-                const int added_zeros = channel.zeros - poorer.channel(output, input).zeros;
+                Vector A = lower_order.denominator(lower_order_theta, output, input);
+                Vector B = lower_order.numerator(lower_order_theta, output, input);
+                const int added_zeros = channel.zeros - lower_order.channel(output, input).zeros;
                 const auto added_root = [&](int i) {
                     return i < shared ? middle * std::pow(kApart, i) : fast * std::pow(kApart, i - shared);
                 };
@@ -157,21 +157,21 @@ AddedRoots::AddedRoots(const IdData& data) {
     slowest_ = kSlow / (longest + data.mean_step());
 }
 
-std::vector<Vector> AddedRoots::starts(const TransferStructure& poorer, const Vector& theta,
+std::vector<Vector> AddedRoots::starts(const TransferStructure& lower_order, const Vector& theta,
                                        const TransferStructure& structure) const {
     std::vector<Vector> starts;
     for (const double speed : kAddedRoots) {
         const double fast = speed * rate_;
-        starts.push_back(enriched(poorer, theta, structure, fast, std::sqrt(fast * slowest_)));
+        starts.push_back(enriched(lower_order, theta, structure, fast, std::sqrt(fast * slowest_)));
     }
     return starts;
 }
 
-std::vector<Vector> starts_from_poorer(const IdData& data, const std::vector<const Fit*>& poorer,
-                                       const TransferStructure& structure, double loss) {
+std::vector<Vector> starts_from_lower_order(const IdData& data, const std::vector<const Fit*>& lower_order,
+                                            const TransferStructure& structure, double loss) {
     const AddedRoots added(data);
     std::vector<Vector> all;
-    for (const Fit* fit : poorer) {
+    for (const Fit* fit : lower_order) {
         if (!(fit->loss < (1 - kWorse) * loss)) continue;
         TransferStructure at = with_fixed_delays(structure);
         const TransferStructure theirs = with_delays_of(fit->structure, fit->theta);
@@ -186,8 +186,8 @@ NestedSearch::NestedSearch(const IdData& data, Solve solve) : solve_(std::move(s
 
 std::vector<Vector> NestedSearch::better_starts(const TransferStructure& structure, double loss) {
     std::vector<Vector> starts;
-    for (const TransferStructure& poorer : poorer_structures(structure)) {
-        const NestedSolution& solution = best(poorer);
+    for (const TransferStructure& lower_order : lower_order_structures(structure)) {
+        const NestedSolution& solution = best(lower_order);
         if (!(solution.loss < (1 - kWorse) * loss)) continue;
         for (Vector& start : added_.starts(solution.structure, solution.theta, structure))
             starts.push_back(std::move(start));
@@ -207,8 +207,8 @@ const NestedSolution& NestedSearch::best(const TransferStructure& structure) {
         NestedSolution other = solve_(structure, starts);
         if (other.loss < solution.loss) solution = {std::move(other.theta), other.loss, structure};
     }
-    for (const TransferStructure& poorer : poorer_structures(structure))
-        if (const NestedSolution& less = best(poorer); (1 - kGained) * less.loss <= solution.loss) solution = less;
+    for (const TransferStructure& lower_order : lower_order_structures(structure))
+        if (const NestedSolution& less = best(lower_order); (1 - kGained) * less.loss <= solution.loss) solution = less;
     return found_.emplace(std::move(key), std::move(solution)).first->second;
 }
 

@@ -12,17 +12,17 @@ namespace dynlab::inline numerics {
 
 /// The structures that are a step poorer than one with fixed delays: a pole less in every denominator that has two, a
 /// zero less in every channel that has one, or both. Their models are limits of models of the structure.
-std::vector<TransferStructure> poorer_structures(const TransferStructure& structure);
+std::vector<TransferStructure> lower_order_structures(const TransferStructure& structure);
 
-/// theta for `structure` with nearly the output of `poorer_theta` for a structure that is a step or more poorer:
+/// theta for `structure` with nearly the output of `lower_order_theta` for a structure that is a step or more poorer:
 /// missing poles and zeros are added at -fast (rad/s), those that a denominator and all its channels miss together
 /// cancel at -middle. Where several are missing, each lies at 1.5 times the one before.
-Vector enriched(const TransferStructure& poorer, const Vector& poorer_theta, const TransferStructure& structure,
-                double fast, double middle);
+Vector enriched(const TransferStructure& lower_order, const Vector& lower_order_theta,
+                const TransferStructure& structure, double fast, double middle);
 
 /// Starts of the structure, with its free delays where theirs are, from the poorer fits whose loss is below `loss`.
-std::vector<Vector> starts_from_poorer(const IdData& data, const std::vector<const Fit*>& poorer,
-                                       const TransferStructure& structure, double loss);
+std::vector<Vector> starts_from_lower_order(const IdData& data, const std::vector<const Fit*>& lower_order,
+                                            const TransferStructure& structure, double loss);
 
 /// Where poles and zeros are added: at five and at a hundred times the mean sampling rate of the data: from the first a
 /// search finds dynamics, at the second the loss is the poorer model's. Those that cancel lie half way on a logarithmic
@@ -31,7 +31,7 @@ class AddedRoots {
   public:
     explicit AddedRoots(const IdData& data);
     /// Starts of the structure from a solution of a poorer one.
-    std::vector<Vector> starts(const TransferStructure& poorer, const Vector& theta,
+    std::vector<Vector> starts(const TransferStructure& lower_order, const Vector& theta,
                                const TransferStructure& structure) const;
 
   private:

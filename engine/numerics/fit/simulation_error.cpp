@@ -15,7 +15,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kLagsOfErrors = 20;     // beyond the delay
-constexpr Index kMostLags = 200;        // the last ones, where the delay is long
+constexpr Index kMaxLags = 200;         // the last ones, where the delay is long
 constexpr double kFarBeyondChance = 4;  // standard deviations of chi-squared
 constexpr double kFastChanges = 0.1;    // squares of the errors' differences, of their own
 constexpr double kSingular = 1e-6;      // of the input's power
@@ -39,7 +39,7 @@ bool is_far_beyond_chance(double chi_squared, Index freedom) {
 
 bool follow_input(const FitErrors& errors, const IdData& data, double delay) {
     const Index most = kLagsOfErrors + static_cast<Index>(std::ceil(delay / data.mean_step()));
-    const Index lags = std::min(most, kMostLags);
+    const Index lags = std::min(most, kMaxLags);
     Vector with_errors = Vector::Zero(lags), with_itself = Vector::Zero(lags);
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
         const auto own = errors.of(e);
@@ -111,7 +111,7 @@ bool fast_errors_follow_input(const IdData& data, const Fit& fit) {
                                        follow_input(errors, data, fit.structure.delay(fit.theta, 0, 0)));
 }
 
-bool errors_are_coloured(const IdData& data, const Fit& fit) {
+bool errors_are_colored(const IdData& data, const Fit& fit) {
     const FitErrors errors(data, fit);
     if (!errors.all.allFinite()) return true;
     Vector products = Vector::Zero(kLagsOfErrors + 1);

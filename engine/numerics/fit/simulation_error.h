@@ -23,6 +23,6 @@ bool errors_follow_input(const IdData& data, const Fit& fit);
 bool fast_errors_follow_input(const IdData& data, const Fit& fit);
 
 /// Whether the errors follow themselves: their autocorrelations of 20 lags (Box and Pierce 1970) are far beyond chance.
-bool errors_are_coloured(const IdData& data, const Fit& fit);
+bool errors_are_colored(const IdData& data, const Fit& fit);
 
 }  // namespace dynlab::inline numerics

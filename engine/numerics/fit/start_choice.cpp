@@ -184,9 +184,9 @@ bool is_from_rest(const Fit& fit) {
 
 /// The errors of a fit without those of the first seconds, which do not count.
 struct CountedErrors {
-    CountedErrors(const IdData& data, const Fit& fit, double unheard)
+    CountedErrors(const IdData& data, const Fit& fit, double masked_seconds)
         : model(fit.structure, fit.start, data, 0, shortest_record(data)) {
-        model.leave_out(unheard);
+        model.mask_start(masked_seconds);
         errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
     }
     TransferOutput model;
@@ -196,8 +196,8 @@ struct CountedErrors {
 /// Whether BIC still prefers the fit with another start when errors that follow each other count as fewer.
 bool convinces(const IdData& data, const Fit& from_rest, const Fit& other) {
     if (other.structure.outputs > 1) return true;
-    const double unheard = unheard_beginning(other, data);
-    const CountedErrors rest(data, from_rest, unheard), found(data, other, unheard);
+    const double masked_seconds = masked_start(other, data);
+    const CountedErrors rest(data, from_rest, masked_seconds), found(data, other, masked_seconds);
     if (!found.errors.allFinite()) return false;
     if (!rest.errors.allFinite()) return true;
     const double r = neighbours_correlation(found.errors, lengths_of(found.model));

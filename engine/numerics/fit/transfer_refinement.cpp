@@ -85,11 +85,11 @@ Fit search(TransferOutput& model, const TransferStructure& structure, const IdDa
         const Vector power = output_powers(data);
         set_weights(model, model.output_at(theta), power);
         for (int round = 0; round < kWeightRounds; ++round) {
-            theta = minimise_output_error(model, model.target(), theta, rough).theta;
+            theta = minimize_output_error(model, model.target(), theta, rough).theta;
             set_weights(model, model.output_at(theta), power);
         }
     }
-    return minimise_output_error(model, model.target(), starts_around(structure, data, theta), options);
+    return minimize_output_error(model, model.target(), starts_around(structure, data, theta), options);
 }
 
 }  // namespace
@@ -153,12 +153,12 @@ void fill_errors(Fit& fit, const TransferOutput& model) {
 }
 
 Fit refine_jointly(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                   const Vector& theta_start, const FitOptions& options, double unheard) {
+                   const Vector& theta_start, const FitOptions& options, double masked_seconds) {
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     TransferOutput model(structure, condition, data, range.least, range.largest);
     if (options.stable.value_or(false)) model.keep_stable();
     model.fix(options.fixed);
-    if (condition.state == InitialState::kEstimate) model.leave_out(unheard);
+    if (condition.state == InitialState::kEstimate) model.mask_start(masked_seconds);
     Fit fit = search(model, structure, data, first_point(model, structure, theta_start), options);
     const double pooled_variance = fit.noise_variance[0];
     fill_errors(fit, model);
@@ -323,7 +323,7 @@ Vector search_point(const Fit& fit, const TransferOutput& model, const Vector& s
 namespace {
 
 Fit refine_each_output(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                       const Vector& theta_start, const FitOptions& options, double unheard) {
+                       const Vector& theta_start, const FitOptions& options, double masked_seconds) {
     std::vector<OutputProblem> problems;
     std::vector<Fit> estimates;
     FitOptions alone = options;
@@ -331,23 +331,23 @@ Fit refine_each_output(const IdData& data, const TransferStructure& structure, c
     for (Index output = 0; output < structure.outputs; ++output) {
         problems.push_back(output_problem(data, structure, output));
         const OutputProblem& problem = problems.back();
-        estimates.push_back(
-            refine_jointly(problem.data, problem.structure, condition, theta_start(problem.places), alone, unheard));
+        estimates.push_back(refine_jointly(problem.data, problem.structure, condition, theta_start(problem.places),
+                                           alone, masked_seconds));
     }
     return join_outputs(structure, problems, estimates);
 }
 
 }  // namespace
 
-double unheard_beginning(const StartCondition& start, double delay, const IdData& data) {
+double masked_start(const StartCondition& start, double delay, const IdData& data) {
     const bool unknown = start.state == InitialState::kEstimate && delay > 0;
     return unknown && delay < shortest_record(data) / 2 ? delay + data.mean_step() : 0;
 }
 
-double unheard_beginning(const Fit& fit, const IdData& data) {
+double masked_start(const Fit& fit, const IdData& data) {
     double longest = 0;
     for (const TransferFunction& G : fit.models) longest = std::max(longest, G.delay());
-    return unheard_beginning(fit.start, longest, data);
+    return masked_start(fit.start, longest, data);
 }
 
 Index value_count(const TransferStructure& structure, const StartCondition& condition, Index experiments) {
@@ -372,7 +372,7 @@ Message output_error_message(const Fit& fit) {
 }
 
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                        const Vector& theta_start, const FitOptions& options, double unheard) {
+                        const Vector& theta_start, const FitOptions& options, double masked_seconds) {
     check_transfer_data("Output error", data, structure, condition.offset ? Offset::kEstimate : options.offset);
     if (theta_start.size() != structure.parameter_count())
         throw InvalidArgument("The search needs {} start values, but {} were given", structure.parameter_count(),
@@ -380,8 +380,8 @@ Fit refine_output_error(const IdData& data, const TransferStructure& structure, 
     const Index values = value_count(structure, condition, static_cast<Index>(data.experiments.size()));
     check_sample_count("Output error", data.sample_count() * structure.outputs, values);
     Fit estimate = structure.outputs > 1 && options.fixed.empty() && outputs_are_separate(structure)
-                       ? refine_each_output(data, structure, condition, theta_start, options, unheard)
-                       : refine_jointly(data, structure, condition, theta_start, options, unheard);
+                       ? refine_each_output(data, structure, condition, theta_start, options, masked_seconds)
+                       : refine_jointly(data, structure, condition, theta_start, options, masked_seconds);
     const DelayRange range = structure.free_delays ? delay_range(data, options) : DelayRange{};
     describe_search(estimate, data, options, range);
     estimate.message = output_error_message(estimate);

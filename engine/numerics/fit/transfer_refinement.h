@@ -18,9 +18,9 @@ namespace dynlab::inline numerics {
 /// Outputs that share no denominator are problems of their own and are solved one by one. Others are weighted with one
 /// over the standard deviation of their errors, which is found in two rounds; the trace counts weighted squares then.
 ///
-/// `unheard`: with an estimated start, so many seconds at the beginning of each experiment do not count, because inputs
-/// from before it, which nobody knows, still arrive there; an initial value then is what the free motion after them
-/// would have begun with.
+/// `masked_seconds`: with an estimated start, so many seconds at the beginning of each experiment do not count, because
+/// inputs from before it, which nobody knows, still arrive there; an initial value then is what the free motion after
+/// them would have begun with.
 ///
 /// `FitOptions` count here: least_delay, largest_delay, max_iterations, tolerance, cancel, stable, fixed (their
 /// standard errors are zero), output_weights. The data are taken as they
@@ -29,15 +29,15 @@ namespace dynlab::inline numerics {
 /// the structure (check_transfer_data), for another length of theta_start, or for no more samples than values to
 /// estimate.
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,
-                        const Vector& theta_start, const FitOptions& options, double unheard = 0);
+                        const Vector& theta_start, const FitOptions& options, double masked_seconds = 0);
 
 /// How such a search ended, with the iterations of its whole trace.
 Message output_error_message(const Fit& fit);
 
-/// `unheard` for a model with this delay (s), or with those of a fit: the longest and a sample more; zero where the
-/// start is not estimated, and where it would be half of the shortest record.
-double unheard_beginning(const StartCondition& start, double delay, const IdData& data);
-double unheard_beginning(const Fit& fit, const IdData& data);
+/// `masked_seconds` for a model with this delay (s), or with those of a fit: the longest and a sample more; zero where
+/// the start is not estimated, and where it would be half of the shortest record.
+double masked_start(const StartCondition& start, double delay, const IdData& data);
+double masked_start(const Fit& fit, const IdData& data);
 
 /// All values estimated under a start condition: parameters, initial values and offsets.
 Index value_count(const TransferStructure& structure, const StartCondition& condition, Index experiments);

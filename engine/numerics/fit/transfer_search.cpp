@@ -101,14 +101,14 @@ class NestedFits {
         std::vector<Vector> starts;
         if (known.empty()) {
             const TransferStructure at = with_delays_of(structure, best.theta);
-            const double wanted = best.loss;
-            NestedSearch nested(record_, [&](const TransferStructure& poorer, const std::vector<Vector>& own) {
-                return solution_of(poorer, own, wanted);
+            const double requested = best.loss;
+            NestedSearch nested(record_, [&](const TransferStructure& lower_order, const std::vector<Vector>& own) {
+                return solution_of(lower_order, own, requested);
             });
             for (const Vector& start : nested.better_starts(at, best.loss))
                 starts.push_back(structure.free_delays ? with_delays(structure, at, start) : start);
         } else {
-            starts = starts_from_poorer(record_, known, structure, best.loss);
+            starts = starts_from_lower_order(record_, known, structure, best.loss);
         }
         if (starts.empty()) return best;
         Fit other = refine_from(record_, structure, condition_, starts, options_);
@@ -117,9 +117,11 @@ class NestedFits {
 
   private:
     /// The best that is found from these starts, or without any as a call of its own finds it. A search that
-    /// will not come below `wanted`, the richer structure's loss, is not followed to its end.
-    NestedSolution solution_of(const TransferStructure& structure, std::vector<Vector> starts, double wanted) const {
-        const auto settled = [&](Fit fit) { return solution(structure, followed(structure, std::move(fit), wanted)); };
+    /// will not come below `requested`, the richer structure's loss, is not followed to its end.
+    NestedSolution solution_of(const TransferStructure& structure, std::vector<Vector> starts, double requested) const {
+        const auto settled = [&](Fit fit) {
+            return solution(structure, followed(structure, std::move(fit), requested));
+        };
         try {
             if (!starts.empty()) return settled(refine_from(record_, structure, condition_, starts, options_));
             // As a call of its own finds it, and from the passes: together the nearer end would hide the better one.
@@ -137,15 +139,15 @@ class NestedFits {
         return {fit.theta, fit.loss, structure};
     }
 
-    /// A search that has not settled goes on as long as it is below `wanted`, or will be at its pace.
-    Fit followed(const TransferStructure& structure, Fit fit, double wanted) const {
-        for (int left = kLastIterations; options_.goes_on && left > 0; left -= kStretch) {
+    /// A search that has not settled goes on as long as it is below `requested`, or will be at its pace.
+    Fit followed(const TransferStructure& structure, Fit fit, double requested) const {
+        for (int left = kLastIterations; options_.extend_iterations && left > 0; left -= kStretch) {
             if (fit.termination != Termination::kIterationLimit) break;
             const double before = fit.loss;
             fit = refine_output_error(record_, structure, fit.start, fit.theta,
                                       options_.limited(kStretch, options_.tolerance));
             const double gained_at_this_pace = (before - fit.loss) * left / kStretch;
-            if (fit.loss - gained_at_this_pace > wanted) break;
+            if (fit.loss - gained_at_this_pace > requested) break;
         }
         return fit;
     }
@@ -175,23 +177,23 @@ void check_search(const TransferStructure& structure, const FitOptions& options)
 
 /// For the first estimates: counted from the operating point; where the inputs never change, from the first output.
 IdData levelled_for_start(const IdData& data) {
-    CentredData centred = without_operating_points(data);
-    for (Experiment& experiment : centred.data.experiments)
+    CenteredData centered = without_operating_points(data);
+    for (Experiment& experiment : centered.data.experiments)
         if ((experiment.u.rowwise() - experiment.u.row(0)).isZero(0))
             experiment.y.rowwise() -= Eigen::RowVectorXd(experiment.y.row(0));
-    return centred.data;
+    return centered.data;
 }
 
 /// With an estimated start: inputs from before a record reach the output during the delays, so that this beginning is
 /// left out and the search goes on from where it was.
-Fit without_unheard_inputs(const IdData& record, const TransferStructure& structure, Fit fit,
-                           const FitOptions& options) {
+Fit without_masked_inputs(const IdData& record, const TransferStructure& structure, Fit fit,
+                          const FitOptions& options) {
     constexpr int kRounds = 3;
     double left_out = 0;
     for (int round = 0; round < kRounds && fit.termination != Termination::kCancelled; ++round) {
-        const double unheard = unheard_beginning(fit, record);
-        if (unheard <= left_out + record.mean_step()) break;
-        left_out = unheard;
+        const double masked_seconds = masked_start(fit, record);
+        if (masked_seconds <= left_out + record.mean_step()) break;
+        left_out = masked_seconds;
         fit = continued(fit, refine_output_error(record, structure, fit.start, fit.theta, options, left_out));
     }
     return fit;
@@ -199,7 +201,7 @@ Fit without_unheard_inputs(const IdData& record, const TransferStructure& struct
 
 /// A search that has not settled goes on.
 Fit settled(const IdData& record, const TransferStructure& structure, Fit fit, const FitOptions& options) {
-    if (!options.goes_on || fit.termination != Termination::kIterationLimit) return fit;
+    if (!options.extend_iterations || fit.termination != Termination::kIterationLimit) return fit;
     return continued(fit, refine_output_error(record, structure, fit.start, fit.theta,
                                               options.limited(kLastIterations, options.tolerance)));
 }
@@ -251,7 +253,7 @@ Fit or_from_further_starts(const IdData& record, const TransferStructure& struct
     if (record.regular() && fast_errors_follow_input(record, best))
         refined(sampled_starts(record, structure, best, options));
     if (record.sample_count() <= kNestedSamples &&
-        (errors_are_coloured(record, best) || errors_follow_input(record, best)))
+        (errors_are_colored(record, best) || errors_follow_input(record, best)))
         refined(exchanged_poles(record, structure, best, options));
     return best;
 }
@@ -263,12 +265,12 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     check_transfer_data(method, data, structure, given.offset);
     check_search(structure, given);
     FitOptions options = given;
-    const bool centre = options.offset != Offset::kNone || options.initial_state != InitialState::kZero;
+    const bool center = options.offset != Offset::kNone || options.initial_state != InitialState::kZero;
     const bool remove = options.offset == Offset::kRemove;
-    const CentredData centred = remove ? without_operating_points(data) : CentredData{};
-    const IdData& record = remove ? centred.data : data;
-    const IdData levelled = centre ? levelled_for_start(data) : IdData();
-    const IdData& for_start = centre ? levelled : data;
+    const CenteredData centered = remove ? without_operating_points(data) : CenteredData{};
+    const IdData& record = remove ? centered.data : data;
+    const IdData levelled = center ? levelled_for_start(data) : IdData();
+    const IdData& for_start = center ? levelled : data;
 
     DelayScan scan;
     std::vector<Vector> starts;
@@ -298,7 +300,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     const auto search = [&](const FitOptions& how, Fit found) {
         const NestedFits fits(record, for_start, chosen, how);
         if (found.theta.size() == 0) found = fits.best(structure, starts);
-        return fits.no_worse(structure, std::move(found), aids.poorer);
+        return fits.no_worse(structure, std::move(found), aids.lower_order);
     };
     best = search(options, std::move(best));
     const auto further = [&](const FitOptions& how, Fit found) {
@@ -334,9 +336,9 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         }
     }
     best = settled(record, structure, std::move(best), options);
-    best = without_unheard_inputs(record, structure, std::move(best), options);
+    best = without_masked_inputs(record, structure, std::move(best), options);
     best.message = output_error_message(best);
-    if (remove) add_operating_points(best, centred.removed);
+    if (remove) add_operating_points(best, centered.removed);
     withdraw_errors_of_rivals(best, record, scan);
     best.delay_grid = scan.delays;
     best.delay_loss = scan.losses;

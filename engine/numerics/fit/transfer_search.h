@@ -9,8 +9,9 @@ namespace dynlab::inline numerics {
 struct SearchAids {
     /// theta where the search begins, with the delays where they are free; found unless given.
     Vector start = {};
-    std::vector<double> delays = {};      ///< s, of each channel: where the search for free ones begins
-    std::vector<const Fit*> poorer = {};  ///< of poorer structures under the same options; they are not fitted again
+    std::vector<double> delays = {};  ///< s, of each channel: where the search for free ones begins
+    std::vector<const Fit*> lower_order =
+        {};  ///< of poorer structures under the same options; they are not fitted again
 };
 
 /// Output-error estimate under all options: offsets and operating points, start conditions tried where they are

@@ -31,8 +31,8 @@ void scale(StateMatrix<room>& Z, double factor, int n) {
 
 template <int room>
 std::optional<ShortStep<room>> short_step(const StateMatrix<room>& A, int states, double h) {
-    constexpr double kLongest = 0.5, kNegligible = 1e-18;
-    constexpr int kMostDoublings = 3;
+    constexpr double kMaxLength = 0.5, kNegligible = 1e-18;
+    constexpr int kMaxDoublings = 3;
     using Square = StateMatrix<room>;
     // Loops of a known length are quicker than few steps.
     const int n = room <= 4 ? room : states;
@@ -43,8 +43,8 @@ std::optional<ShortStep<room>> short_step(const StateMatrix<room>& A, int states
     const Vector balancing = balance(Columns(Z.column[0].at, n, n));
     double size = norm_of(Z, n);
     int doublings = 0;
-    for (; size > kLongest && doublings < kMostDoublings; ++doublings) size /= 2;
-    if (!(size <= kLongest)) return {};
+    for (; size > kMaxLength && doublings < kMaxDoublings; ++doublings) size /= 2;
+    if (!(size <= kMaxLength)) return {};
     if (doublings > 0) scale(Z, 1.0 / (1 << doublings), n);
     int terms = 1;
     for (double term = size / 3; term > kNegligible; term *= size / (terms + 2)) ++terms;

@@ -21,8 +21,8 @@ void side_by_side(std::size_t count, const Work& work, bool long_enough = true) 
 }
 
 /// Threads of a task arena for a wish: all cores when it is 0, never more than there are.
-inline int thread_count(int wanted) {
-    return wanted > 0 ? std::min(wanted, tbb::info::default_concurrency()) : tbb::task_arena::automatic;
+inline int thread_count(int requested) {
+    return requested > 0 ? std::min(requested, tbb::info::default_concurrency()) : tbb::task_arena::automatic;
 }
 
 }  // namespace dynlab::inline numerics

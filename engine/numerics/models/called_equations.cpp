@@ -28,16 +28,16 @@ class CalledEvaluation final : public GreyEvaluation {
 
     void set_parameters(const Vector& parameters) override { parameters_ = parameters; }
 
-    void rates(double t, const double* x, const double* u, Derivatives wanted, GreyValues& at) override {
-        evaluate(functions_.rates, functions_.states, t, x, u, wanted, at);
+    void rates(double t, const double* x, const double* u, Derivatives requested, GreyValues& at) override {
+        evaluate(functions_.rates, functions_.states, t, x, u, requested, at);
     }
-    void outputs(double t, const double* x, const double* u, Derivatives wanted, GreyValues& at) override {
-        evaluate(functions_.outputs, functions_.outputs_count, t, x, u, wanted, at);
+    void outputs(double t, const double* x, const double* u, Derivatives requested, GreyValues& at) override {
+        evaluate(functions_.outputs, functions_.outputs_count, t, x, u, requested, at);
     }
 
-    void initial_state(Derivatives wanted, GreyValues& at) override {
+    void initial_state(Derivatives requested, GreyValues& at) override {
         at.values = functions_.initial_state(parameters_);
-        if (wanted == Derivatives::kAll)
+        if (requested == Derivatives::kAll)
             at.by_parameter = by_parameters(functions_.states, [&] { return functions_.initial_state(parameters_); });
     }
 
@@ -65,16 +65,16 @@ class CalledEvaluation final : public GreyEvaluation {
     }
 
     void evaluate(const CalledFunctions::Function& function, Index rows, double t, const double* x, const double* u,
-                  Derivatives wanted, GreyValues& at) {
+                  Derivatives requested, GreyValues& at) {
         Vector state = Eigen::Map<const Vector>(x, functions_.states);
         const Vector input = Eigen::Map<const Vector>(u, functions_.inputs);
         const auto value = [&] { return function(t, state, input, parameters_); };
         at.values = value();
-        if (wanted == Derivatives::kNone) return;
+        if (requested == Derivatives::kNone) return;
         std::vector<Index> all(static_cast<std::size_t>(state.size()));
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>(i);
         at.by_state = differences(state, all, state_steps_, rows, value);
-        if (wanted == Derivatives::kAll) at.by_parameter = by_parameters(rows, value);
+        if (requested == Derivatives::kAll) at.by_parameter = by_parameters(rows, value);
     }
 
     const CalledFunctions& functions_;

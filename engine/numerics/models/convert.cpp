@@ -21,8 +21,8 @@ void check_convertible(const std::string& caller, const TransferFunction& G) {
                           plural(G.pole_count(), "{} pole", "{} poles"));
 }
 
-Hold hold_of(Discretisation method) {
-    return method == Discretisation::kFoh ? Hold::kFoh : Hold::kZoh;
+Hold hold_of(Discretization method) {
+    return method == Discretization::kFoh ? Hold::kFoh : Hold::kZoh;
 }
 
 /// The numerators over `den` (of degree n = order, or n + 1 with a factor z for a tap on the previous sample) of all
@@ -45,7 +45,7 @@ Matrix discrete_numerators(const SampledSystem& system, const Vector& den) {
 TransferFunction exact_c2d(const TransferFunction& G, double Ts, Hold hold) {
     const StateSpace form = to_state_space(G);
     const auto [samples, rest] = split_delay(G.delay(), Ts);
-    const SampledSystem system = discretise(form.A, form.B.col(0), form.C, form.D.col(0), Ts, hold, G.delay());
+    const SampledSystem system = discretize(form.A, form.B.col(0), form.C, form.D.col(0), Ts, hold, G.delay());
     Vector den = polynomial_from_roots((Ts * G.poles()).array().exp().matrix());
     if (rest > 0) den = multiply(den, Eigen::Vector2d(1, 0));
     return TransferFunction(discrete_numerators(system, den).col(0), den, Ts, static_cast<double>(samples) * Ts);
@@ -116,9 +116,9 @@ TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
     // The discrete numerator is linear in the continuous one: solve for its coefficients, with time in samples.
     const Vector den = polynomial_from_roots(discrete_poles.array().log().matrix());
     const Matrix map = discrete_numerators(derivative_filter(den, 1, hold), G.den());
-    Vector wanted = Vector::Zero(G.den().size());
-    wanted.tail(G.num().size()) = G.num();
-    const Vector num = without_rounding(shortest_solution(map, wanted));
+    Vector requested = Vector::Zero(G.den().size());
+    requested.tail(G.num().size()) = G.num();
+    const Vector num = without_rounding(shortest_solution(map, requested));
     return TransferFunction(in_seconds(num, G.Ts()), in_seconds(den, G.Ts()), 0, G.delay());
 }
 
@@ -132,18 +132,18 @@ TransferFunction tustin_d2c(const TransferFunction& G) {
 
 }  // namespace
 
-TransferFunction c2d(const TransferFunction& G, double Ts, Discretisation method) {
+TransferFunction c2d(const TransferFunction& G, double Ts, Discretization method) {
     if (!G.continuous()) throw InvalidArgument("c2d: the model is already discrete, with Ts = {} s", G.Ts());
     check_sampling_time("c2d", Ts);
     check_convertible("c2d", G);
-    return method == Discretisation::kTustin ? tustin_c2d(G, Ts) : exact_c2d(G, Ts, hold_of(method));
+    return method == Discretization::kTustin ? tustin_c2d(G, Ts) : exact_c2d(G, Ts, hold_of(method));
 }
 
-StateSpace c2d(const StateSpace& system, double Ts, Discretisation method) {
+StateSpace c2d(const StateSpace& system, double Ts, Discretization method) {
     if (system.Ts > 0) throw InvalidArgument("c2d: the model is already discrete, with Ts = {} s", system.Ts);
     check_sampling_time("c2d", Ts);
     const Matrix &A = system.A, &B = system.B, &C = system.C;
-    if (method == Discretisation::kTustin) {
+    if (method == Discretization::kTustin) {
         const Matrix I = Matrix::Identity(A.rows(), A.rows());
         const Matrix back = I - Ts / 2 * A;
         // Compared with the two terms of the difference, which leave rounding errors where they cancel.
@@ -154,15 +154,15 @@ StateSpace c2d(const StateSpace& system, double Ts, Discretisation method) {
                           system.D + Ts / 2 * C * inverse * B, Ts);
     }
     const StepMatrices step = exact_step(A, B, Ts);
-    if (method == Discretisation::kZoh) return StateSpace(step.F, step.G, C, system.D, Ts);
+    if (method == Discretization::kZoh) return StateSpace(step.F, step.G, C, system.D, Ts);
     // x[k+1] = F x[k] + H0 u[k] + H1 u[k+1] with the state x - H1 u, which needs no input of the future.
     return StateSpace(step.F, step.H0 + step.F * step.H1, C, system.D + C * step.H1, Ts);
 }
 
-TransferFunction d2c(const TransferFunction& G, Discretisation method) {
+TransferFunction d2c(const TransferFunction& G, Discretization method) {
     if (G.continuous()) throw InvalidArgument("d2c: the model is already continuous");
     check_convertible("d2c", G);
-    return method == Discretisation::kTustin ? tustin_d2c(G) : exact_d2c(G, hold_of(method));
+    return method == Discretization::kTustin ? tustin_d2c(G) : exact_d2c(G, hold_of(method));
 }
 
 TransferFunction with_rational_delay(const std::string& caller, const TransferFunction& G) {

@@ -4,12 +4,12 @@
 
 namespace dynlab::inline numerics {
 
-void check_channels(const std::string& model, const FreeRunModel& wanted, const IdData& data) {
-    const bool outputs_fit = data.output_count() == 0 || data.output_count() == wanted.output_count();
-    if (data.input_count() == wanted.input_count() && outputs_fit) return;
+void check_channels(const std::string& model, const FreeRunModel& requested, const IdData& data) {
+    const bool outputs_fit = data.output_count() == 0 || data.output_count() == requested.output_count();
+    if (data.input_count() == requested.input_count() && outputs_fit) return;
     throw InvalidArgument("{}: the model has {} and {}, but the data have {} and {}: select the channels of the model",
-                          model, plural(wanted.input_count(), "{} input", "{} inputs"),
-                          plural(wanted.output_count(), "{} output", "{} outputs"), data.input_count(),
+                          model, plural(requested.input_count(), "{} input", "{} inputs"),
+                          plural(requested.output_count(), "{} output", "{} outputs"), data.input_count(),
                           data.output_count());
 }
 

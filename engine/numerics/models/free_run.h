@@ -31,7 +31,7 @@ class FreeRunModel {
 
 /// Throws InvalidArgument that begins with `model` unless the data have these inputs and, where they have any, these
 /// outputs.
-void check_channels(const std::string& model, const FreeRunModel& wanted, const IdData& data);
+void check_channels(const std::string& model, const FreeRunModel& requested, const IdData& data);
 
 /// "The free run leaves all bounds at t = 3.2 s." with the time of that sample.
 Message divergence_text(const IdData& data, std::size_t experiment, Index sample);

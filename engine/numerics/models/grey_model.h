@@ -43,10 +43,10 @@ class GreyEvaluation {
   public:
     virtual ~GreyEvaluation() = default;
     virtual void set_parameters(const Vector& parameters) = 0;
-    virtual void rates(double t, const double* x, const double* u, Derivatives wanted, GreyValues& at) = 0;
-    virtual void outputs(double t, const double* x, const double* u, Derivatives wanted, GreyValues& at) = 0;
+    virtual void rates(double t, const double* x, const double* u, Derivatives requested, GreyValues& at) = 0;
+    virtual void outputs(double t, const double* x, const double* u, Derivatives requested, GreyValues& at) = 0;
     /// x(t_1), and by_parameter where derivatives are wanted.
-    virtual void initial_state(Derivatives wanted, GreyValues& at) = 0;
+    virtual void initial_state(Derivatives requested, GreyValues& at) = 0;
     /// The rates as a linear system where they are one for all parameters, else nothing.
     virtual const GreyLinearSystem* linear_system() { return nullptr; }
 };

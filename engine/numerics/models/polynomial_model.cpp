@@ -11,32 +11,31 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kHighestOrder = 100, kLongestDelay = 1000000;
+constexpr int kMaxOrder = 100, kMaxDelay = 1000000;
 
 bool between(int value, int least, int most) {
     return value >= least && value <= most;
 }
 
 void check_orders(const PolynomialOrders& orders) {
-    if (!between(orders.na, 0, kHighestOrder))
-        throw InvalidArgument("na, the number of poles, must be between {} and {}, but is {}", 0, kHighestOrder,
-                              orders.na);
-    if (!between(orders.nc, 0, kHighestOrder))
+    if (!between(orders.na, 0, kMaxOrder))
+        throw InvalidArgument("na, the number of poles, must be between {} and {}, but is {}", 0, kMaxOrder, orders.na);
+    if (!between(orders.nc, 0, kMaxOrder))
         throw InvalidArgument("nc, the number of coefficients of C after its 1, must be between {} and {}, but is {}",
-                              0, kHighestOrder, orders.nc);
-    if (!between(orders.nd, 0, kHighestOrder))
+                              0, kMaxOrder, orders.nc);
+    if (!between(orders.nd, 0, kMaxOrder))
         throw InvalidArgument("nd, the number of coefficients of D after its 1, must be between {} and {}, but is {}",
-                              0, kHighestOrder, orders.nd);
+                              0, kMaxOrder, orders.nd);
     for (std::size_t i = 0; i < orders.inputs(); ++i) {
-        if (!between(orders.nb[i], 1, kHighestOrder))
+        if (!between(orders.nb[i], 1, kMaxOrder))
             throw InvalidArgument("nb, the number of coefficients of B, must be between {} and {}, but is {}", 1,
-                                  kHighestOrder, orders.nb[i]);
-        if (!between(orders.nf[i], 0, kHighestOrder))
-            throw InvalidArgument("nf, the number of poles of B/F, must be between {} and {}, but is {}", 0,
-                                  kHighestOrder, orders.nf[i]);
-        if (!between(orders.nk[i], 0, kLongestDelay))
+                                  kMaxOrder, orders.nb[i]);
+        if (!between(orders.nf[i], 0, kMaxOrder))
+            throw InvalidArgument("nf, the number of poles of B/F, must be between {} and {}, but is {}", 0, kMaxOrder,
+                                  orders.nf[i]);
+        if (!between(orders.nk[i], 0, kMaxDelay))
             throw InvalidArgument("nk, the delay in samples (1: no direct term), must be between {} and {}, but is {}",
-                                  0, kLongestDelay, orders.nk[i]);
+                                  0, kMaxDelay, orders.nk[i]);
     }
 }
 

@@ -30,7 +30,7 @@ SplitDelay split_delay(double delay, double Ts) {
     return {static_cast<Index>(whole), delay - whole * Ts};
 }
 
-SampledSystem discretise(const MatrixView& A, const VectorView& B, const MatrixView& C, const VectorView& D, double Ts,
+SampledSystem discretize(const MatrixView& A, const VectorView& B, const MatrixView& C, const VectorView& D, double Ts,
                          Hold hold, double delay) {
     // In [k Ts, k Ts + rest) the delayed input lies between u[k-d-1] and u[k-d], afterwards between u[k-d] and
     // u[k-d+1]; the rest of the delay is the fraction `late` of an interval.
@@ -82,7 +82,7 @@ SampledSystem derivative_filter(const VectorView& den, double Ts, Hold hold, dou
     Matrix C(n + 1, n);
     C << -den.tail(n).transpose(), Matrix::Identity(n, n);
     const Vector B = Vector::Unit(n, 0), D = Vector::Unit(n + 1, 0);
-    return discretise(companion(den), B, C, D, Ts, hold, delay);
+    return discretize(companion(den), B, C, D, Ts, hold, delay);
 }
 
 }  // namespace dynlab::inline numerics

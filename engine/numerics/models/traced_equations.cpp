@@ -63,14 +63,14 @@ class TracedFunction {
         for (ExpressionProgram& program : programs_) program.set_parameters(parameters);
     }
 
-    void evaluate(double t, const double* x, const double* u, Derivatives wanted, GreyValues& at) {
-        ExpressionProgram& program = programs_[static_cast<std::size_t>(wanted)];
+    void evaluate(double t, const double* x, const double* u, Derivatives requested, GreyValues& at) {
+        ExpressionProgram& program = programs_[static_cast<std::size_t>(requested)];
         program.run(t, x, u);
         at.values.resize(size_);
         for (Index i = 0; i < size_; ++i) at.values[i] = program.result(static_cast<std::size_t>(i));
-        if (wanted == Derivatives::kNone) return;
+        if (requested == Derivatives::kNone) return;
         by_state_.fill(program, at.by_state);
-        if (wanted == Derivatives::kAll) by_parameter_.fill(program, at.by_parameter);
+        if (requested == Derivatives::kAll) by_parameter_.fill(program, at.by_parameter);
     }
 
   private:
@@ -183,14 +183,14 @@ class TracedEvaluation final : public GreyEvaluation {
         for (TracedFunction* function : {&rates_, &outputs_, &initial_}) function->set_parameters(parameters.data());
         if (linear_) linear_->set_parameters(parameters.data());
     }
-    void rates(double t, const double* x, const double* u, Derivatives wanted, GreyValues& at) override {
-        rates_.evaluate(t, x, u, wanted, at);
+    void rates(double t, const double* x, const double* u, Derivatives requested, GreyValues& at) override {
+        rates_.evaluate(t, x, u, requested, at);
     }
-    void outputs(double t, const double* x, const double* u, Derivatives wanted, GreyValues& at) override {
-        outputs_.evaluate(t, x, u, wanted, at);
+    void outputs(double t, const double* x, const double* u, Derivatives requested, GreyValues& at) override {
+        outputs_.evaluate(t, x, u, requested, at);
     }
-    void initial_state(Derivatives wanted, GreyValues& at) override {
-        initial_.evaluate(0, nullptr, nullptr, wanted, at);
+    void initial_state(Derivatives requested, GreyValues& at) override {
+        initial_.evaluate(0, nullptr, nullptr, requested, at);
     }
     const GreyLinearSystem* linear_system() override { return linear_ ? &linear_->at() : nullptr; }
 

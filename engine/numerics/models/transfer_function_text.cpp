@@ -54,7 +54,7 @@ std::string latex_delay(const TransferFunction& G, int significant_digits) {
     return " e^{-" + number_in(Notation::kLatex, G.delay(), significant_digits) + " s}";
 }
 
-std::string centred(const std::string& text, std::size_t margin, std::size_t width) {
+std::string centered(const std::string& text, std::size_t margin, std::size_t width) {
     return std::string(margin + (width - text.size()) / 2, ' ') + text;
 }
 
@@ -68,7 +68,7 @@ std::string to_text(const TransferFunction& G, int significant_digits) {
     const std::size_t width = std::max(num.size(), den.size());
     std::string fraction = delay + std::string(width, '-');
     if (!G.continuous()) fraction += "   Ts = " + number_text(G.Ts(), significant_digits) + " s";
-    return centred(num, delay.size(), width) + "\n" + fraction + "\n" + centred(den, delay.size(), width);
+    return centered(num, delay.size(), width) + "\n" + fraction + "\n" + centered(den, delay.size(), width);
 }
 
 std::string to_latex(const TransferFunction& G, int significant_digits) {

@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kMostPoles = 30;
+constexpr int kMaxPoles = 30;
 
 template <class Value>
 bool of_channels(const std::vector<Value>& list, std::size_t channels) {
@@ -171,8 +171,8 @@ void TransferStructure::validate() const {
         throw InvalidArgument(
             "A model needs at least one output, and one channel for each pair of an input and an output");
     for (const int n : poles)
-        if (n < 1 || n > kMostPoles)
-            throw InvalidArgument("The number of poles must be between 1 and {}, but is {}", kMostPoles, n);
+        if (n < 1 || n > kMaxPoles)
+            throw InvalidArgument("The number of poles must be between 1 and {}, but is {}", kMaxPoles, n);
     for (const TransferChannel& channel : channels) {
         if (channel.denominator < 0 || static_cast<std::size_t>(channel.denominator) >= poles.size())
             throw InvalidArgument("A channel of the model refers to a missing denominator");

@@ -8,27 +8,27 @@
 namespace dynlab::inline numerics {
 namespace {
 
-RigValues input_and_output(const RigRecord& record) {
+PlantValues input_and_output(const PlantData& record) {
     return {{"t", record.t}, {"u", record.u}, {"y", record.y}};
 }
 
 /// Adds a further record whose names end in `part`.
-void add_part(RigValues& values, const RigRecord& record, const std::string& part) {
-    for (RigValue& value : input_and_output(record)) values.push_back({value.name + part, std::move(value.value)});
+void add_part(PlantValues& values, const PlantData& record, const std::string& part) {
+    for (PlantValue& value : input_and_output(record)) values.push_back({value.name + part, std::move(value.value)});
 }
 
-RigValues crane_record(const RigChoice& choice) {
-    RigValues values;
-    for (CraneRecord& experiment : simulate_crane(crane_specimen(choice.specimen), {}, choice.seed))
-        values.push_back({experiment.name, RigValues{{"t", std::move(experiment.t)},
-                                                     {"u", std::move(experiment.u)},
-                                                     {"x", std::move(experiment.x)},
-                                                     {"theta", std::move(experiment.theta)}}});
+PlantValues crane_record(const PlantChoice& choice) {
+    PlantValues values;
+    for (CraneRecord& experiment : simulate_crane(crane_variant(choice.specimen), {}, choice.seed))
+        values.push_back({experiment.name, PlantValues{{"t", std::move(experiment.t)},
+                                                       {"u", std::move(experiment.u)},
+                                                       {"x", std::move(experiment.x)},
+                                                       {"theta", std::move(experiment.theta)}}});
     return values;
 }
 
-RigValues crane_theory(std::uint32_t specimen) {
-    const CraneTruth truth = crane_truth(crane_specimen(specimen));
+PlantValues crane_theory(std::uint32_t specimen) {
+    const CraneTruth truth = crane_truth(crane_variant(specimen));
     return {{"natural_frequency", truth.natural_frequency},
             {"damping_ratio", truth.damping_ratio},
             {"speed_gain", truth.speed_gain},
@@ -37,43 +37,43 @@ RigValues crane_theory(std::uint32_t specimen) {
             {"time_constant", truth.time_constant}};
 }
 
-RigValues drifting_process_record(const RigChoice& choice) {
-    return input_and_output(simulate_drifting_process(drifting_process_specimen(choice.specimen), {}, choice.seed));
+PlantValues drifting_process_record(const PlantChoice& choice) {
+    return input_and_output(simulate_drifting_process(drifting_process_variant(choice.specimen), {}, choice.seed));
 }
 
-RigValues drifting_process_theory(std::uint32_t specimen) {
-    const DriftingProcessParameters rig = drifting_process_specimen(specimen);
-    const RigRecord record = simulate_drifting_process(rig, {}, 1);
+PlantValues drifting_process_theory(std::uint32_t specimen) {
+    const DriftingProcessParameters plant = drifting_process_variant(specimen);
+    const PlantData record = simulate_drifting_process(plant, {}, 1);
     const Vector& t = record.t;
-    return {{"noise_std", rig.noise_std},
-            {"cleaning_time", rig.cleaning_time},
+    return {{"noise_std", plant.noise_std},
+            {"cleaning_time", plant.cleaning_time},
             {"t", t},
-            {"gain", Vector(t.unaryExpr([&rig](double time) { return rig.gain(time); }))},
-            {"time_constant", Vector(t.unaryExpr([&rig](double time) { return rig.time_constant(time); }))}};
+            {"gain", Vector(t.unaryExpr([&plant](double time) { return plant.gain(time); }))},
+            {"time_constant", Vector(t.unaryExpr([&plant](double time) { return plant.time_constant(time); }))}};
 }
 
-RigValues drive_record(const RigChoice& choice) {
-    RigValues values;
-    for (DriveRecord& experiment : simulate_drive(drive_specimen(choice.specimen), {}, choice.seed))
-        values.push_back({experiment.name, RigValues{{"t", std::move(experiment.t)},
-                                                     {"r", std::move(experiment.r)},
-                                                     {"u", std::move(experiment.u)},
-                                                     {"y", std::move(experiment.y)}}});
+PlantValues drive_record(const PlantChoice& choice) {
+    PlantValues values;
+    for (DriveRecord& experiment : simulate_drive(drive_variant(choice.specimen), {}, choice.seed))
+        values.push_back({experiment.name, PlantValues{{"t", std::move(experiment.t)},
+                                                       {"r", std::move(experiment.r)},
+                                                       {"u", std::move(experiment.u)},
+                                                       {"y", std::move(experiment.y)}}});
     return values;
 }
 
-RigValues drive_theory(std::uint32_t specimen) {
-    const DriveParameters rig = drive_specimen(specimen);
-    return {{"G", drive_plant(rig)},    {"load", drive_load(rig)},    {"controller", drive_controller(rig)},
-            {"load_std", rig.load_std}, {"load_time", rig.load_time}, {"noise_std", rig.noise_std}};
+PlantValues drive_theory(std::uint32_t specimen) {
+    const DriveParameters plant = drive_variant(specimen);
+    return {{"G", drive_plant(plant)},    {"load", drive_load(plant)},    {"controller", drive_controller(plant)},
+            {"load_std", plant.load_std}, {"load_time", plant.load_time}, {"noise_std", plant.noise_std}};
 }
 
-RigValues heat_exchanger_record(const RigChoice& choice) {
-    return input_and_output(simulate_heat_exchanger(heat_exchanger_specimen(choice.specimen), choice.seed));
+PlantValues heat_exchanger_record(const PlantChoice& choice) {
+    return input_and_output(simulate_heat_exchanger(heat_exchanger_variant(choice.specimen), choice.seed));
 }
 
-RigValues heat_exchanger_theory(std::uint32_t specimen) {
-    const HeatExchangerTruth truth = heat_exchanger_truth(heat_exchanger_specimen(specimen));
+PlantValues heat_exchanger_theory(std::uint32_t specimen) {
+    const HeatExchangerTruth truth = heat_exchanger_truth(heat_exchanger_variant(specimen));
     return {{"gain", truth.gain},
             {"time_constant", truth.time_constant},
             {"output_at_zero_input", truth.output_at_zero_input},
@@ -81,46 +81,45 @@ RigValues heat_exchanger_theory(std::uint32_t specimen) {
             {"final_output", truth.final_output}};
 }
 
-RigValues heat_transfer_record(const RigChoice& choice) {
-    const HeatTransferRecords records =
-        simulate_heat_transfer(heat_transfer_specimen(choice.specimen), {}, choice.seed);
-    RigValues values = input_and_output(records.estimation);
+PlantValues heat_transfer_record(const PlantChoice& choice) {
+    const HeatTransferRecords records = simulate_heat_transfer(heat_transfer_variant(choice.specimen), {}, choice.seed);
+    PlantValues values = input_and_output(records.estimation);
     add_part(values, records.validation, "_val");
     add_part(values, records.high, "_high");
     return values;
 }
 
-RigValues heat_transfer_theory(std::uint32_t specimen) {
-    const HeatTransferParameters rig = heat_transfer_specimen(specimen);
+PlantValues heat_transfer_theory(std::uint32_t specimen) {
+    const HeatTransferParameters plant = heat_transfer_variant(specimen);
     const HeatTransferExperiments plan;
-    const auto about = [&rig](double voltage) {
-        const HeatTransferTruth truth = heat_transfer_truth(rig, voltage);
-        return RigValues{{"voltage", voltage},
-                         {"temperature", truth.temperature},
-                         {"gain", truth.gain},
-                         {"slow", truth.slow},
-                         {"fast", truth.fast}};
+    const auto about = [&plant](double voltage) {
+        const HeatTransferTruth truth = heat_transfer_truth(plant, voltage);
+        return PlantValues{{"voltage", voltage},
+                           {"temperature", truth.temperature},
+                           {"gain", truth.gain},
+                           {"slow", truth.slow},
+                           {"fast", truth.fast}};
     };
-    return {{"dead_time", rig.dead_time},
-            {"sensor_time", rig.sensor_time},
+    return {{"dead_time", plant.dead_time},
+            {"sensor_time", plant.sensor_time},
             {"low", about(plan.low)},
             {"high", about(plan.high)}};
 }
 
-RigValues linear_system_record(const RigChoice& choice) {
-    const LinearSystemRecords records = simulate_linear_system(linear_system_specimen(choice.specimen), choice.seed);
-    RigValues values = input_and_output(records.estimation);
+PlantValues linear_system_record(const PlantChoice& choice) {
+    const LinearSystemRecords records = simulate_linear_system(linear_system_variant(choice.specimen), choice.seed);
+    PlantValues values = input_and_output(records.estimation);
     add_part(values, records.validation, "_val");
     return values;
 }
 
-RigValues linear_system_theory(std::uint32_t specimen) {
-    const LinearSystemParameters rig = linear_system_specimen(specimen);
-    return {{"noise_std", rig.noise_std}, {"G", linear_system_truth(rig)}};
+PlantValues linear_system_theory(std::uint32_t specimen) {
+    const LinearSystemParameters plant = linear_system_variant(specimen);
+    return {{"noise_std", plant.noise_std}, {"G", linear_system_truth(plant)}};
 }
 
-RigValues step_response_record(const RigChoice& choice) {
-    const FirstOrderStepRecord record = simulate_first_order_step(step_response_specimen(choice.specimen), choice.seed);
+PlantValues step_response_record(const PlantChoice& choice) {
+    const FirstOrderStepRecord record = simulate_first_order_step(step_response_variant(choice.specimen), choice.seed);
     return {{"t", record.t},
             {"u", record.u},
             {"y", record.y},
@@ -129,17 +128,17 @@ RigValues step_response_record(const RigChoice& choice) {
             {"ydot_noisy", record.ydot_noisy}};
 }
 
-RigValues step_response_theory(std::uint32_t specimen) {
-    const FirstOrderStepTruth truth = first_order_step_truth(step_response_specimen(specimen));
+PlantValues step_response_theory(std::uint32_t specimen) {
+    const FirstOrderStepTruth truth = first_order_step_truth(step_response_variant(specimen));
     return {{"a", truth.a}, {"b", truth.b}, {"f", truth.f}, {"g", truth.g}};
 }
 
-RigValues suspension_record(const RigChoice& choice) {
-    return input_and_output(simulate_suspension(suspension_specimen(choice.specimen), choice.seed));
+PlantValues suspension_record(const PlantChoice& choice) {
+    return input_and_output(simulate_suspension(suspension_variant(choice.specimen), choice.seed));
 }
 
-RigValues suspension_theory(std::uint32_t specimen) {
-    const SuspensionTruth truth = suspension_truth(suspension_specimen(specimen));
+PlantValues suspension_theory(std::uint32_t specimen) {
+    const SuspensionTruth truth = suspension_truth(suspension_variant(specimen));
     return {{"gain", truth.gain},
             {"natural_frequency", truth.natural_frequency},
             {"damping_ratio", truth.damping_ratio},
@@ -147,63 +146,63 @@ RigValues suspension_theory(std::uint32_t specimen) {
             {"overshoot_time", truth.overshoot_time}};
 }
 
-RigValues thruster_record(const RigChoice& choice) {
-    RigValues values;
-    for (ThrusterRecord& experiment : simulate_thruster(thruster_specimen(choice.specimen), {}, choice.seed))
-        values.push_back({experiment.name, RigValues{{"t", std::move(experiment.t)},
-                                                     {"pwm", std::move(experiment.pwm)},
-                                                     {"force", std::move(experiment.force)}}});
+PlantValues thruster_record(const PlantChoice& choice) {
+    PlantValues values;
+    for (ThrusterRecord& experiment : simulate_thruster(thruster_variant(choice.specimen), {}, choice.seed))
+        values.push_back({experiment.name, PlantValues{{"t", std::move(experiment.t)},
+                                                       {"pwm", std::move(experiment.pwm)},
+                                                       {"force", std::move(experiment.force)}}});
     return values;
 }
 
-RigValues thruster_theory(std::uint32_t specimen) {
-    const ThrusterParameters rig = thruster_specimen(specimen);
-    const ThrusterTruth truth = thruster_truth(rig);
-    const Vector pwm = Vector::LinSpaced(81, rig.neutral - rig.full_width, rig.neutral + rig.full_width);
-    const Vector thrust = pwm.unaryExpr([&rig](double width) { return thruster_thrust(rig, width); });
+PlantValues thruster_theory(std::uint32_t specimen) {
+    const ThrusterParameters plant = thruster_variant(specimen);
+    const ThrusterTruth truth = thruster_truth(plant);
+    const Vector pwm = Vector::LinSpaced(81, plant.neutral - plant.full_width, plant.neutral + plant.full_width);
+    const Vector thrust = pwm.unaryExpr([&plant](double width) { return thruster_thrust(plant, width); });
     return {{"delay", truth.delay},
-            {"neutral", rig.neutral},
-            {"dead_band", rig.dead_band},
+            {"neutral", plant.neutral},
+            {"dead_band", plant.dead_band},
             {"forward_thrust", truth.forward_thrust},
             {"reverse_thrust", truth.reverse_thrust},
             {"slow_time_constant", truth.slow_time_constant},
             {"fast_time_constant", truth.fast_time_constant},
-            {"cell_frequency", rig.cell_frequency},
-            {"cell_damping", rig.cell_damping},
+            {"cell_frequency", plant.cell_frequency},
+            {"cell_damping", plant.cell_damping},
             {"pwm", pwm},
             {"thrust", thrust}};
 }
 
-RigValues two_tanks_record(const RigChoice& choice) {
-    const TwoTanksRecords records = simulate_two_tanks(two_tanks_specimen(choice.specimen), {}, choice.seed);
-    RigValues values = input_and_output(records.estimation);
+PlantValues two_tanks_record(const PlantChoice& choice) {
+    const TwoTanksRecords records = simulate_two_tanks(two_tanks_variant(choice.specimen), {}, choice.seed);
+    PlantValues values = input_and_output(records.estimation);
     add_part(values, records.validation, "_val");
     return values;
 }
 
-RigValues two_tanks_theory(std::uint32_t specimen) {
-    const TwoTanksParameters rig = two_tanks_specimen(specimen);
+PlantValues two_tanks_theory(std::uint32_t specimen) {
+    const TwoTanksParameters plant = two_tanks_variant(specimen);
     const double voltage = TwoTanksExperiments().mean_voltage;
-    const TwoTanksTruth truth = two_tanks_truth(rig, voltage);
-    return {{"k1", rig.k1},
-            {"k2", rig.k2},
-            {"k3", rig.k3},
-            {"k4", rig.k4},
-            {"overflow_part", rig.overflow_part},
-            {"sensor_offset", rig.sensor_offset},
-            {"sensor_gain", rig.sensor_gain},
-            {"height", rig.height},
-            {"noise_std", rig.noise_std},
-            {"mean", RigValues{{"voltage", voltage},
-                               {"upper_level", truth.upper_level},
-                               {"lower_level", truth.lower_level},
-                               {"output", truth.output},
-                               {"gain", truth.gain},
-                               {"upper", truth.upper},
-                               {"lower", truth.lower}}}};
+    const TwoTanksTruth truth = two_tanks_truth(plant, voltage);
+    return {{"k1", plant.k1},
+            {"k2", plant.k2},
+            {"k3", plant.k3},
+            {"k4", plant.k4},
+            {"overflow_part", plant.overflow_part},
+            {"sensor_offset", plant.sensor_offset},
+            {"sensor_gain", plant.sensor_gain},
+            {"height", plant.height},
+            {"noise_std", plant.noise_std},
+            {"mean", PlantValues{{"voltage", voltage},
+                                 {"upper_level", truth.upper_level},
+                                 {"lower_level", truth.lower_level},
+                                 {"output", truth.output},
+                                 {"gain", truth.gain},
+                                 {"upper", truth.upper},
+                                 {"lower", truth.lower}}}};
 }
 
-std::vector<Rig> all_rigs() {
+std::vector<Plant> all_rigs() {
     return {
         {"crane",
          "Trolley crane",
@@ -288,14 +287,15 @@ std::vector<Rig> all_rigs() {
 
 }  // namespace
 
-std::span<const Rig> rig_catalogue() {
-    static const std::vector<Rig> rigs = all_rigs();
+std::span<const Plant> plant_catalog() {
+    static const std::vector<Plant> rigs = all_rigs();
     return rigs;
 }
 
-const Rig* find_rig(std::string_view name) {
-    const std::span<const Rig> rigs = rig_catalogue();
-    const auto found = std::find_if(rigs.begin(), rigs.end(), [name](const Rig& rig) { return rig.name == name; });
+const Plant* find_plant(std::string_view name) {
+    const std::span<const Plant> rigs = plant_catalog();
+    const auto found =
+        std::find_if(rigs.begin(), rigs.end(), [name](const Plant& plant) { return plant.name == name; });
     return found == rigs.end() ? nullptr : &*found;
 }
 

@@ -10,44 +10,44 @@
 
 namespace dynlab::inline numerics {
 
-/// What an experiment leaves, or what theory says of it: values by name, in the order in which they are told. Parts
-/// such as one experiment of several are values of their own.
-struct RigValue;
-using RigValues = std::vector<RigValue>;
-struct RigValue {
+/// Results of an experiment, or their theoretical values: values by name, in the order in which they are documented.
+/// Parts of a record, such as one of several experiments, are nested values.
+struct PlantValue;
+using PlantValues = std::vector<PlantValue>;
+struct PlantValue {
     std::string name;
-    std::variant<double, Vector, TransferFunction, RigValues> value;
+    std::variant<double, Vector, TransferFunction, PlantValues> value;
 };
 
-struct RigSignal {
+struct PlantSignal {
     std::string name;
     std::string unit;  ///< empty for numbers without one
 };
 
-/// Which record is wanted; the default is the stored one.
-struct RigChoice {
-    std::uint32_t specimen = 0;  ///< of the apparatus (specimen.h); 0 is the one that the rig's header describes
+/// Selects a record. Default: the stored record.
+struct PlantChoice {
+    std::uint32_t specimen = 0;  ///< plant variant (specimen.h); 0: the parameters in the header of the plant
     std::uint32_t seed = 1;      ///< of noise and of random inputs
 };
 
 /// One of the course's simulated experiments, whose stored record is the data set of the same name.
-struct Rig {
+struct Plant {
     std::string name;                      ///< of the data set
     std::string title;                     ///< of the records, a few words
-    std::vector<RigSignal> signals;        ///< of the record, or of each of its experiments; instants come first
+    std::vector<PlantSignal> signals;      ///< of the record, or of each of its experiments; instants come first
     std::vector<std::string> experiments;  ///< their names; empty where the signals are the record itself
     double Ts = 0;                         ///< of its records, s
 
     /// The record, N values for each signal: equal choices give equal records on every machine.
-    RigValues (*record)(const RigChoice& choice) = nullptr;
-    /// What theory says of the specimen, without noise.
-    RigValues (*truth)(std::uint32_t specimen) = nullptr;
+    PlantValues (*record)(const PlantChoice& choice) = nullptr;
+    /// True parameters of the plant variant, without noise.
+    PlantValues (*truth)(std::uint32_t specimen) = nullptr;
 };
 
 /// The table of rigs, sorted by name.
-std::span<const Rig> rig_catalogue();
+std::span<const Plant> plant_catalog();
 
-/// The rig of that name; nothing where there is none.
-const Rig* find_rig(std::string_view name);
+/// The simulated plant with this name; nullptr if there is none.
+const Plant* find_plant(std::string_view name);
 
 }  // namespace dynlab::inline numerics

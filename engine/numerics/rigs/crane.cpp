@@ -42,13 +42,13 @@ OdeState packed(const CraneState& s) {
 }  // namespace
 
 void CraneParameters::validate() const {
-    const char* rig = "crane";
-    require_positive(rig, "resistance", resistance, "inductance", inductance, "gear ratio", gear_ratio, "pulley radius",
-                     pulley_radius, "rotor inertia", rotor_inertia, "belt stiffness", belt_stiffness, "trolley mass",
-                     trolley_mass, "Stribeck speed", stribeck_speed, "pendulum mass", pendulum_mass, "pendulum length",
-                     pendulum_length, "gravity", gravity, "rail", rail, "buffer stiffness", buffer_stiffness,
-                     "voltage limit", voltage_limit);
-    require_not_negative(rig, "torque constant", torque_constant, "motor damping", motor_damping, "belt damping",
+    const char* plant = "crane";
+    require_positive(plant, "resistance", resistance, "inductance", inductance, "gear ratio", gear_ratio,
+                     "pulley radius", pulley_radius, "rotor inertia", rotor_inertia, "belt stiffness", belt_stiffness,
+                     "trolley mass", trolley_mass, "Stribeck speed", stribeck_speed, "pendulum mass", pendulum_mass,
+                     "pendulum length", pendulum_length, "gravity", gravity, "rail", rail, "buffer stiffness",
+                     buffer_stiffness, "voltage limit", voltage_limit);
+    require_not_negative(plant, "torque constant", torque_constant, "motor damping", motor_damping, "belt damping",
                          belt_damping, "trolley damping", trolley_damping, "Coulomb friction", coulomb_friction,
                          "pendulum inertia", pendulum_inertia, "pivot damping", pivot_damping, "air drag", air_drag,
                          "buffer damping", buffer_damping, "surplus of static over Coulomb friction",

@@ -64,16 +64,16 @@ class Experimenter {
         return {std::move(record), start, position_normals, random_.normal(N)};
     }
 
-    CraneRecord run(Plan wanted) const {
-        CraneSimulator crane(crane_, wanted.start);
-        CraneRecord& record = wanted.record;
+    CraneRecord run(Plan requested) const {
+        CraneSimulator crane(crane_, requested.start);
+        CraneRecord& record = requested.record;
         for (Index k = 0; k < record.u.size(); ++k) {
             record.x[k] = crane.state().position;
             record.theta[k] = crane.state().angle + plan_.angle_offset;
             crane.advance(record.u[k], plan_.Ts);
         }
-        record.x = measure(record.x, 0, plan_.position_resolution, wanted.position_normals);
-        record.theta = measure(record.theta, plan_.angle_noise_std, plan_.angle_resolution, wanted.angle_normals);
+        record.x = measure(record.x, 0, plan_.position_resolution, requested.position_normals);
+        record.theta = measure(record.theta, plan_.angle_noise_std, plan_.angle_resolution, requested.angle_normals);
         return std::move(record);
     }
 
@@ -108,9 +108,9 @@ class Experimenter {
 }  // namespace
 
 void CraneExperiments::validate() const {
-    const char* rig = "crane";
-    require_positive(rig, "sampling time", Ts, "PRBS amplitude", prbs_amplitude);
-    require_not_negative(rig, "quiet time", quiet_time, "release angle", release_angle, "position resolution",
+    const char* plant = "crane";
+    require_positive(plant, "sampling time", Ts, "PRBS amplitude", prbs_amplitude);
+    require_not_negative(plant, "quiet time", quiet_time, "release angle", release_angle, "position resolution",
                          position_resolution, "angle noise", angle_noise_std, "angle resolution", angle_resolution,
                          "angle offset", std::abs(angle_offset));
 }

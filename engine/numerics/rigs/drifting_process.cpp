@@ -26,10 +26,10 @@ double time_constant_with(const DriftingProcessParameters& p, double scale) {
 }  // namespace
 
 void DriftingProcessParameters::validate() const {
-    const char* rig = "drifting process";
-    require_not_negative(rig, "lost gain", lost_gain, "further time", more_time, "noise standard deviation", noise_std,
-                         "resolution", resolution);
-    require_positive(rig, "clean gain", clean_gain, "clean time constant", clean_time_constant, "growth time",
+    const char* plant = "drifting process";
+    require_not_negative(plant, "lost gain", lost_gain, "further time", more_time, "noise standard deviation",
+                         noise_std, "resolution", resolution);
+    require_positive(plant, "clean gain", clean_gain, "clean time constant", clean_time_constant, "growth time",
                      growth_time, "cleaning time", cleaning_time, "remaining gain", 1 - lost_gain);
 }
 
@@ -42,9 +42,9 @@ double DriftingProcessParameters::time_constant(double t) const {
 }
 
 void DriftingProcessExperiments::validate() const {
-    const char* rig = "drifting process";
-    require_not_negative(rig, "lowest power", low);
-    require_positive(rig, "sampling time", Ts, "difference of the powers", high - low);
+    const char* plant = "drifting process";
+    require_not_negative(plant, "lowest power", low);
+    require_positive(plant, "sampling time", Ts, "difference of the powers", high - low);
 }
 
 Vector simulate_drifting_process(const DriftingProcessParameters& p, const Vector& u, double Ts, RandomStream& random) {
@@ -75,11 +75,11 @@ Vector simulate_drifting_process(const DriftingProcessParameters& p, const Vecto
     return measure(rise, p.noise_std, p.resolution, random);
 }
 
-RigRecord simulate_drifting_process(const DriftingProcessParameters& parameters, const DriftingProcessExperiments& plan,
+PlantData simulate_drifting_process(const DriftingProcessParameters& parameters, const DriftingProcessExperiments& plan,
                                     std::uint32_t seed) {
     plan.validate();
     RandomStream random(seed);
-    RigRecord record;
+    PlantData record;
     record.u = seeded_prbs(plan.prbs_stages, plan.prbs_hold, plan.low, plan.high, random);
     record.t = Vector::LinSpaced(record.u.size(), 0, static_cast<double>(record.u.size() - 1)) * plan.Ts;
     record.y = simulate_drifting_process(parameters, record.u, plan.Ts, random);

@@ -44,7 +44,7 @@ Vector simulate_drifting_process(const DriftingProcessParameters& parameters, co
                                  RandomStream& random);
 
 /// Equal seeds give equal records.
-RigRecord simulate_drifting_process(const DriftingProcessParameters& parameters,
+PlantData simulate_drifting_process(const DriftingProcessParameters& parameters,
                                     const DriftingProcessExperiments& experiments, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

@@ -74,10 +74,10 @@ Vector denominator(const DriveParameters& p) {
 }  // namespace
 
 void DriveParameters::validate() const {
-    const char* rig = "drive";
-    require_positive(rig, "resistance", resistance, "inductance", inductance, "motor constant", motor_constant,
+    const char* plant = "drive";
+    require_positive(plant, "resistance", resistance, "inductance", inductance, "motor constant", motor_constant,
                      "inertia", inertia, "load's correlation time", load_time, "sampling time", Ts);
-    require_not_negative(rig, "friction", friction, "load's standard deviation", load_std, "noise standard deviation",
+    require_not_negative(plant, "friction", friction, "load's standard deviation", load_std, "noise standard deviation",
                          noise_std, "resolution", resolution, "controller's gain", gain, "controller's integral gain",
                          integral_gain);
 }

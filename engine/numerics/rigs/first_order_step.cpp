@@ -8,9 +8,9 @@
 namespace dynlab::inline numerics {
 
 void FirstOrderStepParameters::validate() const {
-    const char* rig = "first-order step";
-    require_positive(rig, "time constant", time_constant, "sampling time", Ts);
-    require_not_negative(rig, "output noise", output_noise_std, "derivative noise", derivative_noise_std);
+    const char* plant = "first-order step";
+    require_positive(plant, "time constant", time_constant, "sampling time", Ts);
+    require_not_negative(plant, "output noise", output_noise_std, "derivative noise", derivative_noise_std);
     if (!std::isfinite(gain) || !std::isfinite(step_height))
         throw InvalidArgument("The first-order step's gain and step height must be finite numbers");
     if (samples < 2)

@@ -8,11 +8,11 @@
 namespace dynlab::inline numerics {
 
 void HeatExchangerParameters::validate() const {
-    const char* rig = "heat exchanger";
-    require_not_negative(rig, "wall capacity", wall_capacity, "flow", flow, "loss", loss,
+    const char* plant = "heat exchanger";
+    require_not_negative(plant, "wall capacity", wall_capacity, "flow", flow, "loss", loss,
                          "valve opening before the step", valve_before, "valve opening after the step", valve_after,
                          "step time", step_time, "noise standard deviation", noise_std, "resolution", resolution);
-    require_positive(rig, "mass", mass, "specific heat", specific_heat, "power", power, "sampling time", Ts,
+    require_positive(plant, "mass", mass, "specific heat", specific_heat, "power", power, "sampling time", Ts,
                      "flow and loss together", flow + loss, "time between step and end", duration - step_time);
     if (valve_before > 100 || valve_after > 100)
         throw InvalidArgument("The heat exchanger's valve opens from 0 to 100 %, but a larger opening was requested");
@@ -32,10 +32,10 @@ HeatExchangerTruth heat_exchanger_truth(const HeatExchangerParameters& p) {
     return truth;
 }
 
-RigRecord simulate_heat_exchanger(const HeatExchangerParameters& p, std::uint32_t seed) {
+PlantData simulate_heat_exchanger(const HeatExchangerParameters& p, std::uint32_t seed) {
     const HeatExchangerTruth truth = heat_exchanger_truth(p);
     RandomStream random(seed);
-    RigRecord record;
+    PlantData record;
     record.t = sampling_instants(p.duration, p.Ts);
     const Index N = record.t.size(), step = static_cast<Index>(std::llround(p.step_time / p.Ts));
     record.u.resize(N);

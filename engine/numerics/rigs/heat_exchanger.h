@@ -44,6 +44,6 @@ struct HeatExchangerTruth {
 HeatExchangerTruth heat_exchanger_truth(const HeatExchangerParameters& parameters);
 
 /// The sampled experiment; equal seeds give equal records.
-RigRecord simulate_heat_exchanger(const HeatExchangerParameters& parameters, std::uint32_t seed);
+PlantData simulate_heat_exchanger(const HeatExchangerParameters& parameters, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

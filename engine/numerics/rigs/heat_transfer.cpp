@@ -15,12 +15,12 @@ double heating(const HeatTransferParameters& p, double voltage) {
     return p.power * part * part;
 }
 
-RigRecord record_about(const HeatTransferParameters& p, const HeatTransferExperiments& plan, double operating_point,
+PlantData record_about(const HeatTransferParameters& p, const HeatTransferExperiments& plan, double operating_point,
                        RandomStream& random) {
     const auto rest = static_cast<Index>(std::llround(plan.rest / plan.Ts));
     const Vector bits = seeded_prbs(plan.prbs_stages, plan.prbs_hold, operating_point - plan.amplitude,
                                     operating_point + plan.amplitude, random);
-    RigRecord record;
+    PlantData record;
     record.u.resize(rest + bits.size());
     record.u << Vector::Constant(rest, operating_point), bits;
     record.t = Vector::LinSpaced(record.u.size(), 0, static_cast<double>(record.u.size() - 1)) * plan.Ts;
@@ -31,18 +31,18 @@ RigRecord record_about(const HeatTransferParameters& p, const HeatTransferExperi
 }  // namespace
 
 void HeatTransferParameters::validate() const {
-    const char* rig = "heat-transfer plant";
-    require_positive(rig, "heater capacity", heater_capacity, "air capacity", air_capacity, "transfer", transfer,
+    const char* plant = "heat-transfer plant";
+    require_positive(plant, "heater capacity", heater_capacity, "air capacity", air_capacity, "transfer", transfer,
                      "flow", flow, "power", power, "full voltage", full_voltage, "sensor time", sensor_time,
                      "drift period", drift_period);
-    require_not_negative(rig, "dead time", dead_time, "inlet temperature's size", std::abs(inlet), "drift", drift,
+    require_not_negative(plant, "dead time", dead_time, "inlet temperature's size", std::abs(inlet), "drift", drift,
                          "noise standard deviation", noise_std, "resolution", resolution);
 }
 
 void HeatTransferExperiments::validate() const {
-    const char* rig = "heat-transfer plant";
-    require_positive(rig, "sampling time", Ts, "amplitude", amplitude);
-    require_not_negative(rig, "rest", rest, "lowest voltage", std::min(low, high) - amplitude);
+    const char* plant = "heat-transfer plant";
+    require_positive(plant, "sampling time", Ts, "amplitude", amplitude);
+    require_not_negative(plant, "rest", rest, "lowest voltage", std::min(low, high) - amplitude);
 }
 
 HeatTransferTruth heat_transfer_truth(const HeatTransferParameters& p, double operating_point) {

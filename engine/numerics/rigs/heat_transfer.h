@@ -62,8 +62,8 @@ Vector simulate_heat_transfer(const HeatTransferParameters& parameters, const Ve
                               RandomStream& random);
 
 struct HeatTransferRecords {
-    RigRecord estimation, validation;  ///< about the low operating point, two orders of bits
-    RigRecord high;                    ///< about the high one
+    PlantData estimation, validation;  ///< about the low operating point, two orders of bits
+    PlantData high;                    ///< about the high one
 };
 /// Equal seeds give equal records.
 HeatTransferRecords simulate_heat_transfer(const HeatTransferParameters& parameters,

@@ -6,8 +6,8 @@
 namespace dynlab::inline numerics {
 namespace {
 
-RigRecord record_of(const LinearSystemParameters& p, const TransferFunction& G, RandomStream& random) {
-    RigRecord record;
+PlantData record_of(const LinearSystemParameters& p, const TransferFunction& G, RandomStream& random) {
+    PlantData record;
     record.u = seeded_prbs(p.prbs_stages, p.prbs_hold, -p.amplitude, p.amplitude, random);
     record.t = Vector::LinSpaced(record.u.size(), 0, static_cast<double>(record.u.size() - 1)) * p.Ts;
     record.y = measure(lsim(G, record.u, p.Ts), p.noise_std, 0, random);
@@ -17,10 +17,10 @@ RigRecord record_of(const LinearSystemParameters& p, const TransferFunction& G, 
 }  // namespace
 
 void LinearSystemParameters::validate() const {
-    const char* rig = "linear system";
-    require_positive(rig, "gain", gain, "zero", zero, "pole", pole, "frequency", frequency, "damping", damping,
+    const char* plant = "linear system";
+    require_positive(plant, "gain", gain, "zero", zero, "pole", pole, "frequency", frequency, "damping", damping,
                      "amplitude", amplitude, "sampling time", Ts);
-    require_not_negative(rig, "noise standard deviation", noise_std);
+    require_not_negative(plant, "noise standard deviation", noise_std);
 }
 
 TransferFunction linear_system_truth(const LinearSystemParameters& p) {

@@ -29,7 +29,7 @@ struct LinearSystemParameters {
 TransferFunction linear_system_truth(const LinearSystemParameters& parameters);
 
 struct LinearSystemRecords {
-    RigRecord estimation, validation;
+    PlantData estimation, validation;
 };
 /// Equal seeds give equal records.
 LinearSystemRecords simulate_linear_system(const LinearSystemParameters& parameters, std::uint32_t seed);

@@ -13,14 +13,14 @@ Vector sampling_instants(double duration, double Ts) {
     return Vector::LinSpaced(steps + 1, 0, static_cast<double>(steps)) * Ts;
 }
 
-void require_positive(const char* rig, const char* name, double value) {
+void require_positive(const char* plant, const char* name, double value) {
     if (!(value > 0) || !std::isfinite(value))
-        throw InvalidArgument("The {}'s {} must be positive, but is {}", rig, name, significant(value, 6));
+        throw InvalidArgument("The {}'s {} must be positive, but is {}", plant, name, significant(value, 6));
 }
 
-void require_not_negative(const char* rig, const char* name, double value) {
+void require_not_negative(const char* plant, const char* name, double value) {
     if (!(value >= 0) || !std::isfinite(value))
-        throw InvalidArgument("The {}'s {} must not be negative, but is {}", rig, name, significant(value, 6));
+        throw InvalidArgument("The {}'s {} must not be negative, but is {}", plant, name, significant(value, 6));
 }
 
 Vector seeded_prbs(int stages, int hold, double low, double high, RandomStream& random) {

@@ -8,7 +8,7 @@
 namespace dynlab::inline numerics {
 
 /// What a rig's experiment leaves: instants (s), inputs and measured outputs, N values each.
-struct RigRecord {
+struct PlantData {
     Vector t, u, y;
 };
 
@@ -17,18 +17,18 @@ Vector sampling_instants(double duration, double Ts);
 
 /// Throws InvalidArgument "The RIG's NAME must be positive (not be negative), and is VALUE". The names are those of
 /// parameters of the C++ structs, which have no translation.
-void require_positive(const char* rig, const char* name, double value);
-void require_not_negative(const char* rig, const char* name, double value);
+void require_positive(const char* plant, const char* name, double value);
+void require_not_negative(const char* plant, const char* name, double value);
 /// The same for several: name, value, name, value, ... The first of them that is refused is reported.
 template <class... More>
-void require_positive(const char* rig, const char* name, double value, More... more) {
-    require_positive(rig, name, value);
-    require_positive(rig, more...);
+void require_positive(const char* plant, const char* name, double value, More... more) {
+    require_positive(plant, name, value);
+    require_positive(plant, more...);
 }
 template <class... More>
-void require_not_negative(const char* rig, const char* name, double value, More... more) {
-    require_not_negative(rig, name, value);
-    require_not_negative(rig, more...);
+void require_not_negative(const char* plant, const char* name, double value, More... more) {
+    require_not_negative(plant, name, value);
+    require_not_negative(plant, more...);
 }
 
 /// A pseudo-random binary sequence as an experimenter with another seed would apply it: one period of prbs(stages,

@@ -21,7 +21,7 @@ void vary(std::uint32_t number, std::initializer_list<Change> changes) {
 
 }  // namespace
 
-CraneParameters crane_specimen(std::uint32_t number) {
+CraneParameters crane_variant(std::uint32_t number) {
     CraneParameters p;
     vary(number, {{p.pendulum_length, 0.15},
                   {p.pendulum_mass, 0.15},
@@ -32,7 +32,7 @@ CraneParameters crane_specimen(std::uint32_t number) {
     return p;
 }
 
-DriftingProcessParameters drifting_process_specimen(std::uint32_t number) {
+DriftingProcessParameters drifting_process_variant(std::uint32_t number) {
     DriftingProcessParameters p;
     vary(number, {{p.clean_gain, 0.2},
                   {p.clean_time_constant, 0.2},
@@ -43,43 +43,43 @@ DriftingProcessParameters drifting_process_specimen(std::uint32_t number) {
     return p;
 }
 
-DriveParameters drive_specimen(std::uint32_t number) {
+DriveParameters drive_variant(std::uint32_t number) {
     DriveParameters p;
     vary(number, {{p.motor_constant, 0.1}, {p.inertia, 0.15}, {p.inductance, 0.15}});
     return p;
 }
 
-HeatExchangerParameters heat_exchanger_specimen(std::uint32_t number) {
+HeatExchangerParameters heat_exchanger_variant(std::uint32_t number) {
     HeatExchangerParameters p;
     vary(number, {{p.mass, 0.2}, {p.flow, 0.15}, {p.power, 0.15}});
     return p;
 }
 
-HeatTransferParameters heat_transfer_specimen(std::uint32_t number) {
+HeatTransferParameters heat_transfer_variant(std::uint32_t number) {
     HeatTransferParameters p;
     vary(number, {{p.heater_capacity, 0.2}, {p.air_capacity, 0.15}, {p.power, 0.15}, {p.dead_time, 0.15}});
     return p;
 }
 
-LinearSystemParameters linear_system_specimen(std::uint32_t number) {
+LinearSystemParameters linear_system_variant(std::uint32_t number) {
     LinearSystemParameters p;
     vary(number, {{p.gain, 0.25}, {p.zero, 0.15}, {p.pole, 0.2}, {p.frequency, 0.15}, {p.damping, 0.2}});
     return p;
 }
 
-FirstOrderStepParameters step_response_specimen(std::uint32_t number) {
+FirstOrderStepParameters step_response_variant(std::uint32_t number) {
     FirstOrderStepParameters p;
     vary(number, {{p.gain, 0.25}, {p.time_constant, 0.25}});
     return p;
 }
 
-SuspensionParameters suspension_specimen(std::uint32_t number) {
+SuspensionParameters suspension_variant(std::uint32_t number) {
     SuspensionParameters p;
     vary(number, {{p.mass, 0.15}, {p.stiffness, 0.2}, {p.damping, 0.2}});
     return p;
 }
 
-ThrusterParameters thruster_specimen(std::uint32_t number) {
+ThrusterParameters thruster_variant(std::uint32_t number) {
     ThrusterParameters p;
     vary(number, {{p.dead_band, 0.2},
                   {p.delay, 0.2},
@@ -90,7 +90,7 @@ ThrusterParameters thruster_specimen(std::uint32_t number) {
     return p;
 }
 
-TwoTanksParameters two_tanks_specimen(std::uint32_t number) {
+TwoTanksParameters two_tanks_variant(std::uint32_t number) {
     TwoTanksParameters p;
     double upper = 1, lower = 1;  // one over the tanks' areas
     double pump = 1, outlet = 1;

@@ -9,10 +9,10 @@
 namespace dynlab::inline numerics {
 
 void SuspensionParameters::validate() const {
-    const char* rig = "suspension";
-    require_not_negative(rig, "damping", damping, "step time", step_time, "noise standard deviation", noise_std,
+    const char* plant = "suspension";
+    require_not_negative(plant, "damping", damping, "step time", step_time, "noise standard deviation", noise_std,
                          "resolution", resolution);
-    require_positive(rig, "mass", mass, "stiffness", stiffness, "force per volt", force_per_volt, "sampling time", Ts,
+    require_positive(plant, "mass", mass, "stiffness", stiffness, "force per volt", force_per_volt, "sampling time", Ts,
                      "time between step and end", duration - step_time);
     if (!std::isfinite(step_height) || step_height == 0)
         throw InvalidArgument("The suspension's step height must be a number other than zero");
@@ -34,11 +34,11 @@ SuspensionTruth suspension_truth(const SuspensionParameters& p) {
     return truth;
 }
 
-RigRecord simulate_suspension(const SuspensionParameters& p, std::uint32_t seed) {
+PlantData simulate_suspension(const SuspensionParameters& p, std::uint32_t seed) {
     const SuspensionTruth truth = suspension_truth(p);
     const double z = truth.damping_ratio, root = std::sqrt(1 - z * z), w0 = truth.natural_frequency;
     RandomStream random(seed);
-    RigRecord record;
+    PlantData record;
     record.t = sampling_instants(p.duration, p.Ts);
     const Index N = record.t.size(), step = static_cast<Index>(std::llround(p.step_time / p.Ts));
     record.u = Vector::Zero(N);

@@ -39,6 +39,6 @@ struct SuspensionTruth {
 SuspensionTruth suspension_truth(const SuspensionParameters& parameters);
 
 /// The sampled experiment; equal seeds give equal records.
-RigRecord simulate_suspension(const SuspensionParameters& parameters, std::uint32_t seed);
+PlantData simulate_suspension(const SuspensionParameters& parameters, std::uint32_t seed);
 
 }  // namespace dynlab::inline numerics

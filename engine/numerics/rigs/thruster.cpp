@@ -77,22 +77,22 @@ Vector chirp_about_neutral(const ThrusterParameters& p, const ThrusterExperiment
 }  // namespace
 
 void ThrusterParameters::validate() const {
-    const char* rig = "thruster";
-    require_not_negative(rig, "dead band", dead_band, "delay", delay, "load cell's damping", cell_damping, "wake", wake,
-                         "noise standard deviation", noise_std, "resolution", resolution, "tare's size",
+    const char* plant = "thruster";
+    require_not_negative(plant, "dead band", dead_band, "delay", delay, "load cell's damping", cell_damping, "wake",
+                         wake, "noise standard deviation", noise_std, "resolution", resolution, "tare's size",
                          std::abs(tare));
-    require_positive(rig, "neutral pulse width", neutral, "supply", supply, "motor constant", motor_constant,
+    require_positive(plant, "neutral pulse width", neutral, "supply", supply, "motor constant", motor_constant,
                      "resistance", resistance, "inertia", inertia, "drag torque", drag_torque, "forward thrust",
                      forward_thrust, "reverse thrust", reverse_thrust, "load cell's frequency", cell_frequency,
                      "wake's correlation time", wake_time, "full width outside the dead band", full_width - dead_band);
 }
 
 void ThrusterExperiments::validate() const {
-    const char* rig = "thruster";
-    require_positive(rig, "sampling time", Ts, "start frequency", start_frequency, "end frequency", end_frequency,
+    const char* plant = "thruster";
+    require_positive(plant, "sampling time", Ts, "start frequency", start_frequency, "end frequency", end_frequency,
                      "duration", duration);
-    require_not_negative(rig, "rest", rest);
-    for (double amplitude : amplitudes) require_positive(rig, "amplitude", amplitude);
+    require_not_negative(plant, "rest", rest);
+    for (double amplitude : amplitudes) require_positive(plant, "amplitude", amplitude);
 }
 
 double thruster_speed(const ThrusterParameters& p, double width) {

@@ -73,9 +73,9 @@ Vector multisine_voltage(const TwoTanksExperiments& plan, RandomStream& random) 
     return (plan.mean_voltage + scale * sum.array()).max(0.).min(plan.greatest_voltage);
 }
 
-RigRecord record_of(const TwoTanksParameters& p, const TwoTanksExperiments& plan, RandomStream& random) {
+PlantData record_of(const TwoTanksParameters& p, const TwoTanksExperiments& plan, RandomStream& random) {
     const TwoTanksTruth start = two_tanks_truth(p, plan.start_voltage);
-    RigRecord record;
+    PlantData record;
     record.u = multisine_voltage(plan, random);
     record.t = Vector::LinSpaced(plan.samples, 0, plan.samples - 1.) * plan.Ts;
     const Matrix levels = two_tanks_levels(p, record.u, plan.Ts, {start.upper_level, start.lower_level});
@@ -87,17 +87,17 @@ RigRecord record_of(const TwoTanksParameters& p, const TwoTanksExperiments& plan
 }  // namespace
 
 void TwoTanksParameters::validate() const {
-    const char* rig = "two tanks";
-    require_positive(rig, "k1", k1, "k2", k2, "k3", k3, "k4", k4, "height", height, "sensor gain", sensor_gain);
-    require_not_negative(rig, "overflow part", overflow_part, "sensor offset's size", std::abs(sensor_offset),
+    const char* plant = "two tanks";
+    require_positive(plant, "k1", k1, "k2", k2, "k3", k3, "k4", k4, "height", height, "sensor gain", sensor_gain);
+    require_not_negative(plant, "overflow part", overflow_part, "sensor offset's size", std::abs(sensor_offset),
                          "noise standard deviation", noise_std, "resolution", resolution,
                          "overflow part's distance from 1", 1 - overflow_part);
 }
 
 void TwoTanksExperiments::validate() const {
-    const char* rig = "two tanks";
-    require_not_negative(rig, "mean voltage", mean_voltage, "start voltage", start_voltage);
-    require_positive(rig, "sampling time", Ts, "number of samples", samples, "number of lines", lines,
+    const char* plant = "two tanks";
+    require_not_negative(plant, "mean voltage", mean_voltage, "start voltage", start_voltage);
+    require_positive(plant, "sampling time", Ts, "number of samples", samples, "number of lines", lines,
                      "voltage's standard deviation", voltage_std, "greatest voltage", greatest_voltage,
                      "number of samples beyond two a period of the highest line", samples - 2. * lines);
 }

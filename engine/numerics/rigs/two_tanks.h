@@ -58,7 +58,7 @@ Matrix two_tanks_levels(const TwoTanksParameters& parameters, const Vector& volt
                         const std::array<double, 2>& start);
 
 struct TwoTanksRecords {
-    RigRecord estimation, validation;  ///< two choices of phases
+    PlantData estimation, validation;  ///< two choices of phases
 };
 /// Equal seeds give equal records.
 TwoTanksRecords simulate_two_tanks(const TwoTanksParameters& parameters, const TwoTanksExperiments& experiments,

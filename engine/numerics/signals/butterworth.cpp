@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kHighestFilterOrder = 20;
+constexpr int kMaxFilterOrder = 20;
 constexpr double kTransientLeft = 1e-6;  // part of a transient that is left behind the continuation of a record
 
 /// The filter in the plane s = (z - 1)/(z + 1): edges tan(w Ts/2), and the kind of band.
@@ -21,7 +21,7 @@ struct Analog {
 
     bool low_pass() const { return low == 0; }
     bool high_pass() const { return std::isinf(high); }
-    double centre() const { return std::sqrt(low * high); }
+    double center() const { return std::sqrt(low * high); }
     double width() const { return high - low; }
 };
 
@@ -46,7 +46,7 @@ std::vector<Complex> mapped_poles(Complex prototype, const Analog& filter) {
     if (filter.high_pass()) return {filter.low / prototype};
     // (s^2 + w0^2)/(B s) = p, or its inverse for a stop band
     const Complex half = 0.5 * filter.width() * (filter.stop ? 1.0 / prototype : prototype);
-    const Complex root = std::sqrt(half * half - filter.centre() * filter.centre());
+    const Complex root = std::sqrt(half * half - filter.center() * filter.center());
     return {half + root, half - root};
 }
 
@@ -66,7 +66,7 @@ FilterSection two_poles(Complex p, Complex q, const Analog& filter, Complex refe
     else if (filter.high_pass())
         section.b1 = -2, section.b2 = 1;
     else if (filter.stop)
-        section.b1 = -2 * to_z(Complex(0, filter.centre())).real(), section.b2 = 1;
+        section.b1 = -2 * to_z(Complex(0, filter.center())).real(), section.b2 = 1;
     const double gain = 1 / std::abs(section_response(section, reference));
     section.b0 *= gain, section.b1 *= gain, section.b2 *= gain;
     return section;
@@ -80,7 +80,7 @@ FilterSection one_pole(double p, const Analog& filter) {
 
 Complex reference_of(const Analog& filter) {
     if (filter.low_pass() || (filter.stop && !filter.high_pass())) return 1;
-    return filter.high_pass() ? Complex(-1) : to_z(Complex(0, filter.centre()));
+    return filter.high_pass() ? Complex(-1) : to_z(Complex(0, filter.center()));
 }
 
 /// Adds the sections of one prototype pole and its conjugate.
@@ -129,9 +129,8 @@ Index memory_of(const FilterSections& sections) {
 }  // namespace
 
 void FilterOptions::validate() const {
-    if (order < 1 || order > kHighestFilterOrder)
-        throw InvalidArgument("the order of the filter must be between 1 and {}, but it is {}", kHighestFilterOrder,
-                              order);
+    if (order < 1 || order > kMaxFilterOrder)
+        throw InvalidArgument("the order of the filter must be between 1 and {}, but it is {}", kMaxFilterOrder, order);
 }
 
 FilterSections butterworth(const PassBand& band, double Ts, const FilterOptions& options) {

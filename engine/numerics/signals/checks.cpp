@@ -107,7 +107,7 @@ Message error_in_sample(SignalName name, const MatrixView& samples) {
     return too_large(name);
 }
 
-constexpr double kLargest = 1e100, kSmallest = 1e-100;  // whose squares can still be summed
+constexpr double kMaxValue = 1e100, kMinValue = 1e-100;  // whose squares can still be summed
 
 }  // namespace
 
@@ -124,7 +124,7 @@ void check_samples(const std::string& caller, SignalName name, const MatrixView&
 void check_magnitudes(const std::string& caller, SignalName name, const MatrixView& samples) {
     for (Index column = 0; column < samples.cols(); ++column) {
         const double largest = samples.col(column).cwiseAbs().maxCoeff();
-        if (largest == 0 || (largest > kSmallest && largest < kLargest)) continue;
+        if (largest == 0 || (largest > kMinValue && largest < kMaxValue)) continue;
         throw InvalidArgument("{}: {}", caller,
                               largest < 1 ? largest_too_small(name, largest) : largest_too_large(name, largest));
     }

@@ -31,9 +31,9 @@ void check_frequency(const std::string& caller, double frequency, double Ts) {
 /// The instants 0, Ts, ... below `duration`.
 Eigen::ArrayXd instants(const std::string& caller, double duration, double Ts) {
     check_sampling_time(caller, Ts);
-    constexpr double kMostSamples = 1e10;
+    constexpr double kMaxSamples = 1e10;
     const double count = std::round(duration / Ts);
-    if (!(count >= 1) || count > kMostSamples)
+    if (!(count >= 1) || count > kMaxSamples)
         throw InvalidArgument(
             "{}: the duration must be at least one sampling time of {} s and at most 1e10 of them, but it is {} s",
             caller, Ts, duration);

@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr int kFewestStages = 3, kMostStages = 18;
+constexpr int kMinStages = 3, kMaxStages = 18;
 
 /// The register as bits, stage 1 the lowest: the stages whose exclusive-or is fed back, for 3 to 18 stages.
 constexpr std::uint32_t stage_mask(std::array<int, 4> stages) {
@@ -19,7 +19,7 @@ constexpr std::uint32_t stage_mask(std::array<int, 4> stages) {
     return mask;
 }
 
-constexpr std::array<std::uint32_t, kMostStages - kFewestStages + 1> kFeedback = {
+constexpr std::array<std::uint32_t, kMaxStages - kMinStages + 1> kFeedback = {
     stage_mask({3, 2}),   stage_mask({4, 3}),          stage_mask({5, 3}),        stage_mask({6, 5}),
     stage_mask({7, 6}),   stage_mask({8, 6, 5, 4}),    stage_mask({9, 5}),        stage_mask({10, 7}),
     stage_mask({11, 9}),  stage_mask({12, 6, 4, 1}),   stage_mask({13, 4, 3, 1}), stage_mask({14, 5, 3, 1}),
@@ -34,10 +34,10 @@ std::uint32_t parity(std::uint32_t bits) {
 }  // namespace
 
 Vector prbs(int stages, int hold, double low, double high) {
-    if (stages < kFewestStages || stages > kMostStages)
+    if (stages < kMinStages || stages > kMaxStages)
         throw InvalidArgument("prbs: the number of stages must be between 3 and 18, but it is {}", stages);
     if (hold < 1) throw InvalidArgument("prbs: each bit must be held for at least 1 sample, but hold is {}", hold);
-    const std::uint32_t feedback = kFeedback[static_cast<std::size_t>(stages - kFewestStages)];
+    const std::uint32_t feedback = kFeedback[static_cast<std::size_t>(stages - kMinStages)];
     const std::uint32_t all = (1u << stages) - 1;
     std::uint32_t bits = all;
     Vector signal(static_cast<Index>(all) * hold);

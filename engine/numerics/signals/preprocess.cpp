@@ -13,9 +13,9 @@ void remove_line(Matrix& signals, const Vector& t, TrendKind kind) {
     const Eigen::RowVectorXd mean = signals.colwise().mean();
     signals.rowwise() -= mean;
     if (kind == TrendKind::kConstant) return;
-    const Vector centred = t.array() - t.mean();
-    const Eigen::RowVectorXd slope = centred.transpose() * signals / centred.squaredNorm();
-    signals -= centred * slope;
+    const Vector centered = t.array() - t.mean();
+    const Eigen::RowVectorXd slope = centered.transpose() * signals / centered.squaredNorm();
+    signals -= centered * slope;
 }
 
 constexpr double kStays = 0.05;  // part of an input's range within which it counts as not yet changed

@@ -34,12 +34,12 @@ std::vector<double> sorted_values(const VectorView& x) {
 
 }  // namespace
 
-Quantisation quantisation_of(const VectorView& x) {
+Quantization quantization_of(const VectorView& x) {
     std::vector<double> values = sorted_values(x);
     const double range = values.empty() ? 0 : values.back() - values.front();
     const auto equal = [range](double a, double b) { return b - a <= 1e-9 * range; };
     values.erase(std::unique(values.begin(), values.end(), equal), values.end());
-    Quantisation found{0, static_cast<Index>(values.size())};
+    Quantization found{0, static_cast<Index>(values.size())};
     if (values.size() < 2 || 2 * found.levels > x.size()) return found;
     double step = range;
     for (std::size_t i = 1; i < values.size(); ++i) step = std::min(step, values[i] - values[i - 1]);

@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kFewestSamples = 8, kSmallestGroup = 2;
+constexpr Index kMinSamples = 8, kSmallestGroup = 2;
 constexpr std::uint32_t kGridSeed = 1;
 
 std::vector<double> chosen_lines(Index period, const RandomPhaseOptions& options) {
@@ -75,8 +75,8 @@ Vector with_low_peaks(Vector u, const Vector& lines) {
 }  // namespace
 
 void RandomPhaseOptions::validate(Index period) const {
-    if (period < kFewestSamples)
-        throw InvalidArgument("multisine: a period needs at least {} samples, but has {}", kFewestSamples, period);
+    if (period < kMinSamples)
+        throw InvalidArgument("multisine: a period needs at least {} samples, but has {}", kMinSamples, period);
     const Index last = (period - 1) / 2;
     for (const double line : lines)
         if (line != std::floor(line) || line < 1 || line > static_cast<double>(last))

@@ -53,7 +53,7 @@ double usual_step(const VectorView& x) {
     const double rest = median(x);
     const double rounding = 1e-9 * (x.maxCoeff() - x.minCoeff());
     const Index elsewhere = ((x.array() - rest).abs() > rounding).count();
-    return elsewhere <= std::max<Index>(1, x.size() / 100) ? 0 : quantisation_of(x).step;
+    return elsewhere <= std::max<Index>(1, x.size() / 100) ? 0 : quantization_of(x).step;
 }
 
 /// Hampel's question for one sample.
@@ -70,9 +70,9 @@ class MovingMedian {
         const auto [least, largest] = std::minmax_element(x_.data() + first, x_.data() + last + 1);
         if (*largest - *least <= allowed) return true;
         window_.assign(x_.data() + first, x_.data() + last + 1);
-        const double centre = median(window_), distance = std::abs(x_[k] - centre);
+        const double center = median(window_), distance = std::abs(x_[k] - center);
         if (distance <= allowed) return true;
-        for (double& value : window_) value = std::abs(value - centre);
+        for (double& value : window_) value = std::abs(value - center);
         return distance <= threshold * kNormal * median(window_) + rounding;
     }
 
@@ -95,8 +95,8 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optio
     if (std::find(good.begin(), good.end(), true) == good.end())
         throw InvalidArgument("fillmissing: all samples of the signal are missing");
     RepairedSignal result = bridged(x, t, good, method);
-    constexpr Index kLongestLine = 10;
-    const Index most = longest.value_or(method == FillMethod::kLinear ? kLongestLine : x.size());
+    constexpr Index kMaxLineLength = 10;
+    const Index most = longest.value_or(method == FillMethod::kLinear ? kMaxLineLength : x.size());
     for (const auto& [first, last] : result.stretches)
         if (last - first + 1 > most)
             throw InvalidArgument(

@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kLargestFactor = 1000;
+constexpr Index kMaxFactor = 1000;
 constexpr double kKaiserShape = 10.06;  // 0.1102 (A - 8.7) for an attenuation A of 100 dB
 constexpr double kCutOff = 0.9;         // of half the lower rate; the transition reaches from 0.8 to 1
 
@@ -35,8 +35,8 @@ double windowed_sinc(double t) {
 }
 
 void check_factor(const char* name, Index factor) {
-    if (factor < 1 || factor > kLargestFactor)
-        throw InvalidArgument("resample: the factor {} must be between 1 and {}, but it is {}", name, kLargestFactor,
+    if (factor < 1 || factor > kMaxFactor)
+        throw InvalidArgument("resample: the factor {} must be between 1 and {}, but it is {}", name, kMaxFactor,
                               factor);
 }
 

@@ -117,7 +117,7 @@ StateSpace continuous_loop(const LoopPlant& plant, const TransferFunction& contr
 /// States: the plant's, the last inputs u[k-1], u[k-2], ... as far as delays need them, the controllers'.
 StateSpace sampled_loop(const LoopPlant& plant, double delay, const LoopController& controller, double Ts) {
     const StateSpace& form = plant.form;
-    const SampledSystem G = discretise(form.A, form.B.col(0), form.C, form.D.col(0), Ts, Hold::kZoh, delay);
+    const SampledSystem G = discretize(form.A, form.B.col(0), form.C, form.D.col(0), Ts, Hold::kZoh, delay);
     const auto late = static_cast<double>(controller.computing_delay) * Ts;
     const StateSpace C =
         to_state_space(with_rational_delay("closed loop", controller.C.with_delay(controller.C.delay() + late)));
@@ -229,8 +229,8 @@ IdData ClosedLoop::record(const VectorView& r, const VectorView& v) const {
         throw InvalidArgument(
             "closed loop: the loop is unstable, so its signals grow without bound; decrease the controller's gain, or "
             "check margin(C*G)");
-    const Response wanted = to_reference(r), disturbed = to_disturbance(v);
-    IdData data(Matrix(wanted.x + disturbed.x + v), Matrix(wanted.u + disturbed.u), Ts_);
+    const Response requested = to_reference(r), disturbed = to_disturbance(v);
+    IdData data(Matrix(requested.x + disturbed.x + v), Matrix(requested.u + disturbed.u), Ts_);
     data.hold = hold_of_record_;
     return data.with_reference(Matrix(r));
 }

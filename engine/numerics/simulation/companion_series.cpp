@@ -80,8 +80,8 @@ void CompanionSeries::set_terms(const Matrix& A) {
 }
 
 StepPlan::StepPlan(const CompanionSeries& series, double longest) {
-    constexpr int kMostDoublings = 1000;  // more than numbers have
-    for (; longest > series.reach.back() && doublings < kMostDoublings; longest /= 2) ++doublings;
+    constexpr int kMaxDoublings = 1000;  // more than numbers have
+    for (; longest > series.reach.back() && doublings < kMaxDoublings; longest /= 2) ++doublings;
     part = std::ldexp(1.0, -doublings);
     last_term = CompanionSeries::kLastTerm;
     while (last_term > 2 && longest <= series.reach[static_cast<std::size_t>(last_term - 1)]) --last_term;

@@ -11,7 +11,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kWidestWindow = ExactFilter::kBlock + 2;  // u[k-d-1] ... u[k-d+kBlock]
+constexpr Index kMaxWindow = ExactFilter::kBlock + 2;  // u[k-d-1] ... u[k-d+kBlock]
 
 /// The first columns of A B by plain loops: Eigen's take several times as long where the sizes are small and not known
 /// to the compiler.
@@ -44,15 +44,15 @@ ExactFilter::ExactFilter(SampledSystem system) : system_(std::move(system)) {
 
 /// How a block of samples depends on [state; input window], by running the recursion symbolically.
 void ExactFilter::prepare_blocks() {
-    const Index n = order(), first = n + (sees_previous_ ? 0 : 1), last = n + kWidestWindow - (sees_next_ ? 0 : 1);
+    const Index n = order(), first = n + (sees_previous_ ? 0 : 1), last = n + kMaxWindow - (sees_next_ ? 0 : 1);
     const Index columns = n + last - first;  // the first and the last of the widest window have no weight in most
     // Without the columns of the window between n and `first`, and beyond `last`.
     const auto keep = [&](const Matrix& from, Index row, Matrix& to, Index to_row, Index place) {
         for (Index j = 0; j < n; ++j) to(to_row, place + j) = from(row, j);
         for (Index j = first; j < last; ++j) to(to_row, place + n + j - first) = from(row, j);
     };
-    Matrix state = Matrix::Identity(n, n + kWidestWindow), next = Matrix::Zero(n, n + kWidestWindow),
-           output = Matrix::Zero(output_count(), n + kWidestWindow);
+    Matrix state = Matrix::Identity(n, n + kMaxWindow), next = Matrix::Zero(n, n + kMaxWindow),
+           output = Matrix::Zero(output_count(), n + kMaxWindow);
     block_outputs_.resize(kBlock, output_count() * columns);
     for (Index i = 0; i < kBlock; ++i) {
         const Index previous = n + i, now = previous + 1, after = now + 1;

@@ -95,8 +95,8 @@ Vector natural_frequency_grid(const TransferFunction& G, Index count) {
     constexpr double kDecadesBeyond = 1.5, kDecadesWithoutCorner = 2;
     const Vector corners = corner_frequencies(G);
     const double nyquist = G.continuous() ? 0 : std::numbers::pi / G.Ts();
-    const double centre = !G.continuous() ? nyquist / 10 : G.delay() > 0 ? 1 / G.delay() : 1;
-    double first = std::log10(centre) - kDecadesWithoutCorner, last = std::log10(centre) + kDecadesWithoutCorner;
+    const double center = !G.continuous() ? nyquist / 10 : G.delay() > 0 ? 1 / G.delay() : 1;
+    double first = std::log10(center) - kDecadesWithoutCorner, last = std::log10(center) + kDecadesWithoutCorner;
     if (corners.size() > 0) {
         first = std::log10(corners(0)) - kDecadesBeyond;
         last = std::log10(corners(corners.size() - 1)) + kDecadesBeyond;

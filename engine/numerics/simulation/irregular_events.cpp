@@ -129,16 +129,16 @@ void IrregularEvents::merge(const VectorView& u, const VectorView& t, double del
 
 std::shared_ptr<const IrregularEvents> recent_events(const VectorView& u, const VectorView& t, Hold hold,
                                                      double delay) {
-    constexpr Index kLongest = 50'000;  // samples: 5 MB for each of them
-    constexpr std::size_t kMost = 4;    // input and output, at the delays before and behind a step
-    if (u.size() > kLongest) return std::make_shared<const IrregularEvents>(u, t, hold, delay);
+    constexpr Index kMaxLength = 50'000;  // samples: 5 MB for each of them
+    constexpr std::size_t kMax = 4;       // input and output, at the delays before and behind a step
+    if (u.size() > kMaxLength) return std::make_shared<const IrregularEvents>(u, t, hold, delay);
     thread_local std::deque<MadeEvents> made;
     const auto found = std::ranges::find_if(made, [&](const MadeEvents& one) { return one.are_of(u, t, hold, delay); });
     if (found != made.end()) {
         std::rotate(made.begin(), found, found + 1);
         return made.front().events;
     }
-    if (made.size() == kMost) made.pop_back();
+    if (made.size() == kMax) made.pop_back();
     made.push_front({u, t, hold, delay, std::make_shared<const IrregularEvents>(u, t, hold, delay)});
     return made.front().events;
 }

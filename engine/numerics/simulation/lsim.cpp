@@ -60,7 +60,7 @@ Vector lsim(const TransferFunction& G, const VectorView& u, double Ts, Hold hold
     const StateSpace form = to_state_space(G);
     const ExactFilter filter(
         G.continuous()
-            ? discretise(form.A, form.B.col(0), form.C, form.D.col(0), Ts, hold, G.delay())
+            ? discretize(form.A, form.B.col(0), form.C, form.D.col(0), Ts, hold, G.delay())
             : discrete_system(form.A, form.B.col(0), form.C, form.D.col(0), split_delay(G.delay(), Ts).samples));
     Vector y(u.size());
     filter.run(u, initial_state(x0, form.order()), y);
@@ -101,7 +101,7 @@ Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold,
     for (Index input = 0; input < u.cols(); ++input) {
         const auto B = system.B.col(input), D = system.D.col(input);
         const ExactFilter filter(system.Ts > 0 ? discrete_system(system.A, B, system.C, D, 0)
-                                               : discretise(system.A, B, system.C, D, Ts, hold));
+                                               : discretize(system.A, B, system.C, D, Ts, hold));
         filter.run(u.col(input), state, share);
         y += share;
         state.setZero();  // the initial state moves the outputs once
@@ -110,10 +110,9 @@ Matrix lsim(const StateSpace& system, const MatrixView& u, double Ts, Hold hold,
 }
 
 Matrix state_variable_filter(const VectorView& x, int n, double lambda, double Ts, Hold hold) {
-    constexpr int kHighestOrder = 50;
-    if (n < 1 || n > kHighestOrder)
-        throw InvalidArgument("state-variable filter: the order must be between 1 and {}, but it is {}", kHighestOrder,
-                              n);
+    constexpr int kMaxOrder = 50;
+    if (n < 1 || n > kMaxOrder)
+        throw InvalidArgument("state-variable filter: the order must be between 1 and {}, but it is {}", kMaxOrder, n);
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
             "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, but it is {}",

@@ -23,7 +23,7 @@ Index decay_time(const Vector& C, const Vector& D) {
     return static_cast<Index>(std::min(static_cast<double>(D.size()) * samples, kLongestRunIn)) + C.size() + D.size();
 }
 
-Vector coloured(const Vector& C, const Vector& D, const Vector& e) {
+Vector colored(const Vector& C, const Vector& D, const Vector& e) {
     Vector v = Vector::Zero(e.size());
     for (Index i = 0; i < std::min(C.size(), e.size()); ++i) v.tail(e.size() - i) += C[i] * e.head(e.size() - i);
     for (Index k = 1; k < v.size(); ++k)
@@ -33,18 +33,18 @@ Vector coloured(const Vector& C, const Vector& D, const Vector& e) {
 
 }  // namespace
 
-double ColouredNoise::gain() const {
+double ColoredNoise::gain() const {
     if (D.size() > 1 && roots(D).cwiseAbs().maxCoeff() >= 1)
         throw InvalidArgument(
             "The noise model has a pole on or outside the unit circle, so its noise has no standard deviation");
     const Index length = decay_time(C, D) + 1;
-    return coloured(C, D, Vector::Unit(length, 0)).norm();
+    return colored(C, D, Vector::Unit(length, 0)).norm();
 }
 
-Vector ColouredNoise::draw(Index count, double sigma, RandomStream& random) const {
+Vector ColoredNoise::draw(Index count, double sigma, RandomStream& random) const {
     if (!(sigma >= 0) || !std::isfinite(sigma))
         throw InvalidArgument("The standard deviation of noise must be zero or positive, but {} was given", sigma);
-    return coloured(C, D, sigma * random.normal(decay_time(C, D) + count)).tail(count);
+    return colored(C, D, sigma * random.normal(decay_time(C, D) + count)).tail(count);
 }
 
 double noise_std_of_snr(const VectorView& x, double snr) {

@@ -6,7 +6,7 @@ namespace dynlab::inline numerics {
 
 /// Noise v(k) = C(q^-1)/D(q^-1) e(k) with white normal e. C and D hold the weights of the present sample, the one
 /// before, ...; both begin with 1.
-struct ColouredNoise {
+struct ColoredNoise {
     Vector C = Vector::Ones(1), D = Vector::Ones(1);
 
     /// std(v)/std(e): the root of the sum of squares of the impulse response of C/D. Throws InvalidArgument unless all

@@ -14,7 +14,7 @@ Eigen::MatrixXcd sampled_responses(const MatrixView& numerators, const VectorVie
     Eigen::MatrixXcd responses = Eigen::MatrixXcd::Constant(w.size(), outputs, Complex(kNaN, kNaN));
     const Vector direct = numerators.col(0);
     const Matrix C = numerators.rightCols(order) - direct * denominator.tail(order).transpose();
-    const SampledSystem system = discretise(companion(denominator), Vector::Unit(order, 0), C, direct, Ts, hold, delay);
+    const SampledSystem system = discretize(companion(denominator), Vector::Unit(order, 0), C, direct, Ts, hold, delay);
     if (!system.F.allFinite() || !system.G.allFinite()) return responses;
     for (Index k = 0; k < w.size(); ++k) {
         const Complex z = std::polar(1.0, w[k] * Ts), late = std::pow(z, -static_cast<double>(system.delay));

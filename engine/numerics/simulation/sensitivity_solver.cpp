@@ -41,7 +41,7 @@ constexpr double kImplicitError[kImplicitStages] = {
 constexpr double kSafety = 0.9, kSlowest = 0.2, kFastest = 5;
 /// Steps of an interval, those tried in vain, and those that no step short enough was found for: beyond, its equation
 /// has jumps.
-constexpr int kMostSteps = 20'000, kMostRejected = 200, kMostMissed = 20;
+constexpr int kMaxSteps = 20'000, kMostRejected = 200, kMaxMisses = 20;
 constexpr double kRoughShare = 1. / 64,
                  kLeastShare = 1e-10;  // of an interval, for steps taken whatever their error
 constexpr std::size_t kRoughTimes = 10;
@@ -71,7 +71,7 @@ SensitivitySolver::SensitivitySolver(GreyEvaluation& evaluation, const std::vect
 }
 
 void SensitivitySolver::evaluate(const Interval& over, double t, const Vector& state, GreyValues& at,
-                                 Derivatives wanted) {
+                                 Derivatives requested) {
     const double* u = over.u_begin;
     if (over.u_begin != over.u_end) {
         const double share = (t - over.t_begin) / over.length;
@@ -79,7 +79,7 @@ void SensitivitySolver::evaluate(const Interval& over, double t, const Vector& s
             input_[i] = over.u_begin[i] + share * (over.u_end[i] - over.u_begin[i]);
         u = input_.data();
     }
-    evaluation_.rates(t, state.data(), u, wanted, at);
+    evaluation_.rates(t, state.data(), u, requested, at);
 }
 
 // K = f_x S + f_p
@@ -110,7 +110,7 @@ double SensitivitySolver::scaled_error(const double* weights, std::size_t stages
 double SensitivitySolver::take_explicit_step(const Interval& over, double t, double h) {
     if (!first_is_known_) {
         stages_[0].x = x;
-        evaluate(over, t, x, stages_[0].at, all_wanted());
+        evaluate(over, t, x, stages_[0].at, all_requested());
         stages_[0].k = stages_[0].at.values;
         if (directions_ > 0) set_derivatives(stages_[0], S);
         first_is_known_ = true;
@@ -125,7 +125,7 @@ double SensitivitySolver::take_explicit_step(const Interval& over, double t, dou
             stage.x += weight * stages_[j].k;
             if (directions_ > 0) stage.S += weight * stages_[j].K;
         }
-        evaluate(over, t + h * kExplicitNodes[i], stage.x, stage.at, all_wanted());
+        evaluate(over, t + h * kExplicitNodes[i], stage.x, stage.at, all_requested());
         stage.k = stage.at.values;
         if (directions_ > 0) set_derivatives(stage, stage.S);
     }
@@ -161,7 +161,7 @@ bool SensitivitySolver::solve_stage(const Interval& over, double t, double h, St
 
 double SensitivitySolver::take_implicit_step(const Interval& over, double t, double h) {
     stages_[0].x = x;
-    evaluate(over, t, x, stages_[0].at, all_wanted());
+    evaluate(over, t, x, stages_[0].at, all_requested());
     stages_[0].k = stages_[0].at.values;
     if (directions_ > 0) set_derivatives(stages_[0], S);
     for (std::size_t i = 1; i < kImplicitStages; ++i) {
@@ -203,7 +203,7 @@ void SensitivitySolver::accept(const Stage& last) {
 
 /// Where a step that fails first met a rate that is no number, though the states were: outside of what a root or a
 /// logarithm is defined for.
-void SensitivitySolver::tell_undefined_rate(double t, double h) const {
+void SensitivitySolver::refuse_undefined_rate(double t, double h) const {
     for (std::size_t i = 0; i < kExplicitStages; ++i) {
         const Stage& stage = stages_[i];
         if (!(stage.x.cwiseAbs().maxCoeff() < kLostState)) return;
@@ -225,7 +225,7 @@ MessageList SensitivitySolver::states_text(const Vector& at) const {
 }
 
 void SensitivitySolver::break_down(const Interval& over, double t, double h) {
-    tell_undefined_rate(t, h);
+    refuse_undefined_rate(t, h);
     evaluate(over, t, x, stages_[0].at, Derivatives::kNone);
     const MessageList states = states_text(x);
     for (Index i = 0; i < n_; ++i)
@@ -247,7 +247,7 @@ void SensitivitySolver::advance(double t_begin, double t_end, const double* u_be
     if (!(next_step_ > 0)) next_step_ = over.length;
     for (int steps = 0, missed = 0, rejected = 0; t < t_end; ++steps) {
         const double left = t_end - t;
-        const bool rough = steps >= kMostSteps || rejected >= kMostRejected || missed >= kMostMissed;
+        const bool rough = steps >= kMaxSteps || rejected >= kMostRejected || missed >= kMaxMisses;
         const bool last = next_step_ >= left;
         double h = last ? left : std::min(next_step_, 0.5 * left);
         if (rough) h = std::min(left, std::max(h, kRoughShare * over.length));

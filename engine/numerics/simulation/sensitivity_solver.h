@@ -47,7 +47,7 @@ class SensitivitySolver {
         double t_begin, length;
         const double *u_begin, *u_end;
     };
-    void evaluate(const Interval& over, double t, const Vector& state, GreyValues& at, Derivatives wanted);
+    void evaluate(const Interval& over, double t, const Vector& state, GreyValues& at, Derivatives requested);
     double take_explicit_step(const Interval& over, double t, double h);
     double take_implicit_step(const Interval& over, double t, double h);
     bool solve_stage(const Interval& over, double t, double h, Stage& stage, const Vector& known);
@@ -56,9 +56,9 @@ class SensitivitySolver {
     void look_for_stiffness(double h);
     void accept(const Stage& last);
     [[noreturn]] void break_down(const Interval& over, double t, double h);
-    void tell_undefined_rate(double t, double h) const;
+    void refuse_undefined_rate(double t, double h) const;
     MessageList states_text(const Vector& at) const;
-    Derivatives all_wanted() const { return directions_ > 0 ? Derivatives::kAll : Derivatives::kNone; }
+    Derivatives all_requested() const { return directions_ > 0 ? Derivatives::kAll : Derivatives::kNone; }
 
     GreyEvaluation& evaluation_;
     const std::vector<std::string>& names_;

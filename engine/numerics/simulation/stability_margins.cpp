@@ -52,8 +52,8 @@ std::vector<double> margin_grid(const TransferFunction& G, double first, double 
     add_resonances(grid, G);
     const double turn = G.continuous() ? G.delay() : G.delay() + G.Ts() * static_cast<double>(G.pole_count());
     if (turn > 0) {
-        constexpr double kPart = 0.05, kMost = 2e5;  // rad; steps at most
-        const double step = std::max(kPart / turn, last / kMost);
+        constexpr double kPart = 0.05, kMax = 2e5;  // rad; steps at most
+        const double step = std::max(kPart / turn, last / kMax);
         for (double w = step; w < last; w += step) grid.push_back(w);
     }
     std::sort(grid.begin(), grid.end());
@@ -109,7 +109,7 @@ struct Range {
 };
 Range searched_range(const TransferFunction& G) {
     constexpr double kFar = 1e4;
-    constexpr int kMostDecades = 60;
+    constexpr int kMaxDecades = 60;
     const Vector corners = corner_frequencies(G);
     double lowest = kNever, highest = 0;
     for (const double w : corners) {
@@ -125,9 +125,9 @@ Range searched_range(const TransferFunction& G) {
     if (!G.continuous()) range = {std::min(range.first, kPi / G.Ts() / kFar), kPi / G.Ts()};
     const auto magnitude = [&](double w) { return std::abs(response_at(G, w)); };
     const bool integrates = evaluate(G.den(), G.continuous() ? 0.0 : 1.0) == 0;
-    for (int i = 0; i < kMostDecades && integrates && magnitude(range.first) < 1; ++i) range.first /= 10;
+    for (int i = 0; i < kMaxDecades && integrates && magnitude(range.first) < 1; ++i) range.first /= 10;
     const bool falls = G.continuous() && G.zero_count() < G.pole_count();
-    for (int i = 0; i < kMostDecades && falls && magnitude(range.last) > 1; ++i) range.last *= 10;
+    for (int i = 0; i < kMaxDecades && falls && magnitude(range.last) > 1; ++i) range.last *= 10;
     return range;
 }
 

@@ -104,8 +104,8 @@ Vector natural_time_grid(const TransferFunction& G, Index count) {
     if (count < 2) throw InvalidArgument("time grid: at least 2 instants are needed, but {} were requested", count);
     const double duration = natural_duration(G);
     if (G.continuous()) return Vector::LinSpaced(count, 0, duration);
-    constexpr double kMostSamples = 1e4, kFewestSamples = 10;
-    const double samples = std::clamp(std::ceil(duration / G.Ts()), kFewestSamples, kMostSamples - 1);
+    constexpr double kMaxSamples = 1e4, kMinSamples = 10;
+    const double samples = std::clamp(std::ceil(duration / G.Ts()), kMinSamples, kMaxSamples - 1);
     return G.Ts() * Vector::LinSpaced(static_cast<Index>(samples) + 1, 0, samples);
 }
 

@@ -79,7 +79,7 @@ double order_criterion(AutoregressiveOrder choice, double N, double order, doubl
             return N * std::log(variance) + 2 * order * N / (N - order - 2);
         case AutoregressiveOrder::kBic:
             return N * std::log(variance) + order * std::log(N);
-        case AutoregressiveOrder::kHighest:
+        case AutoregressiveOrder::kMaxInteger:
             return -order;
     }
     return 0;
@@ -105,7 +105,7 @@ Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>&
     Autoregression model{{Vector()}, e.size() > 0 ? e.squaredNorm() / N : 0};
     if (model.variance == 0) return model;
     const Index longest = *std::max_element(lengths.begin(), lengths.end());
-    const Index highest = choice == AutoregressiveOrder::kHighest ? most : std::min(most, (longest - 1) / 4);
+    const Index highest = choice == AutoregressiveOrder::kMaxInteger ? most : std::min(most, (longest - 1) / 4);
     double least = order_criterion(choice, N, 0, model.variance), variance = model.variance;
     std::size_t chosen = 0;
     BurgLattice lattice(e, lengths);
@@ -145,7 +145,7 @@ Vector whitened(const Autoregression& model, const VectorView& e, const std::vec
     return w;
 }
 
-Matrix coloured_backwards(const Autoregression& model, const MatrixView& Z, const std::vector<Index>& lengths) {
+Matrix colored_backwards(const Autoregression& model, const MatrixView& Z, const std::vector<Index>& lengths) {
     check_autoregression(Z.rows(), lengths);
     if (model.order() == 0) return Z;
     // One row an instant, so that the columns are worked on side by side.

@@ -18,7 +18,7 @@ struct Autoregression {
 /// Which order up to the highest is taken: the one with the smallest corrected information criterion AICc (Hurvich and
 /// Tsai 1989), N log(variance) + 2 p N/(N - p - 2), where a term too few does harm; the one with the smallest BIC,
 /// N log(variance) + p log N, where a term too many does; or the highest.
-enum class AutoregressiveOrder { kAicc, kBic, kHighest };
+enum class AutoregressiveOrder { kAicc, kBic, kMaxInteger };
 
 /// The autoregression of `e` by Burg's method (Kay 1988, section 7.3). No mean is taken off. `lengths` (summing to the
 /// number of values) tells uninterrupted records apart. Orders reach up to `most`, chosen ones no further than a
@@ -40,6 +40,6 @@ Vector whitened(const Autoregression& model, const VectorView& e, const std::vec
 
 /// Column by column the transposed operation of colouring w into e, from the end of each record to its start: x(k) with
 /// z'e = x'w for every e.
-Matrix coloured_backwards(const Autoregression& model, const MatrixView& Z, const std::vector<Index>& lengths);
+Matrix colored_backwards(const Autoregression& model, const MatrixView& Z, const std::vector<Index>& lengths);
 
 }  // namespace dynlab::inline numerics

@@ -37,7 +37,7 @@ Matrix weighted_innovations(const MatrixView& H, const MatrixView& Z, const Vect
         const auto errors = e.segment(i * instants, instants);
         Autoregression& model = whitening[static_cast<std::size_t>(i)];
         model = fit_autoregression(errors, lengths, highest_autoregressive_order(instants));
-        const Matrix X = coloured_backwards(model, Z.middleRows(i * instants, instants), lengths);
+        const Matrix X = colored_backwards(model, Z.middleRows(i * instants, instants), lengths);
         V += whitened(model, errors, lengths).asDiagonal() * X;
     }
     return V * H.transpose();
@@ -45,7 +45,7 @@ Matrix weighted_innovations(const MatrixView& H, const MatrixView& Z, const Vect
 
 // Lag-one correlations of the columns of V, no closer to one than Andrews advises.
 Vector lag_one_correlations(const Matrix& V, const std::vector<Index>& lengths) {
-    constexpr double kLargest = 0.97;
+    constexpr double kMaxValue = 0.97;
     Vector correlations(V.cols());
     for (Index i = 0; i < V.cols(); ++i) {
         double products = 0;
@@ -56,7 +56,7 @@ Vector lag_one_correlations(const Matrix& V, const std::vector<Index>& lengths) 
             first += length;
         }
         const double power = V.col(i).squaredNorm();
-        correlations[i] = power > 0 ? std::clamp(products / power, -kLargest, kLargest) : 0;
+        correlations[i] = power > 0 ? std::clamp(products / power, -kMaxValue, kMaxValue) : 0;
     }
     return correlations;
 }
@@ -109,7 +109,7 @@ namespace {
 /// Of errors of one size: H X'X H times their mean square, x the instruments coloured backwards.
 Vector variances_of_one_size(const Matrix& H, const MatrixView& Psi, const Vector& e, const std::vector<Index>& lengths,
                              const Autoregression& model) {
-    const Matrix V = coloured_backwards(model, Psi, lengths) * H;
+    const Matrix V = colored_backwards(model, Psi, lengths) * H;
     const auto freedom = static_cast<double>(std::max<Index>(1, Psi.rows() - Psi.cols() - model.order()));
     return whitened(model, e, lengths).squaredNorm() / freedom * V.colwise().squaredNorm().transpose();
 }
@@ -118,7 +118,7 @@ Vector variances_of_one_size(const Matrix& H, const MatrixView& Psi, const Vecto
 
 RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, const std::vector<Index>& given_lengths,
                                    Index outputs) {
-    constexpr double kLeast = 0.1;
+    constexpr double kMin = 0.1;
     constexpr Index kShort = 100;  // samples
     if (Psi.rows() <= Psi.cols())
         throw InvalidArgument("A robust covariance needs more samples than parameters, but got {} and {}",
@@ -126,7 +126,7 @@ RobustCovariance robust_covariance(const MatrixView& Psi, const VectorView& e, c
                               plural(Psi.cols(), "{} parameter", "{} parameters"));
     const Matrix H = solve_least_squares(Psi, e).inverse_gram;
     const Vector leverages = (Psi * H).cwiseProduct(Psi).rowwise().sum();
-    const Vector unfitted = e.array() / (1 - leverages.array()).max(kLeast);
+    const Vector unfitted = e.array() / (1 - leverages.array()).max(kMin);
     RobustCovariance result = robust_covariance(H, Psi, unfitted, given_lengths, outputs);
     if (outputs > 1 || Psi.rows() > kShort) return result;
     const std::vector<Index> lengths = given_lengths.empty() ? std::vector<Index>{Psi.rows()} : given_lengths;

@@ -7,13 +7,13 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-bool spoils_a_stretch(const RecordFinding& finding) {
-    return finding.experiment == 0 && (finding.code == "saturation" || finding.code == "nonlinear");
+bool spoils_a_stretch(const DataIssue& issue) {
+    return issue.experiment == 0 && (issue.code == "saturation" || issue.code == "nonlinear");
 }
 
-bool forbids_a_model(const RecordFinding& finding) {
-    return finding.code == "constant" || finding.code == "time_column" || finding.code == "same_column" ||
-           finding.code == "wrapped";
+bool forbids_a_model(const DataIssue& issue) {
+    return issue.code == "constant" || issue.code == "time_column" || issue.code == "same_column" ||
+           issue.code == "wrapped";
 }
 
 double rms_within(const Vector& x, const std::vector<Segment>& sections) {
@@ -26,7 +26,7 @@ double rms_within(const Vector& x, const std::vector<Segment>& sections) {
 }
 
 /// A signal that stays where the model says that it stays has not run into a limit.
-bool is_expected(const RecordFinding& saturation, const Vector& error, double range) {
+bool is_expected(const DataIssue& saturation, const Vector& error, double range) {
     constexpr double kAsUsual = 1.5, kSmall = 0.03;
     if (error.size() == 0) return false;
     const double usual = std::sqrt(error.squaredNorm() / static_cast<double>(error.size()));
@@ -34,19 +34,18 @@ bool is_expected(const RecordFinding& saturation, const Vector& error, double ra
 }
 
 /// What the signal alone let suspect and the model does not: fast passages. And once is enough.
-void add(ModelAdvice model, const std::string& output, double range, std::vector<RecordFinding>& findings) {
+void add(ModelAdvice model, const std::string& output, double range, std::vector<DataIssue>& findings) {
     const auto of_channel = [&](const char* code) {
-        return [&output, code](const RecordFinding& f) {
-            return f.experiment == 0 && f.channel == output && f.code == code;
-        };
+        return
+            [&output, code](const DataIssue& f) { return f.experiment == 0 && f.channel == output && f.code == code; };
     };
-    if (model.judges_outliers) std::erase_if(findings, of_channel("outliers"));
-    std::erase_if(findings, [&](const RecordFinding& f) {
+    if (model.checks_outliers) std::erase_if(findings, of_channel("outliers"));
+    std::erase_if(findings, [&](const DataIssue& f) {
         return of_channel("saturation")(f) && is_expected(f, model.error, range);
     });
     if (std::ranges::any_of(findings, of_channel("saturation")))
         std::erase_if(model.findings, of_channel("saturation"));
-    for (RecordFinding& finding : model.findings) findings.push_back(std::move(finding));
+    for (DataIssue& issue : model.findings) findings.push_back(std::move(issue));
 }
 
 }  // namespace
@@ -55,13 +54,13 @@ bool Advice::has(const std::string& code) const {
     return find(code) != nullptr;
 }
 
-const RecordFinding* Advice::find(const std::string& code) const {
-    const auto found = std::ranges::find(findings, code, &RecordFinding::code);
+const DataIssue* Advice::find(const std::string& code) const {
+    const auto found = std::ranges::find(findings, code, &DataIssue::code);
     return found == findings.end() ? nullptr : &*found;
 }
 
 bool Advice::clean() const {
-    return std::ranges::none_of(findings, [](const RecordFinding& f) { return f.weight == Weight::kWarning; });
+    return std::ranges::none_of(findings, [](const DataIssue& f) { return f.weight == Weight::kWarning; });
 }
 
 Advice advise(const IdData& data, const std::function<bool()>& cancel) {
@@ -74,10 +73,10 @@ Advice advise(const IdData& data, const std::function<bool()>& cancel) {
                 data.output_names[static_cast<std::size_t>(output - 1)], y.maxCoeff() - y.minCoeff(), advice.findings);
         }
     std::ranges::stable_sort(advice.findings,
-                             [](const RecordFinding& a, const RecordFinding& b) { return a.weight > b.weight; });
-    for (const RecordFinding& finding : advice.findings)
-        if (spoils_a_stretch(finding))
-            advice.discard.insert(advice.discard.end(), finding.sections.begin(), finding.sections.end());
+                             [](const DataIssue& a, const DataIssue& b) { return a.weight > b.weight; });
+    for (const DataIssue& issue : advice.findings)
+        if (spoils_a_stretch(issue))
+            advice.discard.insert(advice.discard.end(), issue.sections.begin(), issue.sections.end());
     advice.discard = joined(advice.discard);
     return advice;
 }

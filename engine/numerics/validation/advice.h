@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 enum class Weight { kNote, kWarning };
 
 /// One thing that a teacher would say of a record.
-struct RecordFinding {
+struct DataIssue {
     std::string code;  ///< one word, "saturation", for programs
     Weight weight;
     std::string channel;  ///< its name; empty when the finding is about the whole record
@@ -23,24 +23,24 @@ struct RecordFinding {
 };
 
 struct Advice {
-    std::vector<RecordFinding> findings;  ///< what to mend first
+    std::vector<DataIssue> findings;  ///< what to mend first
     /// Stretches of the first experiment better left out (data:discard): saturated or not following the linear model.
     std::vector<Segment> discard;
 
     bool has(const std::string& code) const;
-    const RecordFinding* find(const std::string& code) const;  ///< nullptr when there is none
-    bool clean() const;                                        ///< no warnings
+    const DataIssue* find(const std::string& code) const;  ///< nullptr when there is none
+    bool clean() const;                                    ///< no warnings
 };
 
 /// What the signals alone tell: "constant" channels, a "time_column", the "same_column" twice, "saturation" and
 /// "quantisation" of outputs, "outliers", "degrees" declared as radians, "mixed_sampling" and "gaps" between the
 /// instants, and "excitation": how many parameters each input can determine. Any number of channels and experiments.
-std::vector<RecordFinding> signal_advice(const IdData& data);
+std::vector<DataIssue> signal_advice(const IdData& data);
 
 /// What a linear model tells of the first experiment of a record.
 struct ModelAdvice {
-    std::vector<RecordFinding> findings;
-    bool judges_outliers = false;  ///< the model explains enough to judge single samples: there are no other "outliers"
+    std::vector<DataIssue> findings;
+    bool checks_outliers = false;  ///< the model explains enough to judge single samples: there are no other "outliers"
     Vector error = {};             ///< of the model; empty when it does not explain enough
 };
 

@@ -13,7 +13,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kShortRecord = 5000, kLongestSearch = 2500, kLongestSecondSearch = 16000;  // samples
+constexpr Index kShortRecord = 5000, kMaxSearchSamples = 2500, kMaxSecondSearchSamples = 16000;  // samples
 constexpr double kFineSampling = 40;       // samples per turn of the fastest pole that a search can do with
 constexpr double kStraight = 1e-3;         // of the input's standard deviation, what straight lines may miss
 constexpr double kSearchTolerance = 1e-4;  // relative, of parameters
@@ -73,7 +73,7 @@ bool is_straight_between(const VectorView& u, Index step) {
     return true;
 }
 
-IdData every(const IdData& data, Index first, Index step, Hold hold, Index longest = kLongestSearch) {
+IdData every(const IdData& data, Index first, Index step, Hold hold, Index longest = kMaxSearchSamples) {
     const Experiment& whole = data.experiments.front();
     const Index count = std::min(longest, (data.sample_count() - first + step - 1) / step);
     const auto rows = Eigen::seqN(first, count, step);
@@ -124,7 +124,7 @@ void choose_start(DelaySearch& search, const IdData& data, FitOptions options) {
     options.offset = Offset::kAuto;
     SearchAids aids;
     aids.start = found.theta;
-    aids.poorer = {&found};
+    aids.lower_order = {&found};
     found = srivc(data, found.structure, options, aids);
     search.delay = found.models.front().delay();
     search.std = found.std[found.std.size() - 1];
@@ -190,7 +190,7 @@ bool is_not_typical(const FittedRecord& fit) {
 /// A longer one, from the beginning of the record.
 SearchWindow longer_window(const IdData& data, const SearchWindow& window) {
     const Index first = window.first % window.step;
-    return {every(data, first, window.step, window.data.hold, kLongestSecondSearch), first, window.step};
+    return {every(data, first, window.step, window.data.hold, kMaxSecondSearchSamples), first, window.step};
 }
 
 bool is_doubtful(const FittedRecord& fit) {
@@ -208,15 +208,15 @@ SearchWindow search_window(const IdData& data) {
     const Index N = data.sample_count();
     if (N <= kShortRecord) return {data, 0, 1};
     const VectorView u = data.experiments.front().u.col(0);
-    const Index first = lively_start(u, kLongestSearch);
-    const Index most = std::max<Index>(1, (N - first) / kLongestSearch);
-    const double turn = samples_per_turn(data.range(first + 1, first + kLongestSearch));
-    const Index wanted = std::min(most, static_cast<Index>(turn / kFineSampling));
+    const Index first = lively_start(u, kMaxSearchSamples);
+    const Index most = std::max<Index>(1, (N - first) / kMaxSearchSamples);
+    const double turn = samples_per_turn(data.range(first + 1, first + kMaxSearchSamples));
+    const Index requested = std::min(most, static_cast<Index>(turn / kFineSampling));
     const Index held = held_samples(u);
     const auto ahead = [&](Index step) { return first + (first_change(u) % step + step - first % step) % step; };
-    for (Index step = wanted; step > 1 && data.hold == Hold::kZoh && held > 1; --step)
+    for (Index step = requested; step > 1 && data.hold == Hold::kZoh && held > 1; --step)
         if (held % step == 0) return {every(data, ahead(step), step, Hold::kZoh), ahead(step), step};
-    for (Index step = wanted; step > 1; step /= 2)
+    for (Index step = requested; step > 1; step /= 2)
         if (is_straight_between(u.tail(N - first), step)) return {every(data, first, step, Hold::kFoh), first, step};
     return {every(data, first, 1, data.hold), first, 1};
 }
@@ -278,18 +278,18 @@ std::optional<FittedRecord> fitted_record(const IdData& data, const std::functio
     return fit;
 }
 
-RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value) {
+DataIssue about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value) {
     return {code, weight, fit.output(), message, value, 0, {}};
 }
 
 MessageList listed_places(const std::vector<Segment>& segments) {
-    constexpr std::size_t kMost = 4;
+    constexpr std::size_t kMax = 4;
     MessageList places;
-    for (std::size_t i = 0; i < std::min(kMost, segments.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(kMax, segments.size()); ++i) {
         const auto [first, last] = segments[i];
         places.items.push_back(last > first ? Message("{} to {}", first, last) : Message("{}", first));
     }
-    if (segments.size() > kMost) places.items.push_back(Message::verbatim("..."));
+    if (segments.size() > kMax) places.items.push_back(Message::verbatim("..."));
     return places;
 }
 

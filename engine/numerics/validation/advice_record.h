@@ -57,7 +57,7 @@ struct FittedRecord {
 std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel);
 
 /// A finding about the output.
-RecordFinding about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value);
+DataIssue about(const FittedRecord& fit, const char* code, Weight weight, const Message& message, double value);
 
 /// "3, 10 to 12, ...": the first four.
 MessageList listed_places(const std::vector<Segment>& segments);

@@ -10,7 +10,7 @@
 namespace dynlab::inline numerics {
 namespace {
 
-constexpr int kMostArxStructures = 2000;
+constexpr int kMaxArxStructures = 2000;
 constexpr double kHardlyLarger = 1.01;  // of a loss: not worth parameters
 
 /// As a script writes it: a number, or {from, to}.
@@ -30,8 +30,8 @@ void check_ranges(const ArxRanges& ranges) {
     check_range("nb", ranges.nb, 1);
     check_range("nk", ranges.nk, 0);
     const auto length = [](std::pair<int, int> range) { return 1.0 + range.second - range.first; };
-    if (length(ranges.na) * length(ranges.nb) * length(ranges.nk) > kMostArxStructures)
-        throw InvalidArgument("more than {} structures would be tried: use smaller ranges", kMostArxStructures);
+    if (length(ranges.na) * length(ranges.nb) * length(ranges.nk) > kMaxArxStructures)
+        throw InvalidArgument("more than {} structures would be tried: use smaller ranges", kMaxArxStructures);
 }
 
 /// The equations of the largest structure of one record: every other one's are columns of them.
@@ -83,7 +83,7 @@ std::optional<Message> simpler_arx(const ArxSelection& selection, std::size_t ch
     const ArxCandidate *taken = &selection.candidates[chosen], *simplest = taken;
     for (const ArxCandidate& one : selection.candidates)
         if (one.determined && one.parameters() < simplest->parameters() &&
-            one.judged_loss() <= kHardlyLarger * taken->judged_loss())
+            one.comparison_loss() <= kHardlyLarger * taken->comparison_loss())
             simplest = &one;
     if (simplest == taken) return std::nullopt;
     return plural(simplest->parameters(), "With {} parameter instead of {}, {} is within 1 % of it.",
@@ -134,7 +134,7 @@ double criterion_value(const ArxCandidate& candidate, ArxCriterion criterion) {
         case ArxCriterion::kLoss:
             break;
     }
-    return candidate.judged_loss();
+    return candidate.comparison_loss();
 }
 
 OrderChoice choose_arx(const ArxSelection& selection, ArxCriterion criterion) {

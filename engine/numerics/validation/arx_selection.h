@@ -17,7 +17,7 @@ struct ArxCandidate {
 
     int parameters() const { return na + nb; }
     /// On the second record where there is one.
-    double judged_loss() const { return validation_loss.value_or(loss); }
+    double comparison_loss() const { return validation_loss.value_or(loss); }
 };
 
 struct ArxSelection {

@@ -70,9 +70,10 @@ bool follows_later_inputs(const FittedRecord& fit, Index first = 1) {
 
 /// What a signal's past does not tell of it, of its variance.
 double unpredictable_part(const VectorView& x) {
-    const Vector centred = x.array() - x.mean();
-    const Autoregression memory = fit_autoregression(centred, {centred.size()}, kPastInputs, AutoregressiveOrder::kBic);
-    return filtered_past(memory, centred).squaredNorm() / centred.squaredNorm();
+    const Vector centered = x.array() - x.mean();
+    const Autoregression memory =
+        fit_autoregression(centered, {centered.size()}, kPastInputs, AutoregressiveOrder::kBic);
+    return filtered_past(memory, centered).squaredNorm() / centered.squaredNorm();
 }
 
 /// Whether noise is in the input and none in the output, as in a smooth signal that was put in and its measured
@@ -84,7 +85,7 @@ bool output_is_smoother(const IdData& window) {
 
 }  // namespace
 
-bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
+bool find_late_input(const FittedRecord& fit, DataIssues& findings) {
     const Fit& found = fit.search.candidate.estimate;
     const bool at_zero = !found.at_bound.empty() && found.at_bound[static_cast<std::size_t>(found.theta.size() - 1)];
     if (fit.window.step > 1 || !((fit.trusted() && at_zero) || follows_later_inputs(fit, 0))) return false;
@@ -93,7 +94,7 @@ bool find_late_input(const FittedRecord& fit, RecordFindings& findings) {
     return true;
 }
 
-bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, RecordFindings& findings) {
+bool find_exchange(const FittedRecord& fit, const std::function<bool()>& cancel, DataIssues& findings) {
     const bool disturbed = wanders(fit.error);
     const double forward = std::max(fit.simulation.fit_percent, disturbed ? 100 * (1 - fit.movement_error) : 0.0);
     if (forward > kExplainsMost) return false;

@@ -41,7 +41,7 @@ Matrix sensitivities(const TransferFunction& system, const Vector& theta, const 
     const Vector num = theta.segment(numbers.poles, numbers.numerator);
     const SingleInputSystem all = sensitivity_system(num, system.den());
     const Index d = numbers.total();  // the output itself is row 0, the delay's the row after the coefficients'
-    return ExactFilter(discretise(all.A, all.B, all.C.middleRows(1, d), all.D.segment(1, d), Ts, hold, system.delay()))
+    return ExactFilter(discretize(all.A, all.B, all.C.middleRows(1, d), all.D.segment(1, d), Ts, hold, system.delay()))
         .run(u);
 }
 

@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kLeastFold = 10;  // samples
+constexpr Index kMinFold = 10;  // samples
 
 struct Part {
     std::size_t experiment;
@@ -59,8 +59,8 @@ void check_parts(const std::vector<Part>& parts) {
         throw InvalidArgument(
             "Cross-validation by experiments needs at least two experiments, but the data have one: use folds instead");
     for (const Part& part : parts)
-        if (part.last - part.first + 1 < kLeastFold)
-            throw InvalidArgument("Each fold needs at least {} samples, but one has {}: use fewer folds", kLeastFold,
+        if (part.last - part.first + 1 < kMinFold)
+            throw InvalidArgument("Each fold needs at least {} samples, but one has {}: use fewer folds", kMinFold,
                                   part.last - part.first + 1);
 }
 

@@ -83,9 +83,9 @@ class DelayProfile {
     }
 
     /// Follows a neighbour's solution here, unless that was done in a sweep before.
-    bool try_neighbour(std::size_t i, const ProfilePoint& neighbour) {
-        if (stopped() || !std::isfinite(neighbour.loss) || neighbour.lowered < sweep_ - 1) return false;
-        const Fit fit = refined(i, neighbour.theta);
+    bool try_neighbour(std::size_t i, const ProfilePoint& neighbor) {
+        if (stopped() || !std::isfinite(neighbor.loss) || neighbor.lowered < sweep_ - 1) return false;
+        const Fit fit = refined(i, neighbor.theta);
         return !swings_fast(fit) && take(i, fit);
     }
 

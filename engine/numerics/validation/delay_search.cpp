@@ -78,10 +78,10 @@ Message orders_of(const OrderCandidate& candidate) {
 
 /// The value down to the second digit of its error, with five digits at most.
 Number known_to(double value, double error) {
-    constexpr int kMostDigits = 5;
-    if (!(error > 0 && std::isfinite(error) && value != 0)) return significant(value, kMostDigits);
+    constexpr int kMaxDigits = 5;
+    if (!(error > 0 && std::isfinite(error) && value != 0)) return significant(value, kMaxDigits);
     const double digits = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(error)) + 2;
-    return significant(value, static_cast<int>(std::clamp(digits, 1.0, static_cast<double>(kMostDigits))));
+    return significant(value, static_cast<int>(std::clamp(digits, 1.0, static_cast<double>(kMaxDigits))));
 }
 
 Message result_of(const DelaySearch& search, const IdData& data) {
@@ -101,10 +101,10 @@ Message result_of(const DelaySearch& search, const IdData& data) {
                          fit);
 }
 
-Message explanation_of(const DelaySearch& search, const IdData& data, bool told) {
+Message explanation_of(const DelaySearch& search, const IdData& data, bool reported) {
     std::vector<Message> all{result_of(search, data)};
     if (search.delay <= 2 * search.std) all.push_back(Message("The delay does not differ significantly from zero."));
-    if (told && search.delay < data.Ts && late_input(data, search.candidate.poles, search.loss()))
+    if (reported && search.delay < data.Ts && late_input(data, search.candidate.poles, search.loss()))
         all.push_back(late_input_sentence(data));
     const Vector& errors = search.candidate.estimate.std;
     if (search.rival && !std::isinf(errors[errors.size() - 1]))  // else a warning of the estimate says so

@@ -16,8 +16,8 @@ constexpr double kWalkWorthAWord = 0.12;
 constexpr double kNearlyAll = 0.8;
 constexpr double kStraightLine = 0.7;  // of the slow part's variance, for it to be called a drift
 constexpr Index kSections = 24;
-constexpr double kLeastError = 0.05;  // of the output's standard deviation, for an error to be worth a word
-constexpr double kStrange = 4;        // rms error of a window over the median of all windows
+constexpr double kMinError = 0.05;  // of the output's standard deviation, for an error to be worth a word
+constexpr double kStrange = 4;      // rms error of a window over the median of all windows
 
 /// Means over the parts of a record, joined by straight lines; the first part as the two after it let expect, for a
 /// movement from before the record may be in it.
@@ -59,8 +59,8 @@ StraightLine straight_line(const Vector& x) {
 
 /// The first samples, which a start may explain, and stretches of many are no outliers.
 void keep_isolated(RepairedSignal& repaired, const Vector& x) {
-    constexpr Index kStart = 5, kLongest = 3;
-    const auto is_none = [](const Segment& s) { return s.first <= kStart || s.last - s.first >= kLongest; };
+    constexpr Index kStart = 5, kMaxLength = 3;
+    const auto is_none = [](const Segment& s) { return s.first <= kStart || s.last - s.first >= kMaxLength; };
     for (const Segment& stretch : repaired.stretches) {
         if (!is_none(stretch)) continue;
         const Index first = stretch.first - 1, count = stretch.last - first;
@@ -78,7 +78,7 @@ std::optional<RepairedSignal> isolated_outliers(const Vector& error, double devi
     keep_isolated(repaired, error);
     const auto count = static_cast<double>(repaired.replaced.size());
     if (count == 0 || count > kMostShare * static_cast<double>(error.size())) return std::nullopt;
-    if (!((error - repaired.signal).cwiseAbs().maxCoeff() > kLeastError * deviation)) return std::nullopt;
+    if (!((error - repaired.signal).cwiseAbs().maxCoeff() > kMinError * deviation)) return std::nullopt;
     return repaired;
 }
 
@@ -101,13 +101,13 @@ std::optional<RepairedSignal> outliers_of(FittedRecord& fit, const std::function
 
 }  // namespace
 
-void find_error_outliers(FittedRecord& fit, const std::function<bool()>& cancel, RecordFindings& findings) {
+void find_error_outliers(FittedRecord& fit, const std::function<bool()>& cancel, DataIssues& findings) {
     const std::optional<RepairedSignal> repaired = outliers_of(fit, cancel);
     if (!repaired) return;
     const auto count = static_cast<Index>(repaired->replaced.size());
     const Vector outliers = fit.error - repaired->signal;
     fit.take_off(outliers);
-    RecordFinding finding =
+    DataIssue issue =
         about(fit, "outliers", Weight::kWarning,
               Message("The output {} has {} far from the neighboring samples ({}), up to {} from the values that the "
                       "input explains. Check whether these samples are valid. If not, filloutliers replaces them by "
@@ -115,11 +115,11 @@ void find_error_outliers(FittedRecord& fit, const std::function<bool()>& cancel,
                       fit.output(), plural(count, "{} sample", "{} samples"), listed_places(repaired->stretches),
                       fit.with_unit(outliers.cwiseAbs().maxCoeff(), 2)),
               static_cast<double>(count));
-    finding.sections = repaired->stretches;
-    findings.push_back(std::move(finding));
+    issue.sections = repaired->stretches;
+    findings.push_back(std::move(issue));
 }
 
-void find_disturbance(FittedRecord& fit, RecordFindings& findings) {
+void find_disturbance(FittedRecord& fit, DataIssues& findings) {
     if (!wanders(fit.error)) return;
     Vector slow = slow_part(error_without_free_motion(fit));
     slow.array() -= slow.mean();
@@ -153,7 +153,7 @@ namespace {
 
 /// Of the rms errors of sections, which is far beyond that of most of the record.
 double strange_level(const Vector& levels, double deviation) {
-    return std::max(kStrange * median(levels), kLeastError * deviation);
+    return std::max(kStrange * median(levels), kMinError * deviation);
 }
 
 double rms_of(const VectorView& x) {
@@ -188,30 +188,30 @@ bool is_at_the_beginning(const Segment& section) {
 
 }  // namespace
 
-bool find_strange_sections(const FittedRecord& fit, RecordFindings& findings) {
+bool find_strange_sections(const FittedRecord& fit, DataIssues& findings) {
     if (fit.error.size() < 10 * kSlowParts) return false;
     std::vector<Segment> sections = strange_sections(fit.error - slow_part(fit.error), fit.deviation());
     std::erase_if(sections, is_at_the_beginning);
     if (sections.empty()) return false;
     MessageList places;
     for (const auto& [first, last] : sections) places.items.push_back(Message("{} to {}", first, last));
-    RecordFinding finding =
+    DataIssue issue =
         about(fit, "nonlinear", Weight::kWarning,
               Message("A linear model follows {} except in samples {}, where its error is more than {} times the usual "
                       "error: another effect acts there (a limit, friction, a disturbance). Inspect these samples, and "
                       "exclude them with data:discard if they do not belong to the dynamics.",
                       fit.output(), places, kStrange),
               static_cast<double>(sections.size()));
-    finding.sections = std::move(sections);
-    findings.push_back(std::move(finding));
+    issue.sections = std::move(sections);
+    findings.push_back(std::move(issue));
     return true;
 }
 
 bool has_strange_beginning(const FittedRecord& fit) {
     const std::vector<Segment> sections = strange_sections(fit.error, fit.deviation());
     if (!sections.empty() && is_at_the_beginning(sections.front())) return true;
-    const auto unheard = static_cast<Index>(2 * fit.search.delay / fit.data.Ts);
-    const Index length = std::max<Index>(5, unheard);
+    const auto masked_seconds = static_cast<Index>(2 * fit.search.delay / fit.data.Ts);
+    const Index length = std::max<Index>(5, masked_seconds);
     if (kSections * length > fit.error.size()) return false;
     return rms_of(fit.error.head(length)) > strange_level(levels_of_sections(fit.error), fit.deviation());
 }

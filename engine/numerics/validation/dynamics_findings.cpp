@@ -143,7 +143,7 @@ bool excludes_zero(const VectorView& u) {
 
 }  // namespace
 
-void find_noise(const FittedRecord& fit, RecordFindings& findings) {
+void find_noise(const FittedRecord& fit, DataIssues& findings) {
     const double error = fit.error.squaredNorm() / static_cast<double>(fit.error.size());
     const double total = std::pow(fit.deviation(), 2);
     if (error <= 1e-20 * total) return;
@@ -151,7 +151,7 @@ void find_noise(const FittedRecord& fit, RecordFindings& findings) {
     const int poles = fit.search.candidate.poles;
     const Number ratio = significant(std::round(decibels), 3);
     const Message order = plural(poles, "{} pole", "{} poles"), left = fit.with_unit(std::sqrt(error), 2);
-    const bool explained = std::any_of(findings.begin(), findings.end(), [](const RecordFinding& f) {
+    const bool explained = std::any_of(findings.begin(), findings.end(), [](const DataIssue& f) {
         return f.code == "nonlinear" || f.code == "saturation" || f.code == "changing_gain";
     });
     if (decibels >= kNoisy || explained)
@@ -171,7 +171,7 @@ void find_noise(const FittedRecord& fit, RecordFindings& findings) {
                   decibels));
 }
 
-void find_dead_time(const FittedRecord& fit, RecordFindings& findings) {
+void find_dead_time(const FittedRecord& fit, DataIssues& findings) {
     const double delay = fit.search.delay, Ts = fit.data.Ts;
     if (!(delay > Ts) || !(delay > 4 * fit.search.std)) return;
     const Message seen =
@@ -187,7 +187,7 @@ void find_dead_time(const FittedRecord& fit, RecordFindings& findings) {
     findings.push_back(about(fit, "dead_time", Weight::kNote, sentences({seen, remedy}), delay));
 }
 
-void find_offset(const FittedRecord& fit, RecordFindings& findings) {
+void find_offset(const FittedRecord& fit, DataIssues& findings) {
     const double deviation = fit.deviation(), offset = fit.simulation.offset;
     const double least = std::max({kOffset * deviation, 3 * fit.disturbance, 4 * error_of_mean(fit.error)});
     if (!fit.simulation.start.offset || std::abs(offset) < least) {
@@ -266,7 +266,7 @@ bool start_is_evident(const FittedRecord& fit) {
 
 }  // namespace
 
-void find_running_start(const FittedRecord& fit, RecordFindings& findings) {
+void find_running_start(const FittedRecord& fit, DataIssues& findings) {
     const Vector motion = free_motion(fit);
     const double largest = motion.size() > 0 ? motion.cwiseAbs().maxCoeff() : 0, error = standard_deviation(fit.error);
     const bool moves =
@@ -286,7 +286,7 @@ void find_running_start(const FittedRecord& fit, RecordFindings& findings) {
     findings.push_back(about(fit, "running_start", Weight::kWarning, message, largest));
 }
 
-void find_sampling_rate(const FittedRecord& fit, RecordFindings& findings) {
+void find_sampling_rate(const FittedRecord& fit, DataIssues& findings) {
     const double band = band_edge(fit);
     if (!std::isfinite(band)) return;
     const double ratio = 2 * std::numbers::pi / (fit.data.Ts * band);
@@ -308,7 +308,7 @@ void find_sampling_rate(const FittedRecord& fit, RecordFindings& findings) {
             ratio));
 }
 
-void find_integrator(const FittedRecord& fit, RecordFindings& findings) {
+void find_integrator(const FittedRecord& fit, DataIssues& findings) {
     const std::optional<double> pole = slowest_pole(fit);
     if (!pole) return;
     const TransferFunction slow = part_of_pole(fit.model(), *pole);
@@ -368,7 +368,7 @@ std::optional<LoadedIntegrator> loaded_integrator(const IdData& data) {
 
 }  // namespace
 
-bool find_load(const FittedRecord& fit, RecordFindings& findings) {
+bool find_load(const FittedRecord& fit, DataIssues& findings) {
     constexpr double kExplains = 0.3, kAsWell = 1.15, kVisible = 0.3;
     const IdData& window = fit.window.data;
     const bool doubtful = slowest_pole(fit) || fit.runs_away() || wanders(fit.error) ||

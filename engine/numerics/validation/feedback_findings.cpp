@@ -32,10 +32,10 @@ Vector standardised(Vector x, double cut) {
 }
 
 Vector white_errors(const VectorView& error) {
-    const Vector centred = error.array() - error.mean();
+    const Vector centered = error.array() - error.mean();
     const Autoregression memory =
-        fit_autoregression(centred, {centred.size()}, kInputMemory, AutoregressiveOrder::kBic);
-    return filtered_past(memory, centred);
+        fit_autoregression(centered, {centered.size()}, kInputMemory, AutoregressiveOrder::kBic);
+    return filtered_past(memory, centered);
 }
 
 /// What the past of both signals does not tell of y(k): a prediction needs no stable model.
@@ -124,7 +124,7 @@ Message remedy_for_feedback(const Experiment& experiment) {
 
 }  // namespace
 
-void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
+void find_feedback(const FittedRecord& fit, DataIssues& findings) {
     const Index first = fit.window.first, count = std::min<Index>(fit.error.size() - first, kMostFeedbackSamples);
     if (count < 20 * kInputMemory) return;
     const Vector u = fit.u().segment(first, count);
@@ -154,7 +154,7 @@ void find_feedback(const FittedRecord& fit, RecordFindings& findings) {
                              sentences({seen, remedy_for_feedback(fit.data.experiments.front())}), largest));
 }
 
-bool find_runaway(const FittedRecord& fit, RecordFindings& findings) {
+bool find_runaway(const FittedRecord& fit, DataIssues& findings) {
     if (!fit.runs_away()) return false;
     findings.push_back(
         about(fit, "unstable", Weight::kWarning,

@@ -6,11 +6,11 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kFewest = 60;                  // samples below which a model would say little
+constexpr Index kMinCount = 60;                // samples below which a model would say little
 constexpr Index kMostSamplesToJudge = 200000;  // one by one
 constexpr double kSomething = 25;  // per cent of fit below which what the model leaves is no sign of a curve
 
-RecordFinding too_short(Index samples) {
+DataIssue too_short(Index samples) {
     return {"short",
             Weight::kWarning,
             "",
@@ -25,8 +25,8 @@ RecordFinding too_short(Index samples) {
 }
 
 /// Then what the model leaves is no noise.
-bool has_nonlinearity(const RecordFindings& findings) {
-    return std::any_of(findings.begin(), findings.end(), [](const RecordFinding& f) {
+bool has_nonlinearity(const DataIssues& findings) {
+    return std::any_of(findings.begin(), findings.end(), [](const DataIssue& f) {
         return f.code == "nonlinear" || f.code == "saturation" || f.code == "changing_gain";
     });
 }
@@ -35,8 +35,8 @@ bool has_nonlinearity(const RecordFindings& findings) {
 
 ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel) {
     ModelAdvice advice;
-    RecordFindings& findings = advice.findings;
-    if (data.sample_count(0) < kFewest) {
+    DataIssues& findings = advice.findings;
+    if (data.sample_count(0) < kMinCount) {
         findings.push_back(too_short(data.sample_count(0)));
         return advice;
     }
@@ -49,7 +49,7 @@ ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel
     if (!answered_backwards && find_late_input(*fit, findings)) return advice;  // its errors look like outliers
     const bool judged_one_by_one = fit->error.size() <= kMostSamplesToJudge;
     if (judged_one_by_one) find_error_outliers(*fit, cancel, findings);
-    advice.judges_outliers = fit->trusted() && judged_one_by_one;
+    advice.checks_outliers = fit->trusted() && judged_one_by_one;
     if (!answered_backwards && find_load(*fit, findings)) return advice;
     if (find_runaway(*fit, findings)) {
         find_feedback(*fit, findings);

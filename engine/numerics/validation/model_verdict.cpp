@@ -9,7 +9,7 @@ namespace {
 constexpr double kMostlyExplained = 50;  // per cent of fit
 
 /// What the errors still hold of the answer to the input.
-Message missing_part(const ModelStanding& model) {
+Message missing_part(const ModelEvidence& model) {
     if (!model.doubts.remedy.empty()) return model.doubts.remedy;
     if (!model.start.empty()) return model.start;
     if (model.acts_at_once)
@@ -42,7 +42,7 @@ ModelDoubts ModelDoubts::about(std::size_t i, const std::string& name) const {
     return own;
 }
 
-Message model_verdict(const ModelStanding& model) {
+Message model_verdict(const ModelEvidence& model) {
     const Number fit = significant(model.fit_percent, 3);
     if (model.unstable) {
         const Message verdict = Message("The model is unstable. Do not use it, whatever the residual tests show.");

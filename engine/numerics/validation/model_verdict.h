@@ -18,7 +18,7 @@ struct ModelDoubts {
 };
 
 /// What is known of the model of one output: stability, fit, the tests of its errors, the estimation's own doubts.
-struct ModelStanding {
+struct ModelEvidence {
     double fit_percent = 100;     ///< of the simulation
     bool unstable = false;        ///< a pole to the right of the stability limit
     bool white = true;            ///< the errors
@@ -35,6 +35,6 @@ struct ModelStanding {
 /// little (explains_little in fit/diagnosis.h), however white its errors; of less than half of the output no dynamics
 /// are called described where the errors are coloured; a cause that is known is named in the place
 /// of missing poles.
-Message model_verdict(const ModelStanding& model);
+Message model_verdict(const ModelEvidence& model);
 
 }  // namespace dynlab::inline numerics

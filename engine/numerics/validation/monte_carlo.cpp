@@ -138,7 +138,7 @@ class Runner {
             Outcome outcome = outcome_of(methods_[j], record);
             if (asked_to_stop()) return;  // the method may have been stopped half way
             runs_[static_cast<std::size_t>(k - first_)].outcomes[j] = std::move(outcome);
-            tell_progress();
+            report_progress();
         }
     }
 
@@ -149,7 +149,7 @@ class Runner {
         return cancelled_;
     }
 
-    void tell_progress() {
+    void report_progress() {
         if (!study_.progress) return;
         const std::scoped_lock lock(callbacks_);
         study_.progress(++estimations_);

@@ -150,7 +150,7 @@ class Elimination {
     Vector power_;
 };
 
-struct Verdict {
+struct CheckOutcome {
     const Family* family = nullptr;
     double statistic = 0;  // chi-squared in excess of its degrees
     double share = 0;      // of the error left by linear terms
@@ -171,7 +171,7 @@ Vector unexplained(const NonlinearRegression& regression) {
     return e - basis * solve_semidefinite(gram, basis.transpose() * e);
 }
 
-Verdict best_family(const NonlinearRegression& regression) {
+CheckOutcome best_family(const NonlinearRegression& regression) {
     const Index rows = regression.columns.rows(), d = regression.columns.cols();
     const Autoregression memory =
         fit_autoregression(unexplained(regression), {rows}, kLongestErrorMemory, AutoregressiveOrder::kBic);
@@ -180,7 +180,7 @@ Verdict best_family(const NonlinearRegression& regression) {
     Elimination linear(white.transpose() * white);
     linear.eliminate(0, regression.linear);
     const double before = linear.left_of_last();
-    Verdict best;
+    CheckOutcome best;
     for (const Family& family : regression.families) {
         Elimination with = linear;
         const Index degrees = with.eliminate(family.first, family.count);
@@ -234,7 +234,7 @@ Number in_percent(double effect) {
     return rounded(100 * effect, 1);
 }
 
-RecordFinding curve_at_output(const FittedRecord& fit, double effect) {
+DataIssue curve_at_output(const FittedRecord& fit, double effect) {
     if (runs_into_a_limit(slopes_of_curve(fit))) {
         return about(fit, "saturation", Weight::kWarning,
                      Message("{} flattens where a linear model continues to rise: the signal saturates at a limit "
@@ -251,7 +251,7 @@ RecordFinding curve_at_output(const FittedRecord& fit, double effect) {
                  effect);
 }
 
-RecordFinding nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) {
+DataIssue nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) {
     switch (kind) {
         case Curve::kInput:
             return about(
@@ -301,10 +301,10 @@ bool gain_explains_error(const FittedRecord& fit) {
     return solve_least_squares(columns, fit.error).residuals.squaredNorm() < (1 - kMostOfIt) * line;
 }
 
-void find_nonlinearity(const FittedRecord& fit, RecordFindings& findings) {
+void find_nonlinearity(const FittedRecord& fit, DataIssues& findings) {
     const NonlinearRegression regression = nonlinear_regression(fit);
     if (!regression.columns.allFinite()) return;
-    const Verdict verdict = best_family(regression);
+    const CheckOutcome verdict = best_family(regression);
     if (verdict.family == nullptr || !(verdict.share > kNonlinearShare)) return;
     const double effect = effect_of(regression, *verdict.family) / fit.deviation();
     if (effect > kNonlinearEffect) findings.push_back(nonlinear_finding(fit, verdict.family->kind, effect));

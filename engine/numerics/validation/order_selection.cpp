@@ -24,7 +24,7 @@
 namespace dynlab::inline numerics {
 namespace {
 
-constexpr int kMostCandidates = 2000;
+constexpr int kMaxCandidates = 2000;
 // Of the output's mean square: smaller errors are those of an iteration that has settled, of some 1e-9 in the
 // parameters.
 constexpr double kRoundingShare = 1e-18;
@@ -129,9 +129,9 @@ void measure(OrderCandidate& candidate, const IdData& data, const OrderSelection
                                    : validation_fit(*options.validation, estimate, offset);
 }
 
-/// `poorer`: fits of all structures that are a step poorer, or none.
+/// `lower_order`: fits of all structures that are a step poorer, or none.
 OrderCandidate candidate_of(const IdData& data, const TransferStructure& structure,
-                            const OrderSelectionOptions& options, std::vector<const Fit*> poorer) {
+                            const OrderSelectionOptions& options, std::vector<const Fit*> lower_order) {
     OrderCandidate candidate;
     candidate.poles = structure.poles.front();
     candidate.zeros = structure.channels.front().zeros;
@@ -140,7 +140,7 @@ OrderCandidate candidate_of(const IdData& data, const TransferStructure& structu
     FitOptions estimation = options.estimation;
     estimation.integration = false;  // `data` are integrated
     try {
-        candidate.estimate = srivc(data, structure, estimation, {{}, {}, std::move(poorer)});
+        candidate.estimate = srivc(data, structure, estimation, {{}, {}, std::move(lower_order)});
         if (!candidate.estimate.theta.allFinite()) throw InvalidArgument("a parameter is not finite");
         measure(candidate, data, options);
     } catch (const std::exception& error) {
@@ -194,9 +194,10 @@ bool is_structure_of(const TransferStructure& a, const TransferStructure& b) {
 std::vector<const Fit*> poorer_fits(const std::vector<TransferStructure>& structures, std::size_t of,
                                     const std::vector<OrderCandidate>& candidates) {
     std::vector<const Fit*> fits;
-    for (const TransferStructure& poorer : poorer_structures(structures[of])) {
-        const auto known = std::find_if(structures.begin(), structures.end(),
-                                        [&](const TransferStructure& one) { return is_structure_of(one, poorer); });
+    for (const TransferStructure& lower_order : lower_order_structures(structures[of])) {
+        const auto known = std::find_if(structures.begin(), structures.end(), [&](const TransferStructure& one) {
+            return is_structure_of(one, lower_order);
+        });
         if (known == structures.end()) return {};
         const OrderCandidate& candidate = candidates[static_cast<std::size_t>(known - structures.begin())];
         if (candidate.failure.empty()) fits.push_back(&candidate.estimate);
@@ -213,10 +214,10 @@ std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<i
     if (zeros.first < 0 || zeros.second < zeros.first)
         throw InvalidArgument("zeros must be a range starting at 0 or higher, such as {0, 2}");
     if (delays.empty()) throw InvalidArgument("at least one delay must be given; use 0 for none");
-    const double wanted =
+    const double requested =
         (1.0 + poles.second - poles.first) * (1.0 + zeros.second - zeros.first) * static_cast<double>(delays.size());
-    if (wanted > kMostCandidates)
-        throw InvalidArgument("more than {} structures would be tried: use smaller ranges", kMostCandidates);
+    if (requested > kMaxCandidates)
+        throw InvalidArgument("more than {} structures would be tried: use smaller ranges", kMaxCandidates);
     std::vector<TransferStructure> grid;
     for (int n = poles.first; n <= poles.second; ++n)
         for (int m = zeros.first; m <= std::min(zeros.second, feedthrough ? n : n - 1); ++m)

@@ -113,10 +113,11 @@ struct StartedPrediction {
 
 std::vector<StartCondition> conditions_of(const IdData& data, const PolynomialOrders& orders,
                                           const CompareOptions& options) {
-    CompareOptions wanted = options;
-    if (orders.na > 0 && wanted.initial_state == InitialState::kAuto) wanted.initial_state = InitialState::kEstimate;
-    if (orders.na > 0 && wanted.offset == Offset::kAuto) wanted.offset = Offset::kNone;
-    return start_conditions(data, wanted.initial_state, wanted.offset);
+    CompareOptions requested = options;
+    if (orders.na > 0 && requested.initial_state == InitialState::kAuto)
+        requested.initial_state = InitialState::kEstimate;
+    if (orders.na > 0 && requested.offset == Offset::kAuto) requested.offset = Offset::kNone;
+    return start_conditions(data, requested.initial_state, requested.offset);
 }
 
 StartedPrediction best_start(const IdData& data, const OrderedParameters& model, const CompareOptions& options) {
@@ -168,14 +169,14 @@ Predictions predict_difference_equation(const IdData& data, const NoisyModel& mo
     check_polynomial_data("The prediction", data, ordered.orders);
     check_sampling(data, model.polynomial->Ts);
     check_invertible(model.polynomial->C, model.polynomial->D);
-    const CentredData centred = centred_for(data, options.start.offset);
-    const StartedPrediction best = best_start(centred.data, ordered, options.start);
+    const CenteredData centered = centered_for(data, options.start.offset);
+    const StartedPrediction best = best_start(centered.data, ordered, options.start);
     OutputRecords records;
     Index place = 0;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         const Vector y = data.experiments[k].y.col(0);
         const Index rows = best.lengths[k];
-        const double level = centred.removed.empty() ? 0 : centred.removed[k].front().output;
+        const double level = centered.removed.empty() ? 0 : centered.removed[k].front().output;
         Vector errors = Vector::Zero(y.size()), simulated = y;
         errors.tail(rows) = best.errors.segment(place, rows);
         simulated.tail(rows) = best.simulated.segment(place, rows).array() + level;
@@ -230,7 +231,7 @@ bool NoisyModel::has_noise_model() const {
     return !is_one(C) || !is_one(D);
 }
 
-ColouredNoise noise_of(const NoisyModel& model) {
+ColoredNoise noise_of(const NoisyModel& model) {
     if (!model.polynomial) return {model.C, model.D};
     return {model.polynomial->C, multiply(model.polynomial->A, model.polynomial->D)};
 }

@@ -22,7 +22,7 @@ struct NoisyModel {
 };
 
 /// H as one filter of white noise.
-ColouredNoise noise_of(const NoisyModel& model);
+ColoredNoise noise_of(const NoisyModel& model);
 
 /// The first `count` values 1, h_1, h_2, ... of the impulse response of H, by long division.
 Vector noise_impulse_response(const NoisyModel& model, Index count);

@@ -22,13 +22,13 @@ using ErrorKind = ModelError;
 
 using Signals = std::vector<Vector>;  // one channel, an entry per experiment
 
-Vector centred(const VectorView& x) {
+Vector centered(const VectorView& x) {
     return x.array() - x.mean();
 }
 
 Signals centred_column(const std::vector<Matrix>& signals, Index column) {
     Signals all;
-    for (const Matrix& x : signals) all.push_back(centred(x.col(column)));
+    for (const Matrix& x : signals) all.push_back(centered(x.col(column)));
     return all;
 }
 
@@ -121,7 +121,7 @@ std::vector<TestedInput> tested_inputs(const Signals& e, const IdData& data, Ind
     std::vector<TestedInput> inputs(static_cast<std::size_t>(data.input_count()));
     for (std::size_t j = 0; j < inputs.size(); ++j)
         for (const Experiment& experiment : data.experiments)
-            inputs[j].u.push_back(centred(experiment.u.col(static_cast<Index>(j))));
+            inputs[j].u.push_back(centered(experiment.u.col(static_cast<Index>(j))));
     tbb::parallel_for(std::size_t{0}, 2 * inputs.size() + 1, [&](std::size_t i) {
         if (i == 0) {
             R = lagged_covariances(e, e, lags).tail(lags + 1);
@@ -171,8 +171,8 @@ IndependenceTest test_independence(const Signals& e, double variance, const Test
 }
 
 // What the tests say of one output's model; the rest is known to whoever knows the model.
-ModelStanding standing_of(const OutputResiduals& output, ErrorKind kind) {
-    ModelStanding model;
+ModelEvidence standing_of(const OutputResiduals& output, ErrorKind kind) {
+    ModelEvidence model;
     model.fit_percent = output.fit_percent;
     model.white = output.whiteness.white;
     model.of_predictions = kind == ErrorKind::kPrediction;
@@ -268,7 +268,7 @@ void conclude(ResidualTests& tests, const Standing& standing) {
 }
 
 // Whether the error goes with this input at an instant that the channel leaves out, before its delay ends or at once.
-void judge_instants(ModelStanding& model, const IndependenceTest& test, const TransferFunction& G, const IdData& data) {
+void judge_instants(ModelEvidence& model, const IndependenceTest& test, const TransferFunction& G, const IdData& data) {
     if (test.independent || !data.regular() || !G.continuous()) return;
     const Index lag = strongest_lag(test);
     if (G.delay() > (static_cast<double>(lag) + 0.5) * data.Ts)
@@ -325,7 +325,7 @@ ResidualTests residual_tests(const IdData& data, const std::vector<TransferFunct
     ResidualTests tests = tests_of(data, output_errors(data, std::move(simulated)), ErrorKind::kOutput, options);
     conclude(tests, [&](std::size_t i) {
         const OutputResiduals& output = tests.outputs[i];
-        ModelStanding model = standing_of(output, ErrorKind::kOutput);
+        ModelEvidence model = standing_of(output, ErrorKind::kOutput);
         model.doubts = doubts.about(i, data.output_names[i]);
         for (std::size_t j = 0; j < output.inputs.size(); ++j) {
             const TransferFunction& G = channels[i * output.inputs.size() + j];

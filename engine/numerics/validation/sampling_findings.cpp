@@ -35,7 +35,7 @@ Index first_other_clock(const Clock& clock, Index length) {
     return -1;
 }
 
-RecordFinding mixed_sampling(const Clock& clock, Index place, std::size_t experiment, const std::string& unit) {
+DataIssue mixed_sampling(const Clock& clock, Index place, std::size_t experiment, const std::string& unit) {
     const double other = median(clock.steps.segment(place, std::min<Index>(20, clock.steps.size() - place)));
     return {"mixed_sampling",
             Weight::kWarning,
@@ -49,7 +49,7 @@ RecordFinding mixed_sampling(const Clock& clock, Index place, std::size_t experi
             {{place + 1, place + 2}}};
 }
 
-RecordFinding gaps(const Clock& clock, Index count, std::size_t experiment, const std::string& unit) {
+DataIssue gaps(const Clock& clock, Index count, std::size_t experiment, const std::string& unit) {
     Index place = 0;
     while (clock.steps[place] < kGap * clock.usual) ++place;
     const double step = clock.steps[place];
@@ -67,7 +67,7 @@ RecordFinding gaps(const Clock& clock, Index count, std::size_t experiment, cons
 
 }  // namespace
 
-void find_sampling(const IdData& data, std::vector<RecordFinding>& findings) {
+void find_sampling(const IdData& data, std::vector<DataIssue>& findings) {
     const std::string& unit = data.time_unit;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
         const Vector& t = data.experiments[k].t;

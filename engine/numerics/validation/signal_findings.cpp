@@ -20,7 +20,7 @@ constexpr Index kReach = 4;              // samples before a run over which its 
 constexpr double kSharp = 10;            // steps of the converter that a signal rises before it is cut off
 constexpr double kClippedExcess = 0.05;  // of the range, what the signal would have gone beyond its limit
 constexpr double kCoarse = 100;          // steps over the range below which quantisation matters
-constexpr Index kHighestExcitation = 20, kPoorOrder = 6;
+constexpr Index kMaxExcitation = 20, kPoorOrder = 6;
 constexpr double kExcited = 5e-3;  // singular value against the largest one
 
 struct Channel {
@@ -54,7 +54,7 @@ std::vector<Channel> channels_of(const IdData& data) {
     return channels;
 }
 
-RecordFinding about(const Channel& channel, const char* code, Weight weight, const Message& message, double value = 0) {
+DataIssue about(const Channel& channel, const char* code, Weight weight, const Message& message, double value = 0) {
     return {code, weight, channel.name, message, value, channel.experiment, {}};
 }
 
@@ -68,7 +68,7 @@ double range_of(const Vector& x) {
 }
 
 /// A constant input other than zero may be a step with which the record begins.
-void find_step_at_the_start(const Channel& channel, std::vector<RecordFinding>& findings) {
+void find_step_at_the_start(const Channel& channel, std::vector<DataIssue>& findings) {
     findings.push_back(about(
         channel, "step_input", Weight::kNote,
         Message("{} stays at {} throughout: this is a step experiment if the input was switched on with the first "
@@ -77,7 +77,7 @@ void find_step_at_the_start(const Channel& channel, std::vector<RecordFinding>& 
         0));
 }
 
-void find_constant(const Channel& channel, std::vector<RecordFinding>& findings) {
+void find_constant(const Channel& channel, std::vector<DataIssue>& findings) {
     findings.push_back(about(channel, "constant", Weight::kWarning,
                              Message("{} stays at {} throughout, so no dynamics can be estimated from it. Possible "
                                      "causes are saturation, a dead sensor or wire, or a wrong column.",
@@ -86,7 +86,7 @@ void find_constant(const Channel& channel, std::vector<RecordFinding>& findings)
 }
 
 /// One of several inputs: nothing tells what it does.
-void find_resting_input(const Channel& channel, std::vector<RecordFinding>& findings) {
+void find_resting_input(const Channel& channel, std::vector<DataIssue>& findings) {
     findings.push_back(about(channel, "constant", Weight::kWarning,
                              Message("{} stays at {} throughout, so its effect cannot be distinguished from an offset. "
                                      "Exclude it with data:select, or vary it.",
@@ -94,7 +94,7 @@ void find_resting_input(const Channel& channel, std::vector<RecordFinding>& find
                              channel.x[0]));
 }
 
-void find_time_column(const Channel& channel, std::vector<RecordFinding>& findings) {
+void find_time_column(const Channel& channel, std::vector<DataIssue>& findings) {
     const Index N = channel.x.size();
     if (N < 10) return;
     const Vector steps = channel.x.tail(N - 1) - channel.x.head(N - 1);
@@ -114,7 +114,7 @@ double rise_before(const Vector& x, Index place, Index reach) {
 
 /// Runs at the largest or smallest value into which the signal comes at speed: it would have gone on. A smooth maximum
 /// between two steps of a converter rises by no more than eight steps in as many samples before as it lasts.
-std::vector<Segment> saturated_runs(const Vector& x, const Quantisation& grid) {
+std::vector<Segment> saturated_runs(const Vector& x, const Quantization& grid) {
     std::vector<Segment> runs;
     const double range = range_of(x), tolerance = 1e-9 * range;
     for (const double limit : {x.maxCoeff(), x.minCoeff()})
@@ -133,12 +133,12 @@ std::vector<Segment> saturated_runs(const Vector& x, const Quantisation& grid) {
 }
 
 /// A signal that jumps between a few levels (a relay, a PRBS, a keyed-in step) has no limits to run into.
-bool has_few_levels(const Quantisation& grid) {
+bool has_few_levels(const Quantization& grid) {
     return grid.levels <= 5;
 }
 
 /// Of outputs: an input that was applied is what it is, whatever its limits.
-void find_saturation(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
+void find_saturation(const Channel& channel, const Quantization& grid, std::vector<DataIssue>& findings) {
     if (!channel.output || has_few_levels(grid)) return;
     const std::vector<Segment> runs = saturated_runs(channel.x, grid);
     if (runs.empty()) return;
@@ -158,12 +158,12 @@ void find_saturation(const Channel& channel, const Quantisation& grid, std::vect
                                       "stays there. A linear model cannot follow that. Exclude these ranges with "
                                       "data:discard, or repeat the experiment with a smaller amplitude.",
                                       who, percent, listed_places(runs), limit);
-    RecordFinding finding = about(channel, "saturation", Weight::kWarning, message, share);
-    finding.sections = runs;
-    findings.push_back(std::move(finding));
+    DataIssue issue = about(channel, "saturation", Weight::kWarning, message, share);
+    issue.sections = runs;
+    findings.push_back(std::move(issue));
 }
 
-void find_quantisation(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
+void find_quantisation(const Channel& channel, const Quantization& grid, std::vector<DataIssue>& findings) {
     const double range = range_of(channel.x);
     if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
     findings.push_back(
@@ -200,7 +200,7 @@ void drop_usual_bends(RepairedSignal& repaired, const Vector& x) {
     std::erase_if(repaired.stretches, is_usual);
 }
 
-void find_outliers(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
+void find_outliers(const Channel& channel, const Quantization& grid, std::vector<DataIssue>& findings) {
     if (!channel.output || has_few_levels(grid)) return;
     OutlierOptions options;
     options.quantisation = grid.step;
@@ -208,18 +208,18 @@ void find_outliers(const Channel& channel, const Quantisation& grid, std::vector
     drop_usual_bends(repaired, channel.x);
     const auto count = static_cast<Index>(repaired.replaced.size());
     if (count == 0 || static_cast<double>(count) > 0.05 * static_cast<double>(channel.x.size())) return;
-    RecordFinding finding =
+    DataIssue issue =
         about(channel, "outliers", Weight::kWarning,
               Message("{} has {} far from the neighboring samples ({}). Check whether these samples are valid. If not, "
                       "filloutliers replaces them by linear interpolation.",
                       subject(channel), plural(count, "{} sample", "{} samples"), listed_places(repaired.stretches)),
               static_cast<double>(count));
-    finding.sections = repaired.stretches;
-    findings.push_back(std::move(finding));
+    issue.sections = repaired.stretches;
+    findings.push_back(std::move(issue));
 }
 
 /// An angle that jumps by a turn. Without a unit it may be either.
-bool find_wrap(const Channel& channel, std::vector<RecordFinding>& findings) {
+bool find_wrap(const Channel& channel, std::vector<DataIssue>& findings) {
     constexpr double kDegreesPerTurn = 360, kRadians = 2 * std::numbers::pi;
     const std::string unit = small_letters(channel.unit);
     const bool radians = unit.starts_with("rad"), degrees = unit.starts_with("deg") || unit == "°";
@@ -238,7 +238,7 @@ bool find_wrap(const Channel& channel, std::vector<RecordFinding>& findings) {
     return true;
 }
 
-void find_degrees(const Channel& channel, std::vector<RecordFinding>& findings) {
+void find_degrees(const Channel& channel, std::vector<DataIssue>& findings) {
     const std::string unit = small_letters(channel.unit);
     const double swing = range_of(channel.x) / 2;
     if ((unit != "rad" && unit != "radian" && unit != "radians") || swing <= std::numbers::pi) return;
@@ -279,14 +279,14 @@ Matrix products_of_copies(const Vector& u, Index shift, Index order, Index rows)
 Index excitation_order(const Vector& input) {
     const Vector u = input.array() - input.mean();
     const Index N = u.size(), shift = half_correlation(u, std::max<Index>(N / 20, 1));
-    const Index order = std::min(kHighestExcitation, N / (2 * shift));
+    const Index order = std::min(kMaxExcitation, N / (2 * shift));
     if (order < 1) return 1;
     const Index rows = N - (order - 1) * shift;
     Vector means(order);
     for (Index i = 0; i < order; ++i) means[i] = u.segment(i * shift, rows).mean();
-    const Matrix centred =
+    const Matrix centered =
         products_of_copies(u, shift, order, rows) - static_cast<double>(rows) * means * means.transpose();
-    const Vector squares = symmetric_eigenvalues(centred);
+    const Vector squares = symmetric_eigenvalues(centered);
     return (squares.array() > kExcited * kExcited * squares[order - 1]).count();
 }
 
@@ -317,12 +317,12 @@ Message excitation_of(const Channel& channel, Index order) {
             "multisine that covers the plant's bandwidth.",
             subject(channel), plural(order, "{} parameter", "{} parameters"),
             plural((order + 1) / 2, "{} frequency", "{} frequencies"));
-    if (order < kHighestExcitation)
+    if (order < kMaxExcitation)
         return Message("{} is rich enough for models with {} parameters.", subject(channel), order);
-    return Message("{} is rich enough for models with {} parameters or more.", subject(channel), kHighestExcitation);
+    return Message("{} is rich enough for models with {} parameters or more.", subject(channel), kMaxExcitation);
 }
 
-void find_excitation(const Channel& channel, const Quantisation& grid, std::vector<RecordFinding>& findings) {
+void find_excitation(const Channel& channel, const Quantization& grid, std::vector<DataIssue>& findings) {
     const Index changes = changes_of(channel.x);
     if (has_few_levels(grid) && changes <= 3) {
         findings.push_back(
@@ -335,7 +335,7 @@ void find_excitation(const Channel& channel, const Quantisation& grid, std::vect
                              excitation_of(channel, order), static_cast<double>(order)));
 }
 
-void find_twins(const std::vector<Channel>& channels, std::vector<RecordFinding>& findings) {
+void find_twins(const std::vector<Channel>& channels, std::vector<DataIssue>& findings) {
     for (std::size_t i = 0; i < channels.size(); ++i)
         for (std::size_t j = i + 1; j < channels.size(); ++j) {
             const Channel &a = channels[i], &b = channels[j];
@@ -349,8 +349,8 @@ void find_twins(const std::vector<Channel>& channels, std::vector<RecordFinding>
 
 }  // namespace
 
-std::vector<RecordFinding> signal_advice(const IdData& data) {
-    std::vector<RecordFinding> findings;
+std::vector<DataIssue> signal_advice(const IdData& data) {
+    std::vector<DataIssue> findings;
     find_sampling(data, findings);
     const std::vector<Channel> channels = channels_of(data);
     find_twins(channels, findings);
@@ -364,7 +364,7 @@ std::vector<RecordFinding> signal_advice(const IdData& data) {
                 channel.x[0] != 0 ? find_step_at_the_start(channel, findings) : find_constant(channel, findings);
             continue;
         }
-        const Quantisation grid = quantisation_of(channel.x);
+        const Quantization grid = quantization_of(channel.x);
         if (!has_few_levels(grid) && find_wrap(channel, findings)) continue;
         find_time_column(channel, findings);
         find_saturation(channel, grid, findings);

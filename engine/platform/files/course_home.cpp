@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kParts[] = {"lessons", "data", "report_templates"};
 constexpr const char* kOverlaid = "report_templates";  // file by file; the others as whole folders
-constexpr std::uintmax_t kMostBytes = 256u << 20;      // of a course's own files, which are copied
+constexpr std::uintmax_t kMaxByteCount = 256u << 20;   // of a course's own files, which are copied
 
 using FilesByPlace = std::map<fs::path, fs::path>;
 
@@ -46,7 +46,7 @@ FilesByPlace merged_files(const fs::path& course, const fs::path& installed) {
     }
     std::uintmax_t bytes = 0;
     for (const auto& [place, file] : own) bytes += fs::file_size(file);
-    if (bytes > kMostBytes)
+    if (bytes > kMaxByteCount)
         throw EnvironmentError("the course in {} has more than 256 MB of lessons, data and templates", course.string());
     for (const auto& [place, file] : own) files[place] = file;
     return files;

@@ -8,9 +8,9 @@ namespace dynlab::inline platform {
 /// report_templates/. Throws EnvironmentError where there is no such folder, or nothing of the kind in it.
 std::optional<std::filesystem::path> own_course();
 
-/// One folder in which data sets, lessons and templates are found: those of a course, then the installed ones. Of two
-/// data sets or lessons of one name the course's counts, and so does a file of report_templates/. It is a copy in the
-/// store of what is kept between runs, made anew when a file of either changes; nothing is written into them.
+/// Returns one folder with the data sets, lessons and templates of a course and of the installation. Data sets, lessons
+/// and files of report_templates/ of the course take precedence over installed ones of the same name. The folder is a
+/// cached copy, which is created again when an original file changes; the original folders are not changed.
 std::filesystem::path course_home(const std::filesystem::path& course, const std::filesystem::path& installed);
 
 }  // namespace dynlab::inline platform

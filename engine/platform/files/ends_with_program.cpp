@@ -67,7 +67,7 @@ bool is_copied(Slot& slot, Ending& ending) {
     return slot.changes.load(std::memory_order_relaxed) == changes;
 }
 
-constexpr int kDeepest = 32;
+constexpr int kMaxDepth = 32;
 
 void remove_all_of(int folder, const char* name, int depth);
 
@@ -97,7 +97,7 @@ void empty_folder(int folder, int depth) {
 }
 
 void remove_all_of(int folder, const char* name, int depth) {
-    if (::unlinkat(folder, name, 0) == 0 || depth > kDeepest) return;
+    if (::unlinkat(folder, name, 0) == 0 || depth > kMaxDepth) return;
     const int inside = ::openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (inside < 0) return;
     empty_folder(inside, depth);

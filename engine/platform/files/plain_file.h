@@ -4,8 +4,8 @@
 
 namespace dynlab::inline platform {
 
-/// Whole or not at all, for its owner only, whatever was in its place before: a link that another user may have put
-/// there is replaced and never followed. Throws EnvironmentError as write_file_atomically does.
+/// Writes a file atomically that only its owner can read. A symbolic link that another user may have put at `file` is
+/// replaced and never followed. Throws EnvironmentError as write_file_atomically does.
 void write_plain_file(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace dynlab::inline platform

@@ -18,7 +18,7 @@ class ReplacementFile {
     /// `made_in`: the folder of the new file. Default: that of `file`. On another file system the content is copied
     /// once more on commit().
     explicit ReplacementFile(const std::filesystem::path& file, const std::filesystem::path& made_in = {});
-    /// One for its owner only, in whose place whatever stands there is replaced, a link too (plain_file.h).
+    /// A file that only its owner can read. It replaces an existing file or symbolic link at `file` (see plain_file.h).
     static ReplacementFile of_owner(const std::filesystem::path& file);
     ~ReplacementFile();
     ReplacementFile(ReplacementFile&& other) noexcept;
@@ -45,7 +45,7 @@ void replace_by_copy(const std::filesystem::path& from, const std::filesystem::p
 [[noreturn]] void fail_to_write(const std::filesystem::path& file, int error_number);
 /// Behind a symbolic link, so that the link itself survives.
 std::filesystem::path destination_of(const std::filesystem::path& file);
-/// Status of what stands at `file` now; nothing when there is none.
+/// Status of the file, folder or link at `file`; empty if there is none.
 std::optional<struct stat> present_status(const std::filesystem::path& file);
 
 }  // namespace dynlab::inline platform

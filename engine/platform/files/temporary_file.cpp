@@ -59,14 +59,14 @@ void remove_leftovers_once(const fs::path& folder) {
 }  // namespace
 
 std::string machine_in_names(const std::string& machine) {
-    constexpr std::size_t kMostLetters = 24, kLettersOfHash = 12;
+    constexpr std::size_t kMaxLetters = 24, kLettersOfHash = 12;
     std::string name = machine;
     for (char& c : name) {
         const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
         if (!plain) c = '_';
     }
-    if (name == machine && name.size() <= kMostLetters) return name;
-    return name.substr(0, kMostLetters - kLettersOfHash) + sha256_of(machine).substr(0, kLettersOfHash);
+    if (name == machine && name.size() <= kMaxLetters) return name;
+    return name.substr(0, kMaxLetters - kLettersOfHash) + sha256_of(machine).substr(0, kLettersOfHash);
 }
 
 const std::string& machine_in_names() {

@@ -10,8 +10,8 @@
 namespace dynlab::inline platform {
 namespace {
 
-constexpr std::uint64_t kMostZipBytes = 0xfffffffeu;
-constexpr std::size_t kMostEntries = 0xfffe;
+constexpr std::uint64_t kMaxZipBytes = 0xfffffffeu;
+constexpr std::size_t kMaxEntries = 0xfffe;
 constexpr std::uint16_t kVersion = 10, kMadeOnUnix = 3 << 8 | 20;
 constexpr std::uint16_t kTime = 0, kDate = 1 << 5 | 1;  // 1 January 1980, midnight: the first that zip knows
 constexpr std::uint32_t kPlainFile = std::uint32_t{0100644} << 16;  // as Unix has it
@@ -43,16 +43,16 @@ std::string common_header(const std::string& name, const std::string& content) {
 }
 
 [[noreturn]] void refuse_size() {
-    throw EnvironmentError("a zip can contain at most {} files and {} MB", kMostEntries, kMostZipBytes >> 20);
+    throw EnvironmentError("a zip can contain at most {} files and {} MB", kMaxEntries, kMaxZipBytes >> 20);
 }
 
 }  // namespace
 
 std::string zip_of(const std::map<std::string, std::string>& contents) {
-    if (contents.size() > kMostEntries) refuse_size();
+    if (contents.size() > kMaxEntries) refuse_size();
     std::string zip, list;
     for (const auto& [name, content] : contents) {
-        if (zip.size() + list.size() + content.size() > kMostZipBytes) refuse_size();
+        if (zip.size() + list.size() + content.size() > kMaxZipBytes) refuse_size();
         const std::string header = common_header(name, content);
         put(list, std::uint32_t{0x02014b50}, kMadeOnUnix);
         list += header;
@@ -62,7 +62,7 @@ std::string zip_of(const std::map<std::string, std::string>& contents) {
         put(zip, std::uint32_t{0x04034b50});
         zip += header + name + content;
     }
-    if (zip.size() + list.size() > kMostZipBytes) refuse_size();
+    if (zip.size() + list.size() > kMaxZipBytes) refuse_size();
     const auto count = static_cast<std::uint16_t>(contents.size());
     const auto begin = static_cast<std::uint32_t>(zip.size());
     zip += list;

@@ -14,7 +14,7 @@ fs::path parent_of_temporary_folders() {
 }
 
 std::string beginning_of_temporary_folders() {
-    return beginning_in_use("dynlab-");
+    return prefix_in_use("dynlab-");
 }
 
 std::vector<fs::path> remove_abandoned_folders() {

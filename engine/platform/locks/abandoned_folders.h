@@ -5,9 +5,9 @@
 
 namespace dynlab::inline platform {
 
-/// Removes from $TMPDIR this user's temporary folders (TemporaryFolder) whose process was killed before it could: those
-/// of this machine that nobody holds a lock on (files/temporary_file.h). Returns the removed folders. Folders that
-/// cannot be removed stay.
+/// Removes temporary folders (TemporaryFolder) of this user on this machine from $TMPDIR whose process was killed, so
+/// that no process holds their lock (files/temporary_file.h). Returns the removed folders. Folders that cannot be
+/// removed stay.
 std::vector<std::filesystem::path> remove_abandoned_folders();
 
 /// Where temporary folders are made: $TMPDIR, or /tmp.

@@ -31,7 +31,7 @@ Locks& locks() {
 
 }  // namespace
 
-std::string beginning_in_use(const std::string& beginning) {
+std::string prefix_in_use(const std::string& beginning) {
     return beginning + machine_in_names() + "-";
 }
 

@@ -9,7 +9,7 @@ namespace dynlab::inline platform {
 /// that the next one can remove what a killed process left (files/temporary_file.h).
 
 /// "dynlab-" and "MACHINE-": what these names begin with on this machine.
-std::string beginning_in_use(const std::string& beginning);
+std::string prefix_in_use(const std::string& beginning);
 /// A new, empty folder PARENT/BEGINNINGXXXXXX with its lock; empty, with errno, where it cannot be made.
 std::filesystem::path make_folder_in_use(const std::filesystem::path& parent, const std::string& beginning);
 /// The folder is gone or has another name: its lock ends.

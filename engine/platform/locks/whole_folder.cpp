@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 /// An empty folder in use, with the permissions that the umask grants: those of make_folder_in_use are private.
 fs::path new_folder_in(const fs::path& parent, std::error_code& error) {
-    const std::string beginning = beginning_in_use(".new-");
+    const std::string beginning = prefix_in_use(".new-");
     fs::create_directories(parent, error);
     remove_unused(parent, beginning, Leftovers::kFolders);
     const fs::path made = make_folder_in_use(parent, beginning);
@@ -30,7 +30,7 @@ fs::path new_folder_in(const fs::path& parent, std::error_code& error) {
 
 }  // namespace
 
-void make_whole_folder(const fs::path& folder, const std::function<void(const fs::path&)>& fill) {
+void make_complete_folder(const fs::path& folder, const std::function<void(const fs::path&)>& fill) {
     const auto refuse_if_taken = [&folder] {
         if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
             throw EnvironmentError("{} exists already; give another name; nothing was changed", folder.string());

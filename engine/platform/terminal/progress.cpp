@@ -34,7 +34,7 @@ ProgressBar::Listener& bar_listener() {
 
 }  // namespace
 
-void ProgressBar::tell_instead(Listener listener) {
+void ProgressBar::set_listener(Listener listener) {
     bar_listener() = std::move(listener);
 }
 

@@ -21,10 +21,10 @@ std::optional<double> progress_in(const std::filesystem::path& file);
 /// silent otherwise. Appears after 0.3 s.
 class ProgressBar {
   public:
-    /// In a process whose work is shown elsewhere: from now on all bars tell `listener` instead, as often as they would
-    /// be drawn, and at their end that 0 of 0 are done. It is called by whoever advances a bar.
+    /// Sends the progress of all bars to `listener` instead of drawing it, as often as a bar would be drawn. At the end
+    /// of a bar the listener gets 0 of 0. The thread that advances a bar calls the listener.
     using Listener = std::function<void(std::size_t done, std::size_t total)>;
-    static void tell_instead(Listener listener);
+    static void set_listener(Listener listener);
 
     ProgressBar(std::string what, std::size_t total);
     ~ProgressBar();  ///< clears the line

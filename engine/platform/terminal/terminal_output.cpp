@@ -58,11 +58,11 @@ std::size_t terminal_columns(int descriptor, std::size_t otherwise) {
 }
 
 std::size_t columns_of_text(std::size_t otherwise) {
-    constexpr std::size_t kWidest = 100;  // longer lines are hard to read
-    return std::min(terminal_columns(STDOUT_FILENO, otherwise), kWidest);
+    constexpr std::size_t kMaxWidth = 100;  // longer lines are hard to read
+    return std::min(terminal_columns(STDOUT_FILENO, otherwise), kMaxWidth);
 }
 
-bool in_colour() {
+bool in_color() {
     const char* no_colour = std::getenv("NO_COLOR");
     return ::isatty(STDOUT_FILENO) != 0 && (no_colour == nullptr || *no_colour == '\0');
 }

@@ -4,8 +4,8 @@
 
 namespace dynlab::inline platform {
 
-/// Whether a terminal, or whatever shows a text, would obey the character instead of showing it: control characters,
-/// those without width, those that turn the direction of writing; U+FFFD too.
+/// Whether a terminal or viewer would interpret the character instead of showing it: control characters, characters
+/// without width, characters that change the direction of writing, and U+FFFD.
 bool is_terminal_control(char32_t c);
 
 /// A text of any origin as it may be shown on a terminal or kept in a log: what is_terminal_control, line ends and tabs

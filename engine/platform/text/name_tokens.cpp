@@ -6,7 +6,7 @@
 namespace dynlab::inline platform {
 namespace {
 
-constexpr std::size_t kNarrowest = 3;  ///< signs
+constexpr std::size_t kMinWidth = 3;  ///< signs
 
 bool is_unseen(char32_t c) {
     return c == ' ' || (c >= '\t' && c <= '\r') || c == 0xA0 || (c >= 0x2000 && c <= 0x200A) || c == 0x202F ||
@@ -25,7 +25,7 @@ bool is_line_end(char32_t c) {
 
 /// A soft hyphen is a sign where a line ends behind it.
 bool is_unheard(char32_t c, std::string_view rest) {
-    if (!is_silent(c)) return false;
+    if (!is_ignorable(c)) return false;
     if (c != kHyphenation) return true;
     while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
     return rest.empty() || !is_line_end(static_cast<unsigned char>(rest.front()));
@@ -50,7 +50,7 @@ class GapMeter {
     Gap gap() const {
         if (signs_ == 0) return blank_ ? Gap::kSpace : Gap::kNone;
         if (signs_ == 1 && hyphen_only_ && new_line_) return Gap::kBreak;
-        return signs_ <= kNarrowest ? Gap::kNarrow : Gap::kWide;
+        return signs_ <= kMinWidth ? Gap::kNarrow : Gap::kWide;
     }
 
   private:

@@ -11,8 +11,8 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr int kDeepest = 8;
-constexpr Index kMostNumbers = 500'000;
+constexpr int kMaxDepth = 8;
+constexpr Index kMaxNumbers = 500'000;
 
 /// Of an answer, which may come from anybody: most it can take in memory, a model's highest order.
 ValueLimits answer_limits() {
@@ -68,8 +68,8 @@ class AnswerWriter {
 
     void count(Index numbers) {
         count_ += numbers;
-        if (count_ > kMostNumbers)
-            throw InvalidArgument("an answer can have at most {} numbers or letters", kMostNumbers);
+        if (count_ > kMaxNumbers)
+            throw InvalidArgument("an answer can have at most {} numbers or letters", kMaxNumbers);
     }
 
     void text_members(int index) {
@@ -82,9 +82,9 @@ class AnswerWriter {
 
     /// The list part in its order, the named fields by name.
     void table_members(int index, int depth) {
-        if (depth >= kDeepest)
+        if (depth >= kMaxDepth)
             throw InvalidArgument("the table contains itself, or its tables are nested deeper than {} levels",
-                                  kDeepest);
+                                  kMaxDepth);
         luaL_checkstack(L, 8, "nested tables");
         const auto length = static_cast<lua_Integer>(lua_rawlen(L, index));
         json_.member("items");
@@ -176,7 +176,7 @@ Matrix matrix_members(ValueReader& answer) {
 void push_answer(lua_State* L, ValueReader& answer, int depth);
 
 void push_answer_table(lua_State* L, ValueReader& answer, int depth) {
-    if (depth >= kDeepest) throw InvalidArgument("the answer's tables are nested too deeply");
+    if (depth >= kMaxDepth) throw InvalidArgument("the answer's tables are nested too deeply");
     luaL_checkstack(L, 8, "nested tables");
     lua_newtable(L);
     need_member(answer, "items");

@@ -181,10 +181,10 @@ StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const st
     };
 }
 
-StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& wanted) {
-    std::vector<double> delays{wanted.least_delay};
+StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& requested) {
+    std::vector<double> delays{requested.least_delay};
     if (options.has("IODelay")) delays = seconds_option(options, "IODelay");
-    const bool free_delays = !options.has("IODelay") && wanted.largest_delay.value_or(1) > wanted.least_delay;
+    const bool free_delays = !options.has("IODelay") && requested.largest_delay.value_or(1) > requested.least_delay;
     return [poles = counts_argument(call, 2, "np"), zeros = counts_argument(call, 3, "nz"), delays,
             sharing = sharing_of(options), free_delays](const IdData& data) {
         TransferStructure structure = structure_for(data, sharing, poles, zeros, delays);
@@ -193,9 +193,9 @@ StructureMaker structure_of_counts(const Call& call, const Options& options, con
     };
 }
 
-StartedStructure started_structure(const Call& call, const Options& options, const FitOptions& wanted) {
+StartedStructure started_structure(const Call& call, const Options& options, const FitOptions& requested) {
     if (!holds_model(call, 2)) {
-        StartedStructure started{structure_of_counts(call, options, wanted), {}};
+        StartedStructure started{structure_of_counts(call, options, requested), {}};
         if (options.has("Td0")) started.aids.delays = seconds_option(options, "Td0");
         return started;
     }
@@ -221,19 +221,19 @@ Denominators sharing_of(const Options& options) {
     return options.flag("CommonDenominator", false) ? Denominators::kCommon : Denominators::kPerChannel;
 }
 
-void read_fit_options(const Options& options, FitOptions& wanted) {
-    options.read(wanted);
-    wanted.goes_on = !options.has("MaxIter");
-    wanted.cancel = options.call().cancel();
-    wanted.validate();
-    if (wanted.integration) wanted = options_with_integrator(std::move(wanted));
+void read_fit_options(const Options& options, FitOptions& requested) {
+    options.read(requested);
+    requested.extend_iterations = !options.has("MaxIter");
+    requested.cancel = options.call().cancel();
+    requested.validate();
+    if (requested.integration) requested = options_with_integrator(std::move(requested));
 }
 
 FitOptions fit_options(const Options& options, Purpose purpose) {
-    FitOptions wanted;
-    if (purpose == Purpose::kStudy) wanted = wanted.from_rest();
-    read_fit_options(options, wanted);
-    return wanted;
+    FitOptions requested;
+    if (purpose == Purpose::kStudy) requested = requested.from_rest();
+    read_fit_options(options, requested);
+    return requested;
 }
 
 }  // namespace dynlab::inline scripting

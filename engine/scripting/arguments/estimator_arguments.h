@@ -20,7 +20,7 @@ struct OptionedEstimation {
     FitOptions options;
 };
 
-/// Reads the arguments of one method from the second on; the first, where the data stand, is not looked at.
+/// Reads the arguments of an estimator from the second one on. The first argument, the data, is not read.
 using EstimationReader = Estimation (*)(const Call& call);
 
 /// The readers of a file of bindings, by the methods' Lua names.
@@ -57,8 +57,9 @@ using StructureMaker = std::function<TransferStructure(const IdData&)>;
 /// From the orders at argument 2. The entries hold kNb, kNk, and na or nf.
 StructureMaker structure_of_orders(std::span<const OrderEntry> entries, const std::vector<std::vector<int>>& orders,
                                    Denominators sharing);
-/// From np and nz at arguments 2 and 3; the delay is free unless IODelay or TdMax = TdMin (in `wanted`) says otherwise.
-StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& wanted);
+/// From np and nz at arguments 2 and 3; the delay is free unless IODelay or TdMax = TdMin (in `requested`) says
+/// otherwise.
+StructureMaker structure_of_counts(const Call& call, const Options& options, const FitOptions& requested);
 
 /// A structure, and where the search for its parameters begins.
 struct StartedStructure {
@@ -66,12 +67,12 @@ struct StartedStructure {
     SearchAids aids;
 };
 /// From np and nz as above, with the delays of Td0, or from a start model at argument 2.
-StartedStructure started_structure(const Call& call, const Options& options, const FitOptions& wanted);
+StartedStructure started_structure(const Call& call, const Options& options, const FitOptions& requested);
 
 /// The option CommonDenominator.
 Denominators sharing_of(const Options& options);
-/// The options of fits, those of them that the binding knows; for others `wanted` keeps what it holds.
-void read_fit_options(const Options& options, FitOptions& wanted);
+/// Reads those options of fits that the binding declares. Other members of `requested` keep their values.
+void read_fit_options(const Options& options, FitOptions& requested);
 
 /// A fit is the script's own model, or one of many in a study, whose data are simulated from rest.
 enum class Purpose { kModel, kStudy };

@@ -10,7 +10,7 @@ namespace dynlab::inline scripting {
 /// time. Throws InvalidArgument for one with several inputs or outputs.
 LoopController controller_at(const Call& call, int index);
 
-/// The option ComputingDelay: whole samples; 0 unless given.
+/// The option ComputingDelay: number of samples. Default: 0.
 Index computing_delay_of(const Options& options);
 
 inline constexpr std::array kLoopOptions = {

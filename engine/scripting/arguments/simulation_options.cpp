@@ -12,10 +12,10 @@
 namespace dynlab::inline scripting {
 
 CompareOptions compare_options(const Options& options, InitialState otherwise) {
-    CompareOptions wanted{otherwise, Offset::kAuto};
-    options.read(wanted);
-    if (options.has("InitialState")) wanted.initial_state = static_cast<InitialState>(options.choice(kStateOption));
-    return wanted;
+    CompareOptions requested{otherwise, Offset::kAuto};
+    options.read(requested);
+    if (options.has("InitialState")) requested.initial_state = static_cast<InitialState>(options.choice(kStateOption));
+    return requested;
 }
 
 Hold hold_option(const Options& options, Hold fallback) {

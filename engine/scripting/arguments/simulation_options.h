@@ -12,7 +12,7 @@ namespace dynlab::inline scripting {
 
 /// The options and arguments of functions that simulate a model.
 
-inline constexpr double kLargestSeed = 0xFFFFFFFF;
+inline constexpr double kMaxSeed = 0xFFFFFFFF;
 
 inline constexpr OptionEntry kHoldOption = {
     "hold",

@@ -19,20 +19,20 @@ void set_segments(const Call& call, const char* name, const std::vector<Segment>
     lua_setfield(call.state(), -2, name);
 }
 
-void push_finding(const Call& call, const RecordFinding& finding) {
-    give_table(call, "code", finding.code, "warning", finding.weight == Weight::kWarning, "channel", finding.channel,
-               "message", localized(call, finding.message), "value", finding.value, "experiment",
-               static_cast<Index>(finding.experiment + 1));
-    set_segments(call, "sections", finding.sections);
+void push_finding(const Call& call, const DataIssue& issue) {
+    give_table(call, "code", issue.code, "warning", issue.weight == Weight::kWarning, "channel", issue.channel,
+               "message", localized(call, issue.message), "value", issue.value, "experiment",
+               static_cast<Index>(issue.experiment + 1));
+    set_segments(call, "sections", issue.sections);
 }
 
 std::string text_of(const Call& call, const Advice& advice, std::size_t experiments) {
     std::string text;
-    for (const RecordFinding& finding : advice.findings)
+    for (const DataIssue& issue : advice.findings)
         text +=
-            fmt::format("{} {}{}\n", finding.weight == Weight::kWarning ? "!" : "-",
-                        experiments > 1 ? localized(call, Message("Experiment {}:", finding.experiment + 1)) + " " : "",
-                        localized(call, finding.message));
+            fmt::format("{} {}{}\n", issue.weight == Weight::kWarning ? "!" : "-",
+                        experiments > 1 ? localized(call, Message("Experiment {}:", issue.experiment + 1)) + " " : "",
+                        localized(call, issue.message));
     if (advice.clean())
         text += localized(call, Message("No problem was found. You can fit a model to these data.")) + "\n";
     return text;
@@ -53,7 +53,7 @@ int advice_table(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Advice advice = advise(data, call.cancel());
     call.print(text_of(call, advice, data.experiments.size()));
-    give_list(call, advice.findings, [&](const RecordFinding& finding) { push_finding(call, finding); });
+    give_list(call, advice.findings, [&](const DataIssue& issue) { push_finding(call, issue); });
     set_field(call, "clean", advice.clean());
     set_segments(call, "discard", advice.discard);
     return 1;

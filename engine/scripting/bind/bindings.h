@@ -6,7 +6,7 @@
 
 namespace dynlab::inline scripting {
 
-/// The functions of each area; catalogue_of_functions() (interpreter/catalogue.h) joins them in the order of help().
+/// The functions of each area; catalog_of_functions() (interpreter/catalogue.h) joins them in the order of help().
 FunctionEntries vector_functions();
 FunctionEntries column_statistics();
 FunctionEntries element_functions();
@@ -39,7 +39,7 @@ FunctionEntries data_functions();
 FunctionEntries preprocess_functions();
 FunctionEntries advice_functions();
 FunctionEntries saving_functions();
-FunctionEntries rig_functions();
+FunctionEntries plant_functions();
 FunctionEntries simulation_functions();
 FunctionEntries noisy_simulation_functions();
 FunctionEntries figure_functions();
@@ -49,7 +49,7 @@ FunctionEntries answer_functions();
 FunctionEntries program_functions();
 FunctionEntries help_functions();
 
-/// The kinds of objects; catalogue_of_types() joins them with those of objects/.
+/// The kinds of objects; catalog_of_types() joins them with those of objects/.
 TypeEntries vector_types();
 TypeEntries matrix_types();
 TypeEntries complex_types();

@@ -18,16 +18,16 @@ void need_values(Index count, Index least) {
 
 /// A number for a vector, a vector with one number for each column of a matrix. Every column is summed in the same
 /// order as a vector.
-template <double (*kMeasure)(const VectorView&), Index kLeast>
+template <double (*kMeasure)(const VectorView&), Index kMin>
 int measure_columns(Call& call) {
     call.at_most(1);
     if (to_matrix(call.state(), 1) == nullptr) {
         const VectorMap v = call.vector(1, "v");
-        need_values(kLeast == 0 ? 1 : v.size(), kLeast);
+        need_values(kMin == 0 ? 1 : v.size(), kMin);
         return call.give(kMeasure(v));
     }
     const MatrixMap A = call.matrix(1, "A");
-    need_values(kLeast == 0 ? 1 : A.rows(), kLeast);
+    need_values(kMin == 0 ? 1 : A.rows(), kMin);
     Vector measures(A.cols());
     for (Index j = 0; j < A.cols(); ++j) measures[j] = kMeasure(A.col(j));
     return call.give_vector(measures);
@@ -57,18 +57,18 @@ int sum(Call& call) {
 }
 
 /// Like fmax and fmin, NaN only where all are; the first of several equal ones.
-template <bool kLargest>
+template <bool kMaxValue>
 double extreme_of(const VectorView& v, Index& place) {
-    return kLargest ? v.maxCoeff<Eigen::PropagateNumbers>(&place) : v.minCoeff<Eigen::PropagateNumbers>(&place);
+    return kMaxValue ? v.maxCoeff<Eigen::PropagateNumbers>(&place) : v.minCoeff<Eigen::PropagateNumbers>(&place);
 }
 
 /// max(v) gives the value and its place, max(A) those of every column; max(x, y) the larger one, element by element.
-template <bool kLargest>
+template <bool kMaxValue>
 int extreme(Call& call) {
     call.at_most(2);
     if (const auto trace = trace_among(call))
-        return give_traced_operation(call, trace, kLargest ? Operation::kMaximum : Operation::kMinimum, 2);
-    const auto better = [](double x, double y) { return kLargest ? std::fmax(x, y) : std::fmin(x, y); };
+        return give_traced_operation(call, trace, kMaxValue ? Operation::kMaximum : Operation::kMinimum, 2);
+    const auto better = [](double x, double y) { return kMaxValue ? std::fmax(x, y) : std::fmin(x, y); };
     if (call.given(2) && call.type(1) == LUA_TNUMBER && call.type(2) == LUA_TNUMBER)
         return call.give(better(call.number(1, "x"), call.number(2, "y")));
     if (call.given(2)) {
@@ -89,7 +89,7 @@ int extreme(Call& call) {
         Vector values(A.cols()), places(A.cols());
         for (Index j = 0; j < A.cols(); ++j) {
             Index place = 0;
-            values[j] = extreme_of<kLargest>(A.col(j), place);
+            values[j] = extreme_of<kMaxValue>(A.col(j), place);
             places[j] = static_cast<double>(place + 1);
         }
         return call.give_vector(values) + call.give_vector(places);
@@ -97,7 +97,7 @@ int extreme(Call& call) {
     const VectorMap v = call.vector(1, "v");
     need_values(v.size(), 1);
     Index place = 0;
-    const double value = extreme_of<kLargest>(v, place);
+    const double value = extreme_of<kMaxValue>(v, place);
     return call.give(value) + call.give_integer(place + 1);
 }
 

@@ -34,8 +34,8 @@ constexpr std::array kComplexVectorOperators = {
     Member{"__tostring", localized_field<ComplexVector, complex_vector_text>}};
 
 constexpr std::array kComplexTypes = {
-    TypeEntry{&Boxed<Complex>::type, kNumberFields, {}, kNumberOperators},
-    TypeEntry{&Boxed<ComplexVector>::type, kVectorFields, {}, kComplexVectorOperators, guarded<vector_element>}};
+    TypeEntry{&Userdata<Complex>::type, kNumberFields, {}, kNumberOperators},
+    TypeEntry{&Userdata<ComplexVector>::type, kVectorFields, {}, kComplexVectorOperators, guarded<vector_element>}};
 
 }  // namespace
 

@@ -16,7 +16,7 @@ constexpr OptionEntry kCraneOptions[] = {
     option<&CraneRun::position>("position", about("position where the trolley starts, from -0.5 to 0.5"),
                                 {.unit = "m"}),
     option<&CraneRun::angle>("angle", about("angle at which the load starts"), {.unit = "rad"}),
-    {"seed", ValueKind::kCount, about("seed of the sensors' noise"), {.initial = "1", .most = kLargestSeed}}};
+    {"seed", ValueKind::kCount, about("seed of the sensors' noise"), {.initial = "1", .most = kMaxSeed}}};
 constexpr OptionTable kCraneTables[] = {kCraneOptions};
 
 constexpr ArgumentEntry kStateMatrix = {"A", ValueKind::kAny, about("n x n matrix")};

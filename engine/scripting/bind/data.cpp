@@ -156,7 +156,7 @@ void add_units_and_headers(const Call& call, const LoadedData& loaded) {
             origin.Ts = clock->spacing.step, origin.clock = clock->name;
         if (origin.unit.empty() && origin.Ts == 0) continue;
         lua_getfield(L, table, name.c_str());
-        remember_origin(L, -1, origin);
+        set_column_origin(L, -1, origin);
         lua_pop(L, 1);
     }
     lua_setfield(L, -2, "units");
@@ -215,8 +215,7 @@ void set_units(const Options& options, const char* name, int argument, std::vect
                Index channels) {
     set_texts(options, name, units, channels);
     if (options.has(name) || channels != 1 || !options.call().given(argument)) return;
-    if (const std::string unit = remembered_origin(options.call().state(), argument).unit; !unit.empty())
-        units = {unit};
+    if (const std::string unit = column_origin(options.call().state(), argument).unit; !unit.empty()) units = {unit};
 }
 
 /// Figures, tables and choices of channels speak of them by name.
@@ -241,7 +240,7 @@ void tell_sampling_time(const Call& call) {
 void tell_other_clock(const Call& call, const IdData& data) {
     const auto unit = seconds_of(data.time_unit, true);
     for (const int argument : {1, 2}) {
-        const ColumnOrigin origin = remembered_origin(call.state(), argument);
+        const ColumnOrigin origin = column_origin(call.state(), argument);
         constexpr double kClose = 0.01;
         if (!unit || origin.Ts == 0 || std::abs(data.Ts * *unit - origin.Ts) <= kClose * origin.Ts) continue;
         call.print(

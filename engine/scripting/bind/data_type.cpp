@@ -159,7 +159,7 @@ constexpr std::array kDataTypeMethods = {
 constexpr std::array kDataTypeOperators = {Member{"__tostring", localized_field<IdData, data_text>}};
 
 constexpr std::array kDataTypes = {
-    TypeEntry{&Boxed<IdData>::type, kDataTypeFields, kDataTypeMethods, kDataTypeOperators, guarded<part_by_table>}};
+    TypeEntry{&Userdata<IdData>::type, kDataTypeFields, kDataTypeMethods, kDataTypeOperators, guarded<part_by_table>}};
 
 }  // namespace
 

@@ -81,8 +81,8 @@ template <auto kMethod>
 int estimate_simulation(Call& call, const PolynomialOrders& orders) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 3, kDiscreteSimulation);
-    const FitOptions wanted = fit_options(options, Purpose::kModel);
-    return give_diagnosed_fit(call, call.function_name(), kMethod(data, orders, wanted), wanted);
+    const FitOptions requested = fit_options(options, Purpose::kModel);
+    return give_diagnosed_fit(call, call.function_name(), kMethod(data, orders, requested), requested);
 }
 
 template <auto kMethod>
@@ -100,8 +100,8 @@ int estimate_armax(Call& call) {
     PolynomialOrders orders = PolynomialOrders::arx(only_value(lists[0], kDiscreteNa), lists[1], lists[3]);
     orders.nc = only_value(lists[2], kDiscreteNc);
     const Options options(call, 3, kPredictionError);
-    const FitOptions wanted = fit_options(options, Purpose::kModel);
-    return give_diagnosed_fit(call, "armax", armax(data, orders, wanted), wanted);
+    const FitOptions requested = fit_options(options, Purpose::kModel);
+    return give_diagnosed_fit(call, "armax", armax(data, orders, requested), requested);
 }
 
 int estimate_bj(Call& call) {

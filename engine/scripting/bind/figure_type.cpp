@@ -20,7 +20,7 @@ constexpr std::array kHandleOptions = {
     OptionEntry{"y", ValueKind::kAny, about("position on the y axis: a number, or a function of the slider's number")},
     OptionEntry{"y_slider", ValueKind::kText, about("name of the slider that moves y")},
     OptionEntry{"text", ValueKind::kText, about("text next to the point")}};
-constexpr OptionTable kAddTables[] = {kCurveLookOptions, kPanelNumberOptions},
+constexpr OptionTable kAddTables[] = {kCurveAppearanceOptions, kPanelNumberOptions},
                       kHandleTables[] = {kHandleOptions, kPanelNumberOptions},
                       kSetTables[] = {kPanelOptions, kFigureSizeOptions, kPanelNumberOptions};
 
@@ -58,7 +58,7 @@ int add_curve(Call& call) {
     curve.x = call.vector(2, "x");
     curve.y = call.vector(3, "y");
     curve.label = Message::verbatim(options.text("label", ""));
-    read_curve_look(options, curve);
+    read_curve_appearance(options, curve);
     panel_of(figure_self(call), options.size("panel", 1)).curves.push_back(std::move(curve));
     figure_self(call).validate();
     return give_self(call);
@@ -172,7 +172,7 @@ Curve ruled_lines(std::pair<double, double> along, double step, std::pair<double
     Curve curve;
     curve.x = upright ? places : ends;
     curve.y = upright ? ends : places;
-    curve.colour = style::kGreyColour;
+    curve.colour = style::kGrayColor;
     curve.dash = 0;
     return curve;
 }
@@ -180,7 +180,7 @@ Curve ruled_lines(std::pair<double, double> along, double step, std::pair<double
 /// fig:rule(dx, dy, panel): graph paper, every fifth line of which is heavier
 int rule_paper(Call& call) {
     call.at_most(4);
-    constexpr double kMostLines = 2000;
+    constexpr double kMaxLineCount = 2000;
     const double steps[] = {call.number(2, "dx"), call.number(3, "dy")};
     Panel& panel = panel_argument(call, 4);
     if (!panel.x_range || !panel.y_range)
@@ -188,10 +188,10 @@ int rule_paper(Call& call) {
     const std::pair<double, double> ranges[] = {*panel.x_range, *panel.y_range};
     for (const int axis : {0, 1})
         if (const double size = ranges[axis].second - ranges[axis].first;
-            !(steps[axis] > 0) || size / steps[axis] > kMostLines)
+            !(steps[axis] > 0) || size / steps[axis] > kMaxLineCount)
             throw InvalidArgument(
                 "fig:rule: {} must be a positive number that gives at most {} lines, but {} was given",
-                axis == 0 ? "dx" : "dy", kMostLines, steps[axis]);
+                axis == 0 ? "dx" : "dy", kMaxLineCount, steps[axis]);
     for (const auto& [times, width] : {std::pair(1., 0.15), std::pair(5., 0.45)})
         for (const int axis : {0, 1}) {
             panel.curves.push_back(ruled_lines(ranges[axis], times * steps[axis], ranges[1 - axis], axis == 0));
@@ -264,7 +264,7 @@ constexpr std::array kFigureTypeMethods = {Member{"add", guarded<add_curve>},
 constexpr std::array kFigureTypeOperators = {Member{"__tostring", guarded<figure_to_text>}};
 
 constexpr std::array kFigureTypes = {
-    TypeEntry{&Boxed<FigurePointer>::type, kFigureTypeFields, kFigureTypeMethods, kFigureTypeOperators}};
+    TypeEntry{&Userdata<FigurePointer>::type, kFigureTypeFields, kFigureTypeMethods, kFigureTypeOperators}};
 
 }  // namespace
 

@@ -46,12 +46,12 @@ constexpr std::array kMotionOptions = {
                 about("measured signals of the plant, a table with one vector per signal")},
     OptionEntry{"simulated", ValueKind::kTable,
                 about("simulated signals of the plant, a table with one vector per signal")},
-    option<&MotionLook::instants>(
+    option<&MotionAppearance::instants>(
         "instants", about("instants of the drawings on paper; by default four, equally spaced"), {.unit = "s"}),
     OptionEntry{"title", ValueKind::kText, about("text above the figure")},
-    option<&MotionLook::width_cm>("width", about("width of the figure"), {.unit = "cm"}),
-    option<&MotionLook::height_cm>("height", about("height of the figure; 0 for a height that fits the panels"),
-                                   {.unit = "cm"})};
+    option<&MotionAppearance::width_cm>("width", about("width of the figure"), {.unit = "cm"}),
+    option<&MotionAppearance::height_cm>("height", about("height of the figure; 0 for a height that fits the panels"),
+                                         {.unit = "cm"})};
 constexpr OptionTable kPlotTables[] = {kPanelOptions, kCurveLists, kFigureSizeOptions},
                       kFigureTables[] = {kPanelOptions, kFigureGridOptions, kFigureSizeOptions},
                       kMotionTables[] = {kMotionOptions};
@@ -262,7 +262,7 @@ int subplot(Call& call) {
 }
 
 /// The signals of the rig's parts, a column each, from a table with a vector for each.
-Matrix signals_of_parts(const Options& options, const char* name, const RigDrawing& rig, Index count) {
+Matrix signals_of_parts(const Options& options, const char* name, const PlantDrawing& rig, Index count) {
     if (!options.has(name)) return {};
     const Call& call = options.call();
     const int table = options.push(name);
@@ -271,7 +271,7 @@ Matrix signals_of_parts(const Options& options, const char* name, const RigDrawi
                               rig.parts.front().signal, given_value(call.state(), table));
     Matrix signals(count, static_cast<Index>(rig.parts.size()));
     for (std::size_t k = 0; k < rig.parts.size(); ++k) {
-        const RigPart& part = rig.parts[k];
+        const PlantPart& part = rig.parts[k];
         if (lua_getfield(call.state(), table, part.signal.c_str()) == LUA_TNIL)
             throw InvalidArgument("option '{}' lacks the {} ({}), which moves the animated plant", name, part.signal,
                                   part.unit);
@@ -293,12 +293,12 @@ int motion(Call& call) {
     call.at_most(1);
     const Options options(call, 1, kMotionTables);
     if (call.context().options.graded) return give_figure(call, Figure(Panel()));  // there are no drawings, and no eyes
-    const RigDrawing rig = rig_drawing(options.text("rig", ""));
+    const PlantDrawing rig = rig_drawing(options.text("rig", ""));
     MotionRecord record;
     record.t = options.vector("t");
     record.measured = signals_of_parts(options, "measured", rig, record.t.size());
     record.simulated = signals_of_parts(options, "simulated", rig, record.t.size());
-    MotionLook look;
+    MotionAppearance look;
     options.read(look);
     look.title = Message::verbatim(options.text("title", ""));
     return give_figure(call, motion_plot(rig, record, look));

@@ -37,11 +37,11 @@ int estimate_hammerstein(Call& call) {
     call.at_most(4);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 4, kHammerstein);
-    HammersteinOptions wanted;
-    read_fit_options(options, wanted);
-    options.read(wanted);
-    const TransferStructure structure = structure_of_counts(call, options, wanted)(data);
-    return give_fit(call, "hammerstein", hammerstein(data, structure, wanted));
+    HammersteinOptions requested;
+    read_fit_options(options, requested);
+    options.read(requested);
+    const TransferStructure structure = structure_of_counts(call, options, requested)(data);
+    return give_fit(call, "hammerstein", hammerstein(data, structure, requested));
 }
 
 constexpr FunctionEntry kHammersteinFunctions[] = {

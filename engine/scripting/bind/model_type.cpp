@@ -250,9 +250,9 @@ constexpr std::array kStructureOperators = {
     Member{"__tostring", localized_field<ProcessStructure, free_structure_text>}};
 
 constexpr std::array kModelTypes = {
-    TypeEntry{&Boxed<Model>::type, kModelTypeFields, {}, kModelTypeOperators},
-    TypeEntry{&Boxed<ProcessStructure>::type, kStructureFields, {}, kStructureOperators},
-    TypeEntry{&Boxed<StateSpace>::type, kSystemFields, {}, kSystemOperators}};
+    TypeEntry{&Userdata<Model>::type, kModelTypeFields, {}, kModelTypeOperators},
+    TypeEntry{&Userdata<ProcessStructure>::type, kStructureFields, {}, kStructureOperators},
+    TypeEntry{&Userdata<StateSpace>::type, kSystemFields, {}, kSystemOperators}};
 
 }  // namespace
 

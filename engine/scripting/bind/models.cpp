@@ -210,18 +210,18 @@ int replace_delay(Call& call) {
     return give_model(call, pade(model_argument(call, 1, "G").G, static_cast<int>(call.integer(2, "n"))));
 }
 
-Discretisation method_argument(const Call& call, int index) {
+Discretization method_argument(const Call& call, int index) {
     const std::string name = call.given(index) ? call.text(index, "method") : "zoh";
-    if (name == "zoh") return Discretisation::kZoh;
-    if (name == "foh") return Discretisation::kFoh;
-    if (name == "tustin") return Discretisation::kTustin;
+    if (name == "zoh") return Discretization::kZoh;
+    if (name == "foh") return Discretization::kFoh;
+    if (name == "tustin") return Discretization::kTustin;
     throw InvalidArgument("the method must be \"zoh\", \"foh\" or \"tustin\", but \"{}\" was given", name);
 }
 
 int to_discrete(Call& call) {
     call.at_most(3);
     const double Ts = call.number(2, "Ts");
-    const Discretisation method = method_argument(call, 3);
+    const Discretization method = method_argument(call, 3);
     if (const StateSpace* system = to_object<StateSpace>(call.state(), 1)) {
         push_object(call.state(), c2d(*system, Ts, method));
         return 1;

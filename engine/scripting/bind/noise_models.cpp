@@ -41,8 +41,8 @@ int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
 }
 
 OptionedEstimation noisy_estimation(const StructureMaker& structure, const NoiseOrders& noise,
-                                    const FitOptions& wanted) {
-    return {[=](const IdData& data) { return rivc(data, structure(data), noise, wanted); }, wanted};
+                                    const FitOptions& requested) {
+    return {[=](const IdData& data) { return rivc(data, structure(data), noise, requested); }, requested};
 }
 
 OptionedEstimation read_rivc(const Call& call, Purpose purpose) {
@@ -56,18 +56,18 @@ OptionedEstimation read_rivc(const Call& call, Purpose purpose) {
 OptionedEstimation read_tfrivc(const Call& call, Purpose purpose) {
     call.at_most(4);
     const Options options(call, 4, kNoisyTransferFunction);
-    const FitOptions wanted = fit_options(options, purpose);
-    const StructureMaker structure = structure_of_counts(call, options, wanted);
+    const FitOptions requested = fit_options(options, purpose);
+    const StructureMaker structure = structure_of_counts(call, options, requested);
     NoiseOrders noise{0, 1};
     options.read(noise);
-    return noisy_estimation(structure, noise, wanted);
+    return noisy_estimation(structure, noise, requested);
 }
 
 template <auto kRead>
 int estimate_with_noise(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const OptionedEstimation wanted = kRead(call, Purpose::kModel);
-    return give_diagnosed_fit(call, call.function_name(), wanted.estimation(data), wanted.options);
+    const OptionedEstimation requested = kRead(call, Purpose::kModel);
+    return give_diagnosed_fit(call, call.function_name(), requested.estimation(data), requested.options);
 }
 
 constexpr NamedReader kNoiseModelsReaders[] = {{"rivc", read_for_study<read_rivc>},

@@ -19,7 +19,7 @@ namespace {
 constexpr OptionEntry kNoiseSeed = {"seed",
                                     ValueKind::kCount,
                                     about("seed of a separate random stream; by default that of `randn`"),
-                                    {.most = kLargestSeed}},
+                                    {.most = kMaxSeed}},
                       kHoldOfData = {"hold", ValueKind::kChoice, kHoldOption.description, {.choices = kHolds}};
 constexpr OptionEntry kNoiseOptions[] = {
     {"noise", ValueKind::kFlag, about("noise of the model itself, which must be estimated and must have one output")},
@@ -140,7 +140,7 @@ int simulate_with_noise(Call& call) {
     if (model.noise_Ts > 0 && std::abs(model.noise_Ts - input.Ts) > 1e-9 * model.noise_Ts)
         throw InvalidArgument("the noise model has the sampling time {} s, but the input has {} s",
                               significant(model.noise_Ts, 10), significant(input.Ts, 10));
-    const ColouredNoise noise = noise_of(model);
+    const ColoredNoise noise = noise_of(model);
     const double sigma =
         snr ? noise_std_of_snr(y.col(0), *snr) / noise.gain() : own_noise_std(to_object<Model>(call.state(), 1));
     const Vector v = noise.draw(y.rows(), sigma, DrawnNumbers(call, options).stream());
@@ -191,7 +191,7 @@ Figure spread_figure(const std::string& name, const SimulationSpread& spread, co
     panel.curves.push_back(std::move(curve));
     panel.x_label = axis_label(Message("time"), "s");
     panel.y_label = Message("output");
-    fix_colours(panel);
+    fix_colors(panel);
     add_confidence_band(panel, 0, normal_half_width(level) * spread.std, level);
     return figure;
 }

@@ -131,17 +131,17 @@ int give_impulse(const Call& call, const Options& options, SpectralModels& read,
 int ratio_of_transforms(Call& call) {
     SpectralModels read = comparison_arguments(call);
     const Options options(call, read.options, kEtfeTables);
-    EtfeOptions wanted;
-    options.read(wanted);
-    return give_spectral(call, options, read, etfe(read.data, wanted), "etfe", wanted.smooth > 0);
+    EtfeOptions requested;
+    options.read(requested);
+    return give_spectral(call, options, read, etfe(read.data, requested), "etfe", requested.smooth > 0);
 }
 
 int spectral_analysis(Call& call) {
     SpectralModels read = comparison_arguments(call);
     const Options options(call, read.options, kSpaTables);
-    SpaOptions wanted;
-    options.read(wanted);
-    return give_spectral(call, options, read, spa(read.data, wanted), "spa", true);
+    SpaOptions requested;
+    options.read(requested);
+    return give_spectral(call, options, read, spa(read.data, requested), "spa", true);
 }
 
 /// The number of lags where it stands behind the data, which is taken off the arguments; else 0.
@@ -157,28 +157,28 @@ int regression_on_past_inputs(Call& call) {
     const Index lags = take_lags(call);
     SpectralModels read = comparison_arguments(call);
     const Options options(call, read.options, kImpulseestTables);
-    ImpulseestOptions wanted;
-    wanted.lags = lags;
-    options.read(wanted);
-    if (!wanted.smooth && options.has("Kernel"))
+    ImpulseestOptions requested;
+    requested.lags = lags;
+    options.read(requested);
+    if (!requested.smooth && options.has("Kernel"))
         throw InvalidArgument("option 'Kernel' is only for the smooth estimate, but 'smooth' is false");
-    wanted.confidence = confidence_option(options);
-    const RegressedResponse result = impulseest(read.data, wanted);
+    requested.confidence = confidence_option(options);
+    const RegressedResponse result = impulseest(read.data, requested);
     give_impulse(call, options, read, result);
     set_field(call, "covariance", result.covariance);
     if (!result.prior) return 2;
     set_field(call, "scale", result.prior_scale, "decay", result.prior->decay);
-    if (wanted.kernel == ResponseKernel::kDc) set_field(call, "correlation", result.prior->correlation);
+    if (requested.kernel == ResponseKernel::kDc) set_field(call, "correlation", result.prior->correlation);
     return 2;
 }
 
 int correlation_analysis(Call& call) {
     SpectralModels read = comparison_arguments(call);
     const Options options(call, read.options, kCraTables);
-    CraOptions wanted;
-    options.read(wanted);
-    wanted.confidence = confidence_option(options);
-    const CorrelationAnalysis result = cra(read.data, wanted);
+    CraOptions requested;
+    options.read(requested);
+    requested.confidence = confidence_option(options);
+    const CorrelationAnalysis result = cra(read.data, requested);
     give_impulse(call, options, read, result.impulse);
     set_field(call, "whitening_filter", result.whitening_filter, "input_correlation", result.input_correlation);
     return 2;

@@ -134,20 +134,20 @@ int fill_gaps(Call& call) {
 int remove_outliers(Call& call) {
     call.at_most(2);
     const Options options(call, 2, kOutliersTables);
-    OutlierOptions wanted;
-    options.read(wanted);
+    OutlierOptions requested;
+    options.read(requested);
     if (const IdData* data = to_object<IdData>(call.state(), 1)) {
         IdData cleaned = *data;
         Index count = 0;
         for (Experiment& experiment : cleaned.experiments)
             for (Index output = 0; output < experiment.y.cols(); ++output) {
-                const RepairedSignal repaired = replace_outliers(experiment.y.col(output), wanted);
+                const RepairedSignal repaired = replace_outliers(experiment.y.col(output), requested);
                 experiment.y.col(output) = repaired.signal;
                 count += static_cast<Index>(repaired.replaced.size());
             }
         return give_data(call, std::move(cleaned)) + call.give(static_cast<double>(count));
     }
-    return give_repaired(call, replace_outliers(call.vector(1, "x"), wanted));
+    return give_repaired(call, replace_outliers(call.vector(1, "x"), requested));
 }
 
 constexpr FunctionEntry kPreprocessFunctions[] = {
@@ -194,13 +194,13 @@ int filter_signals(Call& call) {
     const Signals signals = signals_argument(call, options.number("Ts", 1));
     if (!signals.bare && options.has("Ts"))
         throw InvalidArgument("option 'Ts' is for a vector; a data object has a sampling time");
-    FilterOptions wanted;
-    options.read(wanted);
-    wanted.steady_start = options.has("start") && options.choice(kFilterStart) == 1;
-    if (wanted.zero_phase && options.has("start"))
+    FilterOptions requested;
+    options.read(requested);
+    requested.steady_start = options.has("start") && options.choice(kFilterStart) == 1;
+    if (requested.zero_phase && options.has("start"))
         throw InvalidArgument(
             "option 'start' is for the causal filter; with zero_phase the signal is continued at both ends");
-    return give_signals(call, signals, filter_data(signals.data, band_argument(call), wanted));
+    return give_signals(call, signals, filter_data(signals.data, band_argument(call), requested));
 }
 
 int resample_signals(Call& call) {

@@ -79,9 +79,9 @@ int estimate_process_model(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const ProcessStructure structure = process_structure_argument(call, 2);
-    ProcsrivcOptions wanted;
-    read_fit_options(Options(call, 3, kProcsrivc), wanted);
-    return give_diagnosed_fit(call, "procsrivc", procsrivc(data, structure, wanted), wanted);
+    ProcsrivcOptions requested;
+    read_fit_options(Options(call, 3, kProcsrivc), requested);
+    return give_diagnosed_fit(call, "procsrivc", procsrivc(data, structure, requested), requested);
 }
 
 constexpr const char* kStep = "step tests";

@@ -57,7 +57,7 @@ std::filesystem::path file_of_module(const Call& call, const std::string& name) 
     if (!std::filesystem::is_regular_file(file))
         throw InvalidArgument("file not found: {}.lua in the script's folder; scripts cannot use libraries elsewhere",
                               relative);
-    if (!lies_below(file, folder)) throw InvalidArgument("{}.lua is outside the script's folder", relative);
+    if (!is_below_folder(file, folder)) throw InvalidArgument("{}.lua is outside the script's folder", relative);
     return file;
 }
 
@@ -130,7 +130,7 @@ int run_file(Call& call) {
     lua_setupvalue(L, -2, 1);
     const InFolder folder(call.context().options, file.parent_path());
     lua_call(L, 0, 0);
-    forget_unassigned(L, script.variables);
+    clear_unassigned(L, script.variables);
     return 0;
 }
 

@@ -21,7 +21,7 @@ struct RegressionFit {
 };
 
 template <>
-struct Boxed<RegressionFit> {
+struct Userdata<RegressionFit> {
     static constexpr ObjectType type{"regression"};
     static std::size_t outside_bytes(const RegressionFit& fit) {
         return 4 * sizeof(double) * static_cast<std::size_t>(fit.regression.residuals.size());
@@ -38,7 +38,7 @@ constexpr OptionEntry kRegressionMethod = option<&PolyfitOptions::method>(
     {.initial = "\"qr\"", .choices = kRegressionMethods});
 constexpr std::array kLsqOptions = {kRegressionMethod};
 constexpr std::array kPolyfitOptions = {
-    option<&PolyfitOptions::centred>("centred", about("powers of x minus its mean, instead of those of x itself")),
+    option<&PolyfitOptions::centered>("centred", about("powers of x minus its mean, instead of those of x itself")),
     kRegressionMethod};
 constexpr OptionEntry kRegressionPlotOptions[] = {
     {"forecast", ValueKind::kNumber, about("x of a forecast to mark")},
@@ -81,7 +81,7 @@ Vector coefficients_of(const RegressionFit& fit) {
     return fit.polynomial ? fit.polynomial->coefficients : fit.regression.theta;
 }
 double centre_of(const RegressionFit& fit) {
-    return fit.polynomial ? fit.polynomial->centre : 0.0;
+    return fit.polynomial ? fit.polynomial->center : 0.0;
 }
 
 const Message& message_of(const RegressionFit& fit) {
@@ -116,19 +116,19 @@ constexpr std::array kRegressionOperators = {Member{"__tostring", localized_fiel
 
 int least_squares(Call& call) {
     call.at_most(3);
-    PolyfitOptions wanted;
-    Options(call, 3, kLsqTables).read(wanted);
+    PolyfitOptions requested;
+    Options(call, 3, kLsqTables).read(requested);
     const MatrixMap Phi = call.matrix(1, "Phi");
-    push_object(call.state(), RegressionFit{lsq(Phi, call.vector(2, "y"), wanted.method), {}});
+    push_object(call.state(), RegressionFit{lsq(Phi, call.vector(2, "y"), requested.method), {}});
     return 1;
 }
 
 int polynomial(Call& call) {
     call.at_most(4);
-    PolyfitOptions wanted;
-    Options(call, 4, kPolyfitTables).read(wanted);
+    PolyfitOptions requested;
+    Options(call, 4, kPolyfitTables).read(requested);
     const VectorMap x = call.vector(1, "x"), y = call.vector(2, "y");
-    const PolynomialFit fit = fit_polynomial(x, y, static_cast<int>(call.size(3, "degree")), wanted);
+    const PolynomialFit fit = fit_polynomial(x, y, static_cast<int>(call.size(3, "degree")), requested);
     push_object(call.state(), RegressionFit{fit.regression, fit});
     return 1;
 }
@@ -205,11 +205,11 @@ int draw_regression(Call& call) {
 
 int descend(Call& call) {
     call.at_most(3);
-    GradientDescentOptions wanted;
-    Options(call, 3, kDescentTables).read(wanted);
-    wanted.cancel = call.cancel();
+    GradientDescentOptions requested;
+    Options(call, 3, kDescentTables).read(requested);
+    requested.cancel = call.cancel();
     const MatrixMap Phi = call.matrix(1, "Phi");
-    const GradientDescentResult result = gradient_descent(Phi, call.vector(2, "y"), wanted);
+    const GradientDescentResult result = gradient_descent(Phi, call.vector(2, "y"), requested);
     return give_table(call, "theta", result.theta, "loss", result.loss, "step", result.step_size, "largest_step",
                       result.largest_step, "condition_number", result.condition_number, "iterations", result.iterations,
                       "converged", result.termination == Termination::kConverged, "message",
@@ -237,7 +237,7 @@ constexpr FunctionEntry kRegressionFunctions[] = {
 };
 
 constexpr std::array kRegressionTypes = {
-    TypeEntry{&Boxed<RegressionFit>::type, kRegressionFields, {}, kRegressionOperators}};
+    TypeEntry{&Userdata<RegressionFit>::type, kRegressionFields, {}, kRegressionOperators}};
 
 }  // namespace
 

@@ -78,27 +78,28 @@ ModelDoubts doubts_of(const Call& call, int index) {
     const Model* model = to_object<Model>(call.state(), index);
     if (model == nullptr || !model->estimate) return {};
     const Estimate& estimate = *model->estimate;
-    const std::optional<MissedStructure> missed = estimate.diagnostics.missed();
+    const std::optional<StructureAdvice> missed = estimate.diagnostics.missed();
     return {undetermined_parameters(estimate.names, estimate.theta, estimate.std()),
             missed ? sentence_of(*missed) : Message(), missed ? missed->output : ""};
 }
 
 /// Of the model at argument 2.
 ResidualTests tests_of_model(const Call& call, const IdData& data, const Options& options,
-                             const ResidualOptions& wanted) {
+                             const ResidualOptions& requested) {
     const bool of_predictions = options.flag("prediction", false);
     if (!of_predictions && runs_freely(call, 2)) {
         const Comparison comparison = comparison_argument(call, 2, data, options);
         std::vector<Matrix> outputs;
         for (std::size_t k = 0; k < data.experiments.size(); ++k) outputs.push_back(comparison.outputs(k));
-        return residual_tests(data, std::move(outputs), wanted);
+        return residual_tests(data, std::move(outputs), requested);
     }
     const CompareOptions start = compare_options(options);
     IdData storage;
     const IdData& driven = driving_data(call, 2, data, storage);
     if (of_predictions)
-        return prediction_error_tests(driven, predict(driven, noisy_model_argument(call, 2, "G"), {1, start}), wanted);
-    return residual_tests(driven, channels_argument(call, 2, "G"), start, wanted, doubts_of(call, 2));
+        return prediction_error_tests(driven, predict(driven, noisy_model_argument(call, 2, "G"), {1, start}),
+                                      requested);
+    return residual_tests(driven, channels_argument(call, 2, "G"), start, requested, doubts_of(call, 2));
 }
 
 int test_residuals(Call& call) {
@@ -106,14 +107,14 @@ int test_residuals(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 3, kResidualsTables);
     const bool quiet = options.flag("quiet", false);
-    ResidualOptions wanted;
-    options.read(wanted);
-    const ResidualTests tests = tests_of_model(call, data, options, wanted);
+    ResidualOptions requested;
+    options.read(requested);
+    const ResidualTests tests = tests_of_model(call, data, options, requested);
     if (!quiet) call.print(localized(call, tests.verdict) + "\n");
     bool drawable = false;
     for (const OutputResiduals& output : tests.outputs) drawable = drawable || !output.exact;
     if (drawable && !quiet)
-        give_figure(call, residual_plot(tests, data, wanted.confidence));
+        give_figure(call, residual_plot(tests, data, requested.confidence));
     else
         lua_pushnil(call.state());
     push_tests(call, tests);
@@ -156,13 +157,13 @@ int validate_across(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     if (call.type(2) != LUA_TFUNCTION) wrong_argument(call.state(), 2, "fit", Message("a function of a data object"));
     const Options options(call, 3, kFoldsTables);
-    CrossValidationOptions wanted;
-    options.read(wanted);
-    wanted.simulation = compare_options(options, InitialState::kEstimate);
-    wanted.cancel = call.cancel();
+    CrossValidationOptions requested;
+    options.read(requested);
+    requested.simulation = compare_options(options, InitialState::kEstimate);
+    requested.cancel = call.cancel();
     lua_State* L = call.state();
     const CrossValidation result = cross_validate(
-        data, [L](const IdData& training) { return call_fitter(L, training); }, wanted);
+        data, [L](const IdData& training) { return call_fitter(L, training); }, requested);
     call.print(localized(call, result.message) + "\n");
     give_figure(call, cross_validation_plot(result, data.output_names));
     push_cross_validation(call, result);

@@ -188,7 +188,7 @@ int save_csv(Call& call) {
     return 0;
 }
 
-constexpr int kDeepestSavedTable = 16;
+constexpr int kMaxSavedTableDepth = 16;
 
 VariableTable variables_of(const Call& call, int index, int depth);
 
@@ -222,8 +222,8 @@ Variable variable_on_top(const Call& call, const std::string& name, int depth) {
 }
 
 VariableTable variables_of(const Call& call, int index, int depth) {
-    if (depth > kDeepestSavedTable)
-        throw InvalidArgument("nested tables are written to at most {} levels", kDeepestSavedTable);
+    if (depth > kMaxSavedTableDepth)
+        throw InvalidArgument("nested tables are written to at most {} levels", kMaxSavedTableDepth);
     luaL_checkstack(call.state(), 8, "the tables are nested too deeply");
     VariableTable variables;
     for (const std::string& name : names_of_entries(call.state(), index)) {

@@ -111,13 +111,13 @@ int make_chirp(Call& call) {
 int make_random_phases(Call& call) {
     call.at_most(2);
     const Options options(call, 2, kMultisineTables);
-    RandomPhaseOptions wanted;
-    options.read(wanted);
+    RandomPhaseOptions requested;
+    options.read(requested);
     const Index period = call.size(1, "N"), periods = options.size("periods", 1);
     need_room_for_signal(call.state(), static_cast<double>(period) * static_cast<double>(periods));
     RandomStream own(static_cast<std::uint32_t>(options.whole("seed", 1)));
     const RandomPhaseMultisine signal =
-        random_phase_multisine(period, wanted, options.has("seed") ? own : call.context().random);
+        random_phase_multisine(period, requested, options.has("seed") ? own : call.context().random);
     call.give_vector(signal.u.replicate(periods, 1));
     give_table(call, "lines", signal.lines, "detection", signal.detection, "crest", signal.crest);
     return 2;

@@ -170,9 +170,9 @@ void name_models(const Call& call, const Options& options, std::vector<NamedMode
 std::optional<double> confidence_level(const Options& options) {
     constexpr double kUsual = 0.99;
     lua_State* L = options.call().state();
-    const bool flag = lua_isboolean(L, options.push("confidence")), wanted = lua_toboolean(L, -1);
+    const bool flag = lua_isboolean(L, options.push("confidence")), requested = lua_toboolean(L, -1);
     lua_pop(L, 1);
-    if (flag) return wanted ? std::optional(kUsual) : std::nullopt;
+    if (flag) return requested ? std::optional(kUsual) : std::nullopt;
     const double level = options.number("confidence", kUsual);
     if (level > 0 && level < 1) return level;
     refuse_option("confidence", Message("a probability between 0 and 1, such as 0.99, or false"),
@@ -279,12 +279,12 @@ int time_response(Call& call) {
 int draw_histogram(Call& call) {
     call.at_most(2);
     const Options options(call, 2, kHistogramTables);
-    HistogramOptions wanted;
-    options.read(wanted);
-    wanted.label = Message::verbatim(options.text("label", ""));
-    wanted.x_label = Message::verbatim(options.text("xlabel", ""));
-    if (options.has("truth_label")) wanted.truth_label = Message::verbatim(options.text("truth_label", ""));
-    return give_figure(call, histogram(call.vector(1, "values"), wanted));
+    HistogramOptions requested;
+    options.read(requested);
+    requested.label = Message::verbatim(options.text("label", ""));
+    requested.x_label = Message::verbatim(options.text("xlabel", ""));
+    if (options.has("truth_label")) requested.truth_label = Message::verbatim(options.text("truth_label", ""));
+    return give_figure(call, histogram(call.vector(1, "values"), requested));
 }
 
 constexpr const char* kFigures = "figures";

@@ -34,7 +34,7 @@ constexpr OptionEntry kStudyOptions[] = {
     option<&MonteCarloStudy::runs>("runs", about("number of repeated experiments"), {.least = 2}),
     option<&MonteCarloStudy::seed>(
         "seed", about("seed of the noise: run k = 0, 1, ... adds the numbers of `rng(seed + k)` and `randn`"),
-        {.most = kLargestSeed}),
+        {.most = kMaxSeed}),
     option<&MonteCarloStudy::threads>("threads", about("number of threads, 0 for all cores")),
     {"estimators", ValueKind::kTable, about("estimators by name, with their arguments after the data")}};
 constexpr OptionTable kStudyTables[] = {kStudyOptions};

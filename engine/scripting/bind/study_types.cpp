@@ -137,9 +137,10 @@ constexpr std::array kArxTableFields = {Member{"rows", guarded<arx_rows>}, Membe
                                         Member{"recommendation", localized_field<ArxSelection, arx_recommendation>}};
 constexpr std::array kArxTableOperators = {Member{"__tostring", localized_field<ArxSelection, arx_text>}};
 
-constexpr std::array kStudyTypes = {TypeEntry{&Boxed<ArxSelection>::type, kArxTableFields, {}, kArxTableOperators},
-                                    TypeEntry{&Boxed<MonteCarlo>::type, kStudyFields, kStudyMethods, kStudyOperators},
-                                    TypeEntry{&Boxed<OrderTable>::type, kTableFields, {}, kTableOperators}};
+constexpr std::array kStudyTypes = {
+    TypeEntry{&Userdata<ArxSelection>::type, kArxTableFields, {}, kArxTableOperators},
+    TypeEntry{&Userdata<MonteCarlo>::type, kStudyFields, kStudyMethods, kStudyOperators},
+    TypeEntry{&Userdata<OrderTable>::type, kTableFields, {}, kTableOperators}};
 
 }  // namespace
 

@@ -41,9 +41,9 @@ int estimate_n4sid(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Index order = call.size(2, "order");
     const Options options(call, 3, kSubspace);
-    SubspaceOptions wanted;
-    options.read(wanted);
-    const SubspaceFit result = n4sid(data, static_cast<int>(order), wanted);
+    SubspaceOptions requested;
+    options.read(requested);
+    const SubspaceFit result = n4sid(data, static_cast<int>(order), requested);
     return give_system(call, estimate_of_subspace(result), result.fit, result.system);
 }
 

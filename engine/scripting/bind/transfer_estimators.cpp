@@ -60,18 +60,18 @@ FilteredCall filtered_call(const Call& call) {
     if (orders[0].size() != 1)
         throw InvalidArgument("na is one number of poles for all inputs, but {} were given", orders[0].size());
     const Options options(call, 4, kMomentFunctionals ? OptionTables(kMoments) : OptionTables(kFiltered));
-    SvfOptions wanted;
-    wanted.lambda = call.number(3, "lambda");
-    if constexpr (kMomentFunctionals) wanted.beta = wanted.lambda;
-    options.read(wanted);
-    return {structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), wanted};
+    SvfOptions requested;
+    requested.lambda = call.number(3, "lambda");
+    if constexpr (kMomentFunctionals) requested.beta = requested.lambda;
+    options.read(requested);
+    return {structure_of_orders(kCarxOrders, orders, Denominators::kPerOutput), requested};
 }
 
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
 Estimation read_filtered(const Call& call) {
-    return [wanted = filtered_call<kMomentFunctionals>(call)](const IdData& data) {
-        Fit fit = kMethod(data, wanted.structure(data), wanted.options);
-        colour_covariance(fit, data, wanted.options, kInstruments);
+    return [requested = filtered_call<kMomentFunctionals>(call)](const IdData& data) {
+        Fit fit = kMethod(data, requested.structure(data), requested.options);
+        color_covariance(fit, data, requested.options, kInstruments);
         return fit;
     };
 }
@@ -81,9 +81,9 @@ Estimation read_filtered(const Call& call) {
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
 int estimate_filtered(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const FilteredCall wanted = filtered_call<kMomentFunctionals>(call);
-    Fit found = kMethod(data, wanted.structure(data), wanted.options);
-    if (data.sample_count() > kMostColoured) colour_covariance(found, data, wanted.options, kInstruments);
+    const FilteredCall requested = filtered_call<kMomentFunctionals>(call);
+    Fit found = kMethod(data, requested.structure(data), requested.options);
+    if (data.sample_count() > kMaxColoredSamples) color_covariance(found, data, requested.options, kInstruments);
     if (!std::ranges::all_of(found.models, &TransferFunction::stable)) measure_simulation(found, data);
     const auto fit = std::make_shared<const Fit>(std::move(found));
     const auto shared = shared_object<IdData>(call.state(), 1);
@@ -92,9 +92,9 @@ int estimate_filtered(Call& call) {
         if (copy.fit_percent.size() == 0) measure_simulation(copy, *shared);
         return copy;
     };
-    const auto with_errors = [fit, shared, options = wanted.options] {
+    const auto with_errors = [fit, shared, options = requested.options] {
         Fit copy = *fit;
-        if (shared->sample_count() <= kMostColoured) colour_covariance(copy, *shared, options, kInstruments);
+        if (shared->sample_count() <= kMaxColoredSamples) color_covariance(copy, *shared, options, kInstruments);
         return copy;
     };
     return give_deferring(
@@ -102,14 +102,14 @@ int estimate_filtered(Call& call) {
 }
 
 template <auto kMethod>
-OptionedEstimation refined_estimation(const StartedStructure& started, const FitOptions& wanted) {
+OptionedEstimation refined_estimation(const StartedStructure& started, const FitOptions& requested) {
     return {[=](const IdData& data) {
                 const TransferStructure structure = started.structure(data);
                 SearchAids aids = started.aids;
                 if (aids.delays.size() == 1) aids.delays.resize(structure.channels.size(), aids.delays.front());
-                return kMethod(data, structure, wanted, aids);
+                return kMethod(data, structure, requested, aids);
             },
-            wanted};
+            requested};
 }
 
 /// srivc and coe: orders and fixed delays in samples.
@@ -128,16 +128,16 @@ OptionedEstimation read_transfer_function(const Call& call, Purpose purpose) {
     const int last = holds_model(call, 2) ? 3 : 4;
     call.at_most(last);
     const Options options(call, last, kTransferFunction);
-    const FitOptions wanted = fit_options(options, purpose);
-    return refined_estimation<kMethod>(started_structure(call, options, wanted), wanted);
+    const FitOptions requested = fit_options(options, purpose);
+    return refined_estimation<kMethod>(started_structure(call, options, requested), requested);
 }
 
 template <auto kRead>
 int estimate_refined(Call& call) {
     if (holds_response(call, 1)) return fit_response(call);
     const IdData& data = object_argument<IdData>(call, 1, "data");
-    const OptionedEstimation wanted = kRead(call, Purpose::kModel);
-    return give_diagnosed_fit(call, call.function_name(), wanted.estimation(data), wanted.options);
+    const OptionedEstimation requested = kRead(call, Purpose::kModel);
+    return give_diagnosed_fit(call, call.function_name(), requested.estimation(data), requested.options);
 }
 
 int estimate_by_least_squares(Call& call) {

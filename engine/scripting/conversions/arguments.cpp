@@ -20,16 +20,16 @@ auto label_of(const char* option) {
 
 constexpr double kLargestExactWhole = 9007199254740992.0;  // 2^53
 
-[[noreturn]] void wrong_value(lua_State* L, int index, const Message& label, const Message& wanted) {
+[[noreturn]] void wrong_value(lua_State* L, int index, const Message& label, const Message& requested) {
     const Message given = given_value(L, index);
     if (to_mask(L, index) != nullptr)
         throw InvalidArgument(
-            "{} must be {}, but {} was given; find(mask) returns the indices, #find(mask) their number", label, wanted,
-            given);
-    if (wanted == with_article("iddata") && lua_istable(L, index))
+            "{} must be {}, but {} was given; find(mask) returns the indices, #find(mask) their number", label,
+            requested, given);
+    if (requested == with_article("iddata") && lua_istable(L, index))
         throw InvalidArgument("{} must be {}, but {} was given; create one from vectors with iddata(y, u, Ts)", label,
-                              wanted, given);
-    throw InvalidArgument("{} must be {}, but {} was given", label, wanted, given);
+                              requested, given);
+    throw InvalidArgument("{} must be {}, but {} was given", label, requested, given);
 }
 
 // Labels are functions that make them: few of the values that are read are wrong.
@@ -92,8 +92,8 @@ Message option_label(const char* name) {
     return Message("option '{}'", name);
 }
 
-void refuse_option(const char* name, const Message& wanted, const Message& given) {
-    throw InvalidArgument("{} must be {}, but {} was given", option_label(name), wanted, given);
+void refuse_option(const char* name, const Message& requested, const Message& given) {
+    throw InvalidArgument("{} must be {}, but {} was given", option_label(name), requested, given);
 }
 
 Message given_value(lua_State* L, int index) {
@@ -118,10 +118,10 @@ Message given_value(lua_State* L, int index) {
     return with_article(object_name(L, index));
 }
 
-void wrong_argument(lua_State* L, int index, ArgumentName what, const Message& wanted) {
+void wrong_argument(lua_State* L, int index, ArgumentName what, const Message& requested) {
     if (index > lua_gettop(L))
-        throw InvalidArgument("{} is missing; it must be {}", argument_label(index, what), wanted);
-    wrong_value(L, index, argument_label(index, what), wanted);
+        throw InvalidArgument("{} is missing; it must be {}", argument_label(index, what), requested);
+    wrong_value(L, index, argument_label(index, what), requested);
 }
 
 const char* Call::function_name() const {

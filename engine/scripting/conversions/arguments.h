@@ -81,12 +81,12 @@ class Call {
     int arguments_;
 };
 
-/// `wanted`: with its article, "a number".
-[[noreturn]] void wrong_argument(lua_State* L, int index, ArgumentName what, const Message& wanted);
+/// `requested`: with its article, "a number".
+[[noreturn]] void wrong_argument(lua_State* L, int index, ArgumentName what, const Message& requested);
 /// "option 'Ts'"
 Message option_label(const char* name);
 /// Throws InvalidArgument: what the option must be, and what was given.
-[[noreturn]] void refuse_option(const char* name, const Message& wanted, const Message& given);
+[[noreturn]] void refuse_option(const char* name, const Message& requested, const Message& given);
 /// What stands at a stack index, in words: "the text "zoh"", "nil (no value)", "a vector of 5 values".
 Message given_value(lua_State* L, int index);
 

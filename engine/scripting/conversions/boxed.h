@@ -20,46 +20,46 @@ namespace dynlab::inline scripting {
 /// all its content: its objects are then handed out as constant, and the digest of each is computed once. Such objects
 /// can be shared with C++ beyond the life of the userdata (shared_object).
 template <class T>
-struct Boxed;
+struct Userdata;
 
 template <class T>
 concept KeepsDigest = requires(const T& object) {
-    { Boxed<T>::digest(object) } -> std::same_as<Digest>;
+    { Userdata<T>::digest(object) } -> std::same_as<Digest>;
 };
 template <class T>
 using Access = std::conditional_t<KeepsDigest<T>, const T, T>;
 
 /// A C++ object inside a userdata, with the bytes it was charged for.
 template <class T>
-struct BoxedObject {
+struct UserdataObject {
     T object;
     std::size_t outside_bytes;
 
-    BoxedObject(T given, std::size_t bytes) : object(std::move(given)), outside_bytes(bytes) {}
+    UserdataObject(T given, std::size_t bytes) : object(std::move(given)), outside_bytes(bytes) {}
     T& get() { return object; }
 };
 template <KeepsDigest T>
-struct BoxedObject<T> {
+struct UserdataObject<T> {
     std::shared_ptr<const T> object;
     std::size_t outside_bytes;
     std::optional<Digest> digest = {};  ///< computed at the first request
 
-    BoxedObject(T given, std::size_t bytes)
+    UserdataObject(T given, std::size_t bytes)
         : object(std::make_shared<const T>(std::move(given))), outside_bytes(bytes) {}
     const T& get() { return *object; }
 };
 
 template <class T>
 int destroy_box(lua_State* L) {
-    auto* box = static_cast<BoxedObject<T>*>(lua_touserdata(L, 1));
-    context_of(L).memory.remove_outside(box->outside_bytes);
-    box->~BoxedObject<T>();
+    auto* userdata = static_cast<UserdataObject<T>*>(lua_touserdata(L, 1));
+    context_of(L).memory.remove_outside(userdata->outside_bytes);
+    userdata->~UserdataObject<T>();
     return 0;
 }
 
 template <class T>
-void push_box_metatable(lua_State* L) {
-    push_metatable(L, Boxed<T>::type);
+void push_userdata_metatable(lua_State* L) {
+    push_metatable(L, Userdata<T>::type);
     lua_pushliteral(L, "__gc");
     if (lua_rawget(L, -2) == LUA_TNIL) {
         lua_pushliteral(L, "__gc");
@@ -75,42 +75,42 @@ void charge_outside_bytes(lua_State* L, std::size_t bytes, const char* what);
 /// Lua code cannot see the `user_values`, which keep other Lua objects alive.
 template <class T>
 Access<T>& push_object(lua_State* L, T object, int user_values = 0) {
-    const std::size_t bytes = Boxed<T>::outside_bytes(object);
-    charge_outside_bytes(L, bytes, Boxed<T>::type.name);
-    void* memory = lua_newuserdatauv(L, sizeof(BoxedObject<T>), user_values);
-    auto* box = new (memory) BoxedObject<T>(std::move(object), bytes);
+    const std::size_t bytes = Userdata<T>::outside_bytes(object);
+    charge_outside_bytes(L, bytes, Userdata<T>::type.name);
+    void* memory = lua_newuserdatauv(L, sizeof(UserdataObject<T>), user_values);
+    auto* userdata = new (memory) UserdataObject<T>(std::move(object), bytes);
     context_of(L).memory.add_outside(bytes);
-    push_box_metatable<T>(L);
+    push_userdata_metatable<T>(L);
     lua_setmetatable(L, -2);
-    return box->get();
+    return userdata->get();
 }
 
 /// The object at a stack index, nullptr when something else is there.
 template <class T>
 Access<T>* to_object(lua_State* L, int index) {
-    if (!is_object(L, index, Boxed<T>::type)) return nullptr;
-    return &static_cast<BoxedObject<T>*>(lua_touserdata(L, index))->get();
+    if (!is_object(L, index, Userdata<T>::type)) return nullptr;
+    return &static_cast<UserdataObject<T>*>(lua_touserdata(L, index))->get();
 }
 
 /// The object at a stack index, which is of this class, shared with Lua.
 template <KeepsDigest T>
 std::shared_ptr<const T> shared_object(lua_State* L, int index) {
-    return static_cast<BoxedObject<T>*>(lua_touserdata(L, index))->object;
+    return static_cast<UserdataObject<T>*>(lua_touserdata(L, index))->object;
 }
 
 /// The digest of the object at a stack index, which is of this class.
 template <KeepsDigest T>
 Digest digest_of_object(lua_State* L, int index) {
-    auto* box = static_cast<BoxedObject<T>*>(lua_touserdata(L, index));
-    if (!box->digest) box->digest = Boxed<T>::digest(*box->object);
-    return *box->digest;
+    auto* userdata = static_cast<UserdataObject<T>*>(lua_touserdata(L, index));
+    if (!userdata->digest) userdata->digest = Userdata<T>::digest(*userdata->object);
+    return *userdata->digest;
 }
 
 /// The object of argument `index`; throws InvalidArgument naming argument and wanted kind.
 template <class T>
 Access<T>& object_argument(const Call& call, int index, ArgumentName what) {
     Access<T>* object = index <= call.count() ? to_object<T>(call.state(), index) : nullptr;
-    if (object == nullptr) wrong_argument(call.state(), index, what, with_article(Boxed<T>::type.name));
+    if (object == nullptr) wrong_argument(call.state(), index, what, with_article(Userdata<T>::type.name));
     return *object;
 }
 
@@ -118,7 +118,8 @@ Access<T>& object_argument(const Call& call, int index, ArgumentName what) {
 template <class T>
 const T& object_itself(const Call& call) {
     const T* object = to_object<T>(call.state(), 1);
-    if (object == nullptr) wrong_argument(call.state(), 1, Boxed<T>::type.name, with_article(Boxed<T>::type.name));
+    if (object == nullptr)
+        wrong_argument(call.state(), 1, Userdata<T>::type.name, with_article(Userdata<T>::type.name));
     return *object;
 }
 

@@ -103,8 +103,8 @@ Message matrix_shape(Index rows, Index columns) {
 }
 
 Index index_of_whole(double whole) {
-    constexpr double kMost = static_cast<double>(std::numeric_limits<Index>::max() / 2);
-    return static_cast<Index>(std::clamp(whole, -kMost, kMost));
+    constexpr double kMax = static_cast<double>(std::numeric_limits<Index>::max() / 2);
+    return static_cast<Index>(std::clamp(whole, -kMax, kMax));
 }
 
 NumericBlock& push_vector(lua_State* L, Index size) {

@@ -31,7 +31,7 @@ int give_value(const Call& call, const T& value) {
         return call.give_integer(value);
     else if constexpr (std::convertible_to<const T&, std::string>)
         return call.give(std::string(value));
-    else if constexpr (requires { Boxed<T>::type; })
+    else if constexpr (requires { Userdata<T>::type; })
         return push_object(call.state(), value), 1;
     else if constexpr (requires { requires T::ColsAtCompileTime == 1; })
         return call.give_vector(value);

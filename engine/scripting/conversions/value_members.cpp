@@ -7,7 +7,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr int kLongestIndexChain = 10;
+constexpr int kMaxIndexChain = 10;
 
 /// Replaces the table on top by its __index table; false, with nothing left of it, when there is none.
 bool step_to_index_table(lua_State* L) {
@@ -26,7 +26,7 @@ bool step_to_index_table(lua_State* L) {
 
 /// Replaces the table on top by its member `name`; false, with nothing left of it, when there is none.
 bool step_into_table(lua_State* L, std::string_view name) {
-    for (int i = 0; i < kLongestIndexChain; ++i) {
+    for (int i = 0; i < kMaxIndexChain; ++i) {
         lua_pushlstring(L, name.data(), name.size());
         if (lua_rawget(L, -2) != LUA_TNIL) {
             lua_replace(L, -2);
@@ -108,7 +108,7 @@ std::vector<std::string> member_names(lua_State* L, MemberKind kind) {
         lua_replace(L, top + 1);
         lua_settop(L, top + 1);
     }
-    for (int i = 0; i < kLongestIndexChain && lua_istable(L, -1); ++i) {
+    for (int i = 0; i < kMaxIndexChain && lua_istable(L, -1); ++i) {
         collect_text_keys(L, -1, names);
         if (!step_to_index_table(L)) break;
     }

@@ -56,13 +56,13 @@ void describe_signal(lua_State* L, const std::string& name, ListedVariable& vari
 }
 
 ListedVariable described_variable(lua_State* L, const std::string& name) {
-    constexpr std::size_t kLongest = 60;
+    constexpr std::size_t kMaxLength = 60;
     ListedVariable variable{name, object_name(L, -1), {}, {}, {}};
     if (variable.kind.empty()) variable.kind = luaL_typename(L, -1);
     if (lua_istable(L, -1) && lua_rawlen(L, -1) > 0) variable.size = fmt::format("{}", lua_rawlen(L, -1));
     describe_signal(L, name, variable);
     variable.text = first_words(value_text(L, -1));
-    if (variable.text.size() > kLongest) variable.text = variable.text.substr(0, kLongest) + " ...";
+    if (variable.text.size() > kMaxLength) variable.text = variable.text.substr(0, kMaxLength) + " ...";
     return variable;
 }
 

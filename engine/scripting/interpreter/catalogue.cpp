@@ -13,7 +13,7 @@ namespace {
 const std::map<std::string_view, const char*>& names_by_member() {
     static const std::map<std::string_view, const char*> names = [] {
         std::map<std::string_view, const char*> made;
-        for (const FunctionEntry& function : catalogue_of_functions())
+        for (const FunctionEntry& function : catalog_of_functions())
             for (const OptionTable table : function.options)
                 for (const OptionEntry& option : table)
                     if (*option.facts.member != '\0') made.emplace(option.facts.member, option.name);
@@ -24,11 +24,11 @@ const std::map<std::string_view, const char*>& names_by_member() {
 
 }  // namespace
 
-const std::vector<FunctionEntry>& catalogue_of_functions() {
+const std::vector<FunctionEntry>& catalog_of_functions() {
     static const std::vector<FunctionEntry> catalogue = [] {
         std::vector<FunctionEntry> all;
         for (FunctionEntries area : {data_functions(),        preprocess_functions(),
-                                     saving_functions(),      rig_functions(),
+                                     saving_functions(),      plant_functions(),
                                      vector_functions(),      column_statistics(),
                                      element_functions(),     linear_algebra(),
                                      vector_comparisons(),    random_functions(),
@@ -55,7 +55,7 @@ const std::vector<FunctionEntry>& catalogue_of_functions() {
 }
 
 const FunctionEntry* find_function(const std::string& name) {
-    for (const FunctionEntry& entry : catalogue_of_functions())
+    for (const FunctionEntry& entry : catalog_of_functions())
         if (name == entry.name) return &entry;
     return nullptr;
 }
@@ -71,7 +71,7 @@ std::vector<std::string> translated_options() {
     return members;
 }
 
-const std::vector<TypeEntry>& catalogue_of_types() {
+const std::vector<TypeEntry>& catalog_of_types() {
     static const std::vector<TypeEntry> catalogue = [] {
         std::vector<TypeEntry> all;
         for (TypeEntries types : {vector_types(), matrix_types(), complex_types(), data_types(), response_types(),
@@ -84,7 +84,7 @@ const std::vector<TypeEntry>& catalogue_of_types() {
 }
 
 const ShownCalls& shown_calls() {
-    static const ShownCalls calls(catalogue_of_functions());
+    static const ShownCalls calls(catalog_of_functions());
     return calls;
 }
 

@@ -10,7 +10,7 @@
 namespace dynlab::inline scripting {
 
 /// Every function that this layer gives to scripts, area by area: what help() lists, what each needs a help page for.
-const std::vector<FunctionEntry>& catalogue_of_functions();
+const std::vector<FunctionEntry>& catalog_of_functions();
 /// The row of the catalogue; nullptr for other names.
 const FunctionEntry* find_function(const std::string& name);
 
@@ -21,7 +21,7 @@ std::string option_name(std::string_view member);
 std::vector<std::string> translated_options();
 
 /// Every kind of object that scripts can hold.
-const std::vector<TypeEntry>& catalogue_of_types();
+const std::vector<TypeEntry>& catalog_of_types();
 
 /// The functions of the catalogue that show what they give.
 const ShownCalls& shown_calls();

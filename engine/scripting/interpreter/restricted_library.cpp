@@ -10,7 +10,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr lua_Integer kLongestTable = 100'000'000;
+constexpr lua_Integer kMaxTableLength = 100'000'000;
 
 /// Calls the library function kept in upvalue 1 with all arguments.
 int call_original(lua_State* L) {
@@ -26,7 +26,7 @@ int call_with_checked_length(lua_State* L) {
     luaL_checkany(L, 1);
     if (luaL_getmetafield(L, 1, "__len") != LUA_TNIL) {
         lua_pop(L, 1);
-        if (luaL_len(L, 1) > kLongestTable)
+        if (luaL_len(L, 1) > kMaxTableLength)
             raise_error(L, Message("the table claims to have more elements than fit in memory"));
     }
     return call_original(L);
@@ -39,7 +39,7 @@ int call_with_checked_range(lua_State* L) {
     if (!lua_isnoneornil(L, kFirst + 1)) {
         const lua_Integer last = luaL_checkinteger(L, kFirst + 1);
         const bool far_apart = last > first && static_cast<lua_Unsigned>(last) - static_cast<lua_Unsigned>(first) >
-                                                   static_cast<lua_Unsigned>(kLongestTable);
+                                                   static_cast<lua_Unsigned>(kMaxTableLength);
         if (far_apart) raise_error(L, Message("the range from {} to {} is longer than the longest table", first, last));
     }
     return call_with_checked_length(L);

@@ -95,7 +95,7 @@ int prepare_variables(lua_State* L) {
 }
 
 int tidy_variables(lua_State* L) {
-    forget_unassigned(L, *static_cast<const std::vector<std::string>*>(lua_touserdata(L, 1)));
+    clear_unassigned(L, *static_cast<const std::vector<std::string>*>(lua_touserdata(L, 1)));
     return 0;
 }
 
@@ -144,10 +144,10 @@ Runtime::Runtime(RunOptions options, GnuplotRenderer& renderer)
         if (line > 0) context->refusal_line = line;
     };
     call_protected(L, open_library);
-    for (const TypeEntry& entry : catalogue_of_types()) context_->types.emplace(entry.type, &entry);
+    for (const TypeEntry& entry : catalog_of_types()) context_->types.emplace(entry.type, &entry);
     context_->shown_calls = &shown_calls();
     context_->option_name = option_name;
-    add_functions(catalogue_of_functions(), nullptr);
+    add_functions(catalog_of_functions(), nullptr);
 }
 
 Runtime::~Runtime() {

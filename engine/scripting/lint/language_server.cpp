@@ -58,7 +58,7 @@ json all_completions() {
     json items = json::array();
     for (const auto& [name, members] : library_names())
         if (find_function(name) == nullptr) items.push_back({{"label", name}, {"kind", kVariable}});
-    for (const FunctionEntry& entry : catalogue_of_functions())
+    for (const FunctionEntry& entry : catalog_of_functions())
         items.push_back({{"label", entry.name},
                          {"kind", kFunction},
                          {"detail", signature_text(entry)},
@@ -127,7 +127,7 @@ json LanguageServer::diagnostics_of(const std::string& uri) const {
     const std::string& text = texts_.at(uri);
     const Reader reader{catalog_of(language_of_script(text)), &option_name};
     json all = json::array();
-    for (const LintFinding& found : lint_script(text, uri)) {
+    for (const LintIssue& found : lint_script(text, uri)) {
         const std::string line = line_of(text, found.line);
         const int begin = units_before(line, found.column);
         const std::size_t byte = byte_at(line, begin);

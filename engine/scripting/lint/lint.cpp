@@ -41,10 +41,10 @@ class Linter {
             line_begins_.push_back(end + 1);
     }
 
-    std::vector<LintFinding> findings() {
+    std::vector<LintIssue> findings() {
         read_header();
         if (is_lua()) look_at_names();
-        std::ranges::stable_sort(found_, [](const LintFinding& one, const LintFinding& other) {
+        std::ranges::stable_sort(found_, [](const LintIssue& one, const LintIssue& other) {
             return std::pair(one.line, one.column) < std::pair(other.line, other.column);
         });
         return std::move(found_);
@@ -88,11 +88,12 @@ class Linter {
         }
         const auto error = reader.error_of(read);
         if (!error) return true;
-        const PlacedMessage told = syntax_error(*error, source_);
+        const PlacedMessage reported = syntax_error(*error, source_);
         const std::size_t end = source_.find_last_not_of(" \t\r\n") + 1;  // what is missing there is told there
-        const std::size_t place = std::min(offset_of_line(std::max(told.line, 1)), end), stop = stopping_place(reader);
+        const std::size_t place = std::min(offset_of_line(std::max(reported.line, 1)), end),
+                          stop = stopping_place(reader);
         const bool same_line = stop >= place && source_.find('\n', place) >= stop;
-        add(same_line ? stop : place, "syntax", told.message);
+        add(same_line ? stop : place, "syntax", reported.message);
         return false;
     }
 
@@ -205,7 +206,7 @@ class Linter {
     const std::vector<std::string>& more_names_;
     ScriptHeader header_;
     std::vector<std::size_t> line_begins_ = {0};
-    std::vector<LintFinding> found_;
+    std::vector<LintIssue> found_;
 };
 
 LibraryNames read_library_names() {
@@ -229,8 +230,8 @@ const LibraryNames& library_names() {
     return names;
 }
 
-std::vector<LintFinding> lint_script(const std::string& source, const std::filesystem::path& file,
-                                     const std::vector<std::string>& more_names) {
+std::vector<LintIssue> lint_script(const std::string& source, const std::filesystem::path& file,
+                                   const std::vector<std::string>& more_names) {
     return Linter(source, file, more_names).findings();
 }
 

@@ -9,7 +9,7 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr int kDeepest = 200;  // as deep as Lua itself reads
+constexpr int kMaxDepth = 200;  // as deep as Lua itself reads
 constexpr std::string_view kBinarySigns[] = {"+",  "-",  "*", "/",  "//", "^",  "%",  "&",  "~",   "|", ">>",
                                              "<<", "..", "<", "<=", ">",  ">=", "==", "~=", "and", "or"};
 
@@ -64,7 +64,7 @@ class Walker {
     }
 
     void statement() {
-        if (++depth_ < kDeepest) known_statement();
+        if (++depth_ < kMaxDepth) known_statement();
         --depth_;
     }
 
@@ -187,7 +187,7 @@ class Walker {
 
     std::optional<std::size_t> expression() {
         std::optional<std::size_t> name;
-        if (++depth_ < kDeepest) name = operands();
+        if (++depth_ < kMaxDepth) name = operands();
         --depth_;
         return name;
     }

@@ -130,13 +130,13 @@ std::string type_stubs() {
     std::string text =
         "---@meta\n-- The functions of dynlab, for editors that complete Lua; made by `dynlab new`, never run.\n\n";
     std::set<std::string> tables;
-    for (const FunctionEntry& entry : catalogue_of_functions()) {
+    for (const FunctionEntry& entry : catalog_of_functions()) {
         const std::string name = entry.name;
         if (const std::size_t dot = name.find('.'); dot != std::string::npos) tables.insert(name.substr(0, dot));
     }
     for (const std::string& table : tables) text += fmt::format("{} = {{}}\n\n", table);
     text += "---Every function under one name: dynlab.tf is tf.\ndynlab = _G\n\n";
-    for (const FunctionEntry& entry : catalogue_of_functions()) text += stub_of(entry);
+    for (const FunctionEntry& entry : catalog_of_functions()) text += stub_of(entry);
     return text;
 }
 

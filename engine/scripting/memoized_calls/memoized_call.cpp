@@ -24,24 +24,24 @@ std::string entry_of_call(const std::string& call) {
 }  // namespace
 
 bool CallCache::knows(const std::string& shape) const {
-    return cache_.lasting() && cache_.recall(entry_of_shape(shape)).has_value();
+    return cache_.lasting() && cache_.load_entry(entry_of_shape(shape)).has_value();
 }
 
-std::optional<std::string> CallCache::recall(const std::string& call) const {
-    return cache_.recall(entry_of_call(call));
+std::optional<std::string> CallCache::load_entry(const std::string& call) const {
+    return cache_.load_entry(entry_of_call(call));
 }
 
-void CallCache::remember(const std::string& shape, const std::string& call, std::string_view result) const {
-    cache_.remember(entry_of_call(call), result);
-    cache_.remember(entry_of_shape(shape), "");
+void CallCache::save_entry(const std::string& shape, const std::string& call, std::string_view result) const {
+    cache_.save_entry(entry_of_call(call), result);
+    cache_.save_entry(entry_of_shape(shape), "");
 }
 
-void CallCache::forget(const std::string& shape) const {
-    cache_.forget(entry_of_shape(shape));
+void CallCache::erase_entry(const std::string& shape) const {
+    cache_.erase_entry(entry_of_shape(shape));
 }
 
-void CallCache::forget_result(const std::string& call) const {
-    cache_.forget(entry_of_call(call));
+void CallCache::clear_result(const std::string& call) const {
+    cache_.erase_entry(entry_of_call(call));
 }
 
 namespace {
@@ -199,13 +199,13 @@ using Clock = std::chrono::steady_clock;
 /// Pushes the values of an archived result, prints its text and returns their number. Nothing, and nothing is done, for
 /// bytes that hold no result.
 std::optional<int> give_again(const Call& call, const std::string& bytes) {
-    constexpr int kMostResults = 100;
+    constexpr int kMaxResults = 100;
     const int top = lua_gettop(call.state());
-    luaL_checkstack(call.state(), kMostResults, "too many results");
+    luaL_checkstack(call.state(), kMaxResults, "too many results");
     try {
         CborReader archive(bytes);
         const std::string printed = archive.text();
-        const auto count = static_cast<int>(archive.whole(0, kMostResults));
+        const auto count = static_cast<int>(archive.whole(0, kMaxResults));
         std::vector<FigurePointer> figures;
         for (int i = 0; i < count; ++i) push_archived_value(call, archive, figures);
         archive.expect_end();
@@ -246,9 +246,9 @@ std::optional<std::string> archive_of(const Call& call, const std::string& print
 }
 
 /// Holds the arguments as the script gave them: a binding may put what it read in their places.
-class KeptArguments {
+class SavedArguments {
   public:
-    explicit KeptArguments(const Call& call) : L_(call.state()), count_(call.count()) {
+    explicit SavedArguments(const Call& call) : L_(call.state()), count_(call.count()) {
         lua_createtable(L_, count_, 0);
         for (int i = 1; i <= count_; ++i) {
             lua_pushvalue(L_, i);
@@ -256,9 +256,9 @@ class KeptArguments {
         }
         reference_ = luaL_ref(L_, LUA_REGISTRYINDEX);
     }
-    ~KeptArguments() { luaL_unref(L_, LUA_REGISTRYINDEX, reference_); }
-    KeptArguments(const KeptArguments&) = delete;
-    KeptArguments& operator=(const KeptArguments&) = delete;
+    ~SavedArguments() { luaL_unref(L_, LUA_REGISTRYINDEX, reference_); }
+    SavedArguments(const SavedArguments&) = delete;
+    SavedArguments& operator=(const SavedArguments&) = delete;
 
     std::optional<std::string> text(const char* function) const {
         luaL_checkstack(L_, count_ + 1, "too many arguments");
@@ -286,11 +286,11 @@ class WatchedCall {
         if (cache_.lasting()) shape = call_text(call_.state(), function, 1, call_.count(), LargeArguments::kBySize);
         const bool known = shape && cache_.knows(*shape);
         if (known) text = call_text(call_.state(), function, 1, call_.count(), LargeArguments::kByContent);
-        if (const auto count = text ? recalled(*text) : std::nullopt) return *count;
-        std::optional<KeptArguments> arguments;
+        if (const auto count = text ? from_cache(*text) : std::nullopt) return *count;
+        std::optional<SavedArguments> arguments;
         if (shape && !text) arguments.emplace(call_);
         const int count = compute(body);
-        if (!cache_.worth_keeping(taken_) && known) cache_.forget(*shape);
+        if (!cache_.worth_keeping(taken_) && known) cache_.erase_entry(*shape);
         if (!cache_.worth_keeping(taken_) || call_.cancel()()) return count;
         if (arguments) text = arguments->text(function);
         if (text || !cache_.lasting()) cache_.count_computed();
@@ -299,14 +299,14 @@ class WatchedCall {
     }
 
   private:
-    std::optional<int> recalled(const std::string& text) {
-        const auto result = cache_.recall(text);
+    std::optional<int> from_cache(const std::string& text) {
+        const auto result = cache_.load_entry(text);
         if (!result) return {};
         const auto count = give_again(call_, *result);
         if (count)
-            cache_.count_recalled();
+            cache_.count_from_cache();
         else
-            cache_.forget_result(text);
+            cache_.clear_result(text);
         return count;
     }
 
@@ -320,7 +320,7 @@ class WatchedCall {
     }
 
     void keep(const std::string& shape, const std::string& text, int count) {
-        if (const auto result = archive_of(call_, printed_, count)) cache_.remember(shape, text, *result);
+        if (const auto result = archive_of(call_, printed_, count)) cache_.save_entry(shape, text, *result);
     }
 
     Call& call_;

@@ -22,8 +22,9 @@ int memoized_call(Call& call) {
     return run_memoized_call(call, kBody);
 }
 
-/// Results of calls that took long, kept between runs. Which calls may be among them is known by their shapes (the call
-/// with its large arguments by size), so that where nothing is kept no content is looked at.
+/// Cache for results of slow calls. The shape of a call (its text with the size of large arguments instead of their
+/// content) determines whether a cached result is possible. Without an entry for the shape the content of arguments is
+/// not read.
 class CallCache {
   public:
     using Duration = std::chrono::steady_clock::duration;
@@ -39,14 +40,14 @@ class CallCache {
     /// Whether a call of this shape took long once and was kept.
     bool knows(const std::string& shape) const;
     /// The result of an equal call, as it was kept.
-    std::optional<std::string> recall(const std::string& call) const;
-    void remember(const std::string& shape, const std::string& call, std::string_view result) const;
-    /// Calls of this shape are quick after all.
-    void forget(const std::string& shape) const;
-    /// What was kept of this call cannot be read.
-    void forget_result(const std::string& call) const;
-    /// One more was spared, or computed that takes long.
-    void count_recalled() { ++use_.recalled; }
+    std::optional<std::string> load_entry(const std::string& call) const;
+    void save_entry(const std::string& shape, const std::string& call, std::string_view result) const;
+    /// Removes the entry of a shape whose calls turned out to be fast.
+    void erase_entry(const std::string& shape) const;
+    /// Removes a cached result that cannot be read.
+    void clear_result(const std::string& call) const;
+    /// Counts a cache hit, or a slow call that was computed.
+    void count_from_cache() { ++use_.from_cache; }
     void count_computed() { ++use_.made; }
 
     CacheUse use() const { return use_; }
@@ -57,8 +58,8 @@ class CallCache {
     CacheUse use_;
 };
 
-/// What a call's text holds of large arguments: their kind and size, which costs nothing to look at, or their content
-/// by its digest. Of all others it holds the values.
+/// Content of large arguments in the text of a call: kind and size, which is fast, or a digest of the content. Small
+/// arguments are always included by value.
 enum class LargeArguments { kBySize, kByContent };
 
 /// A call as text: the function and its arguments, `first` to `last` on the stack, tables with all they hold. Equal

@@ -25,7 +25,7 @@ struct ObjectCodec {
 
 template <class T>
 ObjectCodec codec_of() {
-    return {&Boxed<T>::type,
+    return {&Userdata<T>::type,
             [](lua_State* L, int index, CborWriter& archive) { write_value(archive, *to_object<T>(L, index)); },
             [](const Call& call, CborReader& archive, std::vector<FigurePointer>&) {
                 push_object(call.state(), read_fresh<T>(archive));
@@ -33,7 +33,7 @@ ObjectCodec codec_of() {
 }
 
 ObjectCodec codec_of_figures() {
-    return {&Boxed<FigurePointer>::type,
+    return {&Userdata<FigurePointer>::type,
             [](lua_State* L, int index, CborWriter& archive) {
                 write_value(archive, (*to_object<FigurePointer>(L, index))->figure);
             },

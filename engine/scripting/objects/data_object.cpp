@@ -17,7 +17,7 @@ void add_numbers(DigestStream& digest, const Numbers& numbers) {
 
 }  // namespace
 
-std::size_t Boxed<IdData>::outside_bytes(const IdData& data) {
+std::size_t Userdata<IdData>::outside_bytes(const IdData& data) {
     std::size_t numbers = 0;
     for (const Experiment& experiment : data.experiments)
         numbers += static_cast<std::size_t>(experiment.y.size() + experiment.u.size() + experiment.t.size() +
@@ -25,7 +25,7 @@ std::size_t Boxed<IdData>::outside_bytes(const IdData& data) {
     return numbers * sizeof(double) + data.experiments.size() * sizeof(Experiment);
 }
 
-Digest Boxed<IdData>::digest(const IdData& data) {
+Digest Userdata<IdData>::digest(const IdData& data) {
     DigestStream digest;
     const auto& [experiments, Ts, hold, input_names, output_names, input_units, output_units, time_unit] = data;
     digest.add(&Ts, sizeof Ts).add(&hold, sizeof hold).add_part(time_unit);
@@ -42,7 +42,7 @@ Digest Boxed<IdData>::digest(const IdData& data) {
 
 const IdData& signals_of_argument(const Call& call, int index, ArgumentName what) {
     const IdData* data = index <= call.count() ? to_object<IdData>(call.state(), index) : nullptr;
-    if (data == nullptr) wrong_argument(call.state(), index, what, with_article(Boxed<IdData>::type.name));
+    if (data == nullptr) wrong_argument(call.state(), index, what, with_article(Userdata<IdData>::type.name));
     return *data;
 }
 

@@ -5,7 +5,7 @@
 namespace dynlab::inline scripting {
 
 template <>
-struct Boxed<IdData> {
+struct Userdata<IdData> {
     static constexpr ObjectType type{"iddata"};
     static std::size_t outside_bytes(const IdData& data);
     static Digest digest(const IdData& data);

@@ -2,7 +2,7 @@
 
 namespace dynlab::inline scripting {
 
-std::size_t Boxed<FigurePointer>::outside_bytes(const FigurePointer& figure) {
+std::size_t Userdata<FigurePointer>::outside_bytes(const FigurePointer& figure) {
     std::size_t bytes = sizeof(ScriptFigure);
     for (const Panel& panel : figure->figure.panels)
         for (const Curve& curve : panel.curves)

@@ -5,7 +5,7 @@
 namespace dynlab::inline scripting {
 
 template <>
-struct Boxed<FigurePointer> {
+struct Userdata<FigurePointer> {
     static constexpr ObjectType type{"figure"};
     static std::size_t outside_bytes(const FigurePointer& figure);
 };

@@ -6,7 +6,7 @@ namespace dynlab::inline scripting {
 
 /// A measured frequency response: what idfrd, bla, spa and etfe give.
 template <>
-struct Boxed<FrequencyData> {
+struct Userdata<FrequencyData> {
     static constexpr ObjectType type{"idfrd"};
     static std::size_t outside_bytes(const FrequencyData& data);
 };

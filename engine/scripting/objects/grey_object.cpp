@@ -51,7 +51,7 @@ MessageList percents_of(const Vector& values) {
 
 }  // namespace
 
-std::size_t Boxed<GreyEstimate>::outside_bytes(const GreyEstimate& estimate) {
+std::size_t Userdata<GreyEstimate>::outside_bytes(const GreyEstimate& estimate) {
     std::size_t numbers = 0;
     for (const auto* list : {&estimate->outputs, &estimate->states})
         for (const Matrix& values : *list) numbers += static_cast<std::size_t>(values.size());

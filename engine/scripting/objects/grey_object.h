@@ -8,7 +8,7 @@ namespace dynlab::inline scripting {
 
 /// A grey-box model as idgrey makes it.
 template <>
-struct Boxed<GreyModel> {
+struct Userdata<GreyModel> {
     static constexpr ObjectType type{"grey-box model"};
     static std::size_t outside_bytes(const GreyModel&) { return 4096; }
 };
@@ -17,7 +17,7 @@ struct Boxed<GreyModel> {
 using GreyEstimate = std::shared_ptr<const GreyFit>;
 
 template <>
-struct Boxed<GreyEstimate> {
+struct Userdata<GreyEstimate> {
     static constexpr ObjectType type{"grey-box estimate"};
     static std::size_t outside_bytes(const GreyEstimate& estimate);
 };

@@ -6,7 +6,7 @@
 
 namespace dynlab::inline scripting {
 
-std::size_t Boxed<Model>::outside_bytes(const Model& model) {
+std::size_t Userdata<Model>::outside_bytes(const Model& model) {
     std::size_t numbers = static_cast<std::size_t>(model.G.num().size() + model.G.den().size());
     if (model.estimate)
         if (const ReportFields* fields = model.estimate->fields.known()) numbers += fields->values();
@@ -15,7 +15,7 @@ std::size_t Boxed<Model>::outside_bytes(const Model& model) {
     return numbers * sizeof(double);
 }
 
-std::size_t Boxed<StateSpace>::outside_bytes(const StateSpace& system) {
+std::size_t Userdata<StateSpace>::outside_bytes(const StateSpace& system) {
     return sizeof(double) *
            static_cast<std::size_t>(system.A.size() + system.B.size() + system.C.size() + system.D.size());
 }
@@ -34,14 +34,14 @@ std::size_t ReportFields::values() const {
 }
 
 Message Estimate::full_message() const {
-    const std::optional<MissedStructure>& missed = diagnostics.missed();
+    const std::optional<StructureAdvice>& missed = diagnostics.missed();
     if (!missed) return message;
     return message.empty() ? sentence_of(*missed) : sentences({message, sentence_of(*missed)});
 }
 
 std::vector<Message> Estimate::all_warnings() const {
     std::vector<Message> all = warnings;
-    if (const std::optional<MissedStructure>& missed = diagnostics.missed()) all.push_back(sentence_of(*missed));
+    if (const std::optional<StructureAdvice>& missed = diagnostics.missed()) all.push_back(sentence_of(*missed));
     return all;
 }
 
@@ -51,8 +51,8 @@ std::shared_ptr<const Assessment> Estimate::colour() const {
 }
 
 Matrix Estimate::trusted_covariance() const {
-    const auto coloured = colour();
-    return coloured ? coloured->covariance : covariance();
+    const auto colored = colour();
+    return colored ? colored->covariance : covariance();
 }
 
 bool holds_model(const Call& call, int index) {

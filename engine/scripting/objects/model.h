@@ -82,25 +82,25 @@ struct Model {
 };
 
 template <>
-struct Boxed<Model> {
+struct Userdata<Model> {
     static constexpr ObjectType type{"model"};
     static std::size_t outside_bytes(const Model& model);
 };
 
 template <>
-struct Boxed<StateSpace> {
+struct Userdata<StateSpace> {
     static constexpr ObjectType type{"state-space model"};
     static std::size_t outside_bytes(const StateSpace& system);
 };
 
 template <>
-struct Boxed<Complex> {
+struct Userdata<Complex> {
     static constexpr ObjectType type{"complex number"};
     static std::size_t outside_bytes(const Complex&) { return 0; }
 };
 
 template <>
-struct Boxed<ComplexVector> {
+struct Userdata<ComplexVector> {
     static constexpr ObjectType type{"complex vector"};
     static std::size_t outside_bytes(const ComplexVector& v) {
         return sizeof(Complex) * static_cast<std::size_t>(v.size());

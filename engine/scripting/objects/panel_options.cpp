@@ -34,7 +34,7 @@ constexpr std::array kOneCurveOptions = {
     OptionEntry{"y_upper", ValueKind::kVector, about("upper end of a band from y")}};
 constexpr OptionTable kPanelTables[] = {kPanelOptions}, kReferenceTables[] = {kMarkPlaceOptions, kReferenceOptions},
                       kAnnotationTables[] = {kMarkPlaceOptions, kAnnotationOptions}, kArrowTables[] = {kArrowOptions},
-                      kOneCurveTables[] = {kOneCurveOptions, kCurveLookOptions};
+                      kOneCurveTables[] = {kOneCurveOptions, kCurveAppearanceOptions};
 
 /// Calls `read` with the stack index of every entry of the list under `name`.
 void for_each_entry(const Call& call, const Options& options, const char* name, const std::function<void(int)>& read) {
@@ -122,7 +122,7 @@ Curve read_curve(const Call& call, int index) {
         curve.style = CurveStyle::kBand;
     }
     curve.label = label_option(options, "label");
-    read_curve_look(options, curve);
+    read_curve_appearance(options, curve);
     return curve;
 }
 
@@ -161,7 +161,7 @@ std::vector<int> colours_of(const Options& options) {
     return colours;
 }
 
-void read_curve_look(const Options& options, Curve& curve) {
+void read_curve_appearance(const Options& options, Curve& curve) {
     options.read(curve);
     if (const std::vector<int> colours = colours_of(options); !colours.empty()) curve.colour = colours.front();
     curve.dash = optional_index(options, "dash");

@@ -31,7 +31,7 @@ inline constexpr std::array kPanelOptions = {
     OptionEntry{"annotations", ValueKind::kTable, about("list of marked points, {x =, y =, text =, marker =}")},
     OptionEntry{"arrows", ValueKind::kTable, about("list of arrows, {x0 =, y0 =, x1 =, y1 =, text =, both_heads =}")}};
 
-inline constexpr std::array kCurveLookOptions = {
+inline constexpr std::array kCurveAppearanceOptions = {
     OptionEntry{"label", ValueKind::kText, about("name of the curve in the legend")},
     option<&Curve::style>("style", about("style of the curve"), {.initial = "\"line\"", .choices = kCurveStyles}),
     OptionEntry{"colour", ValueKind::kAny, about("number in the palette, starting at 0, or a name such as \"red\"")},
@@ -52,7 +52,7 @@ void read_panel_options(const Call& call, const Options& options, Panel& panel);
 /// Places in the palette by number or name: one for all curves, or one each; empty when the option is not given.
 std::vector<int> colours_of(const Options& options);
 /// Sets style, colour, dash, width and marker of `curve`.
-void read_curve_look(const Options& options, Curve& curve);
+void read_curve_appearance(const Options& options, Curve& curve);
 /// What an author wrote, with its indices marked; empty where the option is not given.
 Message label_option(const Options& options, const char* name);
 CurveStyle parse_curve_style(const std::string& name);

@@ -48,10 +48,10 @@ class Presentation {
 
 /// A value with the digits that its standard error bears, of which so many are printed; without an error, `otherwise`.
 std::string Presentation::to_the_error(double value, double error, int error_digits, int otherwise) const {
-    constexpr int kMost = 9;
+    constexpr int kMax = 9;
     if (!(error > 0) || !std::isfinite(error) || value == 0 || !std::isfinite(value)) return text(value, otherwise);
     const auto place = [](double x) { return static_cast<int>(std::floor(std::log10(std::abs(x)))); };
-    return text(value, std::clamp(place(value) - place(error) + error_digits, 1, kMost));
+    return text(value, std::clamp(place(value) - place(error) + error_digits, 1, kMax));
 }
 
 /// "  ± 0.0312"; an error of exactly zero beside others belongs to a parameter that the search left at its bound.
@@ -63,7 +63,7 @@ std::string Presentation::error_of(const Vector& std, Index index) const {
 
 std::string Presentation::parameter_lines(const Model& model) const {
     const ModelParameters parameters = parameters_of(model);
-    const auto coloured = model.estimate ? model.estimate->colour() : nullptr;
+    const auto colored = model.estimate ? model.estimate->colour() : nullptr;
     std::string lines = text(Message("Parameters:")) + "\n";
     for (std::size_t i = 0; i < parameters.names.size(); ++i) {
         const auto index = static_cast<Index>(i);
@@ -71,8 +71,8 @@ std::string Presentation::parameter_lines(const Model& model) const {
         lines += fmt::format("  {:<5} {:>12}", parameters.names[i],
                              to_the_error(parameters.values[index], has_error ? parameters.std[index] : 0, 3, 6));
         if (has_error) lines += error_of(parameters.std, index);
-        if (coloured && coloured->std[index] > 0 && std::isfinite(coloured->std[index]))
-            lines += "  " + text(Message("(robust ± {})", significant(coloured->std[index], 3)));
+        if (colored && colored->std[index] > 0 && std::isfinite(colored->std[index]))
+            lines += "  " + text(Message("(robust ± {})", significant(colored->std[index], 3)));
         lines += '\n';
     }
     return lines;
@@ -194,7 +194,7 @@ std::string Presentation::estimate_lines(const Estimate& estimate) const {
     lines += "\n";
     if (fit && !estimate.report().simulated.empty()) lines += text(estimate.report().simulated) + "\n";
     if (const Message message = estimate.full_message(); !message.empty()) lines += text(message) + "\n";
-    if (const auto coloured = estimate.colour()) lines += text(coloured->verdict) + "\n";
+    if (const auto colored = estimate.colour()) lines += text(colored->verdict) + "\n";
     return lines;
 }
 

@@ -6,7 +6,7 @@ namespace dynlab::inline scripting {
 
 /// A process model before it has values.
 template <>
-struct Boxed<ProcessStructure> {
+struct Userdata<ProcessStructure> {
     static constexpr ObjectType type{"process structure"};
     static std::size_t outside_bytes(const ProcessStructure&) { return 0; }
 };

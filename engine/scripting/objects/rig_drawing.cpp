@@ -30,10 +30,10 @@ class DrawingReader {
     }
 
     /// The drawing below the pieces that shapes.lua makes of it.
-    RigDrawing read(const std::string& name) {
+    PlantDrawing read(const std::string& name) {
         lua_State* L = state_.get();
         run(folder_ / "drawings" / (name + ".lua"));
-        RigDrawing rig;
+        PlantDrawing rig;
         rig.width = number(-1, "width"), rig.height = number(-1, "height");
         lua_getfield(L, -1, "motion");
         each(-1, [&] { rig.parts.push_back(part()); });
@@ -96,9 +96,9 @@ class DrawingReader {
             if (part_names_[i] == name) return static_cast<int>(i);
         return -1;
     }
-    RigPart part() {
+    PlantPart part() {
         lua_State* L = state_.get();
-        RigPart part;
+        PlantPart part;
         part.signal = text(-1, "signal"), part.unit = text(-1, "unit"), part.on = place_of_part(text(-1, "on"));
         part.drawn_at = number(-1, "at"), part.by = number(-1, "by", 1);
         part.turns = lua_getfield(L, -1, "turn") == LUA_TTABLE;
@@ -108,9 +108,9 @@ class DrawingReader {
         part_names_.push_back(text(-1, "part"));
         return part;
     }
-    RigPiece piece() {
+    PlantShape piece() {
         lua_State* L = state_.get();
-        RigPiece piece;
+        PlantShape piece;
         lua_getfield(L, -1, "points");
         each(-1, [&] { piece.x.push_back(entry(-1, 1)), piece.y.push_back(entry(-1, 2)); });
         lua_pop(L, 1);
@@ -136,7 +136,7 @@ class DrawingReader {
 
 }  // namespace
 
-RigDrawing rig_drawing(const std::string& name) {
+PlantDrawing rig_drawing(const std::string& name) {
     DrawingReader reader;
     const std::vector<std::string> names = reader.names();
     if (std::find(names.begin(), names.end(), name) == names.end())

@@ -7,6 +7,6 @@ namespace dynlab::inline scripting {
 
 /// The drawing of a rig that moves, report_templates/drawings/NAME.lua with its table `motion`, as documents show it
 /// (report_templates/filters/shapes.lua). Throws InvalidArgument, which lists those there are, for a name without one.
-RigDrawing rig_drawing(const std::string& name);
+PlantDrawing rig_drawing(const std::string& name);
 
 }  // namespace dynlab::inline scripting

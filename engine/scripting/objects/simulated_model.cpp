@@ -44,7 +44,7 @@ constexpr std::array kSimulatedFields = {
 constexpr std::array kSimulatedOperators = {Member{"__tostring", guarded<text_of_simulated>}};
 
 constexpr std::array kSimulatedTypes = {
-    TypeEntry{&Boxed<SimulatedModel>::type, kSimulatedFields, {}, kSimulatedOperators}};
+    TypeEntry{&Userdata<SimulatedModel>::type, kSimulatedFields, {}, kSimulatedOperators}};
 
 }  // namespace
 
@@ -52,7 +52,7 @@ TypeEntries simulated_types() {
     return kSimulatedTypes;
 }
 
-std::size_t Boxed<SimulatedModel>::outside_bytes(const SimulatedModel& model) {
+std::size_t Userdata<SimulatedModel>::outside_bytes(const SimulatedModel& model) {
     const Estimate& estimate = *model.estimate;
     const auto numbers = static_cast<std::size_t>(estimate.theta.size() + estimate.covariance().size());
     return (numbers + estimate.report().values()) * sizeof(double);

@@ -16,7 +16,7 @@ struct SimulatedModel {
 };
 
 template <>
-struct Boxed<SimulatedModel> {
+struct Userdata<SimulatedModel> {
     static constexpr ObjectType type{"simulated model"};
     static std::size_t outside_bytes(const SimulatedModel& model);
 };

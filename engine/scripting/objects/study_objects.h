@@ -13,20 +13,20 @@ struct OrderTable {
 };
 
 template <>
-struct Boxed<OrderTable> {
+struct Userdata<OrderTable> {
     static constexpr ObjectType type{"table of orders"};
     static std::size_t outside_bytes(const OrderTable& table);
 };
 
 /// What arxstruc gives.
 template <>
-struct Boxed<ArxSelection> {
+struct Userdata<ArxSelection> {
     static constexpr ObjectType type{"table of ARX orders"};
     static std::size_t outside_bytes(const ArxSelection& table);
 };
 
 template <>
-struct Boxed<MonteCarlo> {
+struct Userdata<MonteCarlo> {
     static constexpr ObjectType type{"Monte Carlo study"};
     static std::size_t outside_bytes(const MonteCarlo& study);
 };

@@ -49,7 +49,8 @@ constexpr std::array kTracedOperators = {Member{"__add", guarded<operate<Operati
                                          Member{"__eq", guarded<refuse_order>},
                                          Member{"__tostring", guarded<text_of>}};
 
-constexpr std::array kTracedTypes = {TypeEntry{&Boxed<TracedValue>::type, {}, {}, kTracedOperators, guarded<input_of>}};
+constexpr std::array kTracedTypes = {
+    TypeEntry{&Userdata<TracedValue>::type, {}, {}, kTracedOperators, guarded<input_of>}};
 
 }  // namespace
 

@@ -22,7 +22,7 @@ struct TracedValue {
 };
 
 template <>
-struct Boxed<TracedValue> {
+struct Userdata<TracedValue> {
     static constexpr ObjectType type{"traced value"};
     static std::size_t outside_bytes(const TracedValue&) { return 0; }
 };

@@ -20,7 +20,7 @@ void push_origins(lua_State* L) {
 
 }  // namespace
 
-void remember_origin(lua_State* L, int index, const ColumnOrigin& origin) {
+void set_column_origin(lua_State* L, int index, const ColumnOrigin& origin) {
     index = lua_absindex(L, index);
     if (lua_type(L, index) != LUA_TUSERDATA) return;
     push_origins(L);
@@ -36,7 +36,7 @@ void remember_origin(lua_State* L, int index, const ColumnOrigin& origin) {
     lua_pop(L, 1);
 }
 
-ColumnOrigin remembered_origin(lua_State* L, int index) {
+ColumnOrigin column_origin(lua_State* L, int index) {
     index = lua_absindex(L, index);
     ColumnOrigin origin;
     if (lua_type(L, index) != LUA_TUSERDATA) return origin;

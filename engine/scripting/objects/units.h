@@ -13,8 +13,8 @@ struct ColumnOrigin {
 };
 
 /// Notes the origin of the vector at `index`, for as long as the vector lives.
-void remember_origin(lua_State* L, int index, const ColumnOrigin& origin);
+void set_column_origin(lua_State* L, int index, const ColumnOrigin& origin);
 /// The one noted for the value at `index`.
-ColumnOrigin remembered_origin(lua_State* L, int index);
+ColumnOrigin column_origin(lua_State* L, int index);
 
 }  // namespace dynlab::inline scripting

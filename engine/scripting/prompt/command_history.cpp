@@ -23,8 +23,8 @@ std::string end_of_file(const fs::path& file) {
     if (!fs::is_regular_file(file, error)) return {};
     std::ifstream stream(file, std::ios::binary);
     const auto size = fs::file_size(file, error);
-    if (!error && size > CommandHistory::kLargestFile)
-        stream.seekg(-static_cast<std::streamoff>(CommandHistory::kLargestFile), std::ios::end);
+    if (!error && size > CommandHistory::kMaxFileBytes)
+        stream.seekg(-static_cast<std::streamoff>(CommandHistory::kMaxFileBytes), std::ios::end);
     std::ostringstream text;
     text << stream.rdbuf();
     return std::move(text).str();
@@ -41,9 +41,9 @@ CommandHistory::CommandHistory(fs::path file) : file_(std::move(file)) {
     const std::string text = end_of_file(file_);
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
-        if (line = clean_line(line); !line.empty() && line.size() <= kLongestLine) lines_.push_back(std::move(line));
-    const bool too_long = lines_.size() > kMostLines || text.size() >= kLargestFile;
-    if (lines_.size() > kMostLines) lines_.erase(lines_.begin(), lines_.end() - kMostLines);
+        if (line = clean_line(line); !line.empty() && line.size() <= kMaxLineLength) lines_.push_back(std::move(line));
+    const bool too_long = lines_.size() > kMaxLineCount || text.size() >= kMaxFileBytes;
+    if (lines_.size() > kMaxLineCount) lines_.erase(lines_.begin(), lines_.end() - kMaxLineCount);
     if (too_long) shorten_file();
 }
 
@@ -58,7 +58,7 @@ void CommandHistory::shorten_file() const {
 
 bool CommandHistory::add(std::string_view text) {
     const std::string line = clean_line(text);
-    if (line.find_first_not_of(' ') == std::string::npos || line.size() > kLongestLine) return false;
+    if (line.find_first_not_of(' ') == std::string::npos || line.size() > kMaxLineLength) return false;
     if (!lines_.empty() && lines_.back() == line) return false;
     lines_.push_back(line);
     if (file_.empty()) return true;

@@ -9,9 +9,9 @@ namespace dynlab::inline scripting {
 /// The lines typed at the prompt, kept in a file from one session to the next.
 class CommandHistory {
   public:
-    static constexpr std::size_t kMostLines = 2000;       ///< of the file; older ones are dropped
-    static constexpr std::size_t kLongestLine = 4096;     ///< bytes; longer ones are not kept
-    static constexpr std::size_t kLargestFile = 8 << 20;  ///< bytes; of a larger one the end is read
+    static constexpr std::size_t kMaxLineCount = 2000;     ///< of the file; older ones are dropped
+    static constexpr std::size_t kMaxLineLength = 4096;    ///< bytes; longer ones are not kept
+    static constexpr std::size_t kMaxFileBytes = 8 << 20;  ///< bytes; of a larger one the end is read
 
     /// Reads what `file` holds, whatever that is, and shortens the file when it has grown too long. Without a file (an
     /// empty path, or one that cannot be read) the history starts empty.

@@ -86,10 +86,10 @@ class Prompt {
 
     void run(const PromptStatement& statement) {
         const std::string name = fmt::format("statement {}", ++count_);
-        forget_interrupts(kInterruptsToExit);
+        clear_interrupts(kInterruptsToExit);
         const StatementResult result = session_.run(statement, name);
         if (interrupted()) print_now("\n");  // the terminal has shown ^C
-        forget_interrupts(kInterruptsToExit);
+        clear_interrupts(kInterruptsToExit);
         show_figures(result);
         if (result.error) show_error(message_text(shown_message(*result.error, name, statement.source)));
     }
@@ -104,7 +104,7 @@ class Prompt {
 
     void show_error(const std::string& message) const {
         const std::string shown = terminal_text(message);
-        print_now(in_colour_ ? "\033[31m" + shown + "\033[0m\n" : shown + '\n');
+        print_now(in_color_ ? "\033[31m" + shown + "\033[0m\n" : shown + '\n');
     }
 
     static bool takes_colour() {
@@ -117,7 +117,7 @@ class Prompt {
     LineEditor editor_;
     std::string pending_;  ///< lines of a statement that is not complete yet
     unsigned count_ = 0;
-    bool in_colour_ = takes_colour();
+    bool in_color_ = takes_colour();
 };
 
 /// Runs a statement whose text was shifted to its line of the input. False when it failed.

@@ -54,7 +54,7 @@ struct LineEditor::State {
     static unsigned char stop_program(EditLine*, int);
 
     void bind_keys();
-    void remember(const std::string& line);
+    void save_entry(const std::string& line);
     int decode(char byte, wchar_t* character);
     bool more_waits() const;
 
@@ -73,7 +73,7 @@ LineEditor::State::State(CommandHistory& kept_history, std::function<Completion(
     editor = el_init("dynlab", stdin, stdout, stderr);
     if (editor == nullptr || history == nullptr) throw InvalidArgument("the terminal does not support line editing");
     HistEvent event;
-    ::history(history, &event, H_SETSIZE, static_cast<int>(CommandHistory::kMostLines));
+    ::history(history, &event, H_SETSIZE, static_cast<int>(CommandHistory::kMaxLineCount));
     for (const std::string& line : kept.lines()) ::history(history, &event, H_ENTER, line.c_str());
     el_set(editor, EL_CLIENTDATA, this);
     el_set(editor, EL_PROMPT, show_prompt);
@@ -112,7 +112,7 @@ void LineEditor::State::bind_keys() {
     el_source(editor, nullptr);                        // the user's own ~/.editrc
 }
 
-void LineEditor::State::remember(const std::string& line) {
+void LineEditor::State::save_entry(const std::string& line) {
     HistEvent event;
     if (kept.add(line)) ::history(history, &event, H_ENTER, kept.lines().back().c_str());
 }
@@ -185,7 +185,7 @@ LineEditor::Line LineEditor::read(const std::string& prompt) {
     if (typed == nullptr || count <= 0) return {Line::Ending::kLeft, {}};
     std::string text(typed, static_cast<std::size_t>(count));
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
-    state.remember(text);
+    state.save_entry(text);
     return {Line::Ending::kEntered, std::move(text), state.more_follows};
 }
 

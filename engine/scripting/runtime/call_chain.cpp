@@ -10,8 +10,8 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::size_t kLongestChain = 6, kLongestArgument = 40;
-constexpr int kMostArguments = 6, kMostLevels = 100;
+constexpr std::size_t kMaxChainLength = 6, kMaxArgumentLength = 40;
+constexpr int kMostArguments = 6, kMaxLevels = 100;
 
 /// The first line of a value's text, cut where it is long.
 std::string short_value_text(lua_State* L, int index) {
@@ -23,7 +23,7 @@ std::string short_value_text(lua_State* L, int index) {
     if (lua_type(L, index) == LUA_TSTRING) text = '"' + text + '"';
     text = text.substr(0, text.find('\n'));
     const std::u32string characters = characters_in(text);
-    return characters.size() <= kLongestArgument ? text : utf8_of(characters.substr(0, kLongestArgument)) + " ...";
+    return characters.size() <= kMaxArgumentLength ? text : utf8_of(characters.substr(0, kMaxArgumentLength)) + " ...";
 }
 
 /// "gain(x = 2)" of an activation record.
@@ -49,11 +49,11 @@ int collect_calls(lua_State* L) {
     auto& calls = *static_cast<std::vector<RecordedCall>*>(lua_touserdata(L, 1));
     Message called;
     lua_Debug record;
-    for (int level = 0; level < kMostLevels && lua_getstack(L, level, &record) != 0; ++level) {
+    for (int level = 0; level < kMaxLevels && lua_getstack(L, level, &record) != 0; ++level) {
         lua_getinfo(L, "Sl", &record);
         if (record.currentline <= 0) continue;
         if (!called.empty()) {
-            if (calls.size() == kLongestChain) {
+            if (calls.size() == kMaxChainLength) {
                 RuntimeContext& context = context_of(L);
                 calls.push_back(
                     {Message("started a longer chain of calls"), context.script_name, main_chunk_line(context)});

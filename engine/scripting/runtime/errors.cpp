@@ -92,9 +92,9 @@ Message argument_sentence(const std::string& text) {
     if ((given == "vector" || given == "matrix") && takes_vectors(*function))
         return Message("math.{} takes numbers, but {} was given; write {}(x), without math", *function,
                        with_article(given), *function);
-    if (auto wanted = between(inside, "", " expected, got "))
+    if (auto requested = between(inside, "", " expected, got "))
         return Message("{}: {}", *function,
-                       Message("argument {} must be {}, but {} was given", *number, with_article(*wanted),
+                       Message("argument {} must be {}, but {} was given", *number, with_article(*requested),
                                given == "no value" ? Message("no value") : what_it_is(given)));
     return Message("{}: argument {}: {}", *function, *number, inside);
 }
@@ -192,7 +192,7 @@ Message syntax_sentence(const std::string& text, const std::string& near) {
         return Message("unexpected '{}': return must be the last statement of its block; comment it out with --", near);
     if (starts_with(text, "<eof> expected")) return Message("unexpected '{}': it closes nothing", near);
     if (starts_with(text, "<name> expected")) return Message("expected a name before '{}'", near);
-    if (auto wanted = between(text, "", " expected")) return Message("expected {} before '{}'", *wanted, near);
+    if (auto requested = between(text, "", " expected")) return Message("expected {} before '{}'", *requested, near);
     if (!near.empty()) return Message("unexpected '{}'", near);
     return Message::verbatim(text);
 }

@@ -23,7 +23,7 @@ namespace {
 
 using FunctionList = std::vector<const FunctionEntry*>;
 
-constexpr std::size_t kSummaryColumn = 21, kMostFound = 20;
+constexpr std::size_t kSummaryColumn = 21, kMaxFound = 20;
 
 /// Terms of other programs and of textbooks, and the functions that they mean.
 struct Synonym {
@@ -128,9 +128,9 @@ std::vector<Found> pages_about(const std::string& asked, const FunctionList& fun
 
 std::string list_of(const std::vector<Found>& found, std::size_t width) {
     std::string text;
-    for (std::size_t i = 0; i < std::min(found.size(), kMostFound); ++i)
+    for (std::size_t i = 0; i < std::min(found.size(), kMaxFound); ++i)
         text += help_row(found[i].name, found[i].summary, width);
-    if (found.size() > kMostFound) text += fmt::format("  and {} more\n", found.size() - kMostFound);
+    if (found.size() > kMaxFound) text += fmt::format("  and {} more\n", found.size() - kMaxFound);
     return text + "\nhelp NAME shows a page.\n";
 }
 

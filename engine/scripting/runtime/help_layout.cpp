@@ -88,7 +88,7 @@ std::vector<std::size_t> column_widths(const std::vector<Cells>& rows, std::size
         widths.resize(std::max(widths.size(), row.size()));
         for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], columns_of(row[i]));
     }
-    constexpr std::size_t kGap = 2, kNarrowest = 8;
+    constexpr std::size_t kGap = 2, kMinWidth = 8;
     const auto total = [&] {
         std::size_t sum = 0;
         for (const std::size_t one : widths) sum += one + kGap;
@@ -96,7 +96,7 @@ std::vector<std::size_t> column_widths(const std::vector<Cells>& rows, std::size
     };
     while (!widths.empty() && total() > width + kGap) {
         auto& widest = *std::max_element(widths.begin(), widths.end());
-        if (widest <= kNarrowest) break;
+        if (widest <= kMinWidth) break;
         --widest;
     }
     return widths;

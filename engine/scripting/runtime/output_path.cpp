@@ -11,7 +11,7 @@ namespace dynlab::inline scripting {
 
 namespace fs = std::filesystem;
 
-bool lies_below(const fs::path& path, const fs::path& folder) {
+bool is_below_folder(const fs::path& path, const fs::path& folder) {
     const fs::path root = fs::weakly_canonical(fs::absolute(folder)), file = fs::weakly_canonical(fs::absolute(path));
     const auto [end, rest] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
     return end == root.end() || (std::next(end) == root.end() && end->empty());
@@ -21,7 +21,7 @@ fs::path output_path(const RuntimeContext& context, const std::string& path) {
     if (path.empty() || path.find('\0') != std::string::npos)
         throw InvalidArgument("the path of a file to write must not be empty");
     const fs::path file = fs::weakly_canonical(fs::absolute(context.options.out_folder / path));
-    if (!lies_below(file, context.options.out_folder) && !lies_below(file, context.options.script_folder))
+    if (!is_below_folder(file, context.options.out_folder) && !is_below_folder(file, context.options.script_folder))
         throw InvalidArgument("'{}' is outside the script's folder and the output folder; scripts write only there",
                               path);
     if (context.services.written != nullptr) context.services.written->take(file);

@@ -12,6 +12,6 @@ struct RuntimeContext;
 std::filesystem::path output_path(const RuntimeContext& context, const std::string& path);
 
 /// Whether a path, links resolved, lies in a folder or below it.
-bool lies_below(const std::filesystem::path& path, const std::filesystem::path& folder);
+bool is_below_folder(const std::filesystem::path& path, const std::filesystem::path& folder);
 
 }  // namespace dynlab::inline scripting

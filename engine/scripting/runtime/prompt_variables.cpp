@@ -76,7 +76,7 @@ void announce_variables(lua_State* L, const std::vector<std::string>& names) {
     lua_pop(L, 1);
 }
 
-void forget_unassigned(lua_State* L, const std::vector<std::string>& names) {
+void clear_unassigned(lua_State* L, const std::vector<std::string>& names) {
     lua_rawgetp(L, LUA_REGISTRYINDEX, &declared_key);
     for (const std::string& name : names) {
         if (lua_getfield(L, -1, name.c_str()) == LUA_TBOOLEAN && !lua_toboolean(L, -1)) {

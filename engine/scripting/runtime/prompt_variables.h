@@ -17,6 +17,6 @@ void push_prompt_variables(lua_State* L);
 /// The next statement declares these names. Until it assigns to one, the name means what it meant before.
 void announce_variables(lua_State* L, const std::vector<std::string>& names);
 /// Ends the statement: names that it did not assign are not declared.
-void forget_unassigned(lua_State* L, const std::vector<std::string>& names);
+void clear_unassigned(lua_State* L, const std::vector<std::string>& names);
 
 }  // namespace dynlab::inline scripting

@@ -14,7 +14,7 @@ void Recorder::start(const PercentScript& script, std::uint32_t seed, LineSource
     follow(script);
     timed_cell_ = cells_.front().second;
     timed_since_ = std::chrono::steady_clock::now();
-    tell_of_cell();
+    report_cell();
 }
 
 void Recorder::follow(const PercentScript& script) {
@@ -30,7 +30,7 @@ RunRecord Recorder::so_far(const Reader& reader) const {
     return Recorder(*this).finish(reader);
 }
 
-void Recorder::tell_of_cell() const {
+void Recorder::report_cell() const {
     if (enter_cell_) enter_cell_(timed_cell_);
 }
 
@@ -48,7 +48,7 @@ void Recorder::note_time() {
     record_.timings[timed_cell_] += std::chrono::duration<double>(now - timed_since_).count();
     timed_cell_ = std::move(cell);
     timed_since_ = now;
-    tell_of_cell();
+    report_cell();
 }
 
 void Recorder::print(const std::string& text) {

@@ -67,7 +67,7 @@ class Recorder {
         FigurePointer figure;
     };
     std::string current_cell();
-    void tell_of_cell() const;
+    void report_cell() const;
     struct ReportedFigure {
         FigurePointer figure;
         std::string caption;

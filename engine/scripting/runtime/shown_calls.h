@@ -8,8 +8,8 @@
 
 namespace dynlab::inline scripting {
 
-/// The functions whose values are shown where their call stands alone: those of a table of functions whose signature
-/// has results. Those that draw or print them, or are called for what they do, are not among them.
+/// Functions whose results are printed when a statement consists of their call only: the functions of a table whose
+/// signature has results, except functions that draw, print or are called for a side effect.
 class ShownCalls {
   public:
     ShownCalls() = default;  ///< none

@@ -13,7 +13,7 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr int kMostExpressions = 1000;
-constexpr int kMostLines = 40;  // of one expression
+constexpr int kMaxLineCount = 40;  // of one expression
 
 /// Where Lua stops reading: the token, as an index into the tokens (their number at the end of the source).
 struct Stop {
@@ -64,7 +64,7 @@ bool may_begin_expression(const std::vector<LuaToken>& tokens, std::size_t i) {
 std::optional<std::string> rewritten(LuaReader& reader, const std::string& code, const std::vector<LuaToken>& tokens,
                                      std::size_t stop) {
     int lines = 0;
-    for (std::size_t first = std::min(stop, tokens.size() - 1) + 1; first-- > 0 && lines <= kMostLines;) {
+    for (std::size_t first = std::min(stop, tokens.size() - 1) + 1; first-- > 0 && lines <= kMaxLineCount;) {
         if (!begins_line(code, tokens, first)) continue;
         ++lines;
         if (first > 0 && tokens[first - 1].is("...")) return std::nullopt;  // a line that MATLAB would go on with

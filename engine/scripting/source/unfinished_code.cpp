@@ -49,7 +49,7 @@ bool wants_more(const LuaToken& token) {
 
 std::optional<OpenBlock> block_without_end(std::string_view source) {
     struct Block {
-        OpenBlock told;
+        OpenBlock reported;
         std::size_t indent;  ///< of its line
     };
     std::vector<Block> open;
@@ -63,7 +63,7 @@ std::optional<OpenBlock> block_without_end(std::string_view source) {
         const auto first = indent_of(source, token);
         if (line != line_before) indent = first.value_or(0);
         const bool else_if = behind_else && line == line_before && token.is("if");
-        if (else_if && !open.empty() && open.back().told.else_if == 0) open.back().told.else_if = line;
+        if (else_if && !open.empty() && open.back().reported.else_if == 0) open.back().reported.else_if = line;
         line_before = line;
         behind_else = token.is("else");
         if (is_any(token, {"for", "while"})) loop = {std::string(token.text), line, 0};
@@ -73,12 +73,12 @@ std::optional<OpenBlock> block_without_end(std::string_view source) {
         } else if (is_any(token, {"function", "if", "repeat"})) {
             open.push_back({{std::string(token.text), line, 0}, indent});
         } else if (is_any(token, {"end", "until"}) && !open.empty()) {
-            if (token.is("end") && first && *first < open.back().indent) return open.back().told;
+            if (token.is("end") && first && *first < open.back().indent) return open.back().reported;
             open.pop_back();
         }
     }
     if (open.empty()) return {};
-    return open.back().told;
+    return open.back().reported;
 }
 
 std::optional<int> line_cut_off(std::string_view source, int line) {

@@ -37,7 +37,7 @@ enum Type : std::uint32_t {
 enum Class { kCell = 1, kStruct, kObject, kChar, kSparse, kDoubles, kUint8s = 9, kFunction = 16, kOpaque };
 constexpr std::uint32_t kComplexFlag = 1 << 11, kLogicalFlag = 1 << 9;
 constexpr std::size_t kHeader = 128;
-constexpr int kDeepest = 50;  // levels of structs and cells
+constexpr int kMaxDepth = 50;  // levels of structs and cells
 
 template <class T>
 T number_at(Bytes bytes, std::size_t at) {
@@ -138,7 +138,7 @@ void copy_numbers(const Element& element, double* numbers, std::size_t count) {
 class Array {
   public:
     Array(Bytes bytes, int depth) : elements_(bytes), depth_(depth) {
-        if (depth > kDeepest) throw Damaged();
+        if (depth > kMaxDepth) throw Damaged();
         if (bytes.empty()) return;  // []
         const Element flags = elements_.next(), size = elements_.next(), name = elements_.next();
         if (flags.data.size() < 8) throw Damaged();

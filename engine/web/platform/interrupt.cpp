@@ -3,7 +3,7 @@
 // A page stops work by ending the worker that does it.
 namespace dynlab::inline platform {
 
-InterruptScope::InterruptScope(Unheard) {}
+InterruptScope::InterruptScope(Unhandled) {}
 InterruptScope::~InterruptScope() = default;
 SlowEnding::SlowEnding() = default;
 SlowEnding::~SlowEnding() = default;
@@ -11,7 +11,7 @@ bool interrupted() {
     return false;
 }
 void throw_if_interrupted() {}
-void forget_interrupts(int) {}
+void clear_interrupts(int) {}
 void end_when_terminated() {}
 void pass_on_termination() {}
 

@@ -54,7 +54,7 @@ std::string folded_letter(char32_t c) {
     return letters;
 }
 
-bool is_silent(char32_t c) {
+bool is_ignorable(char32_t c) {
     return c >= 0x80 && is(c, "[\\p{Mn}\\p{Default_Ignorable_Code_Point}\\u00A8\\u00B4\\u00B8\\u02C6-\\u02DF]");
 }
 

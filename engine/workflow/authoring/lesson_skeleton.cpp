@@ -207,7 +207,7 @@ std::vector<std::string> make_lesson_skeleton(const fs::path& folder) {
                                                       {"hints.fr.md", kFrenchHints},
                                                       {"checks.fr.po", kFrenchChecks}};
     std::vector<std::string> names;
-    make_whole_folder(folder, [&](const fs::path& growing) {
+    make_complete_folder(folder, [&](const fs::path& growing) {
         for (const auto& [name, text] : files) {
             write_file_atomically(growing / name, text);
             names.push_back(name);

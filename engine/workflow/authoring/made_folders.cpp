@@ -14,11 +14,11 @@ std::string entry_of_folder(const std::filesystem::path& folder) {
 }  // namespace
 
 void note_made_folder(const std::filesystem::path& folder) {
-    Cache().remember(entry_of_folder(folder), "made");
+    Cache().save_entry(entry_of_folder(folder), "made");
 }
 
 bool was_made_here(const std::filesystem::path& folder) {
-    return Cache().recall(entry_of_folder(folder)).has_value();
+    return Cache().load_entry(entry_of_folder(folder)).has_value();
 }
 
 }  // namespace dynlab::inline workflow

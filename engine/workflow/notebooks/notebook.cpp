@@ -20,9 +20,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uintmax_t kMostNotebookBytes = std::uintmax_t{64} << 20;
-constexpr const char* kOurs = "dynlab";  // what we keep in the metadata of a cell
-constexpr std::size_t kLongestId = 64;   // nbformat's
+constexpr std::uintmax_t kMaxNotebookBytes = std::uintmax_t{64} << 20;
+constexpr const char* kOurs = "dynlab";   // what we keep in the metadata of a cell
+constexpr std::size_t kMaxIdLength = 64;  // nbformat's
 
 /// A cell as both formats know it.
 struct CellText {
@@ -174,8 +174,8 @@ json outputs_of(const RunRecord& record, const Cell& cell, bool stopped_here,
 class NotebookIds {
   public:
     std::string next(std::string id) {
-        if (!is_name(id) || id.size() > kLongestId) id = "cell";
-        for (int i = 2; !taken_.insert(id).second; ++i) id = fmt::format("{}-{}", id.substr(0, kLongestId - 8), i);
+        if (!is_name(id) || id.size() > kMaxIdLength) id = "cell";
+        for (int i = 2; !taken_.insert(id).second; ++i) id = fmt::format("{}-{}", id.substr(0, kMaxIdLength - 8), i);
         return id;
     }
 
@@ -203,8 +203,9 @@ const json& checked_cells(const json& notebook, const std::filesystem::path& nam
                                       "a current Jupyter, or run python3 -m nbconvert --to notebook",
                                       format->dump()));
     const json& metadata = object_at(notebook, "metadata");
-    for (const json* told : {&object_at(metadata, "language_info"), &object_at(metadata, "kernelspec")}) {
-        const std::string language = text_at(*told, told == &object_at(metadata, "kernelspec") ? "language" : "name");
+    for (const json* reported : {&object_at(metadata, "language_info"), &object_at(metadata, "kernelspec")}) {
+        const std::string language =
+            text_at(*reported, reported == &object_at(metadata, "kernelspec") ? "language" : "name");
         if (!language.empty() && language != kKernelLanguage && language != "Lua")
             refuse_notebook(
                 name, Message("the notebook uses {}; dynlab runs only Lua notebooks, with its own kernel", language));
@@ -231,7 +232,7 @@ CellText cell_of_json(const json& cell, bool first) {
 }
 
 /// The lines that the script had for the cell, where the cell still says what they say.
-std::string remembered(const json& cell, const CellText& read) {
+std::string saved_entry(const json& cell, const CellText& read) {
     const std::string written = text_at(object_at(object_at(cell, "metadata"), kOurs), "written");
     if (written.empty() || segments_of(written).size() != 1) return {};
     const CellText before = cell_of_lines(written);
@@ -320,7 +321,7 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
                 {name}, Message("cell {} is a raw cell, which a script cannot contain; it is left out", number)));
         }
         if (!read.text) add_losses_of_code(read.source, number, name, script.losses);
-        std::string written = remembered(cell, read);
+        std::string written = saved_entry(cell, read);
         if (written.empty()) written = write_cell(read, last);
         if (!last && !written.ends_with('\n')) written += "\n";
         script.source += written;
@@ -331,13 +332,13 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
 NotebookScript read_notebook(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
-    if (!unknown && bytes > kMostNotebookBytes)
+    if (!unknown && bytes > kMaxNotebookBytes)
         refuse_notebook(file, Message("the notebook has {} MB, but the limit is {} MB: clear its outputs", bytes >> 20,
-                                      kMostNotebookBytes >> 20));
+                                      kMaxNotebookBytes >> 20));
     NotebookScript script = script_of_notebook(read_text(file), file);
-    if (script.source.size() > kMostSourceBytes)
+    if (script.source.size() > kMaxSourceSize)
         refuse_notebook(file, Message("its cells have {} MB of text, but the limit for a script is {} MB",
-                                      (script.source.size() + (1 << 20) - 1) >> 20, kMostSourceBytes >> 20));
+                                      (script.source.size() + (1 << 20) - 1) >> 20, kMaxSourceSize >> 20));
     return script;
 }
 
@@ -349,7 +350,7 @@ namespace {
 
 Message place_in_segments(const std::vector<Segment>& segments, int line) {
     const auto behind = std::upper_bound(segments.begin(), segments.end(), line,
-                                         [](int wanted, const Segment& one) { return wanted < one.first_line; });
+                                         [](int requested, const Segment& one) { return requested < one.first_line; });
     if (behind == segments.begin()) return {};
     const Segment& segment = *(behind - 1);
     const int behind_marker = line - segment.first_line + (is_cell_marker(first_line_of(segment.written)) ? 0 : 1);

@@ -52,13 +52,13 @@ Machines slurm_in(const std::string& list) {
                           value = equal == std::string::npos ? "" : word.substr(equal + 1);
         const bool ours = name == "tasks" || name == "rounds";
         if (!only_of(name, "abcdefghijklmnopqrstuvwxyz-") || value.empty() ||
-            (ours && number_up_to(WorkPart::kMost, value) == 0))
+            (ours && number_up_to(WorkPart::kMax, value) == 0))
             throw EnvironmentError(
                 "\"{}\" in --on slurm:{} is not OPTION=VALUE: use tasks=N and rounds=N (up to {}), or any option of "
                 "sbatch, such as partition=short or time=2:00:00",
-                word, list, WorkPart::kMost);
+                word, list, WorkPart::kMax);
         if (ours)
-            (name == "tasks" ? machines.parts : machines.rounds) = number_up_to(WorkPart::kMost, value);
+            (name == "tasks" ? machines.parts : machines.rounds) = number_up_to(WorkPart::kMax, value);
         else
             machines.words.push_back(fmt::format("--{}={}", name, value));
     }
@@ -77,7 +77,7 @@ Machines hosts_in(const std::string& list) {
                 "\"{}\" in --on hosts:{} is not a host: write HOST, USER@HOST, or 4/HOST for four parallel parts", word,
                 list);
         machines.words.push_back(word);
-        machines.parts = std::min(WorkPart::kMost, machines.parts + kPartsOfASlot * slots);
+        machines.parts = std::min(WorkPart::kMax, machines.parts + kPartsOfASlot * slots);
     }
     return machines;
 }
@@ -188,7 +188,7 @@ void refuse_queued_jobs(const fs::path& folder) {
 
 std::optional<WorkPart> part_in(const std::string& text) {
     const std::size_t slash = text.find('/');
-    const int count = slash == std::string::npos ? 0 : number_up_to(WorkPart::kMost, text.substr(slash + 1));
+    const int count = slash == std::string::npos ? 0 : number_up_to(WorkPart::kMax, text.substr(slash + 1));
     const int index = count == 0 ? 0 : number_up_to(count, text.substr(0, slash));
     return index == 0 ? std::nullopt : std::optional<WorkPart>({index, count});
 }
@@ -275,7 +275,7 @@ std::string shown_command(const std::string& option) {
 
 int noted_parts(const fs::path& folder) {
     const fs::path file = folder / kNotedParts;
-    return std::max(1, fs::exists(file) ? number_up_to(WorkPart::kMost, read_file(file)) : 1);
+    return std::max(1, fs::exists(file) ? number_up_to(WorkPart::kMax, read_file(file)) : 1);
 }
 
 void note_parts(const fs::path& folder, int parts) {

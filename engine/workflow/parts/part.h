@@ -9,9 +9,9 @@ namespace dynlab::inline workflow {
 /// A share of a list of work: every `count`-th entry, from the `index`-th on, so that neighbours, which take as long,
 /// are spread.
 struct WorkPart {
-    int index = 1, count = 1;  ///< 1 to count, of at most kMost
+    int index = 1, count = 1;  ///< 1 to count, of at most kMax
 
-    static constexpr int kMost = 1000;  // MaxArraySize as Slurm comes
+    static constexpr int kMax = 1000;  // MaxArraySize as Slurm comes
 
     bool has(std::size_t place) const { return part_of(place) == index; }
     int part_of(std::size_t place) const { return 1 + static_cast<int>(place % static_cast<std::size_t>(count)); }

@@ -12,7 +12,7 @@ namespace dynlab::inline workflow {
 namespace {
 
 bool is_function(std::string_view name) {
-    for (const FunctionEntry& entry : catalogue_of_functions())
+    for (const FunctionEntry& entry : catalog_of_functions())
         if (entry.name == name) return true;
     return false;
 }

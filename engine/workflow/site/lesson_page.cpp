@@ -36,7 +36,7 @@ constexpr const char* kScript = "analysis.lua";
 /// The run of a lesson's student copy, its figures drawn for pages.
 RunRecord run_for_page(const ReportRequest& request, const fs::path& folder, const Cache& cache) {
     const RunCache runs(request, FigureFormat::kSvg, cache);
-    if (auto known = runs.recall()) return *std::move(known);
+    if (auto known = runs.load_entry()) return *std::move(known);
     fs::create_directories(folder);
     CallCache calls(cache);
     GnuplotRenderer renderer(&cache);
@@ -48,7 +48,7 @@ RunRecord run_for_page(const ReportRequest& request, const fs::path& folder, con
     RunRecord record = run_script(run, renderer);
     draw_figures(record, renderer, folder, FigureFormat::kSvg, request.script.header.language);
     renderer.finish();
-    runs.remember(record);
+    runs.save_entry(record);
     return record;
 }
 

@@ -74,14 +74,14 @@ std::string places_that_teach(const std::vector<std::string>& functions) {
 }
 
 const FunctionEntry* entry_of(const std::string& name) {
-    for (const FunctionEntry& entry : catalogue_of_functions())
+    for (const FunctionEntry& entry : catalog_of_functions())
         if (entry.name == name) return &entry;
     return nullptr;
 }
 
 /// The place of the first function of the area in the catalogue.
 std::size_t place_of_area(const std::string& area) {
-    const auto& all = catalogue_of_functions();
+    const auto& all = catalog_of_functions();
     return static_cast<std::size_t>(std::ranges::find(all, area, &FunctionEntry::area) - all.begin());
 }
 
@@ -153,7 +153,7 @@ SiteText methods_text() {
     std::string text =
         "# Methods\n\nEvery method of dynlab: the model, the assumption about the noise, and the source. The pages of "
         "the functions describe options, results and errors.\n\n";
-    for (const MethodEntry& method : method_catalogue()) {
+    for (const MethodEntry& method : method_catalog()) {
         std::string title = method.title, names;
         title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
         for (const std::string& name : method.lua_names) names += (names.empty() ? "`" : ", `") + name + "`";

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kWide = 72;     // characters of a line from which on Pandoc shares the width
 constexpr double kWidth = 90;         // characters of a whole line on the page
-constexpr double kLeast = 4;          // of a column
+constexpr double kMin = 4;            // of a column
 constexpr double kMostOfAnother = 4;  // times
 
 /// The cells of a line "| a | b |"; bars in code and behind a backslash belong to the cell.
@@ -55,7 +55,7 @@ std::vector<double> widths_for(const std::vector<double>& lengths) {
         const double part = left / static_cast<double>(open.size());
         const auto fits = [&](std::size_t i) { return lengths[i] <= part; };
         for (const std::size_t i : open)
-            if (fits(i)) left -= widths[i] = std::max(kLeast, lengths[i]);
+            if (fits(i)) left -= widths[i] = std::max(kMin, lengths[i]);
         changed = std::erase_if(open, fits) > 0;
     }
     if (open.empty()) return widths;

@@ -37,9 +37,9 @@ TEST(languages, missing_and_broken_catalogs_fall_back_to_english_with_a_reason) 
     testing::internal::CaptureStderr();
     EXPECT_EQ(catalog_of("yy"), nullptr);
     EXPECT_EQ(catalog_of("yy"), nullptr);
-    const std::string told = testing::internal::GetCapturedStderr();
-    EXPECT_THAT(told, testing::StartsWith("dynlab: note: yy.po, line 1"));
-    EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1);  // told once
+    const std::string reported = testing::internal::GetCapturedStderr();
+    EXPECT_THAT(reported, testing::StartsWith("dynlab: note: yy.po, line 1"));
+    EXPECT_EQ(std::count(reported.begin(), reported.end(), '\n'), 1);  // told once
     EXPECT_THAT(missing_catalog("yy"), HasSubstr("yy.po, line 1"));
     EXPECT_EQ(message_text(Message("a {}", 1), {catalog_of("yy")}), "a 1");
 }

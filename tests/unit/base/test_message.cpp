@@ -103,13 +103,13 @@ TEST(message, translation_may_take_the_arguments_in_another_order) {
 TEST(message, what_authors_wrote_is_looked_up_whole_in_their_own_catalog) {
     const Catalog authors("msgid \"Hz is wanted.\"\nmsgstr \"On demande des Hz.\"\n");
     const Reader reader{&french(), nullptr, &authors};
-    const Message wanted = Message::verbatim("Hz is wanted.");
-    EXPECT_EQ(message_text(wanted, reader), "On demande des Hz.");
-    EXPECT_EQ(message_text(Message("set {}", wanted), reader), "donnez On demande des Hz.");
-    EXPECT_EQ(message_text(sentences({wanted, Message("set {}", 1.5)}), reader), "On demande des Hz. donnez 1,5");
+    const Message expected = Message::verbatim("Hz is wanted.");
+    EXPECT_EQ(message_text(expected, reader), "On demande des Hz.");
+    EXPECT_EQ(message_text(Message("set {}", expected), reader), "donnez On demande des Hz.");
+    EXPECT_EQ(message_text(sentences({expected, Message("set {}", 1.5)}), reader), "On demande des Hz. donnez 1,5");
     EXPECT_EQ(message_text(Message("set {}", "Hz is wanted."), reader), "donnez Hz is wanted.") << "a name";
     EXPECT_EQ(message_text(Message::verbatim("Hz is wanted. So"), reader), "Hz is wanted. So");
-    EXPECT_EQ(message_text(wanted), "Hz is wanted.");
+    EXPECT_EQ(message_text(expected), "Hz is wanted.");
 }
 
 TEST(message, translation_with_missing_arguments_falls_back_to_english) {

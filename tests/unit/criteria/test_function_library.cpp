@@ -18,7 +18,7 @@ TEST(function_library, of_polynomials_takes_states_and_inputs) {  // oracle: by 
     EXPECT_EQ(values, (Matrix{{1, 2, 5, 4, 10, 25}, {1, 3, -1, 9, -3, 1}}));
 }
 
-TEST(function_library, tells_what_is_wrong_with_its_values) {
+TEST(function_library, reports_what_is_wrong_with_its_values) {
     FunctionLibrary library;
     library.names = {"x", "log(x)"};
     library.values = [](const Matrix& x, const Matrix&) {

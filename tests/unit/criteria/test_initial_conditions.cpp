@@ -21,7 +21,7 @@ TEST(initial_conditions, operating_point_of_a_step_lies_before_it) {  // oracle:
     EXPECT_EQ(joint_operating_point(kRich, y).output, y.mean());
 }
 
-TEST(initial_conditions, automatic_choices_can_be_told_apart) {  // oracle: identifiability
+TEST(initial_conditions, automatic_choices_can_be_distinguished) {  // oracle: identifiability
     EXPECT_EQ(start_conditions(kStep, InitialState::kAuto, Offset::kAuto).size(), 6u);
     EXPECT_EQ(start_conditions(kFlat, InitialState::kAuto, Offset::kAuto).size(), 3u);
     EXPECT_EQ(start_conditions(Vector{{0.0, 1.0}}, InitialState::kAuto, Offset::kAuto).size(), 4u);
@@ -34,7 +34,7 @@ TEST(initial_conditions, automatic_choices_can_be_told_apart) {  // oracle: iden
     EXPECT_FALSE(start_conditions(kStep, InitialState::kZero, Offset::kRemove)[0].offset);
 }
 
-TEST(initial_conditions, refuses_what_a_constant_input_cannot_tell) {
+TEST(initial_conditions, refuses_what_a_constant_input_cannot_show) {
     EXPECT_THROW(start_conditions(kFlat, InitialState::kSteady, Offset::kNone), InvalidArgument);
     EXPECT_THROW(start_conditions(kFlat, InitialState::kEstimate, Offset::kEstimate), InvalidArgument);
     EXPECT_EQ(start_conditions(kFlat, InitialState::kEstimate, Offset::kAuto).size(), 1u);

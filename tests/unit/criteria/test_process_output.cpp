@@ -61,7 +61,7 @@ TEST(process_output, sensitivities_agree_with_differences) {  // oracle: central
                 const TransferOutput transfer(transfer_structure(model.structure),
                                               {estimate ? InitialState::kEstimate : InitialState::kSteady, true}, data,
                                               0, 20, at_rest(model.structure));
-                const Reparametrised output = process_output(model.structure, transfer);
+                const Reparametrized output = process_output(model.structure, transfer);
                 Vector theta = Vector::Constant(output.parameter_count(), 0.3), y, plus, minus;
                 theta.head(model.parameters.size()) = model.parameters;
                 Matrix sensitivities;

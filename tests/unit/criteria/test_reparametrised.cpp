@@ -24,7 +24,7 @@ class Decay : public OutputErrorModel {
 };
 
 /// q = [theta_0 theta_1, exp(theta_1)].
-Reparametrised::Point product_and_exponential(const Vector& theta) {
+Reparametrized::Point product_and_exponential(const Vector& theta) {
     Matrix derivatives(2, 2);
     derivatives << theta[1], theta[0], 0, std::exp(theta[1]);
     return {Vector{{theta[0] * theta[1], std::exp(theta[1])}}, derivatives};
@@ -33,7 +33,7 @@ Reparametrised::Point product_and_exponential(const Vector& theta) {
 TEST(reparametrised, output_and_sensitivities) {  // oracle: the formula in theta, central differences
     const Decay inner;
     const Vector bounds{{1.0, 2.0}}, theta{{2.0, 0.3}};
-    const Reparametrised model(inner, product_and_exponential, -bounds, bounds);
+    const Reparametrized model(inner, product_and_exponential, -bounds, bounds);
     Vector output, plain, plus, minus;
     Matrix sensitivities;
     model.simulate(theta, output, &sensitivities);

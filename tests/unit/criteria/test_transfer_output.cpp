@@ -140,7 +140,7 @@ TEST(transfer_output, initial_values_are_derivatives_at_the_first_sample) {  // 
     }
 }
 
-TEST(transfer_output, tells_what_bears_on_each_output) {  // oracle: definition, columns of the sensitivities
+TEST(transfer_output, reports_what_bears_on_each_output) {  // oracle: definition, columns of the sensitivities
     TransferStructure structure = TransferStructure::grid(2, 2, Denominators::kPerOutput, {2, 2, 1, 1}, {0}, {0.0});
     structure.free_delays = true;
     const TransferOutput model(structure, {InitialState::kEstimate, true}, record(2, 2, Hold::kZoh, true), 0, 1);

@@ -95,8 +95,8 @@ TEST(cbor_values, texts_are_made_utf8_where_that_is_wanted) {
     ValueLimits limits;
     limits.only_utf8 = true;
     const std::map<std::string, std::string> texts = {{"a\xFFz", "\xC3\xA9\xC3"}};
-    const std::map<std::string, std::string> wanted = {{"a\xEF\xBF\xBDz", "\xC3\xA9\xEF\xBF\xBD"}};
-    EXPECT_EQ((from_cbor<std::map<std::string, std::string>>(cbor_of(texts), limits)), wanted);
+    const std::map<std::string, std::string> expected = {{"a\xEF\xBF\xBDz", "\xC3\xA9\xEF\xBF\xBD"}};
+    EXPECT_EQ((from_cbor<std::map<std::string, std::string>>(cbor_of(texts), limits)), expected);
     EXPECT_EQ((from_cbor<std::map<std::string, std::string>>(cbor_of(texts))), texts);
 }
 
@@ -167,7 +167,7 @@ TEST(cbor_values, no_more_memory_is_taken_than_allowed) {
                 HasSubstr("exceeds the limit of 10 bytes"));
 }
 
-TEST(cbor_values, errors_tell_the_place_what_was_wanted_and_given) {
+TEST(cbor_values, errors_report_the_place_what_was_wanted_and_given) {
     const auto with_parts = [](const std::string& part) {
         const std::string bytes = cbor_of(std::vector<Part>{{"a", 1}, {"b", 2}});
         return bytes.substr(0, bytes.size() - cbor_of(Part{"b", 2}).size()) + part;

@@ -158,7 +158,7 @@ std::string shown_table(const CsvTable& table) {
 
 // Every separator with every form of number that goes with it tells the same table.
 TEST_F(csv_file, finds_the_separator) {
-    const std::string wanted = "t|u|y\n0|-1|2.5\n0.1|1e-05|3\n0.2|3|-4.5";
+    const std::string expected = "t|u|y\n0|-1|2.5\n0.1|1e-05|3\n0.2|3|-4.5";
     for (const char* text :
          {"t,u,y\n0,-1,2.5\n0.1,1e-5,3\n0.2,3,-4.5\n",          //
           "t;u;y\n0;-1;2,5\n0,1;1e-5;3\n0,2;3;-4,5\n",          //
@@ -172,19 +172,19 @@ TEST_F(csv_file, finds_the_separator) {
           "sep=;\nt;u;y\n0;-1;2,5\n0,1;1e-5;3\n0,2;3;-4,5\n",
           "t,u,y,\n0,-1,2.5,\n0.1,1e-5,3,\n0.2,3,-4.5,\n",  // rows end in a separator
           "t,u,y\n0,-1,2.5,\n0.1,1e-5,3,\n0.2,3,-4.5,\n"})
-        EXPECT_EQ(shown_table(read(text)), wanted) << text;
+        EXPECT_EQ(shown_table(read(text)), expected) << text;
     EXPECT_EQ(shown_table(read("y\n1,5\n2,5\n")), "y\n1.5\n2.5");
     EXPECT_THAT(texts_of(read("t;u\n0;1,5\n").notes), ElementsAre("the numbers have a decimal comma, as in 1,5"));
     EXPECT_THAT(read("t,u\n0,1.5\n").notes, testing::IsEmpty());
 }
 
-TEST_F(csv_file, passes_over_what_stands_around_a_table) {
-    const std::string wanted = "t|y\n0|1\n1|2";
+TEST_F(csv_file, passes_over_what_is_around_a_table) {
+    const std::string expected = "t|y\n0|1\n1|2";
     for (const char* text : {"% made by hand\nt,y\n0,1\n# changed the probe\n1,2\n% end\n",
                              "LabVIEW Measurement\nDate;2024/01/31\n\nt;y\n0;1\n1;2\n",
                              "Model,TDS 210\nRecord Length,2500\nSample Interval,0.001\nt,y\n0,1\n1,2\n",
                              "# t,y\n0,1\n1,2\n", "% t  y\n0 1\n1 2\n"})
-        EXPECT_EQ(shown_table(read(text)), wanted) << text;
+        EXPECT_EQ(shown_table(read(text)), expected) << text;
     EXPECT_THAT(texts_of(read("A\nB\n\nt;y\n0;1\n1;2\n").notes),
                 ElementsAre("the table starts in line 4; 2 lines above it are skipped"));
     EXPECT_THAT(texts_of(read("# t,y\n0,1\n1,2\n").notes),
@@ -192,10 +192,10 @@ TEST_F(csv_file, passes_over_what_stands_around_a_table) {
 }
 
 TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
-    const std::string wanted = "t|y\n0|nan\n1|2\n2|nan\n3|4";
+    const std::string expected = "t|y\n0|nan\n1|2\n2|nan\n3|4";
     for (const char* missing : {"", "NaN", "nan", "NA", "N/A", "#N/A", "null", "-", "\"\"", " "}) {
         const CsvTable table = read(fmt::format("t,y\n0,{0}\n1,2\n2,{0}\n3,4\n", missing));
-        EXPECT_EQ(shown_table(table), wanted) << missing;
+        EXPECT_EQ(shown_table(table), expected) << missing;
         EXPECT_THAT(
             texts_of(table.notes),
             ElementsAre(
@@ -298,7 +298,7 @@ TEST_F(csv_file, units_in_cells_become_the_columns_units) {
 }
 
 TEST_F(csv_file, signs_between_thousands_are_read_where_they_are_certain) {
-    const Vector wanted{{1234.5, 12345.25, 1234567}};
+    const Vector expected{{1234.5, 12345.25, 1234567}};
     for (const char* text :
          {"t;y\n0;1.234,5\n1;12.345,25\n2;1.234.567\n", "t\ty\n0\t1,234.5\n1\t12,345.25\n2\t1,234,567\n",
           "t,y\n0,\"1,234.5\"\n1,\"12,345.25\"\n2,\"1,234,567\"\n", "t;y\n0;1 234,5\n1;12 345,25\n2;1 234 567\n",
@@ -308,7 +308,7 @@ TEST_F(csv_file, signs_between_thousands_are_read_where_they_are_certain) {
           "t;y\n0;1'234.5\n1;12'345.25\n2;1'234'567\n",
           "t;y\n0;1\u2019234.5\n1;12\u2019345.25\n2;1\u2019234\u2019567\n"}) {
         const CsvTable table = read(text);
-        EXPECT_EQ(table.columns[1], wanted) << text;
+        EXPECT_EQ(table.columns[1], expected) << text;
         EXPECT_THAT(texts_of(table.notes), testing::Contains(HasSubstr("contains thousands"))) << text;
     }
     // One sign before three digits is what the other numbers leave.
@@ -321,13 +321,13 @@ TEST_F(csv_file, signs_between_thousands_are_read_where_they_are_certain) {
 }
 
 TEST_F(csv_file, lines_below_a_table_are_left_out) {
-    std::string rows = "t;u;y\n", wanted = "t|u|y";
+    std::string rows = "t;u;y\n", expected = "t|u|y";
     for (int i = 0; i < 12; ++i)
-        rows += fmt::format("{};{};{}\n", i, i + 1, i + 2), wanted += fmt::format("\n{}|{}|{}", i, i + 1, i + 2);
+        rows += fmt::format("{};{};{}\n", i, i + 1, i + 2), expected += fmt::format("\n{}|{}|{}", i, i + 1, i + 2);
     for (const char* footer : {"END\n", "\nEND", "END;;\n", "Mean;2;3\nMax;3;4\n", "\nStatistics\nMean;2;3\n",
                                "Samples: 3\n", ";;\n;;\n", ";;\nTotal;6;9\n", "# end\n", "--- end of file ---\n",
                                "Comment;made by hand;\n", ";;Mean 3\n", "*** 3 samples ***\nDuration;2 s\n"}) {
-        EXPECT_EQ(shown_table(read(rows + footer)), wanted) << footer;
+        EXPECT_EQ(shown_table(read(rows + footer)), expected) << footer;
     }
     EXPECT_THAT(texts_of(read(rows + "END\n").notes),
                 ElementsAre("dynlab ignores line 14 and the lines after it, which are below the table: \"END\""));
@@ -388,12 +388,12 @@ TEST_F(csv_file, instruments_exports_are_read) {
 }
 
 TEST_F(csv_file, reads_other_alphabets) {
-    const std::string wanted = "temps|Temp\u00E9rature\n0|20.5\n1|21";
-    EXPECT_EQ(shown_table(read("temps;Temp\u00E9rature (\u00B0C)\n0;20,5\n1;21\n")), wanted);
+    const std::string expected = "temps|Temp\u00E9rature\n0|20.5\n1|21";
+    EXPECT_EQ(shown_table(read("temps;Temp\u00E9rature (\u00B0C)\n0;20,5\n1;21\n")), expected);
     const CsvTable windows = read(
         "temps;Temp\xE9rature (\xB0"
         "C)\r\n0;20,5\r\n1;21\r\n");
-    EXPECT_EQ(shown_table(windows), wanted);
+    EXPECT_EQ(shown_table(windows), expected);
     EXPECT_EQ(windows.units.at("Temp\u00E9rature"), "\u00B0C");
     EXPECT_EQ(message_text(windows.notes.front()),
               "the text is not UTF-8 and was read as Windows-1252, for example \"Temp\u00E9rature\"");
@@ -403,12 +403,12 @@ TEST_F(csv_file, reads_other_alphabets) {
             const char low = static_cast<char>(c & 0xFF), high = static_cast<char>(c >> 8);
             utf16 += big_endian ? std::string{high, low} : std::string{low, high};
         }
-        EXPECT_EQ(shown_table(read(utf16)), wanted);
+        EXPECT_EQ(shown_table(read(utf16)), expected);
     }
     EXPECT_EQ(shown_table(read("t,y\r0,1\r1,2\r")), "t|y\n0|1\n1|2");
 }
 
-TEST_F(csv_file, does_as_it_is_told) {
+TEST_F(csv_file, follows_the_given_options) {
     const auto with = [this](const std::string& text, const ImportOptions& options) {
         write_file_atomically(file_, text);
         return read_csv_file(file_, options);
@@ -509,16 +509,16 @@ std::string row_of(std::size_t n, const std::string& text) {
 
 // Oracle: what the header of reading_memory states, as the kernel counts it.
 TEST_F(csv_file, many_cells_take_a_memory_with_a_limit) {
-    constexpr double kMost = 512;  // MB
+    constexpr double kMax = 512;  // MB
     const std::string commas = "t,y\n" + std::string(50 << 20, ',') + "\n";
-    const auto peak_of = [this](const std::string& text, const std::string& wanted) {
-        return test::peak_memory([&] { EXPECT_THAT(complaint(text), HasSubstr(wanted)); });
+    const auto peak_of = [this](const std::string& text, const std::string& expected) {
+        return test::peak_memory([&] { EXPECT_THAT(complaint(text), HasSubstr(expected)); });
     };
     const double before = test::peak_memory([] {});
-    EXPECT_LT(peak_of(commas, "line 2: the row has more than 100000 cells") - before, kMost);
+    EXPECT_LT(peak_of(commas, "line 2: the row has more than 100000 cells") - before, kMax);
     std::string words = "name\n";
     for (int i = 0; i < 16 << 20; ++i) words += "ab\n";
-    EXPECT_LT(peak_of(words, "the table has too many cells: reading it takes more than 512 MB") - before, kMost);
+    EXPECT_LT(peak_of(words, "the table has too many cells: reading it takes more than 512 MB") - before, kMax);
 }
 
 // Oracle: eight bytes for a number, and the text.

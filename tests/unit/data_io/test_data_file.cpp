@@ -68,7 +68,7 @@ TEST(data_file, takes_the_column_that_is_named_for_the_time) {
     EXPECT_EQ(std::get<double>(data.variables.at("Ts").value), 30);
     EXPECT_EQ(data.units.at("t"), "s");
     EXPECT_EQ(read("clock\ty\n1\t5\n2\t6\n4\t7\n").variables.count("Ts"), 0u);
-    for (const auto& [text, wanted] :
+    for (const auto& [text, expected] :
          {std::pair{"clock\ty\n1\t5\n1\t6\n", "must increase, but sample 1 is 1 and the next sample is 1"},
           {"clock\ty\na\t5\nb\t6\n", "is not a column of numbers"},
           {"clock (V)\ty\n1\t5\n2\t6\n", "has the unit V, which is not a unit of time"}}) {
@@ -76,7 +76,7 @@ TEST(data_file, takes_the_column_that_is_named_for_the_time) {
             read(text);
             ADD_FAILURE() << text;
         } catch (const EnvironmentError& error) {
-            EXPECT_THAT(error.what(), HasSubstr(wanted));
+            EXPECT_THAT(error.what(), HasSubstr(expected));
         }
     }
     const LoadedData beside_t = read("clock (min)\tt\n1\t20\n1.5\t21\n");

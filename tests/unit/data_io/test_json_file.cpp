@@ -73,17 +73,17 @@ TEST_F(json_file, keeps_every_bit_and_the_same_bytes) {
 }
 
 TEST_F(json_file, refuses_what_is_none_with_its_place) {
-    const auto told = [&](const std::string& text) {
+    const auto reported = [&](const std::string& text) {
         const std::filesystem::path path = file(text);
         return refusal_of([&] { read_json_file(path); });
     };
-    EXPECT_THAT(told("{\"x\": 1,\n \"y\" 2}"), HasSubstr("a.json is not JSON: line 2, column 6"));
-    EXPECT_THAT(told(""), HasSubstr("is not JSON"));
-    EXPECT_THAT(told("[1, 2]"), HasSubstr("the outermost value must be an object"));
-    EXPECT_THAT(told("{\"x\": 1, \"x\": 2}"), HasSubstr("the name \"x\" occurs twice"));
-    EXPECT_THAT(told("{\"x\": " + std::string(5000, '[') + std::string(5000, ']') + "}"),
+    EXPECT_THAT(reported("{\"x\": 1,\n \"y\" 2}"), HasSubstr("a.json is not JSON: line 2, column 6"));
+    EXPECT_THAT(reported(""), HasSubstr("is not JSON"));
+    EXPECT_THAT(reported("[1, 2]"), HasSubstr("the outermost value must be an object"));
+    EXPECT_THAT(reported("{\"x\": 1, \"x\": 2}"), HasSubstr("the name \"x\" occurs twice"));
+    EXPECT_THAT(reported("{\"x\": " + std::string(5000, '[') + std::string(5000, ']') + "}"),
                 HasSubstr("deeper than 100 levels"));
-    EXPECT_THAT(told("{\"x\": \"\xff\"}"), HasSubstr("is not JSON"));
+    EXPECT_THAT(reported("{\"x\": \"\xff\"}"), HasSubstr("is not JSON"));
     EXPECT_THAT(refusal_of([&] { read_json_file(folder_.path() / "none.json"); }), HasSubstr("none.json"));
 }
 

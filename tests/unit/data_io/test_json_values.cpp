@@ -59,7 +59,7 @@ TEST(json_values, long_lists_and_objects_are_read) {
     EXPECT_EQ(value.back().at("last"), 2);
 }
 
-TEST(json_values, errors_tell_the_place) {
+TEST(json_values, errors_report_the_place) {
     EXPECT_EQ(refusal<std::vector<Part>>(R"([{"name": "a", "count": 1}, {"name": 3, "count": 1}])"),
               "[2].name: expected a text, got JSON of the type number");
     EXPECT_EQ(refusal<std::vector<Part>>(R"([{"name": "a"}])"), "[1]: its member \"count\" is missing");

@@ -210,11 +210,11 @@ TEST_F(mat_file, names_what_cannot_be_represented) {
     // Byte 144 holds the class (MAT-File Format, array flags): 3 object, 16 function handle, 17 opaque.
     write_array<double>(MAT_FT_MAT5, MAT_C_DOUBLE, MAT_T_DOUBLE, {1, 2}, {1, 2});
     const std::string bytes = read_file(file_);
-    for (const auto& [kind, wanted] : {std::pair{3, "x is an object"}, {16, "x is a function handle"}}) {
+    for (const auto& [kind, expected] : {std::pair{3, "x is an object"}, {16, "x is a function handle"}}) {
         std::string other = bytes;
         other[144] = static_cast<char>(kind);
         write_file_atomically(file_, other);
-        EXPECT_THAT(complaint(), HasSubstr(wanted));
+        EXPECT_THAT(complaint(), HasSubstr(expected));
     }
 }
 
@@ -227,7 +227,7 @@ std::string element_5(std::uint32_t type, const std::string& content) {
 }
 
 // The form in which MATLAB saves tables and string arrays: flags of class 17, name, "MCOS", the class's name, numbers.
-TEST_F(mat_file, tells_where_a_table_stands) {
+TEST_F(mat_file, reports_where_a_table_is) {
     VariableTable one;
     one["a"] = {1.0};
     write(MAT_FT_MAT5, one);

@@ -23,11 +23,11 @@ class said_messages : public testing::Test {
 };
 
 TEST_F(said_messages, are_the_same_when_they_are_read) {
-    const SaidMessages said{{Message("{} (up to date)", "a.pdf")},
-                            {Message("there is no {}", "b"), plural(2, "{} gap", "{} gaps")},
-                            {Message::verbatim("c")}};
-    write_said_messages(file(), said);
-    const SaidMessages read = read_said_messages(file());
+    const CommandMessages said{{Message("{} (up to date)", "a.pdf")},
+                               {Message("there is no {}", "b"), plural(2, "{} gap", "{} gaps")},
+                               {Message::verbatim("c")}};
+    write_command_messages(file(), said);
+    const CommandMessages read = read_command_messages(file());
     EXPECT_EQ(read.results, said.results);
     EXPECT_EQ(read.complaints, said.complaints);
     EXPECT_EQ(read.notes, said.notes);
@@ -36,20 +36,20 @@ TEST_F(said_messages, are_the_same_when_they_are_read) {
 }
 
 TEST_F(said_messages, of_no_file_or_another_one_are_none) {
-    EXPECT_TRUE(read_said_messages(file()).empty());
-    write_said_messages(file(), {{Message("a")}, {}, {}});
+    EXPECT_TRUE(read_command_messages(file()).empty());
+    write_command_messages(file(), {{Message("a")}, {}, {}});
     const std::string bytes = read_file(file());
     for (const std::string& other :
          {std::string(), std::string("{}"), bytes.substr(0, bytes.size() / 2), std::string(2 << 20, 'x')}) {
         write(other);
-        EXPECT_TRUE(read_said_messages(file()).empty()) << other.size();
+        EXPECT_TRUE(read_command_messages(file()).empty()) << other.size();
     }
     fs::remove(file());
     fs::create_directory(file());
-    EXPECT_TRUE(read_said_messages(file()).empty());
+    EXPECT_TRUE(read_command_messages(file()).empty());
     fs::remove(file());
     fs::create_symlink("/dev/zero", file());
-    EXPECT_TRUE(read_said_messages(file()).empty());
+    EXPECT_TRUE(read_command_messages(file()).empty());
 }
 
 }  // namespace test_said_messages

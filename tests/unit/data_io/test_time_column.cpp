@@ -210,11 +210,11 @@ std::string clock_text(double seconds, const char* form) {
     const int whole = static_cast<int>(std::floor(seconds + 1e-9)), h = whole / 3600 % 24, m = whole / 60 % 60,
               s = whole % 60;
     const int ms = static_cast<int>(std::lround((seconds - whole) * 1000));
-    const std::string wanted = form;
-    if (wanted == "hms") return fmt::format("{:02}:{:02}:{:02}", h, m, s);
-    if (wanted == "ms") return fmt::format("{:02}:{:02}:{:02}.{:03}", h, m, s, ms);
-    if (wanted == "comma") return fmt::format("{:02}:{:02}:{:02},{:03}", h, m, s, ms);
-    if (wanted == "ampm") return fmt::format("{}:{:02}:{:02} {}", (h + 11) % 12 + 1, m, s, h < 12 ? "AM" : "PM");
+    const std::string expected = form;
+    if (expected == "hms") return fmt::format("{:02}:{:02}:{:02}", h, m, s);
+    if (expected == "ms") return fmt::format("{:02}:{:02}:{:02}.{:03}", h, m, s, ms);
+    if (expected == "comma") return fmt::format("{:02}:{:02}:{:02},{:03}", h, m, s, ms);
+    if (expected == "ampm") return fmt::format("{}:{:02}:{:02} {}", (h + 11) % 12 + 1, m, s, h < 12 ? "AM" : "PM");
     return fmt::format("{}:{:02}:{:02}", (h + 11) % 12 + 1, m, s);
 }
 

@@ -63,9 +63,9 @@ class workbook : public testing::Test {
             {"xl/worksheets/sheet1.xml", sheet(rows)},
             {"xl/worksheets/sheet2.xml", sheet("<row><c><v>5</v></c><c><v>6</v></c></row>")}};
     }
-    std::string complaint(const std::string& wanted = "") {
+    std::string complaint(const std::string& expected = "") {
         try {
-            read_sheet(file_, wanted);
+            read_sheet(file_, expected);
         } catch (const EnvironmentError& error) {
             EXPECT_THAT(error.what(), HasSubstr(file_.string()));
             return error.what();

@@ -86,7 +86,7 @@ TEST(percent_script, reads_windows_line_ends) {
     EXPECT_EQ(script.cells[0].content, "text\n");
 }
 
-TEST(percent_script, header_mistakes_name_the_line_and_the_mend) {
+TEST(percent_script, header_mistakes_name_the_line_and_the_fix) {
     EXPECT_THAT(refusal("-- ---\n-- titel: A\n-- ---\n"), StartsWith("lesson.lua:2: "));
     EXPECT_THAT(refusal("-- ---\n-- titel: A\n-- ---\n"), HasSubstr("did you mean \"title\"?"));
     EXPECT_THAT(refusal("-- ---\n-- colour: A\n-- ---\n"), HasSubstr("the keys are title, subtitle"));
@@ -104,16 +104,16 @@ TEST(percent_script, header_mistakes_name_the_line_and_the_mend) {
     EXPECT_THAT(refusal("-- ---\n--   G1: model\n-- ---\n"), HasSubstr("answers:"));
 }
 
-TEST(percent_script, all_mistakes_of_a_header_are_told_at_once) {
-    const std::string told = refusal("-- ---\n-- titel: A\n-- seed: one\n-- language: fr\n-- lessn: 2\n-- ---\n");
-    std::vector<std::string> lines = lines_of(told);
-    ASSERT_EQ(lines.size(), 3u) << told;
+TEST(percent_script, all_mistakes_of_a_header_are_reported_at_once) {
+    const std::string reported = refusal("-- ---\n-- titel: A\n-- seed: one\n-- language: fr\n-- lessn: 2\n-- ---\n");
+    std::vector<std::string> lines = lines_of(reported);
+    ASSERT_EQ(lines.size(), 3u) << reported;
     EXPECT_THAT(lines[0], StartsWith("lesson.lua:2: "));
     EXPECT_THAT(lines[1], StartsWith("lesson.lua:3: "));
     EXPECT_THAT(lines[2], StartsWith("lesson.lua:5: "));
 }
 
-TEST(percent_script, cell_mistakes_name_the_line_and_the_mend) {
+TEST(percent_script, cell_mistakes_name_the_line_and_the_fix) {
     EXPECT_THAT(refusal("-- %% ecoh=false\n"), StartsWith("lesson.lua:1: "));
     EXPECT_THAT(refusal("-- %% ecoh=false\n"), HasSubstr("did you mean \"echo\"?"));
     EXPECT_THAT(refusal("-- %% echo=no\n"), HasSubstr("true or false"));
@@ -126,7 +126,7 @@ TEST(percent_script, cell_mistakes_name_the_line_and_the_mend) {
 }
 
 // Field case 18: a cell that was copied with its marker.
-TEST(percent_script, a_copied_cell_has_an_id_of_its_own_and_says_whose_it_repeats) {
+TEST(percent_script, a_copied_cell_has_an_id_of_its_own_and_names_the_repeated_cell) {
     const PercentScript script = parse("-- %% id=a\nx=1\n-- %% id=a\ny=1\n-- %%\nz=1\n-- %% id=cell-3\nw=1\n");
     std::vector<std::string> ids, repeated;
     for (const Cell& cell : script.cells) ids.push_back(cell.id), repeated.push_back(cell.repeats);

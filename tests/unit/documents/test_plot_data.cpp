@@ -55,7 +55,7 @@ TEST(plot_data, holds_the_samples_to_1e_5_of_the_axis) {
     }
 }
 
-TEST(plot_data, tells_equally_spaced_samples_by_three_numbers) {
+TEST(plot_data, describes_equally_spaced_samples_by_three_numbers) {
     const json x = first_curve(figure_of(Vector::LinSpaced(101, 3, 4), Vector::Random(101)))["x"];
     EXPECT_EQ(x["from"], 3.0);
     EXPECT_NEAR(x["step"], 0.01, 1e-15);

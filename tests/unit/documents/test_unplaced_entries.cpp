@@ -24,7 +24,7 @@ RunRecord record() {
     return all;
 }
 
-TEST(unplaced_entries, are_told_with_the_line_to_write) {
+TEST(unplaced_entries, are_reported_with_the_line_to_write) {
     std::vector<std::string> texts;
     for (const UnplacedEntries& entries :
          unplaced_entries(record(), "Only words, and `gain` without a slot; ![](figure:residuals_3){#fig:x}"))

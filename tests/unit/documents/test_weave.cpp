@@ -128,7 +128,7 @@ TEST(weave, empty_lines_at_the_end_of_an_output_are_not_shown) {
     EXPECT_EQ(text.find("{.output}"), text.rfind("{.output}"));
 }
 
-TEST(weave, a_recorded_error_stands_at_its_cell) {
+TEST(weave, a_recorded_error_is_at_its_cell) {
     RunRecord record;
     record.error = RecordedError{Message("x is nil"), "lesson.lua", 2};
     const std::string text = weave("-- %%\nx()\n-- %% [markdown]\n-- after\n", record).text;

@@ -150,7 +150,7 @@ TEST(armax, long_records_end_where_the_search_from_the_truth_ends) {
         const Fit found = armax(data, kOrders, tight());
         const std::vector<SampledExperiment> experiments{{data.experiments[0].u, data.experiments[0].y.col(0)}};
         const PredictionModel model(kOrders, {InitialState::kEstimate, false}, experiments);
-        const Fit best = minimise_output_error(model, model.target(), kTheta, FitOptions{}.limited(200, 1e-10));
+        const Fit best = minimize_output_error(model, model.target(), kTheta, FitOptions{}.limited(200, 1e-10));
         EXPECT_LT((found.theta - best.theta).cwiseAbs().maxCoeff(), 1e-7);
         EXPECT_LT((found.theta - kTheta).cwiseQuotient(found.std).cwiseAbs().maxCoeff(), 4.5);
     }

@@ -124,7 +124,7 @@ TEST(arx,
     EXPECT_NEAR(result.noise_variance[0], (right - Phi * result.theta).squaredNorm() / (2997 - 4), 1e-9);
 }
 
-TEST(arx, too_high_orders_are_told) {  // oracle: the simulated system; the past takes five of 400 samples
+TEST(arx, too_high_orders_are_reported) {  // oracle: the simulated system; the past takes five of 400 samples
     const auto result = arx(record(400, 0, 1), PolynomialOrders::arx(4, {4}, {2}));
     EXPECT_THAT(message_text(result.message), HasSubstr("Least squares over 395 equations: fit "));
     EXPECT_THAT(message_text(result.full_message()), HasSubstr("do not determine all parameters separately"));

@@ -120,7 +120,7 @@ TEST(bj, long_records_end_where_the_search_from_the_truth_ends) {
         const std::vector<SampledExperiment> experiments{{data.experiments[0].u, data.experiments[0].y.col(0)}};
         const PredictionModel model(kOrders, {InitialState::kZero, false}, experiments);
         const Fit best =
-            minimise_output_error(model, model.target(), model.completed(kTheta), FitOptions{}.limited(200, 1e-10));
+            minimize_output_error(model, model.target(), model.completed(kTheta), FitOptions{}.limited(200, 1e-10));
         EXPECT_LT((found.theta - best.theta.head(kTheta.size())).cwiseAbs().maxCoeff(), 1e-7) << kind;
     }
 }

@@ -11,7 +11,7 @@ using namespace dynlab;
 
 TEST(catalogue, every_method_has_its_files) {  // oracle: the source tree
     const std::filesystem::path root = DYNLAB_SOURCE_DIR;
-    for (const MethodEntry& method : method_catalogue()) {
+    for (const MethodEntry& method : method_catalog()) {
         EXPECT_TRUE(exists(root / "engine/numerics/estimators" / (method.file + ".h"))) << method.file;
         EXPECT_TRUE(exists(root / "engine/numerics/estimators" / (method.file + ".cpp"))) << method.file;
         const std::filesystem::path test = root / "tests/unit/estimators" / method.file;
@@ -21,7 +21,7 @@ TEST(catalogue, every_method_has_its_files) {  // oracle: the source tree
 
 TEST(catalogue, every_file_is_a_method_and_every_folder_a_family) {  // oracle: the source tree
     std::set<std::string> known{"catalogue"};
-    for (const MethodEntry& method : method_catalogue()) known.insert(method.file.substr(0, method.file.find('/')));
+    for (const MethodEntry& method : method_catalog()) known.insert(method.file.substr(0, method.file.find('/')));
     const std::filesystem::path folder = std::filesystem::path(DYNLAB_SOURCE_DIR) / "engine/numerics/estimators";
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (!entry.is_regular_file()) continue;
@@ -32,7 +32,7 @@ TEST(catalogue, every_file_is_a_method_and_every_folder_a_family) {  // oracle: 
 
 TEST(catalogue, names_are_unique_and_found) {  // oracle: definition
     std::set<std::string> names;
-    for (const MethodEntry& method : method_catalogue()) {
+    for (const MethodEntry& method : method_catalog()) {
         ASSERT_FALSE(method.lua_names.empty());
         EXPECT_FALSE(method.title.empty() || method.structure.empty() || method.noise.empty() ||
                      method.reference.empty());

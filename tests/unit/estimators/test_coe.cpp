@@ -263,7 +263,7 @@ TEST(coe, refuses_bad_input_in_words) {  // oracle: the sentence names what is w
     EXPECT_THAT(refusal(data, with_free_delay(2, 0), options), HasSubstr("at least `least_delay`"));
 }
 
-TEST(coe, zero_input_tells_nothing) {  // oracle: the criterion
+TEST(coe, zero_input_has_no_information) {  // oracle: the criterion
     const Vector zero = Vector::Zero(100);
     EXPECT_EQ(lsim(TransferFunction(values({2}), values({1, 4, 3})), zero, 0.01),
               lsim(TransferFunction(values({7}), values({1, 2, 9})), zero, 0.01));

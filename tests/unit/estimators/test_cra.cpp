@@ -31,7 +31,7 @@ CraOptions with(Index lags, Index whitening) {
 }
 
 /// An autoregressive input of which the whitening filter is known.
-Vector coloured(Index N, std::uint32_t seed) {
+Vector colored(Index N, std::uint32_t seed) {
     return divided_by(Vector{{1.0, -1.2, 0.5}}, RandomStream(seed).normal(N));
 }
 
@@ -48,17 +48,17 @@ TEST(cra, is_the_correlation_divided_by_the_power) {  // oracle: direct sums
 }
 
 TEST(cra, finds_the_whitening_filter) {  // oracle: the autoregression put in
-    const CorrelationAnalysis result = cra(record(coloured(50000, 3), 0, 1), with(10, 2));
+    const CorrelationAnalysis result = cra(record(colored(50000, 3), 0, 1), with(10, 2));
     EXPECT_NEAR(result.whitening_filter[1], -1.2, 0.02);
     EXPECT_NEAR(result.whitening_filter[2], 0.5, 0.02);
     EXPECT_LT(result.input_correlation.tail(10).cwiseAbs().maxCoeff(), 4 / std::sqrt(50000.0));
 }
 
 TEST(cra, whitening_makes_it_the_impulse_response) {  // oracle: the response put in, within four standard errors
-    const CorrelationAnalysis result = cra(record(coloured(20000, 5), 0.3, 1), with(10, 10));
+    const CorrelationAnalysis result = cra(record(colored(20000, 5), 0.3, 1), with(10, 10));
     const Vector error = (result.impulse.response - kResponse).cwiseAbs();
     EXPECT_LT((error.array() / result.impulse.std.array()).maxCoeff(), 4);
-    const CorrelationAnalysis without = cra(record(coloured(20000, 5), 0.3, 1), with(10, 0));
+    const CorrelationAnalysis without = cra(record(colored(20000, 5), 0.3, 1), with(10, 0));
     EXPECT_GT((without.impulse.response - kResponse).cwiseAbs().maxCoeff(), 0.3);
     EXPECT_FALSE(without.impulse.warnings.empty());
 }
@@ -66,7 +66,7 @@ TEST(cra, whitening_makes_it_the_impulse_response) {  // oracle: the response pu
 TEST(cra, chance_stays_inside_its_band) {  // oracle: independent signals, share over 100 seeds
     Index outside = 0;
     for (std::uint32_t seed = 1; seed <= 100; ++seed) {
-        const IdData data(Matrix(RandomStream(seed + 500).normal(1000)), Matrix(coloured(1000, seed)), 1);
+        const IdData data(Matrix(RandomStream(seed + 500).normal(1000)), Matrix(colored(1000, seed)), 1);
         const ImpulseEstimate estimate = cra(data, with(30, 5)).impulse;
         outside += (estimate.response.array().abs() > 2.576 * estimate.null_std.array()).count();
     }
@@ -90,7 +90,7 @@ TEST(cra, experiments_are_joined) {  // oracle: sums over both
     EXPECT_LT((joint - sum / (power(a) + power(b))).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-TEST(cra, a_regular_input_is_told_and_a_sine_does_no_harm) {
+TEST(cra, a_regular_input_is_reported_and_a_sine_does_no_harm) {
     Vector u(300);
     for (Index k = 0; k < 300; ++k) u[k] = std::sin(0.2 * static_cast<double>(k));
     const ImpulseEstimate estimate = cra(record(u, 0.01, 1)).impulse;

@@ -58,7 +58,7 @@ TEST(gradient_descent, loss_never_grows_below_the_limit_and_runs_away_beyond_it)
     EXPECT_TRUE(wild.theta.allFinite());
 }
 
-TEST(gradient_descent, tells_when_it_was_too_slow) {  // justified: years uncentred have condition number 1e9
+TEST(gradient_descent, reports_when_it_was_too_slow) {  // justified: years uncentred have condition number 1e9
     Matrix Phi = Matrix::Ones(29, 2);
     Phi.col(0) = Vector::LinSpaced(29, 1896, 2020);
     const Vector y = 11 - 0.012 * (Phi.col(0).array() - 1896);

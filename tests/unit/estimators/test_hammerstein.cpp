@@ -186,7 +186,7 @@ TEST(hammerstein, of_a_binary_input_is_the_linear_model_with_an_offset) {
     EXPECT_NEAR(result.loss / linear.loss, 1, 1e-9);
 }
 
-TEST(hammerstein, tells_when_a_line_would_do) {  // oracle: the simulated system is linear
+TEST(hammerstein, reports_when_a_line_would_do) {  // oracle: the simulated system is linear
     const Vector u = levels_of(1500, 5);
     const Vector y = lsim(without_zero().G, u.array() - u[0], 0.05).array() + u[0];
     const IdData data(Matrix(y + 0.05 * RandomStream(1).normal(1500)), Matrix(u), 0.05);
@@ -198,7 +198,7 @@ TEST(hammerstein, tells_when_a_line_would_do) {  // oracle: the simulated system
             << i;
 }
 
-TEST(hammerstein, record_that_begins_at_zero_input_is_told_apart) {  // oracle: the levels put in
+TEST(hammerstein, record_that_begins_at_zero_input_is_distinguished) {  // oracle: the levels put in
     const Vector u = levels_of(1500, 7), f = characteristic(u);
     for (const double before : {0.0, f[0]}) {
         const Vector y = lsim(without_zero().G, f.array() - before, 0.05).array() + before;

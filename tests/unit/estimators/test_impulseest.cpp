@@ -158,7 +158,7 @@ TEST(impulseest, reads_the_dead_time) {    // oracle: the dead time put in, 100 
     }
 }
 
-TEST(impulseest, an_input_without_effect_is_told) {  // oracle: independent noise; false alarms over 200 seeds
+TEST(impulseest, an_input_without_effect_is_reported) {  // oracle: independent noise; false alarms over 200 seeds
     Index alarms = 0;
     for (std::uint32_t seed = 1; seed <= 200; ++seed) {
         const Vector u = random_levels(500, 1, seed);
@@ -199,7 +199,7 @@ TEST(impulseest, says_what_it_needs) {
     EXPECT_THAT(thrown_message([&] { impulseest(data.select({1}, {})); }), HasSubstr("no input"));
 }
 
-TEST(impulseest, a_response_that_outlasts_the_lags_is_told) {
+TEST(impulseest, a_response_that_outlasts_the_lags_is_reported) {
     const Vector g = Vector::Constant(200, 0.1);
     const ImpulseEstimate estimate = impulseest(record(g, RandomStream(1).normal(900), 0.01, 1), plain(40));
     ASSERT_EQ(estimate.warnings.size(), 1u);

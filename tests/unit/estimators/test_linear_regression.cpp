@@ -79,15 +79,16 @@ TEST(linear_regression, centring_changes_the_conditioning_only) {  // oracle: se
     const Index N = 29;
     const Vector years = Vector::LinSpaced(N, 1896, 2020);
     const Vector times = 11.0 - 0.012 * (years.array() - 1896) + 0.1 * RandomStream(2).normal(N).array();
-    const PolynomialFit centred = fit_polynomial(years, times, 1), plain = fit_polynomial(years, times, 1, {false, {}});
-    EXPECT_LT(centred.regression.condition_number, 50);
+    const PolynomialFit centered = fit_polynomial(years, times, 1),
+                        plain = fit_polynomial(years, times, 1, {false, {}});
+    EXPECT_LT(centered.regression.condition_number, 50);
     EXPECT_GT(plain.regression.condition_number, 1e4);
-    EXPECT_NEAR(centred.coefficients[0], plain.coefficients[0], 1e-12);
-    EXPECT_NEAR(centred.coefficients[1], plain.coefficients[1], 1e-9);
-    const Forecast a = forecast(centred, 2024), b = forecast(plain, 2024);
+    EXPECT_NEAR(centered.coefficients[0], plain.coefficients[0], 1e-12);
+    EXPECT_NEAR(centered.coefficients[1], plain.coefficients[1], 1e-9);
+    const Forecast a = forecast(centered, 2024), b = forecast(plain, 2024);
     EXPECT_NEAR(a.value, b.value, 1e-10);
     EXPECT_NEAR(a.high, b.high, 1e-9);
-    EXPECT_NEAR(forecast(centred, 1950).value, forecast(plain, 1950).value, 1e-10);
+    EXPECT_NEAR(forecast(centered, 1950).value, forecast(plain, 1950).value, 1e-10);
 }
 
 TEST(linear_regression, polynomial_coefficients_describe_the_same_curve) {  // oracle: analytic
@@ -112,7 +113,8 @@ TEST(linear_regression, interval_covers_as_often_as_it_says) {  // oracle: stati
     EXPECT_NEAR(covered / double(runs), 0.9, 4 * std::sqrt(0.9 * 0.1 / runs));
 }
 
-TEST(linear_regression, dependent_columns_are_told) {  // oracle: analytic, solution of least norm of [1 1] theta = 2
+TEST(linear_regression,
+     dependent_columns_are_reported) {  // oracle: analytic, solution of least norm of [1 1] theta = 2
     Matrix Phi = Matrix::Ones(5, 2);
     const LinearRegression fit = lsq(Phi, Vector::Constant(5, 2));
     EXPECT_EQ(fit.rank, 1);

@@ -35,7 +35,7 @@ TEST(lssvf, equals_least_squares_on_the_columns_of_svf) {  // oracle: second rou
     EXPECT_LT(relative_difference(found.covariance.diagonal(), variance * expected.inverse_gram.diagonal()), 1e-9);
     EXPECT_EQ(found.names, (std::vector<std::string>{"a1", "a2", "b0"}));
 
-    colour_covariance(found, data, cutoff(3), false);
+    color_covariance(found, data, cutoff(3), false);
     const DenominatorGroup group(data, kCourse, 0, Hold::kFoh);
     const EstimatingTerms terms = estimating_terms(group, values({1, 6, 9}), 1, found.theta);
     const Matrix covariance = robust_covariance(expected.inverse_gram, terms.Z, terms.errors).covariance;
@@ -44,13 +44,13 @@ TEST(lssvf, equals_least_squares_on_the_columns_of_svf) {  // oracle: second rou
 }
 
 TEST(lssvf, long_records_keep_the_errors_of_a_white_equation_error_and_say_so) {  // oracle: nothing but the sentence
-    const Index N = kMostColoured + 1;
+    const Index N = kMaxColoredSamples + 1;
     const Vector u = RandomStream(1).normal(N);
     const Vector y = lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.01) + 0.1 * RandomStream(2).normal(N);
     const IdData data{Matrix(y), Matrix(u), 0.01};
     Fit found = lssvf(data, kCourse, cutoff(3));
     const Matrix plain = found.covariance;
-    colour_covariance(found, data, cutoff(3), false);
+    color_covariance(found, data, cutoff(3), false);
     EXPECT_EQ(found.covariance, plain);
     EXPECT_NE(message_text(found.full_message()).find("assume a white"), std::string::npos)
         << message_text(found.full_message());

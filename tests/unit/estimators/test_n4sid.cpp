@@ -171,7 +171,7 @@ TEST(n4sid, noise_averages_out) {  // oracle: consistency, error ~ 1/sqrt(N), fi
     }
 }
 
-TEST(n4sid, tells_of_more_states_than_the_data_show) {  // oracle: the simulated order
+TEST(n4sid, reports_more_states_than_the_data_show) {  // oracle: the simulated order
     const auto result = n4sid(record(square_system(false), 400, 0, 1), 6);
     EXPECT_THAT(message_text(result.fit.full_message()), HasSubstr("The data support only 3 states"));
 }

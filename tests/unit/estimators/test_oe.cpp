@@ -110,12 +110,12 @@ TEST(oe, operating_point_is_removed) {  // oracle: the same record without it
     experiment.u.array() -= experiment.u.mean();
     experiment.y.array() -= experiment.y.mean();
     FitOptions options = tight().from_rest();
-    const auto centred = oe(data, c.orders, options);
+    const auto centered = oe(data, c.orders, options);
     experiment.u.array() += 5;
     experiment.y.array() += 40;
     options.offset = Offset::kRemove;
     const auto result = oe(data, c.orders, options);
-    EXPECT_LT(worst_relative(result.theta, centred.theta), 1e-8);
+    EXPECT_LT(worst_relative(result.theta, centered.theta), 1e-8);
     EXPECT_NEAR(result.offsets(0, 0), 40, 1e-9);
 }
 

@@ -481,7 +481,7 @@ TEST(procsrivc, a_long_record_chooses_its_start_as_a_whole) {  // oracle: the si
         EXPECT_NEAR(result.theta[i], truth, 4 * result.std[i]);
 }
 
-TEST(procsrivc, a_beginning_that_tells_nothing_is_no_start) {  // oracle: the simulated system
+TEST(procsrivc, a_beginning_that_has_no_information_is_no_start) {  // oracle: the simulated system
     const Index N = 60'000, silent = 25'000;
     Vector u = rough_input(N, 12);
     u.head(silent).setZero();
@@ -506,7 +506,8 @@ TEST(procsrivc, zero_and_delay_of_p1dz_have_no_standard_errors) {  // oracle: n 
     EXPECT_LT(std::abs(found.theta[1] - 2), 4 * found.std[1]);
 }
 
-TEST(procsrivc, a_step_before_the_record_tells_its_time_constant_alone) {  // oracle: 25 s; the gain is anybody's guess
+TEST(procsrivc,
+     a_step_before_the_record_determines_only_its_time_constant) {  // oracle: 25 s; the gain is anybody's guess
     const Vector t = Vector::LinSpaced(300, 0, 149.5);
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
         const Vector y = 49.2 - 12 * (-t.array() / 25).exp() + 0.05 * RandomStream(seed).normal(300).array();

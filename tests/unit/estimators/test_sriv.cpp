@@ -73,7 +73,7 @@ TEST(sriv, agrees_with_oe_whatever_the_start) {  // oracle: second route, a cut 
     }
 }
 
-TEST(sriv, fast_sampling_needs_no_guess) {  // oracle: the continuous-time system, within standard errors
+TEST(sriv, fast_sampling_needs_no_initial_value) {  // oracle: the continuous-time system, within standard errors
     const TransferFunction G(Vector{{2}}, Vector{{1, 4, 3}});
     Vector truth(4);
     truth << c2d(G, 0.01).den().tail(2), c2d(G, 0.01).num();

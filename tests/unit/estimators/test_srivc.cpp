@@ -146,7 +146,7 @@ TEST(srivc, outputs_with_a_common_denominator_share_what_they_know) {
 
 // oracle: two delays and numerators that give the same samples, as n + 1 weights of the sampled response follow from
 // n + 2 values
-TEST(srivc, tells_of_delays_that_held_inputs_cannot_show) {
+TEST(srivc, reports_delays_that_held_inputs_cannot_show) {
     const Vector u = prbs(7, 8), a = values({1, 3, 4});
     const Vector x = lsim(TransferFunction(values({0.5, 1, 2}), a, 0, 0.33), u, 0.05);
     const IdData data(Matrix(x), Matrix(u), 0.05);

@@ -85,7 +85,7 @@ TEST(gnuplot_renderer, takes_what_was_drawn_before_from_its_cache) {
     for (const std::string kind : {".pdf", ".svg", ".png"}) {
         GnuplotRenderer first(&store);
         draw_one(first, sine(), folder.path() / ("a" + kind));
-        EXPECT_EQ(first.use().recalled, 0u) << kind;
+        EXPECT_EQ(first.use().from_cache, 0u) << kind;
         EXPECT_EQ(first.use().made, 1u) << kind;
     }
     GnuplotRenderer second(&store);
@@ -93,12 +93,12 @@ TEST(gnuplot_renderer, takes_what_was_drawn_before_from_its_cache) {
         draw_one(second, sine(), folder.path() / ("b" + kind));
         EXPECT_TRUE(read_file(folder.path() / ("a" + kind)) == read_file(folder.path() / ("b" + kind))) << kind;
     }
-    EXPECT_EQ(second.use().recalled, 3u);
+    EXPECT_EQ(second.use().from_cache, 3u);
     EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a gnuplot was started";
     Figure wider = sine();
     wider.width_cm += 1;
     draw_one(second, wider, folder.path() / "c.pdf");
-    EXPECT_EQ(second.use().recalled, 3u);
+    EXPECT_EQ(second.use().from_cache, 3u);
 }
 
 // Oracle: the file of the later figure, drawn alone.
@@ -111,7 +111,7 @@ TEST(gnuplot_renderer, a_file_drawn_twice_is_the_later_figure) {
     renderer.draw(sine("earlier"), folder.path() / "a.svg", FigureFormat::kSvg);
     renderer.draw(sine("later"), folder.path() / "a.svg", FigureFormat::kSvg);
     renderer.finish();
-    EXPECT_EQ(renderer.use().recalled, 1u);
+    EXPECT_EQ(renderer.use().from_cache, 1u);
     EXPECT_TRUE(read_file(alone) == read_file(folder.path() / "a.svg"));
     EXPECT_EQ(file_count(folder.path()), 2u);
 }
@@ -178,7 +178,7 @@ TEST(gnuplot_renderer, files_of_a_killed_process_are_removed_by_the_next_figure)
     const pid_t killed = ::fork();
     if (killed == 0) {
         const TemporaryFile begun =
-            make_temporary_beside(folder.path() / "a.pdf");  // gnuplot could draw on for a while
+            make_temporary_next_to(folder.path() / "a.pdf");  // gnuplot could draw on for a while
         ::raise(SIGKILL);
     }
     ::waitpid(killed, nullptr, 0);
@@ -250,14 +250,14 @@ TEST_F(gnuplot_renderer_replaced, complaints_become_one_sentence) {
     EXPECT_THAT(text, Not(HasSubstr("\n")));
 }
 
-TEST_F(gnuplot_renderer_replaced, an_error_that_ends_gnuplot_is_told) {
+TEST_F(gnuplot_renderer_replaced, an_error_that_ends_gnuplot_is_reported) {
     replace_by(
         "read -r line; echo '\"/dev/stdin\" line 1: warning: odd' >&2\n"
         "echo '\"/dev/stdin\" line 7: undefined variable: x' >&2; exit 1\n");
     EXPECT_THAT(failure(), testing::EndsWith("a.pdf\": undefined variable: x"));
 }
 
-TEST_F(gnuplot_renderer_replaced, an_error_is_told_that_comes_after_the_pipe_has_broken) {
+TEST_F(gnuplot_renderer_replaced, an_error_is_reported_that_comes_after_the_pipe_has_broken) {
     replace_by("exec 0<&-; sleep 0.2; echo '\"/dev/stdin\" line 7: undefined variable: x' >&2\n");
     Figure large = sine();  // more than a pipe holds: writing it fails before anything is said
     Curve& curve = large.panels.front().curves.front();

@@ -23,7 +23,7 @@ TEST(id_plot, one_object_is_named_only_when_asked) {
     EXPECT_THAT(legend_of(id_plot({&kData}, {"measured"})), ElementsAre("measured"));
 }
 
-TEST(id_plot, several_objects_are_told_apart) {
+TEST(id_plot, several_objects_are_distinguished) {
     EXPECT_THAT(legend_of(id_plot({&kData, &kData})), ElementsAre("data 1", "data 2"));
     EXPECT_THAT(legend_of(id_plot({&kData, &kData}, {"raw", "clean"})), ElementsAre("raw", "clean"));
     EXPECT_THROW(id_plot({&kData, &kData}, {"raw"}), InvalidArgument);

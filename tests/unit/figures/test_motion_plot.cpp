@@ -16,8 +16,8 @@ using testing::HasSubstr;
 
 /// 4 cm x 2 cm: a rail, a trolley that is drawn 1 cm from the left at 0.2 m and slides 5 cm a metre, and on it a rod
 /// that hangs down from (1, 1.5) over 1 cm at 0 rad.
-RigDrawing crane() {
-    RigDrawing rig;
+PlantDrawing crane() {
+    PlantDrawing rig;
     rig.width = 4, rig.height = 2;
     rig.parts = {{"position", "m", -1, false, 5, 0, 1, 0.2}, {"angle", "rad", 0, true, 1, 1.5, 1, 0}};
     rig.pieces = {{{0, 4}, {1.5, 1.5}, {-1, -1}, false, 0.5},
@@ -36,24 +36,24 @@ MotionRecord record(Index count, double step) {
     return made;
 }
 
-MotionLook at(const Vector& instants) {
-    MotionLook look;
+MotionAppearance at(const Vector& instants) {
+    MotionAppearance look;
     look.instants = instants;
     return look;
 }
 
 TEST(motion_plot, parts_slide_turn_and_are_carried) {
-    const RigDrawing rig = crane();
-    const RigPiece rest = rig.placed(rig.pieces[2], Vector{{0.2, 0}});
+    const PlantDrawing rig = crane();
+    const PlantShape rest = rig.placed(rig.pieces[2], Vector{{0.2, 0}});
     EXPECT_EQ(rest.x, rig.pieces[2].x);
     EXPECT_EQ(rest.y, rig.pieces[2].y);
     // 0.1 m to the right is 0.5 cm; a quarter turn to the left brings the rod's end from below to the right
-    const RigPiece moved = rig.placed(rig.pieces[2], Vector{{0.3, std::numbers::pi / 2}});
+    const PlantShape moved = rig.placed(rig.pieces[2], Vector{{0.3, std::numbers::pi / 2}});
     EXPECT_NEAR(moved.x[0], 1.5, 1e-12);
     EXPECT_NEAR(moved.y[0], 1.5, 1e-12);
     EXPECT_NEAR(moved.x[1], 2.5, 1e-12);
     EXPECT_NEAR(moved.y[1], 1.5, 1e-12);
-    const RigPiece rope = rig.placed(rig.pieces[1], Vector{{0, 1}});  // one end stays
+    const PlantShape rope = rig.placed(rig.pieces[1], Vector{{0, 1}});  // one end stays
     EXPECT_NEAR(rope.x[0], 0, 1e-15);
     EXPECT_NEAR(rope.x[1], 0, 1e-15);
     EXPECT_TRUE(rig.pieces[1].moves());
@@ -116,7 +116,7 @@ TEST(motion_plot, one_side_alone_will_do) {
     EXPECT_TRUE(figure.motion->simulated);
 }
 
-std::string refusal(const RigDrawing& rig, const MotionRecord& made, const MotionLook& look = {}) {
+std::string refusal(const PlantDrawing& rig, const MotionRecord& made, const MotionAppearance& look = {}) {
     try {
         motion_plot(rig, made, look);
     } catch (const InvalidArgument& error) {
@@ -138,7 +138,7 @@ TEST(motion_plot, says_what_does_not_fit) {
     EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{2.0}})), HasSubstr("range from 0 s to 0.9"));
     EXPECT_THAT(refusal(crane(), record(10, 0.1), at(Vector{{0.5, 0.2, 0.5}})),
                 HasSubstr("0.5 s occurs twice in the list"));
-    RigDrawing wrong = crane();
+    PlantDrawing wrong = crane();
     wrong.parts[1].on = 1;
     EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("defined before it"));
     wrong = crane();

@@ -118,7 +118,7 @@ TEST(readable_figure, names_are_in_sentences_of_the_language) {
     EXPECT_THAT(texts_of(compare_plot(data, {model}), {}), Contains("T = 0.5 s: 93.3 %"));
 }
 
-TEST(readable_figure, what_somebody_wrote_stays_but_for_its_commas) {
+TEST(readable_figure, what_a_user_wrote_stays_but_for_its_commas) {
     const Figure figure = picture(Message::verbatim("time (s)"), Message::verbatim("measured, 0.5 of them"));
     EXPECT_THAT(texts_of(figure), ElementsAre("time (s)", "angle (rad)", "measured, 0,5 of them", "best"));
     EXPECT_THAT(texts_of(figure, {}), ElementsAre("time (s)", "angle (rad)", "measured, 0.5 of them", "best"));

@@ -47,7 +47,7 @@ TEST(spectral_plot, values_without_errors_are_grey_points_that_are_not_unwrapped
     const Figure figure = spectral_plot(estimate, Message("etfe"), {});
     for (const Panel& panel : figure.panels) {
         EXPECT_EQ(panel.curves[0].style, CurveStyle::kPoints);
-        EXPECT_EQ(panel.curves[0].colour, style::kGreyColour);
+        EXPECT_EQ(panel.curves[0].colour, style::kGrayColor);
         EXPECT_EQ(panel.curves.size(), 1u);
     }
     EXPECT_NEAR((figure.panels[1].curves[0].y - Vector{{90, -225, -135, 0}}).norm(), 0, 1e-12);

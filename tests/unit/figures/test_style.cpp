@@ -151,7 +151,7 @@ std::vector<std::pair<std::string, Figure>> further_figures() {
             {"crossvalidate", cross_validation_plot(folds(3), {"x", "y", "z"})}};
 }
 
-TEST(style, curves_of_the_standard_plots_are_told_apart_in_grey) {
+TEST(style, curves_of_the_standard_plots_are_distinguished_in_grey) {
     auto figures = standard_figures();
     for (auto& further : further_figures()) figures.push_back(std::move(further));
     for (const auto& [name, figure] : figures)
@@ -170,14 +170,14 @@ TEST(style, no_two_of_nine_curves_look_alike_in_grey) {
         for (std::size_t k = 0; k < i; ++k) EXPECT_GT(looks.difference(i, k), test::kSeenInGrey) << i << " and " << k;
 }
 
-TEST(style, scatters_of_six_methods_are_told_apart_in_grey) {
+TEST(style, scatters_of_six_methods_are_distinguished_in_grey) {
     const test::GreyLooks looks(monte_carlo_scatter(study(6), "a1", "b0").panels[0]);
     ASSERT_EQ(looks.size(), 8u);  // with the ellipse and the true value
     for (std::size_t i = 0; i < looks.size(); ++i)
         for (std::size_t k = 0; k < i; ++k) EXPECT_GT(looks.difference(i, k), test::kSeenInGrey) << i << " and " << k;
 }
 
-TEST(style, bands_of_six_models_are_told_apart_in_grey) {
+TEST(style, bands_of_six_models_are_distinguished_in_grey) {
     Panel panel;
     for (int i = 0; i < 6; ++i) {
         Curve line;
@@ -194,7 +194,7 @@ TEST(style, bands_of_six_models_are_told_apart_in_grey) {
 
 TEST(style, the_ninth_model_does_not_look_like_the_first) {
     for (const Panel& panel : bode_plot(models(9)).panels) {
-        const auto look = [&](std::size_t i) { return style::look_of(panel.curves[i], static_cast<int>(i)); };
+        const auto look = [&](std::size_t i) { return style::appearance_of(panel.curves[i], static_cast<int>(i)); };
         EXPECT_EQ(look(0).colour, look(8).colour);
         EXPECT_NE(look(0).dash, look(8).dash);
     }
@@ -206,7 +206,8 @@ TEST(style, stems_beyond_the_bound_have_a_marker_of_their_own) {
     for (const Panel& panel : residuals().panels)
         for (const Curve& curve : panel.curves)
             if (curve.style == CurveStyle::kStems)
-                markers[message_text(curve.label) == "outside the bound"].insert(style::look_of(curve, 0).point_type);
+                markers[message_text(curve.label) == "outside the bound"].insert(
+                    style::appearance_of(curve, 0).point_type);
     ASSERT_EQ(markers.size(), 2u);
     EXPECT_NE(markers[false], markers[true]);
 }

@@ -46,11 +46,11 @@ struct Orders {
     int first, second;
 };
 
-void expect_loops(const Orders& orders, WantedProducts wanted) {
-    const DeltaLoops loops = delta_loops(orders.first, orders.second, wanted);
+void expect_loops(const Orders& orders, RequestedProducts expected_value) {
+    const DeltaLoops loops = delta_loops(orders.first, orders.second, expected_value);
     ASSERT_NE(loops.filter, nullptr) << orders.first << ", " << orders.second;
-    ASSERT_TRUE(loops.summed.first || !wanted.first);
-    ASSERT_TRUE(loops.summed.highest || !wanted.highest);
+    ASSERT_TRUE(loops.summed.first || !expected_value.first);
+    ASSERT_TRUE(loops.summed.highest || !expected_value.highest);
     const DeltaChain first = chain_of(orders.first), second = chain_of(orders.second);
     const Vector v = RandomStream(1).normal(kSteps * kDeltaLanes), w = RandomStream(2).normal(kSteps * kDeltaLanes);
     DeltaState summed, filtered, free;
@@ -93,11 +93,13 @@ void expect_loops(const Orders& orders, WantedProducts wanted) {
 
 TEST(delta_loops, filter_and_sum_as_they_are_defined) {
     for (const Orders orders : {Orders{0, 1}, {0, 3}, {0, 5}, {1, 2}, {2, 2}, {2, 3}, {4, 5}, {8, 8}, {9, 9}})
-        for (const WantedProducts wanted : {WantedProducts{true, true}, {false, true}, {true, false}, {false, false}})
-            expect_loops(orders, wanted);
+        for (const RequestedProducts expected_value :
+             {RequestedProducts{true, true}, {false, true}, {true, false}, {false, false}})
+            expect_loops(orders, expected_value);
     // Of a sensitivity's chain beside the output's, the output's own products are never wanted.
     for (const Orders orders : {Orders{1, 2}, {1, 3}, {2, 4}, {2, 5}, {3, 6}, {4, 8}, {4, 9}})
-        for (const WantedProducts wanted : {WantedProducts{false, true}, {false, false}}) expect_loops(orders, wanted);
+        for (const RequestedProducts expected_value : {RequestedProducts{false, true}, {false, false}})
+            expect_loops(orders, expected_value);
 }
 
 TEST(delta_loops, of_other_orders_there_are_none) {

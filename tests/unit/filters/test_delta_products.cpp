@@ -16,13 +16,13 @@ using Long = long double;
 using LongMatrix = Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// alpha of the polynomial with these roots in q.
-std::array<double, kMostDeltaOrder> polynomial(const std::vector<std::complex<double>>& poles) {
+std::array<double, kMaxDeltaOrder> polynomial(const std::vector<std::complex<double>>& poles) {
     std::vector<std::complex<double>> p{1};  // from delta^0 on
     for (const auto& pole : poles) {
         p.insert(p.begin(), 0);
         for (std::size_t j = 0; j + 1 < p.size(); ++j) p[j] += (1.0 - pole) * p[j + 1];
     }
-    std::array<double, kMostDeltaOrder> alpha = {};
+    std::array<double, kMaxDeltaOrder> alpha = {};
     for (std::size_t j = 0; j + 1 < p.size(); ++j) alpha[j] = p[j].real();
     return alpha;
 }

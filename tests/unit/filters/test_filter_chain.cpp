@@ -15,7 +15,7 @@ SampleView view(const Vector& x) {
 }
 
 // oracle: second route, the same instants given one by one as for irregular sampling
-TEST(filter_chain, regular_instants_give_the_same_however_they_are_told) {
+TEST(filter_chain, regular_instants_give_the_same_however_they_are_given) {
     const Index N = 300;
     const Vector u = RandomStream(1).normal(N), y = RandomStream(2).normal(N),
                  t = Vector::LinSpaced(N, 0, 0.05 * static_cast<double>(N - 1));

@@ -60,7 +60,7 @@ TEST_P(filter_products_of, outputs_equal_the_stored_ones_multiplied) {
     const Vector y = RandomStream(1).normal(N), u = RandomStream(2).normal(N), den = stable_denominator(order);
     const SingleInputSystem cascade = sensitivity_system(Eigen::Vector2d(-2, 1).head(std::min<Index>(order, 2)), den);
     const SampledSystem of_y = derivative_filter(den, Ts, Hold::kFoh);
-    const SampledSystem of_u = discretise(cascade.A, cascade.B, cascade.C, cascade.D, Ts, hold, delay);
+    const SampledSystem of_u = discretize(cascade.A, cascade.B, cascade.C, cascade.D, Ts, hold, delay);
     Matrix outputs(N, of_y.C.rows() + of_u.C.rows());
     outputs << outputs_of(of_y, y), outputs_of(of_u, u);
     const std::vector<FilteredSignal> signals{{of_y, Samples(y.data(), N)}, {of_u, Samples(u.data(), N)}};

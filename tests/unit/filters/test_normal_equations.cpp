@@ -71,10 +71,10 @@ class normal_equations : public testing::TestWithParam<Kind> {
 };
 
 /// Whether two sums over the same samples agree, each number against the size of the largest.
-void expect_near(const Matrix& found, const Matrix& wanted) {
-    ASSERT_EQ(found.rows(), wanted.rows());
-    ASSERT_EQ(found.cols(), wanted.cols());
-    EXPECT_LT((found - wanted).cwiseAbs().maxCoeff(), 1e-8 * wanted.cwiseAbs().maxCoeff());
+void expect_near(const Matrix& found, const Matrix& expected) {
+    ASSERT_EQ(found.rows(), expected.rows());
+    ASSERT_EQ(found.cols(), expected.cols());
+    EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
 }
 
 // Oracle: every filtered signal simulated by itself, and the products summed.

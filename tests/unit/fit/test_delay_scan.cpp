@@ -73,7 +73,7 @@ IdData irregular_record(double delay, Index rest) {
 
 // Oracle: the delays of the records. The beginning tells of the first; the second is longer than a quarter of it, and
 // nothing moves there in the third.
-TEST(delay_scan, the_beginning_of_an_irregular_record_is_scanned_where_it_tells_of_the_whole) {
+TEST(delay_scan, the_beginning_of_an_irregular_record_is_scanned_where_it_represents_the_whole) {
     TransferStructure structure = TransferStructure::single(1, 0);
     structure.free_delays = true;
     for (const auto& [delay, rest] : {std::pair{1.3, 0}, std::pair{27.0, 0}, std::pair{1.3, 1600}}) {

@@ -28,11 +28,11 @@ using testing::HasSubstr;
 constexpr double kTs = 0.05;
 const TransferStructure kStructure = TransferStructure::single(2, 0);
 
-/// 3/(s^2 + 4 s + 3) with errors that are white, or that follow each other where they are `coloured`.
-IdData record_with(double constant, bool coloured = false) {
+/// 3/(s^2 + 4 s + 3) with errors that are white, or that follow each other where they are `colored`.
+IdData record_with(double constant, bool colored = false) {
     const Vector u = prbs(8, 6);
     Vector e = RandomStream(4).normal(u.size());
-    for (Index k = 1; k < e.size() && coloured; ++k) e[k] += 0.95 * e[k - 1];
+    for (Index k = 1; k < e.size() && colored; ++k) e[k] += 0.95 * e[k - 1];
     const Vector y = lsim(TransferFunction(values({3}), values({1, 4, 3})), u, kTs) + 0.03 * e;
     return IdData(Matrix(y.array() + constant), Matrix(u), kTs);
 }
@@ -49,7 +49,7 @@ TEST(diagnostics, feedthrough_is_missed_by_srivc_and_coe) {
     for (const auto& method : {srivc, coe}) {
         const Diagnostics found = diagnose(method(data, kStructure, {}, {}), data, {});
         ASSERT_TRUE(found.missed);
-        EXPECT_EQ(found.missed->code, MissedCode::kFeedthrough);
+        EXPECT_EQ(found.missed->code, StructureAdviceCode::kFeedthrough);
         EXPECT_EQ(found.missed->option, "zeros");
         EXPECT_EQ(found.missed->value, 2);
         ASSERT_EQ(found.warnings().size(), 1U);
@@ -87,7 +87,7 @@ TEST(diagnostics, rivc_is_not_assessed_and_misses_the_feedthrough) {
     const Diagnostics found = diagnose(rivc(data, kStructure, {0, 1}), data, {});
     EXPECT_FALSE(found.assessment);
     ASSERT_TRUE(found.missed);
-    EXPECT_EQ(found.missed->code, MissedCode::kFeedthrough);
+    EXPECT_EQ(found.missed->code, StructureAdviceCode::kFeedthrough);
 }
 
 TEST(diagnostics, difference_equations_and_process_models_are_assessed) {
@@ -116,19 +116,19 @@ TEST(diagnostics, integration_is_a_fit_of_the_integrated_input) {
         lsim(TransferFunction(values({3}), values({1, 2, 0})), u, kTs) + 0.02 * RandomStream(9).normal(u.size());
     const IdData data{Matrix(y), Matrix(u), kTs};
     const TransferStructure structure = TransferStructure::single(1, 0);
-    FitOptions wanted;
-    wanted.integration = true;
-    const Fit fit = srivc(data, structure, wanted);
+    FitOptions expected;
+    expected.integration = true;
+    const Fit fit = srivc(data, structure, expected);
     Fit by_hand = srivc(integrated_inputs(data), structure);
     append_integrator(by_hand);
     EXPECT_EQ(fit.theta, by_hand.theta);
     EXPECT_EQ(fit.models.front().den(), by_hand.models.front().den());
     EXPECT_EQ(fit.models.front().pole_count(), 2);
-    const Diagnostics found = diagnose(fit, data, wanted);
+    const Diagnostics found = diagnose(fit, data, expected);
     ASSERT_TRUE(found.assessment);
     EXPECT_TRUE(found.assessment->white);
-    wanted.offset = Offset::kRemove;
-    EXPECT_THROW(srivc(data, structure, wanted), InvalidArgument);
+    expected.offset = Offset::kRemove;
+    EXPECT_THROW(srivc(data, structure, expected), InvalidArgument);
 }
 
 // Oracle: diagnose() at once; what the deferred ones hold of the data is given back when all is computed.

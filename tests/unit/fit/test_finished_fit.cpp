@@ -30,10 +30,10 @@ TEST(finished_fit, is_the_estimate_of_the_data_where_no_integrator_is_asked_for)
     const IdData data = record();
     FitOptions options = FitOptions().from_rest();
     int calls = 0;
-    const Fit fit = finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+    const Fit fit = finished_fit(data, options, [&](const IdData& seen, const FitOptions& expected) {
         ++calls;
         EXPECT_EQ(&seen, &data);
-        EXPECT_FALSE(wanted.integration);
+        EXPECT_FALSE(expected.integration);
         return fit_of_first_order();
     });
     EXPECT_EQ(calls, 1);
@@ -44,9 +44,9 @@ TEST(finished_fit, with_an_integrator_the_method_sees_integrated_inputs_and_the_
     const IdData data = record();
     FitOptions options = FitOptions().from_rest();
     options.integration = true;
-    const Fit fit = finished_fit(data, options, [&](const IdData& seen, const FitOptions& wanted) {
+    const Fit fit = finished_fit(data, options, [&](const IdData& seen, const FitOptions& expected) {
         EXPECT_EQ(seen.experiments.front().u, integrated_inputs(data).experiments.front().u);
-        EXPECT_FALSE(wanted.integration);
+        EXPECT_FALSE(expected.integration);
         return fit_of_first_order();
     });
     EXPECT_EQ(fit.models.front().pole_count(), 2);

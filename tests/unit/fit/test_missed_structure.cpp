@@ -82,12 +82,12 @@ Case random_case(std::uint32_t seed, const Planted& planted) {
     return {IdData(Matrix(y), Matrix(u.tail(N)), Ts), TransferStructure::single(n, m)};
 }
 
-std::optional<MissedStructure> missed_of(const Case& made) {
+std::optional<StructureAdvice> missed_of(const Case& made) {
     return missed_structure(made.data, srivc(made.data, made.structure), {});
 }
 
 /// Of ten cases, of how many this is missed.
-int missed_in(const Planted& planted, MissedCode code) {
+int missed_in(const Planted& planted, StructureAdviceCode code) {
     int count = 0;
     for (std::uint32_t seed = 1000; seed < 1010; ++seed) {
         const auto missed = missed_of(random_case(seed, planted));
@@ -118,15 +118,15 @@ TEST(missed_structure, nothing_is_missed_by_true_structures_with_other_starts) {
 }
 
 TEST(missed_structure, direct_feedthroughs_are_found) {
-    EXPECT_GE(missed_in({.direct = true}, MissedCode::kFeedthrough), 9);
+    EXPECT_GE(missed_in({.direct = true}, StructureAdviceCode::kFeedthrough), 9);
 }
 
 TEST(missed_structure, missing_poles_are_no_feedthrough) {
-    EXPECT_EQ(missed_in({.more_poles = 1}, MissedCode::kFeedthrough), 0);
+    EXPECT_EQ(missed_in({.more_poles = 1}, StructureAdviceCode::kFeedthrough), 0);
 }
 
 TEST(missed_structure, delays_are_found) {
-    EXPECT_GE(missed_in({.late = true}, MissedCode::kDelay), 8);
+    EXPECT_GE(missed_in({.late = true}, StructureAdviceCode::kDelay), 8);
 }
 
 TEST(missed_structure, an_input_that_was_logged_late_is_named) {  // oracle: the column shifted by us
@@ -139,12 +139,12 @@ TEST(missed_structure, an_input_that_was_logged_late_is_named) {  // oracle: the
         const IdData late{Matrix(y.tail(600)), Matrix(u.head(600)), 0.05};
         const auto missed = missed_of({late, structure});
         ASSERT_TRUE(missed) << seed;
-        EXPECT_EQ(missed->code, MissedCode::kLate) << seed;
+        EXPECT_EQ(missed->code, StructureAdviceCode::kLate) << seed;
         EXPECT_NEAR(missed->better_fit_percent, srivc(late.shifted(-1), structure).fit_percent[0], 0.01) << seed;
         EXPECT_THAT(message_text(sentence_of(*missed)), HasSubstr("data:shift(-1)")) << seed;
     }
     for (const Planted& other : {Planted{.direct = true}, Planted{.late = true}, Planted{.more_poles = 1}})
-        EXPECT_EQ(missed_in(other, MissedCode::kLate), 0) << other.direct << other.late;
+        EXPECT_EQ(missed_in(other, StructureAdviceCode::kLate), 0) << other.direct << other.late;
 }
 
 // Oracle: the fit that the structure leads to, made as a user would make it.
@@ -156,7 +156,7 @@ TEST(missed_structure, missing_pole_is_named_with_the_fit_that_is_reached) {
     const Fit given = coe(data, TransferStructure::single(1, 0)), better = coe(data, TransferStructure::single(2, 0));
     const auto missed = missed_structure(data, given, {});
     ASSERT_TRUE(missed);
-    EXPECT_EQ(missed->code, MissedCode::kPole);
+    EXPECT_EQ(missed->code, StructureAdviceCode::kPole);
     EXPECT_EQ(missed->option, "poles");
     EXPECT_EQ(missed->value, 2);
     EXPECT_NEAR(missed->better_fit_percent, better.fit_percent[0], 1e-3);
@@ -196,7 +196,7 @@ TEST(missed_structure, of_a_long_record_its_beginning) {
     y += u;
     const auto missed = missed_of({IdData(Matrix(y), Matrix(u), 0.1), structure});
     ASSERT_TRUE(missed);
-    EXPECT_EQ(missed->code, MissedCode::kFeedthrough);
+    EXPECT_EQ(missed->code, StructureAdviceCode::kFeedthrough);
     EXPECT_EQ(missed->samples, 100'000);
     EXPECT_THAT(message_text(sentence_of(*missed)),
                 HasSubstr("With as many zeros as poles the fit of the first 100000 samples is"));
@@ -211,7 +211,7 @@ TEST(missed_structure, a_drift_is_named_before_a_feedthrough) {  // oracle: the 
         const Fit fit = coe(data, TransferStructure::single(2, 0), options);
         const auto missed = missed_structure(data, fit, options);
         ASSERT_TRUE(missed) << message_text(fit.full_message());
-        EXPECT_EQ(missed->code, MissedCode::kLine) << message_text(sentence_of(*missed));
+        EXPECT_EQ(missed->code, StructureAdviceCode::kLine) << message_text(sentence_of(*missed));
         EXPECT_THAT(message_text(sentence_of(*missed)), HasSubstr("detrend"));
     }
 }

@@ -43,7 +43,7 @@ TEST(output_error, finds_the_truth_of_exact_data) {  // oracle: analytic
     const Vector y = 2.5 * (-0.8 * kTimes).array().exp();
     FitOptions options;
     options.tolerance = 1e-10;
-    const auto solution = minimise_output_error(Decay(kTimes), y, Vector{{1.0, 0.1}}, options);
+    const auto solution = minimize_output_error(Decay(kTimes), y, Vector{{1.0, 0.1}}, options);
     EXPECT_EQ(solution.termination, Termination::kConverged);
     EXPECT_NEAR(solution.theta[0], 2.5, 1e-11);
     EXPECT_NEAR(solution.theta[1], 0.8, 1e-11);
@@ -55,7 +55,7 @@ TEST(output_error, is_stationary_with_the_stated_covariance) {  // oracle: defin
     FitOptions options;
     options.tolerance = 1e-10;
     const Decay model = Decay(kTimes);
-    const auto solution = minimise_output_error(model, y, Vector{{1.0, 0.1}}, options);
+    const auto solution = minimize_output_error(model, y, Vector{{1.0, 0.1}}, options);
     Vector output;
     Matrix J;
     model.simulate(solution.theta, output, &J);
@@ -71,7 +71,7 @@ TEST(output_error, is_stationary_with_the_stated_covariance) {  // oracle: defin
 TEST(output_error, stays_within_bounds_and_says_where_it_was_held) {  // oracle: analytic, linear problem at the bound
     const Vector y = 2.5 * (-0.8 * kTimes).array().exp();
     const Decay model = Decay(kTimes).within(Vector{{-kInfinity, 0.0}}, Vector{{kInfinity, 0.5}});
-    const auto solution = minimise_output_error(model, y, Vector{{1.0, 0.1}});
+    const auto solution = minimize_output_error(model, y, Vector{{1.0, 0.1}});
     EXPECT_EQ(solution.theta[1], 0.5);
     EXPECT_TRUE(solution.at_bound[1]);
     EXPECT_FALSE(solution.at_bound[0]);
@@ -84,33 +84,33 @@ TEST(output_error, stays_within_bounds_and_says_where_it_was_held) {  // oracle:
 TEST(output_error, starts_outside_the_bounds_are_moved_in) {  // oracle: definition, checked in the model
     const Vector y = 2.5 * (-0.8 * kTimes).array().exp();
     const Decay model = Decay(kTimes).within(Vector{{0.0, 0.1}}, Vector{{10.0, 5.0}});
-    const auto solution = minimise_output_error(model, y, Vector{{-3.0, 99.0}});
+    const auto solution = minimize_output_error(model, y, Vector{{-3.0, 99.0}});
     EXPECT_NEAR(solution.theta[1], 0.8, 1e-6);
 }
 
 TEST(output_error, survives_a_hopeless_start) {  // oracle: always a finite answer no worse than the start
     const Vector y = 2.5 * (-0.8 * kTimes).array().exp();
-    const auto solution = minimise_output_error(Decay(kTimes), y, Vector{{1.0, -50.0}});
+    const auto solution = minimize_output_error(Decay(kTimes), y, Vector{{1.0, -50.0}});
     EXPECT_TRUE(solution.theta.allFinite());
 }
 
-TEST(output_error, stops_when_told) {  // oracle: definition
+TEST(output_error, stops_on_request) {  // oracle: definition
     const Vector y = 2.5 * (-0.8 * kTimes).array().exp();
     FitOptions options;
     options.max_iterations = 2;
-    auto solution = minimise_output_error(Decay(kTimes), y, Vector{{1.0, 0.1}}, options);
+    auto solution = minimize_output_error(Decay(kTimes), y, Vector{{1.0, 0.1}}, options);
     EXPECT_EQ(solution.termination, Termination::kIterationLimit);
     EXPECT_EQ(solution.trace.size(), 2u);
     options.cancel = [] { return true; };
-    solution = minimise_output_error(Decay(kTimes), y, Vector{{1.0, 0.1}}, options);
+    solution = minimize_output_error(Decay(kTimes), y, Vector{{1.0, 0.1}}, options);
     EXPECT_EQ(solution.termination, Termination::kCancelled);
     EXPECT_EQ(solution.theta[0], 1.0);
 }
 
 TEST(output_error, refuses_misuse) {
     const Decay model = Decay(kTimes);
-    EXPECT_THROW(minimise_output_error(model, Vector::Ones(50), Vector::Ones(3)), InvalidArgument);
-    EXPECT_THROW(minimise_output_error(model, Vector::Ones(2), Vector::Ones(2)), InvalidArgument);
+    EXPECT_THROW(minimize_output_error(model, Vector::Ones(50), Vector::Ones(3)), InvalidArgument);
+    EXPECT_THROW(minimize_output_error(model, Vector::Ones(2), Vector::Ones(2)), InvalidArgument);
     FitOptions options;
     options.tolerance = 0;
     EXPECT_THROW(options.validate(), InvalidArgument);

@@ -18,8 +18,8 @@ using namespace dynlab::test;
 TEST(search_starts, structures_a_step_poorer) {
     const auto orders = [](const TransferStructure& structure) {
         std::vector<std::pair<int, int>> all;
-        for (const TransferStructure& poorer : poorer_structures(structure))
-            all.emplace_back(poorer.poles[0], poorer.channels[0].zeros);
+        for (const TransferStructure& lower_order : lower_order_structures(structure))
+            all.emplace_back(lower_order.poles[0], lower_order.channels[0].zeros);
         return all;
     };
     using Orders = std::vector<std::pair<int, int>>;
@@ -32,12 +32,12 @@ TEST(search_starts, structures_a_step_poorer) {
 // Oracle: far below the added roots the responses are equal.
 TEST(search_starts, enriched_models_have_the_poorer_one_s_response) {
     const double fast = 1e3, middle = 3;
-    const auto poorer = TransferStructure::single(2, 0);
+    const auto lower_order = TransferStructure::single(2, 0);
     const Vector theta = values({1.2, 4, 8});
-    const TransferFunction G = poorer.models(theta)[0];
+    const TransferFunction G = lower_order.models(theta)[0];
     for (const auto& [n, m] : {std::pair{3, 0}, {2, 1}, {3, 1}, {4, 2}, {4, 1}}) {
         const auto structure = TransferStructure::single(n, m);
-        const TransferFunction H = structure.models(enriched(poorer, theta, structure, fast, middle))[0];
+        const TransferFunction H = structure.models(enriched(lower_order, theta, structure, fast, middle))[0];
         for (const double w : {0.0, 0.5, 2.0, 5.0})
             EXPECT_LT(std::abs(H.at(Complex(0, w)) - G.at(Complex(0, w))), 0.02 * std::abs(G.at(Complex(0, w))))
                 << n << ", " << m << " at " << w;

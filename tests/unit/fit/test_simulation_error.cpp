@@ -39,7 +39,7 @@ TEST(simulation_error, of_two_inputs_and_two_experiments) {  // oracle: second r
     EXPECT_EQ(fit.offsets, Matrix::Zero(2, 1));
 }
 
-TEST(simulation_error, that_overflows_is_no_fit_and_told) {  // oracle: exp(2 * 500) is no double
+TEST(simulation_error, that_overflows_is_no_fit_and_is_reported) {  // oracle: exp(2 * 500) is no double
     const IdData data(Matrix(RandomStream(1).normal(1000)), Matrix(prbs(8, 5).head(1000)), 0.5);
     Fit fit;
     fit.structure = TransferStructure::single(1, 0);

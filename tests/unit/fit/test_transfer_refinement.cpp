@@ -48,10 +48,10 @@ FitOptions tight() {
     return options;
 }
 
-void expect_values(const Vector& found, const Vector& wanted, double tolerance) {
-    ASSERT_EQ(found.size(), wanted.size());
-    for (Index i = 0; i < wanted.size(); ++i)
-        EXPECT_NEAR(found[i], wanted[i], tolerance * (1e-3 + std::abs(wanted[i]))) << i;
+void expect_values(const Vector& found, const Vector& expected, double tolerance) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (Index i = 0; i < expected.size(); ++i)
+        EXPECT_NEAR(found[i], expected[i], tolerance * (1e-3 + std::abs(expected[i]))) << i;
 }
 
 std::string refusal(const std::function<void()>& action) {
@@ -193,7 +193,7 @@ TEST(transfer_refinement, separate_outputs_are_separate_problems) {  // oracle: 
     for (Index i = 0; i < truth.size(); ++i) EXPECT_NEAR(all.theta[i], truth[i], 5 * all.std[i]);
 }
 
-TEST(transfer_refinement, doubts_are_told) {  // oracle: the simulated system
+TEST(transfer_refinement, doubts_are_reported) {  // oracle: the simulated system
     const TransferStructure plain = TransferStructure::single(1, 0);
     const IdData data = simulated(plain, Vector{{0.8, 2.0}}, 400, 0.01);
     const auto cancelling =

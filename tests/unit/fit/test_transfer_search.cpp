@@ -191,8 +191,8 @@ TEST(transfer_search, the_covariance_under_given_weights_is_that_of_each_output_
         EXPECT_NEAR(std::sqrt(fit.noise_variance[output]) / (output == 0 ? 0.05 : 0.4), 1, 0.1);
     }
     const Matrix inverse = solve_by_lu(gram, Matrix::Identity(4, 4)).x;
-    const Matrix wanted = inverse * middle * inverse;
-    for (Index i = 0; i < 4; ++i) EXPECT_NEAR(fit.std[i] / std::sqrt(wanted(i, i)), 1, 1e-3) << i;
+    const Matrix expected = inverse * middle * inverse;
+    for (Index i = 0; i < 4; ++i) EXPECT_NEAR(fit.std[i] / std::sqrt(expected(i, i)), 1, 1e-3) << i;
 }
 
 // Oracle: the optimum that the search without a start finds; a start elsewhere leads to the valley beside it.

@@ -15,7 +15,7 @@ TransferStructure grid(Denominators sharing) {
     return structure;
 }
 
-TEST(transfer_split, tells_which_outputs_are_separate) {  // oracle: the definition
+TEST(transfer_split, reports_which_outputs_are_separate) {  // oracle: the definition
     EXPECT_TRUE(outputs_are_separate(grid(Denominators::kPerChannel)));
     EXPECT_TRUE(outputs_are_separate(TransferStructure::grid(2, 2, Denominators::kPerOutput, {2}, {0}, {0})));
     EXPECT_FALSE(outputs_are_separate(TransferStructure::grid(2, 2, Denominators::kCommon, {2}, {0}, {0})));

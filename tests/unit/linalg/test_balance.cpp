@@ -32,9 +32,9 @@ TEST(balance, sees_neighbours_that_are_small_beside_the_diagonal) {  // oracle: 
     Matrix A{{2, 1e-18}, {1e18, 3}};
     balance(A);
     EXPECT_EQ(A.diagonal(), (Vector{{2, 3}}));
-    for (const double neighbour : {A(0, 1), A(1, 0)}) {
-        EXPECT_LT(neighbour, 2);
-        EXPECT_GT(neighbour, 0.5);
+    for (const double neighbor : {A(0, 1), A(1, 0)}) {
+        EXPECT_LT(neighbor, 2);
+        EXPECT_GT(neighbor, 0.5);
     }
 }
 

@@ -36,48 +36,49 @@ MatrixOf<Number> by_entries(const MatrixOf<Number>& A, const MatrixOf<Number>& B
 }
 
 template <class Actual, class Number>
-void expect_same(const Actual& actual, const MatrixOf<Number>& wanted, const char* what) {
-    ASSERT_EQ(actual.rows(), wanted.rows()) << what;
-    ASSERT_EQ(actual.cols(), wanted.cols()) << what;
-    EXPECT_LT((MatrixOf<Number>(actual) - wanted).norm(), 1e-13 * (1 + wanted.norm())) << what;
+void expect_same(const Actual& actual, const MatrixOf<Number>& expected, const char* what) {
+    ASSERT_EQ(actual.rows(), expected.rows()) << what;
+    ASSERT_EQ(actual.cols(), expected.cols()) << what;
+    EXPECT_LT((MatrixOf<Number>(actual) - expected).norm(), 1e-13 * (1 + expected.norm())) << what;
 }
 
 // Oracle: sums entry by entry. Small and large sizes take different routes.
 template <class Number>
 void check_products(Index rows, Index depth, Index cols) {
     const MatrixOf<Number> A = entries<Number>(rows, depth, 0.3), B = entries<Number>(depth, cols, 0.9);
-    const MatrixOf<Number> wanted = by_entries<Number>(A, B), At = A.transpose(), Bt = B.transpose(), Ah = A.adjoint(),
-                           wide = entries<Number>(rows + 3, depth + 2, 0.1);
-    expect_same(MatrixOf<Number>(A * B), wanted, "A B");
-    expect_same(MatrixOf<Number>(At.transpose() * B), wanted, "transposed left");
-    expect_same(MatrixOf<Number>(A * Bt.transpose()), wanted, "transposed right");
-    expect_same(MatrixOf<Number>(At.transpose() * Bt.transpose()), wanted, "both transposed");
-    expect_same(MatrixOf<Number>(Ah.adjoint() * B), wanted, "adjoint");
-    expect_same(MatrixOf<Number>((Number(2) * A) * (-B)), MatrixOf<Number>(Number(-2) * wanted), "factors");
-    expect_same(MatrixOf<Number>((A + A) * B), MatrixOf<Number>(Number(2) * wanted), "an expression");
-    expect_same(MatrixOf<Number>((A * B).transpose()), MatrixOf<Number>(wanted.transpose()), "of the product");
+    const MatrixOf<Number> expected = by_entries<Number>(A, B), At = A.transpose(), Bt = B.transpose(),
+                           Ah = A.adjoint(), wide = entries<Number>(rows + 3, depth + 2, 0.1);
+    expect_same(MatrixOf<Number>(A * B), expected, "A B");
+    expect_same(MatrixOf<Number>(At.transpose() * B), expected, "transposed left");
+    expect_same(MatrixOf<Number>(A * Bt.transpose()), expected, "transposed right");
+    expect_same(MatrixOf<Number>(At.transpose() * Bt.transpose()), expected, "both transposed");
+    expect_same(MatrixOf<Number>(Ah.adjoint() * B), expected, "adjoint");
+    expect_same(MatrixOf<Number>((Number(2) * A) * (-B)), MatrixOf<Number>(Number(-2) * expected), "factors");
+    expect_same(MatrixOf<Number>((A + A) * B), MatrixOf<Number>(Number(2) * expected), "an expression");
+    expect_same(MatrixOf<Number>((A * B).transpose()), MatrixOf<Number>(expected.transpose()), "of the product");
     const auto block = wide.block(2, 1, rows, depth);
     expect_same(MatrixOf<Number>(block * B), by_entries<Number>(MatrixOf<Number>(block), B), "a block");
     MatrixOf<Number> target = MatrixOf<Number>::Ones(rows + 1, cols + 1);
     target.bottomRightCorner(rows, cols).noalias() += A * B;
-    expect_same(target.bottomRightCorner(rows, cols), MatrixOf<Number>(wanted.array() + Number(1)), "added to a block");
+    expect_same(target.bottomRightCorner(rows, cols), MatrixOf<Number>(expected.array() + Number(1)),
+                "added to a block");
     target.bottomRightCorner(rows, cols) -= A * B;
     expect_same(target, MatrixOf<Number>(MatrixOf<Number>::Ones(rows + 1, cols + 1)), "taken off, the rest untouched");
     Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_rows = A * B;
-    expect_same(by_rows, wanted, "into rows");
+    expect_same(by_rows, expected, "into rows");
     const MatrixOf<Number> square = entries<Number>(rows, rows, 0.5);
     MatrixOf<Number> own = square;
     own = own * own;
     expect_same(own, by_entries<Number>(square, square), "into a factor");
     for (Index j = 0; j < cols; ++j)
-        expect_same((A * B.col(j)).eval(), MatrixOf<Number>(wanted.col(j)), "a vector on the right");
+        expect_same((A * B.col(j)).eval(), MatrixOf<Number>(expected.col(j)), "a vector on the right");
     for (Index i = 0; i < rows; ++i)
-        expect_same((A.row(i) * B).eval(), MatrixOf<Number>(wanted.row(i)), "a row on the left");
-    expect_same((A * Bt.row(0).transpose()).eval(), MatrixOf<Number>(wanted.col(0)), "a vector in steps");
+        expect_same((A.row(i) * B).eval(), MatrixOf<Number>(expected.row(i)), "a row on the left");
+    expect_same((A * Bt.row(0).transpose()).eval(), MatrixOf<Number>(expected.col(0)), "a vector in steps");
     MatrixOf<Number> rows_of = MatrixOf<Number>::Zero(3, rows);
     rows_of.row(1) = (A * B.col(0)).transpose();
-    expect_same(rows_of.row(1), MatrixOf<Number>(wanted.col(0).transpose()), "a vector into a row");
-    expect_same((A * (B.col(0) + B.col(0))).eval(), MatrixOf<Number>(Number(2) * wanted.col(0)), "a sum of vectors");
+    expect_same(rows_of.row(1), MatrixOf<Number>(expected.col(0).transpose()), "a vector into a row");
+    expect_same((A * (B.col(0) + B.col(0))).eval(), MatrixOf<Number>(Number(2) * expected.col(0)), "a sum of vectors");
 }
 
 TEST(products, are_the_sums_of_their_entries) {

@@ -39,11 +39,11 @@ void expect_step(const Matrix& A, double h) {
     const auto step = short_step(small, n, h);
     ASSERT_TRUE(step);
     const Expected expected(A, h);
-    const auto expect = [&](const StateMatrix<room>& found, const LongMatrix& wanted, const char* what) {
+    const auto expect = [&](const StateMatrix<room>& found, const LongMatrix& expected_value, const char* what) {
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i)
-                EXPECT_NEAR(found(i, j), static_cast<double>(wanted(i, j)),
-                            1e-14 * static_cast<double>(wanted.row(i).cwiseAbs().maxCoeff()))
+                EXPECT_NEAR(found(i, j), static_cast<double>(expected_value(i, j)),
+                            1e-14 * static_cast<double>(expected_value.row(i).cwiseAbs().maxCoeff()))
                     << what << ", " << n << " states, step " << h;
     };
     expect(step->E, expected.E, "E");

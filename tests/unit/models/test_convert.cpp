@@ -37,7 +37,7 @@ TEST(convert, zoh_of_a_lag_with_a_fraction_of_delay) {  // oracle: analytic, mod
 }
 
 TEST(convert, foh_of_an_integrator_is_the_trapezoidal_rule) {  // oracle: analytic
-    const TransferFunction G = c2d(TransferFunction(from({1}), from({1, 0})), 0.2, Discretisation::kFoh);
+    const TransferFunction G = c2d(TransferFunction(from({1}), from({1, 0})), 0.2, Discretization::kFoh);
     EXPECT_TRUE(G.num().isApprox(from({0.1, 0.1}), 1e-15));
     EXPECT_TRUE(G.den().isApprox(from({1, -1}), 1e-15));
 }
@@ -45,7 +45,7 @@ TEST(convert, foh_of_an_integrator_is_the_trapezoidal_rule) {  // oracle: analyt
 TEST(convert, integrators_stay_integrators) {  // oracle: analytic, a pole at s = 0 becomes one at z = 1
     for (const Vector& integrating : {from({1, 3, 2, 0}), from({1, 3, 2, 0, 0}), from({1, 0.2, 4, 0})})
         for (const double Ts : {0.003, 0.01, 0.1, 0.3, 1.0})
-            for (const auto method : {Discretisation::kZoh, Discretisation::kFoh, Discretisation::kTustin})
+            for (const auto method : {Discretization::kZoh, Discretization::kFoh, Discretization::kTustin})
                 for (const double sign : {1.0, -1.0}) {
                     const TransferFunction G = c2d(TransferFunction(from({sign}), integrating), Ts, method);
                     EXPECT_EQ(G.dc_gain(), sign * std::numeric_limits<double>::infinity()) << integrating << Ts;
@@ -60,7 +60,7 @@ TEST(convert, tustin_is_the_substitution) {  // oracle: definition, values at z
     const double Ts = 0.05;
     const Complex z = std::polar(0.9, 0.7), s = 2 / Ts * (z - 1.0) / (z + 1.0);
     for (const TransferFunction& G : {kSecondOrder, kRaoGarnier, TransferFunction(from({1, 2, 3}), from({1, 4, 3}))})
-        EXPECT_NEAR(std::abs(c2d(G, Ts, Discretisation::kTustin).at(z) / G.at(s) - 1.0), 0, 1e-12);
+        EXPECT_NEAR(std::abs(c2d(G, Ts, Discretization::kTustin).at(z) / G.at(s) - 1.0), 0, 1e-12);
 }
 
 TEST(convert, discrete_model_simulates_like_the_continuous_one) {  // oracle: second route, lsim
@@ -71,7 +71,7 @@ TEST(convert, discrete_model_simulates_like_the_continuous_one) {  // oracle: se
             for (const TransferFunction& plain :
                  {kSecondOrder, kRaoGarnier, TransferFunction(from({1, 2, 3}), from({1, 4, 3}))}) {
                 const TransferFunction G = plain.with_delay(delay);
-                const auto method = hold == Hold::kZoh ? Discretisation::kZoh : Discretisation::kFoh;
+                const auto method = hold == Hold::kZoh ? Discretization::kZoh : Discretization::kFoh;
                 const Vector continuous = lsim(G, u, 0.05, hold), discrete = lsim(c2d(G, 0.05, method), u, 0.05);
                 EXPECT_LT((continuous - discrete).cwiseAbs().maxCoeff(), 1e-9 * continuous.cwiseAbs().maxCoeff());
             }
@@ -81,7 +81,7 @@ TEST(convert, d2c_undoes_c2d) {  // oracle: second route, there and back
     const TransferFunction models[] = {kSecondOrder, kRaoGarnier.with_delay(0.06),
                                        TransferFunction(from({1, 2, 3}), from({1, 4, 4})),  // double pole, feed-through
                                        TransferFunction(from({1}), from({1, 0, 0}))};       // double integrator
-    for (const auto method : {Discretisation::kZoh, Discretisation::kFoh, Discretisation::kTustin})
+    for (const auto method : {Discretization::kZoh, Discretization::kFoh, Discretization::kTustin})
         for (const TransferFunction& G : models) {
             const TransferFunction back = d2c(c2d(G, 0.02, method), method);
             ASSERT_EQ(back.num().size(), G.num().size()) << back.num().transpose();
@@ -95,7 +95,7 @@ TEST(convert, d2c_undoes_c2d) {  // oracle: second route, there and back
 TEST(convert, there_and_back_keeps_the_digits) {  // oracle: round trip; simple poles, fast and slow sampling
     const TransferFunction models[] = {kSecondOrder, kRaoGarnier,
                                        TransferFunction(from({3, 1}), from({1, 2, 0}), 0, 0.4)};
-    for (const auto method : {Discretisation::kZoh, Discretisation::kFoh, Discretisation::kTustin})
+    for (const auto method : {Discretization::kZoh, Discretization::kFoh, Discretization::kTustin})
         for (const double Ts : {0.001, 0.01, 0.1})
             for (const TransferFunction& G : models) {
                 const TransferFunction discrete = c2d(G, Ts, method), back = d2c(discrete, method);
@@ -107,7 +107,7 @@ TEST(convert, there_and_back_keeps_the_digits) {  // oracle: round trip; simple 
 }
 
 TEST(convert, state_space_agrees_with_transfer_function) {  // oracle: second route
-    for (const auto method : {Discretisation::kZoh, Discretisation::kFoh, Discretisation::kTustin}) {
+    for (const auto method : {Discretization::kZoh, Discretization::kFoh, Discretization::kTustin}) {
         const TransferFunction direct = c2d(kSecondOrder, 0.1, method);
         const TransferFunction through = to_transfer_function(c2d(to_state_space(kSecondOrder), 0.1, method));
         EXPECT_TRUE(through.den().isApprox(direct.den(), 1e-13));
@@ -159,15 +159,15 @@ TEST(convert, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([&] { c2d(kSecondOrder, -1); }),
               "c2d: the sampling time must be a positive number of seconds, but it is -1");
     EXPECT_NE(thrown_message([&] { d2c(discrete); }).find("the pole z = -0.5"), std::string::npos);
-    EXPECT_NE(thrown_message([&] { c2d(kSecondOrder.with_delay(0.15), 0.1, Discretisation::kTustin); }).find("0.15 s"),
+    EXPECT_NE(thrown_message([&] { c2d(kSecondOrder.with_delay(0.15), 0.1, Discretization::kTustin); }).find("0.15 s"),
               std::string::npos);
     const TransferFunction unstable(from({1}), from({1, -20}));  // a pole at 2/Ts
     const std::string no_image =
         "c2d: the tustin method has no result for a pole at 2/Ts = 20 rad/s; choose another Ts";
-    EXPECT_EQ(thrown_message([&] { c2d(unstable, 0.1, Discretisation::kTustin); }), no_image);
-    EXPECT_EQ(thrown_message([&] { c2d(to_state_space(unstable), 0.1, Discretisation::kTustin); }), no_image);
+    EXPECT_EQ(thrown_message([&] { c2d(unstable, 0.1, Discretization::kTustin); }), no_image);
+    EXPECT_EQ(thrown_message([&] { c2d(to_state_space(unstable), 0.1, Discretization::kTustin); }), no_image);
     const TransferFunction alternating(from({1}), from({1, 0.7, -0.3}), 0.1);  // (z + 1)(z - 0.3) but for rounding
-    EXPECT_EQ(thrown_message([&] { d2c(alternating, Discretisation::kTustin); }),
+    EXPECT_EQ(thrown_message([&] { d2c(alternating, Discretization::kTustin); }),
               "d2c: the tustin method has no result for a pole at z = -1");
     EXPECT_NE(thrown_message([&] { c2d(TransferFunction::variable(), 0.1); }).find("zeros"), std::string::npos);
 }

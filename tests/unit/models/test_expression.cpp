@@ -69,8 +69,8 @@ TEST(expression, of_a_chain_has_the_derivative_by_hand) {  // oracle: d/dx [p x^
                                  tape.apply(Operation::kMultiply, tape.constant(2), x));
     const Node f = tape.apply(Operation::kAdd, bell, kink);
     for (const double at : {0.4, 1.9}) {
-        const double wanted = 3 * (2 * at - at * at) * std::exp(-at) + (at > 1 ? 1 : 2);
-        EXPECT_NEAR(evaluated(tape, tape.derivative(f, x), Vector::Constant(1, at), Vector::Constant(1, 3)), wanted,
+        const double expected = 3 * (2 * at - at * at) * std::exp(-at) + (at > 1 ? 1 : 2);
+        EXPECT_NEAR(evaluated(tape, tape.derivative(f, x), Vector::Constant(1, at), Vector::Constant(1, 3)), expected,
                     1e-13);
     }
 }

@@ -9,7 +9,7 @@ namespace test_sampled_system {
 using namespace dynlab;
 
 SampledSystem lag(double Ts, Hold hold, double delay) {  // 1/(s + 1) and a feed-through of 0.5
-    return discretise(Matrix{{-1}}, Vector{{1.0}}, Matrix{{1}}, Vector{{0.5}}, Ts, hold, delay);
+    return discretize(Matrix{{-1}}, Vector{{1.0}}, Matrix{{1}}, Vector{{0.5}}, Ts, hold, delay);
 }
 
 TEST(sampled_system, held_input_with_a_delay_between_samples) {  // oracle: analytic, Astrom and Wittenmark (1997) 2.3

@@ -29,7 +29,7 @@ void work_in_parts() {
     bar.advance(5);
 }
 
-TEST(activity_line, tells_times_in_words) {
+TEST(activity_line, reports_times_in_words) {
     EXPECT_EQ(lasting_text("cell 1 of 2", 1.9), "cell 1 of 2  1 s");
     EXPECT_EQ(lasting_text("cell 1 of 2", 125), "cell 1 of 2  2 min 5 s");
 }

@@ -20,8 +20,8 @@ namespace test_box {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-ChildResult shell(Box& box, const std::string& command, Box::Limits limits = {}) {
-    return box.run({"/bin/sh", "-c", command}, {}, "", limits);
+ChildResult shell(Sandbox& sandbox, const std::string& command, Sandbox::Limits limits = {}) {
+    return sandbox.run({"/bin/sh", "-c", command}, {}, "", limits);
 }
 
 class full_box : public ::testing::Test {
@@ -30,20 +30,20 @@ class full_box : public ::testing::Test {
         if (const auto obstacle = obstacle_to(Isolation::kFull)) GTEST_SKIP() << message_text(*obstacle);
     }
     TemporaryFolder folder_;
-    Box box_{Isolation::kFull};
+    Sandbox sandbox_{Isolation::kFull};
 };
 
 // oracle: what the programs inside see
 TEST_F(full_box, holds_nothing_but_what_was_put_in) {
     write_file_atomically(folder_.path() / "a.txt", "inside\n");
-    EXPECT_EQ(box_.add(folder_.path(), "/box/files"), "/box/files");
-    EXPECT_EQ(shell(box_, "cat /box/files/a.txt").output, "inside\n");
-    EXPECT_NE(shell(box_, "echo x > /box/files/b.txt").exit_code, 0);
+    EXPECT_EQ(sandbox_.add(folder_.path(), "/box/files"), "/box/files");
+    EXPECT_EQ(shell(sandbox_, "cat /box/files/a.txt").output, "inside\n");
+    EXPECT_NE(shell(sandbox_, "echo x > /box/files/b.txt").exit_code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b.txt"));
-    EXPECT_EQ(shell(box_, "ls -d /etc /home /root /var 2>/dev/null").output, "");
-    EXPECT_NE(shell(box_, "echo x > /usr/never").exit_code, 0);
-    EXPECT_EQ(shell(box_, "ls -A /tmp; pwd").output, "/tmp\n");
-    EXPECT_EQ(shell(box_, "env | grep -c HOME=").output, "1\n");
+    EXPECT_EQ(shell(sandbox_, "ls -d /etc /home /root /var 2>/dev/null").output, "");
+    EXPECT_NE(shell(sandbox_, "echo x > /usr/never").exit_code, 0);
+    EXPECT_EQ(shell(sandbox_, "ls -A /tmp; pwd").output, "/tmp\n");
+    EXPECT_EQ(shell(sandbox_, "env | grep -c HOME=").output, "1\n");
 }
 
 /// Processes in whose command line this stands.
@@ -60,7 +60,7 @@ int processes_with(const std::string& marker) {
 
 /// What the next test kills.
 TEST_F(full_box, DISABLED_sleeps) {
-    shell(box_, std::string("exec sleep ") + std::getenv("DYNLAB_TEST_SLEEP"));
+    shell(sandbox_, std::string("exec sleep ") + std::getenv("DYNLAB_TEST_SLEEP"));
 }
 
 // oracle: the kernel's list of processes, after kills at every stage of a box's start
@@ -97,43 +97,43 @@ TEST(box, a_program_finds_its_own_libraries_beside_it) {
     EXPECT_FALSE(library_folder_of(prefix.path() / "lib/dynlab/one.so"));
     for (const Isolation level : {Isolation::kFull, Isolation::kProcess}) {
         if (obstacle_to(level)) continue;
-        Box box(level);
-        const ChildResult run = box.run({box.add_program(prefix.path() / "bin/tool").string()}, {}, "", {});
+        Sandbox sandbox(level);
+        const ChildResult run = sandbox.run({sandbox.add_program(prefix.path() / "bin/tool").string()}, {}, "", {});
         EXPECT_EQ(run.output, "one.so\n") << run.error_output;
     }
 }
 
 // oracle: what the kernel says of a process inside, and what it lets it do
-TEST_F(full_box, gives_nobody_the_rights_of_root) {
-    box_.add(folder_.path(), "/box/files");
-    EXPECT_EQ(shell(box_, "grep -E '^Cap(Prm|Eff|Bnd)' /proc/self/status | tr -d '0\\n\\t'").output,
+TEST_F(full_box, gives_no_one_the_rights_of_root) {
+    sandbox_.add(folder_.path(), "/box/files");
+    EXPECT_EQ(shell(sandbox_, "grep -E '^Cap(Prm|Eff|Bnd)' /proc/self/status | tr -d '0\\n\\t'").output,
               "CapPrm:CapEff:CapBnd:");
-    EXPECT_NE(shell(box_, "mount -o remount,bind,rw /box/files && echo x > /box/files/b.txt").exit_code, 0);
-    EXPECT_NE(shell(box_, "mount -t tmpfs none /tmp").exit_code, 0);
+    EXPECT_NE(shell(sandbox_, "mount -o remount,bind,rw /box/files && echo x > /box/files/b.txt").exit_code, 0);
+    EXPECT_NE(shell(sandbox_, "mount -t tmpfs none /tmp").exit_code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "b.txt"));
 }
 
 TEST_F(full_box, has_a_writable_place_of_limited_size) {
-    const auto inside = box_.add_writable(folder_.path(), "/box/out");
-    EXPECT_EQ(shell(box_, "echo y > " + inside.string() + "/y.txt").exit_code, 0);
+    const auto inside = sandbox_.add_writable(folder_.path(), "/box/out");
+    EXPECT_EQ(shell(sandbox_, "echo y > " + inside.string() + "/y.txt").exit_code, 0);
     EXPECT_EQ(read_file(folder_.path() / "y.txt"), "y\n");
-    Box::Limits limits;
+    Sandbox::Limits limits;
     limits.scratch_bytes = 1 << 20;
-    EXPECT_NE(shell(box_, "head -c 3M /dev/zero > /tmp/big", limits).exit_code, 0);
+    EXPECT_NE(shell(sandbox_, "head -c 3M /dev/zero > /tmp/big", limits).exit_code, 0);
 }
 
 TEST_F(full_box, sees_no_other_processes_and_no_network) {
-    EXPECT_EQ(shell(box_, "ls /proc | grep -c '^[0-9]'").output.size(), 2u);
-    EXPECT_THAT(shell(box_, "cat /proc/net/dev").output, Not(HasSubstr("eth")));
+    EXPECT_EQ(shell(sandbox_, "ls /proc | grep -c '^[0-9]'").output.size(), 2u);
+    EXPECT_THAT(shell(sandbox_, "cat /proc/net/dev").output, Not(HasSubstr("eth")));
 }
 
 TEST_F(full_box, ends_with_all_it_started) {
-    Box::Limits limits;
+    Sandbox::Limits limits;
     limits.time = {std::chrono::milliseconds(500), 1};
     const auto start = std::chrono::steady_clock::now();
-    EXPECT_TRUE(shell(box_, "setsid sleep 1234 & sleep 1234", limits).timed_out);
+    EXPECT_TRUE(shell(sandbox_, "setsid sleep 1234 & sleep 1234", limits).timed_out);
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
-    EXPECT_EQ(shell(box_, "(setsid sleep 1235 >/dev/null 2>&1 &) ; echo done").output, "done\n");
+    EXPECT_EQ(shell(sandbox_, "(setsid sleep 1235 >/dev/null 2>&1 &) ; echo done").output, "done\n");
     ChildOptions look;
     look.command = {"pgrep", "-fx", "sleep 123[45]"};
     // The kernel ends the box's processes soon after its first one.
@@ -145,20 +145,20 @@ TEST_F(full_box, ends_with_all_it_started) {
 
 // oracle: the kernel counts three processes in one box, none of which uses the whole time
 TEST_F(full_box, counts_the_processor_time_of_all_its_processes) {
-    Box::Limits limits;
+    Sandbox::Limits limits;
     limits.time = {std::chrono::milliseconds(900), 100};
     const std::string spin = "(i=0; while [ $i -lt 100000000 ]; do i=$((i+1)); done)";
-    EXPECT_TRUE(shell(box_, spin + " & " + spin + " & " + spin + " & wait", limits).processor_time_used_up);
+    EXPECT_TRUE(shell(sandbox_, spin + " & " + spin + " & " + spin + " & wait", limits).processor_time_used_up);
     limits.time = {std::chrono::milliseconds(500), 5};
-    EXPECT_EQ(shell(box_, "sleep 1; echo whole", limits).output, "whole\n");
+    EXPECT_EQ(shell(sandbox_, "sleep 1; echo whole", limits).output, "whole\n");
 }
 
 TEST(process_box, keeps_the_places_and_empties_the_environment) {
     const TemporaryFolder folder;
-    Box box(Isolation::kProcess);
-    EXPECT_EQ(box.add(folder.path(), "/box/files"), folder.path());
-    box.set_environment("DYNLAB_HOME", "/somewhere");
-    EXPECT_EQ(shell(box, "echo $DYNLAB_HOME $USER").output, "/somewhere\n");
+    Sandbox sandbox(Isolation::kProcess);
+    EXPECT_EQ(sandbox.add(folder.path(), "/box/files"), folder.path());
+    sandbox.set_environment("DYNLAB_HOME", "/somewhere");
+    EXPECT_EQ(shell(sandbox, "echo $DYNLAB_HOME $USER").output, "/somewhere\n");
     EXPECT_EQ(obstacle_to(Isolation::kProcess), std::nullopt);
 }
 

@@ -192,9 +192,9 @@ TEST_F(cache, names_are_a_kind_and_a_plain_name) {
     for (const char* name :
          {"", "..", "key", "a/", "/b", "a/b/c", "a/..", "../b", "a/.hidden", ".hidden/b", "a//b", "/a/b"}) {
         EXPECT_THROW(store.find(name), std::invalid_argument) << name;
-        EXPECT_THROW(store.recall(name), std::invalid_argument) << name;
-        EXPECT_THROW(store.remember(name, ""), std::invalid_argument) << name;
-        EXPECT_THROW(store.forget(name), std::invalid_argument) << name;
+        EXPECT_THROW(store.load_entry(name), std::invalid_argument) << name;
+        EXPECT_THROW(store.save_entry(name, ""), std::invalid_argument) << name;
+        EXPECT_THROW(store.erase_entry(name), std::invalid_argument) << name;
     }
 }
 
@@ -224,57 +224,57 @@ TEST_F(cache, what_makes_the_entries_is_part_of_their_names) {
 
 TEST_F(cache, gives_back_the_bytes_of_a_name) {
     const Cache store;
-    EXPECT_FALSE(store.recall("test/a"));
-    store.remember("test/a", bytes_);
-    store.remember("test/empty", "");
-    EXPECT_EQ(store.recall("test/a"), bytes_);
-    EXPECT_EQ(Cache().recall("test/a"), bytes_);
-    EXPECT_EQ(Cache().recall("test/empty"), "");
-    store.remember("test/a", "later");
-    EXPECT_EQ(Cache().recall("test/a"), "later");
-    store.forget("test/a");
-    EXPECT_FALSE(store.recall("test/a"));
+    EXPECT_FALSE(store.load_entry("test/a"));
+    store.save_entry("test/a", bytes_);
+    store.save_entry("test/empty", "");
+    EXPECT_EQ(store.load_entry("test/a"), bytes_);
+    EXPECT_EQ(Cache().load_entry("test/a"), bytes_);
+    EXPECT_EQ(Cache().load_entry("test/empty"), "");
+    store.save_entry("test/a", "later");
+    EXPECT_EQ(Cache().load_entry("test/a"), "later");
+    store.erase_entry("test/a");
+    EXPECT_FALSE(store.load_entry("test/a"));
     EXPECT_EQ(entries(), 1u);
 }
 
-TEST_F(cache, spoilt_bytes_are_not_recalled_and_can_be_kept_again) {
+TEST_F(cache, corrupt_bytes_are_no_hit_and_can_be_stored_again) {
     const Cache store;
-    store.remember("test/a", bytes_);
+    store.save_entry("test/a", bytes_);
     const fs::path file = store.root() / "test/a";
     const std::string whole = read_file(file);
     std::string flipped = whole;
     flipped.back() ^= 1;
     for (const std::string& spoilt : {whole.substr(0, whole.size() - 1), whole + "x", flipped, std::string()}) {
         write_file_atomically(file, spoilt);
-        EXPECT_FALSE(store.recall("test/a"));
+        EXPECT_FALSE(store.load_entry("test/a"));
         EXPECT_FALSE(fs::exists(file));
-        store.remember("test/a", bytes_);
-        EXPECT_EQ(store.recall("test/a"), bytes_);
+        store.save_entry("test/a", bytes_);
+        EXPECT_EQ(store.load_entry("test/a"), bytes_);
     }
     fs::remove(file);
     fs::create_directories(file / "folder");  // as an earlier program may have left it
-    EXPECT_FALSE(store.recall("test/a"));
-    store.remember("test/a", bytes_);
-    EXPECT_EQ(store.recall("test/a"), bytes_);
+    EXPECT_FALSE(store.load_entry("test/a"));
+    store.save_entry("test/a", bytes_);
+    EXPECT_EQ(store.load_entry("test/a"), bytes_);
 }
 
-TEST_F(cache, trouble_with_the_disk_only_forgets) {
+TEST_F(cache, a_disk_error_only_loses_the_entry) {
     const Cache store;
-    store.remember("test/a", bytes_);
+    store.save_entry("test/a", bytes_);
     fs::remove_all(store.root());
-    EXPECT_FALSE(store.recall("test/a"));
-    store.remember("test/a", bytes_);
-    EXPECT_EQ(store.recall("test/a"), bytes_);
+    EXPECT_FALSE(store.load_entry("test/a"));
+    store.save_entry("test/a", bytes_);
+    EXPECT_EQ(store.load_entry("test/a"), bytes_);
     fs::remove_all(store.root() / "test");
     std::ofstream(store.root() / "test") << "no folder";  // nothing can be written below it
-    EXPECT_FALSE(store.recall("test/a"));
-    EXPECT_NO_THROW(store.remember("test/a", bytes_));
-    EXPECT_FALSE(store.recall("test/a"));
+    EXPECT_FALSE(store.load_entry("test/a"));
+    EXPECT_NO_THROW(store.save_entry("test/a", bytes_));
+    EXPECT_FALSE(store.load_entry("test/a"));
     fs::remove_all(store.root());
     std::ofstream(store.root()) << "no folder";
-    EXPECT_FALSE(store.recall("test/a"));
-    EXPECT_NO_THROW(store.remember("test/a", bytes_));
-    EXPECT_FALSE(store.recall("test/a"));
+    EXPECT_FALSE(store.load_entry("test/a"));
+    EXPECT_NO_THROW(store.save_entry("test/a", bytes_));
+    EXPECT_FALSE(store.load_entry("test/a"));
 }
 
 TEST_F(cache, bytes_of_all_kinds_share_the_limit) {
@@ -282,14 +282,14 @@ TEST_F(cache, bytes_of_all_kinds_share_the_limit) {
     const Cache store(20 * kEach);
     for (int i = 0; i < 60; ++i) {
         const std::string name = (i % 2 == 0 ? "even/" : "odd/") + std::to_string(i);
-        store.remember(name, std::string(kEach, 'c'));
+        store.save_entry(name, std::string(kEach, 'c'));
         set_age(store.root() / name, std::chrono::hours(60 - i));
     }
     const auto left = entries("even") + entries("odd");
     EXPECT_GE(left, 15u);
     EXPECT_LE(left, 22u);
-    EXPECT_TRUE(store.recall("odd/59"));
-    EXPECT_FALSE(store.recall("even/0"));
+    EXPECT_TRUE(store.load_entry("odd/59"));
+    EXPECT_FALSE(store.load_entry("even/0"));
 }
 
 // Oracle: the count of entries. Each of many short runs writes far less than a sixteenth of the limit.
@@ -297,7 +297,7 @@ TEST_F(cache, the_limit_holds_over_many_runs_that_write_little) {
     for (int i = 0; i < 100; ++i) {
         const Cache store(20000);
         const std::string name = "test/" + std::to_string(i);
-        store.remember(name, std::string(400, 'c'));
+        store.save_entry(name, std::string(400, 'c'));
         set_age(store.root() / name, std::chrono::hours(100 - i));
     }
     EXPECT_GE(entries(), 35u);

@@ -12,7 +12,7 @@ namespace test_file_error {
 namespace fs = std::filesystem;
 
 template <class Call>
-std::string told(Call call) {
+std::string reported(Call call) {
     try {
         call();
     } catch (const fs::filesystem_error& error) {
@@ -22,15 +22,15 @@ std::string told(Call call) {
 }
 
 // A file stands where a folder is wanted: that refuses everybody, root as well.
-TEST(file_error, is_told_in_the_words_of_other_messages) {
+TEST(file_error, is_reported_in_the_words_of_other_messages) {
     const TemporaryFolder folder;
     const fs::path file = folder.path() / "file", below = file / "below", none = folder.path() / "none";
     std::ofstream(file) << "text";
-    EXPECT_EQ(told([&] { fs::create_directories(below); }),
+    EXPECT_EQ(reported([&] { fs::create_directories(below); }),
               "cannot create the folder " + below.string() + ": not a directory");
-    EXPECT_EQ(told([&] { fs::directory_iterator{none}; }),
+    EXPECT_EQ(reported([&] { fs::directory_iterator{none}; }),
               "cannot read the folder " + none.string() + ": no such file or directory");
-    EXPECT_EQ(told([&] { fs::copy_file(none, below); }),
+    EXPECT_EQ(reported([&] { fs::copy_file(none, below); }),
               "cannot copy file " + none.string() + " to " + below.string() + ": no such file or directory");
 }
 

@@ -45,7 +45,7 @@ TEST(hash, does_not_depend_on_portions) {
 }
 
 // Oracle: definition; a digest of parts tells where each ends, an empty one too.
-TEST(hash, parts_are_told_apart) {
+TEST(hash, parts_are_distinguished) {
     const auto of_parts = [](std::initializer_list<std::string_view> parts) {
         DigestStream stream;
         for (const std::string_view part : parts) stream.add_part(part);

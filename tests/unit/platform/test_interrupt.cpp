@@ -40,10 +40,10 @@ TEST(interrupt, forgotten_ones_do_not_count) {
     for (int i = 0; i < 3; ++i) {
         std::raise(SIGINT);
         EXPECT_TRUE(interrupted());
-        forget_interrupts();
+        clear_interrupts();
         EXPECT_FALSE(interrupted());
     }
-    forget_interrupts(4);
+    clear_interrupts(4);
     for (int i = 0; i < 3; ++i) std::raise(SIGINT);
     EXPECT_TRUE(interrupted());
 }
@@ -140,7 +140,7 @@ TEST(interrupt, unheard_one_ends_a_program_that_said_so) {
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
         const auto began = std::chrono::steady_clock::now();
         const int status = status_of_deaf([number] {
-            static const InterruptScope scope(InterruptScope::Unheard::kEnds);
+            static const InterruptScope scope(InterruptScope::Unhandled::kEnds);
             std::raise(number);
         });
         if (number == SIGINT) {
@@ -161,14 +161,14 @@ TEST(interrupt, programs_that_go_on_are_not_ended) {
         });
     };
     const int forgotten = status_after([] {
-        static const InterruptScope scope(InterruptScope::Unheard::kEnds);
+        static const InterruptScope scope(InterruptScope::Unhandled::kEnds);
         std::raise(SIGINT);
-        forget_interrupts();
+        clear_interrupts();
         std::raise(SIGINT);
     });
     EXPECT_EQ(WEXITSTATUS(forgotten), 6);
     const int slow = status_after([] {
-        static const InterruptScope scope(InterruptScope::Unheard::kEnds);
+        static const InterruptScope scope(InterruptScope::Unhandled::kEnds);
         static const SlowEnding slow_ending;
         std::raise(SIGINT);
     });

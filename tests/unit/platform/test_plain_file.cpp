@@ -28,7 +28,7 @@ class plain_file : public testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(plain_file, replaces_what_stands_there_and_not_what_it_leads_to) {
+TEST_F(plain_file, replaces_what_is_there_and_not_what_it_leads_to) {
     ::chmod(path("thesis").c_str(), 0644);
     for (const char* name : {"link", "dangling", "endless", "pipe", "new"}) {
         write_plain_file(path(name), "sealed");

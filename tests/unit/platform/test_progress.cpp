@@ -56,12 +56,12 @@ TEST(progress, appears_on_a_terminal_and_clears_its_line) {
 }
 
 /// Where another process shows the work, it hears the same numbers, and that the bar is over.
-TEST(progress, can_be_told_to_a_listener) {
-    std::vector<std::pair<std::size_t, std::size_t>> told;
-    ProgressBar::tell_instead([&](std::size_t done, std::size_t total) { told.emplace_back(done, total); });
+TEST(progress, can_be_sent_to_a_listener) {
+    std::vector<std::pair<std::size_t, std::size_t>> reported;
+    ProgressBar::set_listener([&](std::size_t done, std::size_t total) { reported.emplace_back(done, total); });
     EXPECT_EQ(test::written_to_a_terminal(work_for_a_while), "");
-    ProgressBar::tell_instead({});
-    EXPECT_THAT(told, testing::ElementsAre(std::pair(7u, 10u), std::pair(0u, 0u)));
+    ProgressBar::set_listener({});
+    EXPECT_THAT(reported, testing::ElementsAre(std::pair(7u, 10u), std::pair(0u, 0u)));
 }
 
 }  // namespace test_progress

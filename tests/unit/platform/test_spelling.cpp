@@ -16,7 +16,7 @@ TEST(spelling, finds_the_slip) {
     EXPECT_EQ(nearest_word("Bode", kNames), "bode");                     // case ignored
 }
 
-TEST(spelling, does_not_guess_wildly) {
+TEST(spelling, does_not_suggest_unlikely_words) {
     EXPECT_FALSE(nearest_word("crane", kNames));
     EXPECT_FALSE(nearest_word("spet", {"step"}));  // e and p apart: two of four letters
     EXPECT_FALSE(nearest_word("", kNames));

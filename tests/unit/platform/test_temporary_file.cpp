@@ -137,7 +137,7 @@ TEST(temporary_file, the_lock_of_another_is_not_waited_for) {
 }
 
 // oracle: the files that are there and whose lock is not to be had, though some were locked before their maker could
-TEST(temporary_file, whoever_locks_new_files_first_holds_up_nothing) {
+TEST(temporary_file, a_process_that_locks_new_files_first_blocks_nothing) {
     const TemporaryFolder folder;
     const FileDescriptor news(::inotify_init1(IN_CLOEXEC));
     ASSERT_GE(::inotify_add_watch(news.get(), folder.path().c_str(), IN_CREATE), 0);

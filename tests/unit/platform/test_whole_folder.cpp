@@ -28,26 +28,26 @@ TEST(whole_folder, is_there_with_all_its_files_or_not_at_all) {
     const auto fill = [](const fs::path& growing) {
         for (const char* name : {"a", "b"}) std::ofstream(growing / name) << name;
     };
-    EXPECT_THROW(make_whole_folder(folder,
-                                   [&](const fs::path& growing) {
-                                       fill(growing);
-                                       throw EnvironmentError("the disk is full");
-                                   }),
+    EXPECT_THROW(make_complete_folder(folder,
+                                      [&](const fs::path& growing) {
+                                          fill(growing);
+                                          throw EnvironmentError("the disk is full");
+                                      }),
                  EnvironmentError);
     EXPECT_EQ(entries_in(around.path()), 0u);
     const pid_t killed = ::fork();
     if (killed == 0)
-        make_whole_folder(folder, [](const fs::path& growing) {
+        make_complete_folder(folder, [](const fs::path& growing) {
             std::ofstream(growing / "a") << "a" << std::flush;
             ::raise(SIGKILL);
         });
     ::waitpid(killed, nullptr, 0);
     EXPECT_FALSE(fs::exists(folder));
     fs::create_directory(folder);  // an empty one may be there
-    make_whole_folder(folder, fill);
+    make_complete_folder(folder, fill);
     EXPECT_EQ(entries_in(around.path()), 1u);
     EXPECT_EQ(entries_in(folder), 2u);
-    EXPECT_THROW(make_whole_folder(folder, fill), EnvironmentError);
+    EXPECT_THROW(make_complete_folder(folder, fill), EnvironmentError);
     EXPECT_EQ(entries_in(folder), 2u);
 }
 
@@ -55,14 +55,15 @@ TEST(whole_folder, is_there_with_all_its_files_or_not_at_all) {
 TEST(whole_folder, of_two_calls_at_once_is_the_work_of_the_first_to_end) {
     const TemporaryFolder around;
     const fs::path folder = around.path() / "mine";
-    EXPECT_THROW(make_whole_folder(folder,
-                                   [&](const fs::path& slow) {
-                                       std::ofstream(slow / "a") << "slow" << std::flush;
-                                       make_whole_folder(folder, [](const fs::path& quick) {
-                                           for (const char* name : {"a", "b"}) std::ofstream(quick / name) << "quick";
-                                       });
-                                       std::ofstream(slow / "c") << "slow";
-                                   }),
+    EXPECT_THROW(make_complete_folder(folder,
+                                      [&](const fs::path& slow) {
+                                          std::ofstream(slow / "a") << "slow" << std::flush;
+                                          make_complete_folder(folder, [](const fs::path& quick) {
+                                              for (const char* name : {"a", "b"})
+                                                  std::ofstream(quick / name) << "quick";
+                                          });
+                                          std::ofstream(slow / "c") << "slow";
+                                      }),
                  EnvironmentError);
     EXPECT_EQ(entries_in(around.path()), 1u);
     EXPECT_EQ(entries_in(folder), 2u);
@@ -73,12 +74,12 @@ TEST(whole_folder, of_a_killed_call_leaves_nothing_behind_the_next_call_for_any_
     const TemporaryFolder around;
     const pid_t killed = ::fork();
     if (killed == 0)
-        make_whole_folder(around.path() / "mine", [](const fs::path& growing) {
+        make_complete_folder(around.path() / "mine", [](const fs::path& growing) {
             std::ofstream(growing / "a") << "a" << std::flush;
             ::raise(SIGKILL);
         });
     ::waitpid(killed, nullptr, 0);
-    make_whole_folder(around.path() / "other", [](const fs::path&) {});
+    make_complete_folder(around.path() / "other", [](const fs::path&) {});
     EXPECT_EQ(entries_in(around.path()), 1u);
     EXPECT_EQ(fs::status(around.path() / "other").permissions(), [&] {
         fs::create_directory(around.path() / "ordinary");

@@ -60,7 +60,7 @@ TEST_F(written_files, of_others_stay) {
 }
 
 // oracle: the rule: only what a run has written is a run's
-TEST_F(written_files, asked_for_and_not_written_are_nobodys) {
+TEST_F(written_files, asked_for_and_not_written_have_no_owner) {
     { WrittenFiles(ledger_).take(file_); }  // the call then failed
     write_file_atomically(file_, "by hand");
     EXPECT_THROW(run("x"), EnvironmentError);

@@ -73,7 +73,7 @@ TEST(drifting_process, sensor_is_as_stated) {  // oracle: statistics with fixed 
 }
 
 TEST(drifting_process, record_is_binary_and_follows_the_seed) {
-    const RigRecord one = simulate_drifting_process({}, {}, 3), again = simulate_drifting_process({}, {}, 3);
+    const PlantData one = simulate_drifting_process({}, {}, 3), again = simulate_drifting_process({}, {}, 3);
     EXPECT_EQ(one.y, again.y);
     EXPECT_NE(one.u, simulate_drifting_process({}, {}, 4).u);
     EXPECT_EQ(one.u.size(), 5100);

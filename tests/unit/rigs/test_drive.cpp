@@ -65,7 +65,7 @@ TEST(drive, brings_the_speed_to_the_reference) {  // oracle: integral action
     const DriveRecord record = simulate_drive(exact(), Vector::Constant(1000, 5.), random);
     EXPECT_NEAR(record.y[999], 5, 1e-4);
     for (std::uint32_t number = 1; number <= 50; ++number) {
-        DriveParameters p = drive_specimen(number);
+        DriveParameters p = drive_variant(number);
         p.load_std = p.noise_std = p.resolution = 0;
         EXPECT_NEAR(simulate_drive(p, Vector::Constant(1500, 5.), random).y[1499], 5, 1e-3) << number;
     }

@@ -14,7 +14,7 @@ TEST(heat_exchanger, obeys_its_energy_balance) {  // oracle: residual of the dif
     p.noise_std = p.resolution = 0;
     p.Ts = 0.01;
     p.duration = 120;
-    const RigRecord record = simulate_heat_exchanger(p, 1);
+    const PlantData record = simulate_heat_exchanger(p, 1);
     const double capacity = p.mass * p.specific_heat + p.wall_capacity;
     for (Index k : {1000, 6100, 9000, 11000}) {
         const double T = record.y[k], rate = (record.y[k + 1] - record.y[k - 1]) / (2 * p.Ts);
@@ -29,7 +29,7 @@ TEST(heat_exchanger, rests_before_and_after_the_step) {  // oracle: analytic equ
     p.noise_std = p.resolution = 0;
     p.duration = 5000;
     const HeatExchangerTruth truth = heat_exchanger_truth(p);
-    const RigRecord record = simulate_heat_exchanger(p, 1);
+    const PlantData record = simulate_heat_exchanger(p, 1);
     EXPECT_NEAR(record.y[0], truth.initial_output, 1e-12);
     EXPECT_NEAR(record.y[30], truth.initial_output, 1e-12);
     EXPECT_NEAR(record.y[record.y.size() - 1], truth.final_output, 1e-9);
@@ -47,7 +47,7 @@ TEST(heat_exchanger, sensor_rounds_and_adds_the_stated_noise) {  // oracle: stat
     const double N = static_cast<double>(noise.size());
     EXPECT_NEAR(noise.mean(), 0, 4 * p.noise_std / std::sqrt(N));
     EXPECT_NEAR(std::sqrt(noise.squaredNorm() / N), p.noise_std, 4 * p.noise_std / std::sqrt(2 * N));
-    const RigRecord record = simulate_heat_exchanger(p, 3);
+    const PlantData record = simulate_heat_exchanger(p, 3);
     for (double y : record.y) EXPECT_NEAR(y / p.resolution, std::round(y / p.resolution), 1e-6);
 }
 

@@ -27,7 +27,7 @@ TEST(linear_system, measures_its_output_in_white_noise) {  // oracle: definition
     const TransferFunction G = linear_system_truth(p);
     for (std::uint32_t seed : {1u, 2u, 3u}) {
         const LinearSystemRecords records = simulate_linear_system(p, seed);
-        for (const RigRecord* record : {&records.estimation, &records.validation}) {
+        for (const PlantData* record : {&records.estimation, &records.validation}) {
             const Vector e = record->y - lsim(G, record->u, p.Ts);
             const auto N = static_cast<double>(e.size());
             EXPECT_NEAR(std::sqrt(e.squaredNorm() / N), p.noise_std, 4 * p.noise_std / std::sqrt(2 * N));

@@ -20,16 +20,16 @@ using testing::HasSubstr;
 
 std::vector<std::string> all_names() {
     std::vector<std::string> names;
-    for (const Rig& rig : dynlab::rig_catalogue()) names.push_back(rig.name);
+    for (const Plant& plant : dynlab::plant_catalog()) names.push_back(plant.name);
     return names;
 }
 
-class rig_catalogue : public testing::TestWithParam<std::string> {
+class plant_catalog : public testing::TestWithParam<std::string> {
   protected:
-    static const Rig& rig() { return *find_rig(GetParam()); }
+    static const Plant& plant() { return *find_plant(GetParam()); }
     static fs::path folder() { return fs::path(DYNLAB_SOURCE_DIR) / "data" / GetParam(); }
 };
-INSTANTIATE_TEST_SUITE_P(all, rig_catalogue, testing::ValuesIn(all_names()),
+INSTANTIATE_TEST_SUITE_P(all, plant_catalog, testing::ValuesIn(all_names()),
                          [](const auto& name) { return name.param; });
 
 std::string text_of_file(const fs::path& file) {
@@ -39,29 +39,29 @@ std::string text_of_file(const fs::path& file) {
     return text.str();
 }
 
-std::vector<std::string> names_of(const RigValues& values) {
+std::vector<std::string> names_of(const PlantValues& values) {
     std::vector<std::string> names;
-    for (const RigValue& value : values) names.push_back(value.name);
+    for (const PlantValue& value : values) names.push_back(value.name);
     return names;
 }
 
 /// The record's experiments, or the record itself.
-std::vector<RigValues> experiments_of(const Rig& rig, const RigValues& record) {
-    if (rig.experiments.empty()) return {record};
-    std::vector<RigValues> all;
-    for (const RigValue& experiment : record) all.push_back(std::get<RigValues>(experiment.value));
+std::vector<PlantValues> experiments_of(const Plant& plant, const PlantValues& record) {
+    if (plant.experiments.empty()) return {record};
+    std::vector<PlantValues> all;
+    for (const PlantValue& experiment : record) all.push_back(std::get<PlantValues>(experiment.value));
     return all;
 }
 
-const Vector& signal_of(const RigValues& values, const std::string& name) {
+const Vector& signal_of(const PlantValues& values, const std::string& name) {
     const auto found =
-        std::find_if(values.begin(), values.end(), [&](const RigValue& value) { return value.name == name; });
+        std::find_if(values.begin(), values.end(), [&](const PlantValue& value) { return value.name == name; });
     return std::get<Vector>(found->value);
 }
 
-TEST_P(rig_catalogue, has_a_stored_data_set_that_says_its_signals) {
+TEST_P(plant_catalog, has_a_stored_data_set_that_says_its_signals) {
     const std::string source = text_of_file(folder() / "SOURCE.md");
-    for (const RigSignal& signal : rig().signals) {
+    for (const PlantSignal& signal : plant().signals) {
         EXPECT_THAT(source, HasSubstr("`" + signal.name + "`"));
         for (const auto& entry : fs::directory_iterator(folder())) {
             if (entry.path().extension() != ".csv") continue;
@@ -75,56 +75,56 @@ TEST_P(rig_catalogue, has_a_stored_data_set_that_says_its_signals) {
     }
 }
 
-TEST_P(rig_catalogue, records_have_the_experiments_the_signals_and_the_sampling_it_tells) {
-    const Rig& rig = this->rig();
+TEST_P(plant_catalog, records_have_the_experiments_the_signals_and_the_documented_sampling) {
+    const Plant& plant = this->plant();
     std::vector<std::string> signals;
-    for (const RigSignal& signal : rig.signals) signals.push_back(signal.name);
-    const RigValues record = rig.record({});
-    if (!rig.experiments.empty()) {
-        EXPECT_THAT(names_of(record), ElementsAreArray(rig.experiments));
+    for (const PlantSignal& signal : plant.signals) signals.push_back(signal.name);
+    const PlantValues record = plant.record({});
+    if (!plant.experiments.empty()) {
+        EXPECT_THAT(names_of(record), ElementsAreArray(plant.experiments));
     }
-    for (const RigValues& experiment : experiments_of(rig, record)) {
+    for (const PlantValues& experiment : experiments_of(plant, record)) {
         EXPECT_THAT(names_of(experiment), ElementsAreArray(signals));
         const Vector& t = signal_of(experiment, "t");
-        for (Index k = 1; k < t.size(); ++k) ASSERT_NEAR(t[k] - t[k - 1], rig.Ts, 1e-9 * t[k]) << k;
+        for (Index k = 1; k < t.size(); ++k) ASSERT_NEAR(t[k] - t[k - 1], plant.Ts, 1e-9 * t[k]) << k;
         for (const std::string& name : signals) EXPECT_TRUE(signal_of(experiment, name).allFinite()) << name;
     }
 }
 
 // oracle: what a choice means
-TEST_P(rig_catalogue, another_seed_changes_the_record_and_another_specimen_the_truth) {
-    const Rig& rig = this->rig();
-    const auto record = [&rig](const RigChoice& choice) {
-        return signal_of(experiments_of(rig, rig.record(choice)).front(), rig.signals.back().name);
+TEST_P(plant_catalog, another_seed_changes_the_record_and_another_variant_the_truth) {
+    const Plant& plant = this->plant();
+    const auto record = [&plant](const PlantChoice& choice) {
+        return signal_of(experiments_of(plant, plant.record(choice)).front(), plant.signals.back().name);
     };
-    const RigChoice stored;
+    const PlantChoice stored;
     EXPECT_EQ(stored.specimen, 0u);
     EXPECT_EQ(stored.seed, 1u);
     EXPECT_EQ(record(stored), record({.specimen = 0, .seed = 1}));
     EXPECT_NE(record(stored), record({.specimen = 0, .seed = 2}));
     EXPECT_NE(record(stored), record({.specimen = 3, .seed = 1}));
-    EXPECT_EQ(names_of(rig.truth(0)), names_of(rig.truth(3)));
-    const auto numbers = [](const RigValues& values) {
+    EXPECT_EQ(names_of(plant.truth(0)), names_of(plant.truth(3)));
+    const auto numbers = [](const PlantValues& values) {
         std::vector<double> all;
-        for (const RigValue& value : values) {
+        for (const PlantValue& value : values) {
             if (const auto* number = std::get_if<double>(&value.value)) all.push_back(*number);
             if (const auto* model = std::get_if<TransferFunction>(&value.value)) all.push_back(model->dc_gain());
         }
         return all;
     };
-    EXPECT_EQ(numbers(rig.truth(3)), numbers(rig.truth(3)));
-    EXPECT_NE(numbers(rig.truth(0)), numbers(rig.truth(3)));
+    EXPECT_EQ(numbers(plant.truth(3)), numbers(plant.truth(3)));
+    EXPECT_NE(numbers(plant.truth(0)), numbers(plant.truth(3)));
 }
 
 TEST(rig_names, are_sorted_and_found) {
     std::set<std::string> names;
-    for (const Rig& rig : dynlab::rig_catalogue()) {
-        EXPECT_TRUE(names.empty() || *names.rbegin() < rig.name) << rig.name;
-        names.insert(rig.name);
-        EXPECT_EQ(find_rig(rig.name), &rig);
+    for (const Plant& plant : dynlab::plant_catalog()) {
+        EXPECT_TRUE(names.empty() || *names.rbegin() < plant.name) << plant.name;
+        names.insert(plant.name);
+        EXPECT_EQ(find_plant(plant.name), &plant);
     }
-    EXPECT_EQ(find_rig("cranes"), nullptr);
-    EXPECT_EQ(find_rig(""), nullptr);
+    EXPECT_EQ(find_plant("cranes"), nullptr);
+    EXPECT_EQ(find_plant(""), nullptr);
 }
 
 }  // namespace test_rig_catalogue

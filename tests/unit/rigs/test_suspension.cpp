@@ -12,7 +12,7 @@ TEST(suspension, obeys_newtons_law) {  // oracle: residual of the differential e
     p.noise_std = p.resolution = 0;
     p.Ts = 1e-4;
     p.step_time = 0.5;
-    const RigRecord record = simulate_suspension(p, 1);
+    const PlantData record = simulate_suspension(p, 1);
     for (Index k : {100, 5100, 9000, 20000}) {
         const double h = p.Ts, x = 1e-3 * record.y[k];
         const double rate = 1e-3 * (record.y[k + 1] - record.y[k - 1]) / (2 * h);
@@ -27,7 +27,7 @@ TEST(suspension, peaks_where_the_truth_says) {  // oracle: analytic
     p.noise_std = p.resolution = 0;
     p.Ts = 1e-4;
     const SuspensionTruth truth = suspension_truth(p);
-    const RigRecord record = simulate_suspension(p, 1);
+    const PlantData record = simulate_suspension(p, 1);
     Index top = 0;
     const double peak = record.y.maxCoeff(&top);
     EXPECT_NEAR(record.t[top], truth.overshoot_time, p.Ts);

@@ -45,7 +45,7 @@ TEST(two_tanks, rest_where_their_flows_balance) {  // oracle: residuals of both 
 }
 
 // oracle: the step response of two lags in a row, for a step so small that the tanks are linear
-TEST(two_tanks, small_changes_have_the_gain_and_the_time_constants_told) {
+TEST(two_tanks, small_changes_have_the_gain_and_the_documented_time_constants) {
     const TwoTanksParameters p;
     const double at = 2.5, step = 1e-4;
     const TwoTanksTruth truth = two_tanks_truth(p, at);

@@ -39,9 +39,9 @@ TEST(box_muller, agrees_with_the_definition) {  // oracle: long double of the ma
 }
 
 TEST(box_muller, extreme_uniforms_give_numbers) {  // oracle: long double of the mathematical library
-    constexpr double kSmallest = 0x1p-53, kLargest = 1 - 0x1p-53;
-    const NormalPairs u1{0, kSmallest, 2 * kSmallest, 0.25, 0.5, 1 - std::numbers::sqrt2 / 2, 0.75, kLargest};
-    for (const double u2 : {0., kSmallest, 0.125, 0.25, 0.5, 0.75, kLargest}) {
+    constexpr double kMinValue = 0x1p-53, kMaxValue = 1 - 0x1p-53;
+    const NormalPairs u1{0, kMinValue, 2 * kMinValue, 0.25, 0.5, 1 - std::numbers::sqrt2 / 2, 0.75, kMaxValue};
+    for (const double u2 : {0., kMinValue, 0.125, 0.25, 0.5, 0.75, kMaxValue}) {
         NormalPairs same;
         same.fill(u2);
         EXPECT_LT(largest_difference(u1, same), 5e-16) << u2;

@@ -54,8 +54,9 @@ TEST(butterworth, has_the_analytic_magnitude) {  // oracle: |H|^2 = 1/(1 + v^(2n
                 const ComplexVector H = response(butterworth(band, kTs, of_order(order, stop)), w, kTs);
                 for (Index i = 0; i < w.size(); ++i) {
                     // a stop band below or above one edge is the pass band beyond it
-                    const double wanted = squared_magnitude(band, order, stop, w[i]);
-                    EXPECT_NEAR(std::norm(H[i]), wanted, 1e-9) << band.low << " " << band.high << " " << order << stop;
+                    const double expected = squared_magnitude(band, order, stop, w[i]);
+                    EXPECT_NEAR(std::norm(H[i]), expected, 1e-9)
+                        << band.low << " " << band.high << " " << order << stop;
                 }
             }
 }

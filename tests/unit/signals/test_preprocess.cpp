@@ -52,7 +52,7 @@ TEST(preprocess, the_level_before_the_step_is_taken_off) {  // oracle: what was 
     EXPECT_LT((rest.u - (u.array() - 2).matrix()).lpNorm<Eigen::Infinity>(), 1e-13);
 }
 
-TEST(preprocess, the_calm_beginning_may_be_told) {  // oracle: definition
+TEST(preprocess, the_calm_beginning_may_be_given) {  // oracle: definition
     const Vector u{{0, 1, 0, 1, 0}}, y{{2, 4, 9, 9, 9}};
     const IdData data(Matrix(y), Matrix(u), 1);
     EXPECT_THROW(remove_initial_level(data), InvalidArgument);

@@ -107,12 +107,12 @@ TEST(repair, quantisation_is_the_grid_that_samples_lie_on) {  // oracle: signals
     const Vector x = 7 + slow_sine(3000, 0.3).array();
     for (const double step : {0.1, 0.0244140625, 1.0 / 3}) {
         const Vector coarse = (x.array() / step).round() * step;
-        EXPECT_NEAR(quantisation_of(coarse).step, step, 1e-6 * step) << step;
-        EXPECT_GT(quantisation_of(coarse).levels, 5);
+        EXPECT_NEAR(quantization_of(coarse).step, step, 1e-6 * step) << step;
+        EXPECT_GT(quantization_of(coarse).levels, 5);
     }
-    EXPECT_EQ(quantisation_of(x).step, 0);
-    EXPECT_EQ(quantisation_of(Vector::Constant(9, 2.0)).levels, 1);
-    EXPECT_EQ(quantisation_of(Vector{{1, 2, 1, 2}}).step, 1);
+    EXPECT_EQ(quantization_of(x).step, 0);
+    EXPECT_EQ(quantization_of(Vector::Constant(9, 2.0)).levels, 1);
+    EXPECT_EQ(quantization_of(Vector{{1, 2, 1, 2}}).step, 1);
 }
 
 }  // namespace test_repair

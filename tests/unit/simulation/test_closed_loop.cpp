@@ -111,9 +111,9 @@ TEST(closed_loop, continuous_loops_are_those_of_feedback) {
     const Vector r = reference_signal(), v = noise_signal(r.size());
     const ClosedLoop loop(G, {C}, kTs);
     const TransferFunction one(Vector{{1}}, Vector{{1}});
-    const auto wanted = loop.to_reference(r), disturbed = loop.to_disturbance(v);
-    EXPECT_LT((wanted.x - lsim(feedback(C * G, one), r, kTs)).cwiseAbs().maxCoeff(), 1e-9);
-    EXPECT_LT((wanted.u - lsim(feedback(C, G), r, kTs)).cwiseAbs().maxCoeff(), 1e-9);
+    const auto expected_value = loop.to_reference(r), disturbed = loop.to_disturbance(v);
+    EXPECT_LT((expected_value.x - lsim(feedback(C * G, one), r, kTs)).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT((expected_value.u - lsim(feedback(C, G), r, kTs)).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_LT((disturbed.x + lsim(feedback(C * G, one), v, kTs, Hold::kFoh)).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_LT((disturbed.u + lsim(feedback(C, G), v, kTs, Hold::kFoh)).cwiseAbs().maxCoeff(), 1e-9);
     EXPECT_EQ(loop.record(r, v).hold, Hold::kFoh);

@@ -52,9 +52,9 @@ TEST(frequency_response, phase_is_that_of_a_fine_grid) {
     for (const TransferFunction& G : models) {
         const double last = G.continuous() ? 40 : std::numbers::pi / G.Ts() * 0.999;
         const Vector fine = Vector::LinSpaced(100'000, 1e-3, last);
-        const Vector wanted = phase_degrees_unwrapped(frequency_response(G, fine)), found = phase_degrees(G, fine);
-        const double turns = std::round((found[0] - wanted[0]) / 360);
-        EXPECT_LT((found.array() - wanted.array() - 360 * turns).abs().maxCoeff(), 1e-6) << G.delay();
+        const Vector expected = phase_degrees_unwrapped(frequency_response(G, fine)), found = phase_degrees(G, fine);
+        const double turns = std::round((found[0] - expected[0]) / 360);
+        EXPECT_LT((found.array() - expected.array() - 360 * turns).abs().maxCoeff(), 1e-6) << G.delay();
     }
 }
 

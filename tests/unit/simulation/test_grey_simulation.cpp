@@ -31,19 +31,19 @@ TEST(grey_simulation, of_linear_equations_is_lsim) {  // oracle: second route, l
     const Vector u = prbs(5, 3), p{{2, 0.7}};
     const TransferFunction G(Vector{{1.4}}, Vector{{1, 0.7}});
     for (const Hold hold : {Hold::kZoh, Hold::kFoh}) {
-        const Vector wanted = lsim(G, u, 0.3, hold);
+        const Vector expected = lsim(G, u, 0.3, hold);
         const Matrix exact = outputs_of(first_order(1, 1), p, inputs_of(u, 0.3, hold), 1e-7);
-        EXPECT_LT((exact.col(0) - wanted).cwiseAbs().maxCoeff(), 1e-13);
+        EXPECT_LT((exact.col(0) - expected).cwiseAbs().maxCoeff(), 1e-13);
         // The same equation written so that it is solved step by step.
         const GreyModel curved = grey_model({{"K", 1}, {"r", 1}}, {"x"}, [](const Variables& v) -> std::vector<Term> {
             return {v.p[1] * (v.p[0] * v.u - v.x[0]) + 1e-30 * sine(v.x[0])};
         });
         const Matrix stepped = outputs_of(curved, p, inputs_of(u, 0.3, hold), 1e-10);
-        EXPECT_LT((stepped.col(0) - wanted).cwiseAbs().maxCoeff(), 1e-9);
+        EXPECT_LT((stepped.col(0) - expected).cwiseAbs().maxCoeff(), 1e-9);
     }
 }
 
-TEST(grey_simulation, of_a_pendulum_agrees_with_the_rigs_solver) {  // oracle: second route, OdeSolver at 1e-12
+TEST(grey_simulation, of_a_pendulum_agrees_with_the_plants_solver) {  // oracle: second route, OdeSolver at 1e-12
     const Vector u = prbs(4, 5), p{{9, 4, 0.3}};
     const Matrix y = outputs_of(pendulum(1, 1, 1), p, inputs_of(u, 0.1), 1e-9, 2);
     OdeOptions tight;
@@ -80,10 +80,10 @@ void expect_exact_sensitivities(const GreyModel& model, const Vector& p, const G
     std::vector<Index> all(static_cast<std::size_t>(p.size()));
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>(i);
     const Matrix S = GreySimulator(model, outputs, {all, {}}, 1e-11).run(p, inputs, {}, true).sensitivities;
-    const Matrix wanted = differences(model, p, inputs, outputs);
+    const Matrix expected = differences(model, p, inputs, outputs);
     for (Index q = 0; q < p.size(); ++q)
-        EXPECT_LT((S.col(q) - wanted.col(q)).cwiseAbs().maxCoeff(),
-                  tolerance * std::max(1., wanted.col(q).cwiseAbs().maxCoeff()))
+        EXPECT_LT((S.col(q) - expected.col(q)).cwiseAbs().maxCoeff(),
+                  tolerance * std::max(1., expected.col(q).cwiseAbs().maxCoeff()))
             << model.parameters[static_cast<std::size_t>(q)].name;
 }
 
@@ -141,8 +141,8 @@ TEST(grey_simulation, of_stiff_equations_has_exact_sensitivities) {
         const auto difference = [&](double h) -> Vector {
             return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h * steps[q]);
         };
-        const Vector wanted = (16 * difference(0.5) - difference(1)) / 15;
-        EXPECT_LT((S - wanted).cwiseAbs().maxCoeff(), 1e-7 * wanted.cwiseAbs().maxCoeff()) << q;
+        const Vector expected = (16 * difference(0.5) - difference(1)) / 15;
+        EXPECT_LT((S - expected).cwiseAbs().maxCoeff(), 1e-7 * expected.cwiseAbs().maxCoeff()) << q;
     }
 }
 
@@ -168,7 +168,7 @@ TEST(grey_simulation, called_functions_give_what_traced_ones_give) {  // oracle:
     EXPECT_LT((a.sensitivities - b.sensitivities).cwiseAbs().maxCoeff(), 1e-7);
 }
 
-TEST(grey_simulation, tells_when_and_which_state_becomes_infinite) {  // oracle: dx/dt = x^2 from 1 escapes at t = 1
+TEST(grey_simulation, reports_when_and_which_state_becomes_infinite) {  // oracle: dx/dt = x^2 from 1 escapes at t = 1
     const GreyModel escaping = grey_model(
         {{"k", 1}}, {"h"}, [](const Variables& v) -> std::vector<Term> { return {v.p[0] * v.x[0] * v.x[0]}; }, {},
         [](const Variables& v) -> std::vector<Term> { return {number(v.u, 1)}; });
@@ -179,7 +179,8 @@ TEST(grey_simulation, tells_when_and_which_state_becomes_infinite) {  // oracle:
     EXPECT_NEAR(time, 1, 1e-3) << message;
 }
 
-TEST(grey_simulation, tells_a_derivative_that_is_no_number) {  // oracle: sqrt below zero, after 2 s of emptying at 0.5
+TEST(grey_simulation,
+     reports_a_derivative_that_is_no_number) {  // oracle: sqrt below zero, after 2 s of emptying at 0.5
     const GreyModel tank = grey_model(
         {{"k", 1}}, {"h"},
         [](const Variables& v) -> std::vector<Term> {

@@ -35,7 +35,7 @@ TEST(irregular_filter, equals_the_regular_filter_on_regular_instants) {  // orac
         for (const double delay : {0.0, 0.25, 0.5, 1.37}) {
             const double Ts = 0.25;
             Matrix regular(60, 2);
-            ExactFilter(discretise(kA, kB, kC, kD, Ts, hold, delay)).run(u, x, regular);
+            ExactFilter(discretize(kA, kB, kC, kD, Ts, hold, delay)).run(u, x, regular);
             const Vector t = Vector::LinSpaced(60, 0, 59 * Ts);
             const Matrix irregular = IrregularFilter(kA, kB, kC, kD, hold, delay).run(u, t, x);
             EXPECT_LT((irregular - regular).lpNorm<Eigen::Infinity>(), 1e-12) << "delay " << delay;

@@ -24,7 +24,7 @@ Matrix outputs_of(const SampledSystem& system, const Vector& u) {
 /// 1/(s + 1)^2 with both states, and a feed-through at the first output.
 SampledSystem two_lags(double Ts, Hold hold, double delay) {
     const Matrix A{{-1, 0}, {1, -1}};
-    return discretise(A, Vector{{1.0, 0.0}}, Matrix::Identity(2, 2), Vector{{0.5, 0.0}}, Ts, hold, delay);
+    return discretize(A, Vector{{1.0, 0.0}}, Matrix::Identity(2, 2), Vector{{0.5, 0.0}}, Ts, hold, delay);
 }
 
 // oracle: finer sampling, where the delay is a multiple of the interval and the input is what the hold makes of it

@@ -17,7 +17,7 @@ const Vector kFrequencies{{0.1, 1.0, 2.0, 10.0, 31.0}};
 
 TEST(sampled_response, equals_that_of_the_discretised_model) {  // second route: c2d by the modified z-transform
     for (const auto& [inter_sample, method] :
-         {std::pair(InterSample::kZoh, Discretisation::kZoh), std::pair(InterSample::kFoh, Discretisation::kFoh)}) {
+         {std::pair(InterSample::kZoh, Discretization::kZoh), std::pair(InterSample::kFoh, Discretization::kFoh)}) {
         const ComplexVector direct = response_between_samples(kPlant, kFrequencies, 0.1, inter_sample);
         const ComplexVector other = frequency_response(c2d(kPlant, 0.1, method), kFrequencies);
         EXPECT_LT((direct - other).norm(), 1e-10 * other.norm());

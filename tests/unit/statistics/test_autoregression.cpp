@@ -34,8 +34,8 @@ TEST(autoregression, chooses_no_order_for_white_noise_and_enough_for_coloured) {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         const Vector e = RandomStream(seed).normal(1000);
         orders += fit_autoregression(e, {1000}, 40).order() > 3 ? 1 : 0;
-        const Vector coloured = autoregressive(Vector{{-0.9, 0, 0, 0.5}}, 1000, seed);
-        EXPECT_GE(fit_autoregression(coloured, {1000}, 40).order(), 4) << seed;
+        const Vector colored = autoregressive(Vector{{-0.9, 0, 0, 0.5}}, 1000, seed);
+        EXPECT_GE(fit_autoregression(colored, {1000}, 40).order(), 4) << seed;
     }
     EXPECT_LE(orders, 3);
 }
@@ -57,13 +57,13 @@ TEST(autoregression, chooses_the_order_of_the_process_by_bic) {
 
 TEST(autoregression, of_the_highest_order_is_asked_for) {
     const Vector e = RandomStream(2).normal(30);
-    EXPECT_EQ(fit_autoregression(e, {20, 10}, 12, AutoregressiveOrder::kHighest).order(), 12);
+    EXPECT_EQ(fit_autoregression(e, {20, 10}, 12, AutoregressiveOrder::kMaxInteger).order(), 12);
 }
 
-TEST(autoregression, a_sine_is_told_by_two_coefficients) {  // x(k) = 2 cos(w) x(k - 1) - x(k - 2)
+TEST(autoregression, a_sine_is_described_by_two_coefficients) {  // x(k) = 2 cos(w) x(k - 1) - x(k - 2)
     Vector x(5000);
     for (Index k = 0; k < x.size(); ++k) x[k] = std::cos(0.7 * static_cast<double>(k));
-    const Autoregression model = fit_autoregression(x, {x.size()}, 2, AutoregressiveOrder::kHighest);
+    const Autoregression model = fit_autoregression(x, {x.size()}, 2, AutoregressiveOrder::kMaxInteger);
     EXPECT_NEAR(model.predictors.back()[0], -2 * std::cos(0.7), 1e-3);
     EXPECT_NEAR(model.predictors.back()[1], 1, 1e-3);
 }
@@ -98,7 +98,7 @@ TEST(autoregression, colouring_backwards_is_the_transposed_operation) {
     Matrix Z(100, 2);
     Z << RandomStream(5).normal(100), RandomStream(6).normal(100);
     const Vector by_e = Z.transpose() * e;
-    const Vector by_w = coloured_backwards(model, Z, lengths).transpose() * whitened(model, e, lengths);
+    const Vector by_w = colored_backwards(model, Z, lengths).transpose() * whitened(model, e, lengths);
     EXPECT_LT((by_e - by_w).norm(), 1e-12 * by_e.norm());
 }
 

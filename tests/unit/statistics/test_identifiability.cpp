@@ -39,7 +39,7 @@ TEST(identifiability, says_which_parameter_has_no_effect) {  // oracle: a column
     EXPECT_THAT(message_text(found.sentences[0]), HasSubstr("do not depend on c"));
 }
 
-TEST(identifiability, is_silent_where_all_is_told) {  // oracle: independent columns, in units 10^9 apart
+TEST(identifiability, reports_nothing_if_all_is_identifiable) {  // oracle: independent columns, in units 10^9 apart
     Matrix J(50, 2);
     J << RandomStream(1).normal(50), 1e9 * RandomStream(2).normal(50);
     const Ambiguity found = find_ambiguity(J, {"a", "b"}, Vector{{1, 1e-9}}, 10);

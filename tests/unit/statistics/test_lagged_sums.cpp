@@ -9,7 +9,7 @@ namespace test_lagged_sums {
 
 using namespace dynlab;
 
-Vector centred(Vector x) {
+Vector centered(Vector x) {
     x.array() -= x.mean();
     return x;
 }
@@ -52,13 +52,13 @@ Vector first_row(const Vector& Re, const std::vector<Vector>& records, Index lag
 }
 
 TEST(lagged_sums, covariance_is_that_of_the_sums) {  // oracle: the definition, pair by pair
-    const Vector white = Vector::Constant(1, 0.7), coloured{{0.1, -0.3, 0.5, 1.2, 0.5, -0.3, 0.1}};
+    const Vector white = Vector::Constant(1, 0.7), colored{{0.1, -0.3, 0.5, 1.2, 0.5, -0.3, 0.1}};
     Vector slow(61);  // of more lags than the shortest record has
     for (Index k = 0; k < slow.size(); ++k) slow[k] = std::exp(-0.1 * static_cast<double>(std::abs(k - 30)));
-    const std::vector<Vector> one{centred(RandomStream(1).normal(20))};
-    const std::vector<Vector> several{centred(RandomStream(2).normal(17)), centred(RandomStream(3).normal(4)),
-                                      centred(RandomStream(4).normal(30))};
-    for (const Vector& Re : {white, coloured, slow})
+    const std::vector<Vector> one{centered(RandomStream(1).normal(20))};
+    const std::vector<Vector> several{centered(RandomStream(2).normal(17)), centered(RandomStream(3).normal(4)),
+                                      centered(RandomStream(4).normal(30))};
+    for (const Vector& Re : {white, colored, slow})
         for (const auto& records : {one, several})
             for (const Index lags : {1, 6, 10}) {
                 const Matrix P = lagged_sum_covariance(first_row(Re, records, lags), Re, records);

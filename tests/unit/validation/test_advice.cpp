@@ -43,15 +43,14 @@ Record record(std::uint32_t seed = 1, double noise = 0.03, double delay = 0) {
 
 std::string codes(const Advice& advice) {
     std::string all;
-    for (const RecordFinding& finding : advice.findings)
-        all += finding.code + ": " + message_text(finding.message) + "\n";
+    for (const DataIssue& issue : advice.findings) all += issue.code + ": " + message_text(issue.message) + "\n";
     return all;
 }
 
 /// The message of a finding, or all codes when it is not there.
 std::string said(const Advice& advice, const std::string& code) {
-    const RecordFinding* finding = advice.find(code);
-    return finding != nullptr ? message_text(finding->message) : "no " + code + " among:\n" + codes(advice);
+    const DataIssue* issue = advice.find(code);
+    return issue != nullptr ? message_text(issue->message) : "no " + code + " among:\n" + codes(advice);
 }
 
 TEST(advice, clean_records_raise_no_warning) {  // oracle: nothing was put in; false alarms over 30 seeds
@@ -76,13 +75,13 @@ TEST(advice, the_signal_to_noise_ratio_is_that_put_in) {  // oracle: known noise
         const double power = (r.x.array() - r.x.mean()).square().mean();
         const double decibels = 10 * std::log10(power / (noise * noise));
         const Advice advice = advise(r.data());
-        const RecordFinding* finding = advice.find(decibels < 10 ? "low_snr" : "noise");
-        ASSERT_NE(finding, nullptr) << codes(advice);
-        EXPECT_NEAR(finding->value, decibels, 0.7);
+        const DataIssue* issue = advice.find(decibels < 10 ? "low_snr" : "noise");
+        ASSERT_NE(issue, nullptr) << codes(advice);
+        EXPECT_NEAR(issue->value, decibels, 0.7);
     }
 }
 
-TEST(advice, dead_time_is_told_in_seconds_and_samples) {  // oracle: the delay put in
+TEST(advice, dead_time_is_reported_in_seconds_and_samples) {  // oracle: the delay put in
     const Advice advice = advise(record(2, 0.03, 0.85).data());
     ASSERT_TRUE(advice.has("dead_time")) << codes(advice);
     EXPECT_NEAR(advice.find("dead_time")->value, 0.85, 0.03);
@@ -126,7 +125,7 @@ TEST(advice, a_constant_input_may_be_a_step) {  // oracle: definition
     EXPECT_TRUE(advise(IdData(Matrix(y), Matrix(Vector::Zero(200)), 0.1)).has("constant"));
 }
 
-TEST(advice, saturated_throughout_is_told) {  // oracle: clipped at a tenth of the range, and a dead signal
+TEST(advice, saturated_throughout_is_reported) {  // oracle: clipped at a tenth of the range, and a dead signal
     Record r = record(5, 0);
     r.y = r.x.cwiseMin(0.1 * r.x.maxCoeff()).cwiseMax(0.1 * r.x.minCoeff());
     EXPECT_THAT(said(advise(r.data()), "saturation"), HasSubstr("Most of the data are saturated"));
@@ -134,7 +133,7 @@ TEST(advice, saturated_throughout_is_told) {  // oracle: clipped at a tenth of t
     EXPECT_THAT(said(advise(r.data()), "constant"), HasSubstr("stays at 5 throughout"));
 }
 
-TEST(advice, quantisation_is_told_with_its_step) {  // oracle: rounded by us
+TEST(advice, quantisation_is_reported_with_its_step) {  // oracle: rounded by us
     Record r = record(6);
     r.y = (r.y.array() / 0.1).round() * 0.1;
     const Advice advice = advise(r.data());
@@ -144,14 +143,14 @@ TEST(advice, quantisation_is_told_with_its_step) {  // oracle: rounded by us
     EXPECT_FALSE(advise(r.data()).has("quantisation"));
 }
 
-TEST(advice, outliers_are_told_with_their_places) {  // oracle: the places
+TEST(advice, outliers_are_reported_with_their_places) {  // oracle: the places
     Record r = record(7);
     r.y[300] += 4, r.y[700] -= 3;  // beyond what fast passages of the signal can do
     const Advice advice = advise(r.data());
     EXPECT_THAT(said(advice, "outliers"), HasSubstr("2 samples far from the neighboring samples (301, 701)"));
 }
 
-TEST(advice, offsets_are_told) {  // oracle: the offset put in
+TEST(advice, offsets_are_reported) {  // oracle: the offset put in
     Record r = record(8);
     r.y.array() += 20;
     const Advice advice = advise(r.data());
@@ -159,7 +158,7 @@ TEST(advice, offsets_are_told) {  // oracle: the offset put in
     EXPECT_NEAR(advice.find("offset")->value, 20, 0.05);
 }
 
-TEST(advice, a_running_start_is_told) {  // oracle: the record cut out of a movement
+TEST(advice, a_running_start_is_reported) {  // oracle: the record cut out of a movement
     Record r = record(9, 0.01);
     Index fastest = 0;
     (r.x.segment(101, 400) - r.x.segment(100, 400)).cwiseAbs().maxCoeff(&fastest);
@@ -167,11 +166,11 @@ TEST(advice, a_running_start_is_told) {  // oracle: the record cut out of a move
     EXPECT_THAT(said(advise(cut), "running_start"), HasSubstr("during a movement"));
 }
 
-TEST(advice, a_drifting_rig_at_rest_does_not_begin_in_a_movement) {  // oracle: a minute at the equilibrium
+TEST(advice, a_drifting_plant_at_rest_does_not_begin_in_a_movement) {  // oracle: a minute at the equilibrium
     const HeatTransferExperiments experiments;
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
         const HeatTransferRecords records = simulate_heat_transfer({}, experiments, seed);
-        for (const RigRecord* r : {&records.estimation, &records.validation, &records.high}) {
+        for (const PlantData* r : {&records.estimation, &records.validation, &records.high}) {
             const Advice advice = advise(IdData(Matrix(r->y), Matrix(r->u), experiments.Ts));
             EXPECT_FALSE(advice.has("running_start")) << seed << ", from " << r->u[0] << " V\n" << codes(advice);
         }
@@ -218,14 +217,14 @@ TEST(advice, counts_what_an_input_can_determine) {  // oracle: singular values o
         }
         r.y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), r.u, kTs) + r.y - r.x;
         const Advice advice = advise(r.data());
-        const RecordFinding* found = advice.find(advice.has("excitation") ? "excitation" : "poor_excitation");
+        const DataIssue* found = advice.find(advice.has("excitation") ? "excitation" : "poor_excitation");
         ASSERT_NE(found, nullptr) << codes(advice);
         EXPECT_EQ(found->value, excited_parameters(r.u)) << sines;
         EXPECT_EQ(found->value, 2 * sines);
     }
 }
 
-TEST(advice, poor_excitation_is_told) {  // oracle: one sine determines two parameters, a PRBS many
+TEST(advice, poor_excitation_is_reported) {  // oracle: one sine determines two parameters, a PRBS many
     Record r = record();
     for (Index k = 0; k < 1000; ++k) r.u[k] = std::sin(0.13 * static_cast<double>(k));
     r.y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), r.u, kTs);
@@ -235,7 +234,8 @@ TEST(advice, poor_excitation_is_told) {  // oracle: one sine determines two para
     EXPECT_EQ(advise(record().data()).find("excitation")->value, 20);
 }
 
-TEST(advice, sampling_against_the_bandwidth_is_told) {  // oracle: bandwidth 1 rad/s, sampled too rarely and too often
+TEST(advice,
+     sampling_against_the_bandwidth_is_reported) {  // oracle: bandwidth 1 rad/s, sampled too rarely and too often
     const auto sampled = [](double Ts, Index hold) {
         const Vector u = random_levels(2000, hold, 11);
         const Vector y =
@@ -263,7 +263,7 @@ TEST(advice, band_passes_and_integrators_have_no_false_bandwidth) {  // oracle: 
     }
 }
 
-TEST(advice, degrees_declared_as_radians_are_told) {  // oracle: the unit put in
+TEST(advice, degrees_declared_as_radians_are_reported) {  // oracle: the unit put in
     Record r = record(12);
     r.y *= 30;
     IdData data = r.data();
@@ -276,7 +276,7 @@ TEST(advice, degrees_declared_as_radians_are_told) {  // oracle: the unit put in
     EXPECT_FALSE(advise(small).has("degrees"));
 }
 
-TEST(advice, wrong_columns_are_told) {  // oracle: columns mixed up by us
+TEST(advice, wrong_columns_are_reported) {  // oracle: columns mixed up by us
     const Record r = record(13, 0.02);
     const Vector t = Vector::LinSpaced(1000, 0, 99.9);
     EXPECT_THAT(said(advise(IdData(Matrix(r.y), Matrix(t), kTs)), "time_column"), HasSubstr(", like a time"));
@@ -299,7 +299,7 @@ TEST(advice, sampling_instants_are_looked_at) {  // oracle: instants put togethe
     EXPECT_FALSE(advise(IdData(Matrix(r.y), Matrix(r.u), even)).has("gaps"));
 }
 
-TEST(advice, sections_that_do_not_follow_are_told) {  // oracle: the section spoilt by us
+TEST(advice, sections_that_do_not_follow_are_reported) {  // oracle: the section spoilt by us
     Record r = record(15, 0.02);
     for (Index k = 500; k < 570; ++k) r.y[k] += 0.8 * std::sin(0.09 * static_cast<double>(k - 500));
     const Advice advice = advise(r.data());
@@ -309,11 +309,11 @@ TEST(advice, sections_that_do_not_follow_are_told) {  // oracle: the section spo
     EXPECT_GE(advice.discard[0].last, 540);
 }
 
-TEST(advice, short_records_are_told) {
+TEST(advice, short_records_are_reported) {
     EXPECT_THAT(said(advise(record().data().range(1, 40)), "short"), HasSubstr("only 40 samples"));
 }
 
-TEST(advice, outputs_are_judged_one_by_one) {  // oracle: only the second has an offset
+TEST(advice, outputs_are_evaluated_separately) {  // oracle: only the second has an offset
     const Record r = record(16);
     Matrix y(1000, 2);
     y << r.y, r.y.array() + 9;
@@ -357,7 +357,7 @@ TEST(advice, a_clock_that_jitters_is_no_fault) {  // oracle: ticks of a millisec
     EXPECT_TRUE(advise(IdData(Matrix(r.y), Matrix(r.u), t)).clean());
 }
 
-TEST(advice, drift_is_told_with_its_size) {  // oracle: the line put in
+TEST(advice, drift_is_reported_with_its_size) {  // oracle: the line put in
     Record r = record(17);
     r.y += Vector::LinSpaced(1000, 0, 1.5);
     const Advice advice = advise(r.data());
@@ -366,7 +366,7 @@ TEST(advice, drift_is_told_with_its_size) {  // oracle: the line put in
     EXPECT_FALSE(advice.has("low_snr"));
 }
 
-TEST(advice, a_drift_that_a_slow_pole_could_run_out_from_is_told) {  // oracle: the lines put in
+TEST(advice, a_drift_that_a_slow_pole_could_run_out_from_is_reported) {  // oracle: the lines put in
     for (const double rise : {-2.0, 1.0}) {
         Record r = record(21);
         r.y += Vector::LinSpaced(1000, 0, rise);
@@ -376,7 +376,7 @@ TEST(advice, a_drift_that_a_slow_pole_could_run_out_from_is_told) {  // oracle: 
     }
 }
 
-TEST(advice, a_random_walk_is_told) {  // oracle: sums of seeded normal numbers
+TEST(advice, a_random_walk_is_reported) {  // oracle: sums of seeded normal numbers
     Record r = record(18);
     double walk = 0;
     RandomStream steps(40);
@@ -385,7 +385,7 @@ TEST(advice, a_random_walk_is_told) {  // oracle: sums of seeded normal numbers
     EXPECT_TRUE(advice.has("random_walk") || advice.has("drift")) << codes(advice);
 }
 
-TEST(advice, curves_and_play_are_told_where_they_are) {  // oracle: functions applied by us
+TEST(advice, curves_and_play_are_reported_where_they_are) {  // oracle: functions applied by us
     EXPECT_THAT(said(advise(bent_at_input([](double u) { return u + 0.2 * u * u; })), "nonlinear"),
                 HasSubstr("u1 acts through a nonlinear characteristic"));
     EXPECT_THAT(said(advise(bent_at_input([](double u) { return std::copysign(std::max(0.0, std::abs(u) - 0.5), u); })),
@@ -397,14 +397,14 @@ TEST(advice, curves_and_play_are_told_where_they_are) {  // oracle: functions ap
     EXPECT_TRUE(advise(bent_at_input([](double u) { return 3 * u; })).clean());
 }
 
-TEST(advice, a_limit_under_noise_is_told) {  // oracle: clipped before the noise, so that nothing stands still
+TEST(advice, a_limit_under_noise_is_reported) {  // oracle: clipped before the noise, so that nothing stands still
     const Vector u = random_heights(1500, 8, 31);
     Vector y = lsim(TransferFunction(Vector{{2.0}}, Vector{{1.0, 1.0, 4.0}}), u, kTs);
     y = y.cwiseMin(0.5 * y.maxCoeff()) + 0.01 * RandomStream(32).normal(1500);
     EXPECT_THAT(said(advise(IdData(Matrix(y), Matrix(u), kTs)), "saturation"), HasSubstr("saturates at a limit"));
 }
 
-TEST(advice, a_running_controller_is_told) {  // oracle: the loop closed by us, and the same plant without it
+TEST(advice, a_running_controller_is_reported) {  // oracle: the loop closed by us, and the same plant without it
     const Vector reference = random_heights(2000, 25, 6), noise = 0.05 * RandomStream(7).normal(2000);
     const double a = std::exp(-kTs);
     for (const bool closed : {true, false}) {
@@ -421,14 +421,14 @@ TEST(advice, a_running_controller_is_told) {  // oracle: the loop closed by us, 
     }
 }
 
-TEST(advice, an_integrator_is_told) {  // oracle: the pole put in
+TEST(advice, an_integrator_is_reported) {  // oracle: the pole put in
     const Vector u = random_levels(1500, 8, 41);
     const Vector x = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 2.0, 0.0}}), u, kTs);
     const Advice advice = advise(IdData(Matrix(x + 0.02 * RandomStream(42).normal(1500)), Matrix(u), kTs));
     EXPECT_THAT(said(advice, "integrator"), HasSubstr("and does not settle"));
 }
 
-TEST(advice, an_extrapolated_offset_is_told_as_such) {  // oracle: the input never comes near zero
+TEST(advice, an_extrapolated_offset_is_reported_as_such) {  // oracle: the input never comes near zero
     Record r = record(8);
     r.u.array() += 10;
     r.y.array() += 23.4567;

@@ -39,9 +39,9 @@ TEST(cramer_rao, agrees_with_differences_of_simulations) {  // oracle: second ro
         const Vector step = Vector::Unit(5, i) * 1e-5;
         psi.col(i) = (lsim(system(truth + step), u, Ts) - lsim(system(truth - step), u, Ts)) / 2e-5;
     }
-    const Matrix wanted = 0.04 * (psi.transpose() * psi).inverse();
+    const Matrix expected = 0.04 * (psi.transpose() * psi).inverse();
     const Matrix bound = cramer_rao_bound(system(truth), u, Ts, Hold::kZoh, 0.2, names);
-    EXPECT_LT((bound - wanted).norm(), 1e-6 * wanted.norm());
+    EXPECT_LT((bound - expected).norm(), 1e-6 * expected.norm());
 }
 
 TEST(cramer_rao, truth_belongs_to_structures_that_hold_the_system) {  // oracle: the definition
@@ -54,7 +54,7 @@ TEST(cramer_rao, truth_belongs_to_structures_that_hold_the_system) {  // oracle:
     EXPECT_EQ(true_parameters(kSecondOrder, {"Kp", "Tp1"}).size(), 0);
 }
 
-TEST(cramer_rao, infinite_where_the_input_tells_nothing) {  // oracle: a zero input has no information
+TEST(cramer_rao, infinite_where_the_input_has_no_information) {  // oracle: a zero input has no information
     const Matrix bound = cramer_rao_bound(kSecondOrder, Vector::Zero(50), 0.1, Hold::kZoh, 1, {"a1", "a2", "b0"});
     EXPECT_TRUE((bound.diagonal().array() == std::numeric_limits<double>::infinity()).all());
 }

@@ -93,7 +93,7 @@ TEST(crossvalidate, stops_when_asked_and_passes_errors_on) {
     EXPECT_THROW(cross_validate(record(0.1), [](const IdData&) -> std::vector<TransferFunction> { throw 3; }), int);
 }
 
-TEST(crossvalidate, an_unstable_model_is_told_not_thrown) {
+TEST(crossvalidate, an_unstable_model_is_reported_not_thrown) {
     const TransferFunction wild(Vector{{1.0}}, Vector{{1.0, -100.0}});
     int calls = 0;
     const auto result =

@@ -76,10 +76,10 @@ TEST(delay_profile, a_start_condition_holds_for_all_delays) {  // oracle: what t
     IdData data = delayed_record();
     const Vector delays = steps_of(0.1, 12);
     const TransferStructure structure = TransferStructure::single(2, 0);
-    const Vector centred = delay_profile(data, structure, {InitialState::kZero, true}, delays, {}, 1);
+    const Vector centered = delay_profile(data, structure, {InitialState::kZero, true}, delays, {}, 1);
     data.experiments.front().y.array() += 7;
     const Vector lifted = delay_profile(data, structure, {InitialState::kZero, true}, delays, {}, 1);
-    for (Index i = 0; i < delays.size(); ++i) EXPECT_NEAR(lifted[i], centred[i], 1e-3 * centred[i]) << delays[i];
+    for (Index i = 0; i < delays.size(); ++i) EXPECT_NEAR(lifted[i], centered[i], 1e-3 * centered[i]) << delays[i];
 }
 
 TEST(delay_profile, several_channels_are_refused) {

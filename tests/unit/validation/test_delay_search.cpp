@@ -45,8 +45,8 @@ TEST(delay_search, delays_between_samples_are_found) {  // oracle: the simulated
     EXPECT_LT(search.std, 0.02);
     EXPECT_THAT(message_text(search.explanation), HasSubstr("samples), standard error"));
     // told to the second digit of its error: no further from the value than half of that digit, and no digit more
-    const std::string told = message_text(search.explanation).substr(std::string("The delay is ").size());
-    const std::string number = told.substr(0, told.find(' '));
+    const std::string reported = message_text(search.explanation).substr(std::string("The delay is ").size());
+    const std::string number = reported.substr(0, reported.find(' '));
     const double digit = std::pow(10, std::floor(std::log10(search.std)) - 1);
     EXPECT_LE(std::abs(std::stod(number) - search.delay), 0.501 * digit) << message_text(search.explanation);
     EXPECT_LE(number.size(), 2 + static_cast<std::size_t>(std::lround(-std::log10(digit))))
@@ -78,14 +78,14 @@ TEST(delay_search, no_delay_is_worse_than_no_model) {  // oracle: a gain of zero
     EXPECT_TRUE(search.losses().allFinite());
 }
 
-TEST(delay_search, no_delay_is_told) {  // oracle: the simulated system has none
+TEST(delay_search, no_delay_is_reported) {  // oracle: the simulated system has none
     const TransferFunction G(Vector{{2}}, Vector{{1, 4, 3}});
     const DelaySearch search = search_delay(record(G, prbs(7, 8), 0.05, 10, 1));
     EXPECT_LT(search.delay, 0.1);
     EXPECT_THAT(message_text(search.explanation), HasSubstr("does not differ significantly from zero"));
 }
 
-TEST(delay_search, rivals_of_periodic_inputs_are_told) {
+TEST(delay_search, rivals_of_periodic_inputs_are_reported) {
     // Oracle: one period of the sine later everything looks the same but the beginning, which the noise hides.
     const Vector t = Vector::LinSpaced(2000, 0, 99.95);
     const Vector u = (2 * t).array().sin();

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-std::string verdict_text(const ModelStanding& model) {
+std::string verdict_text(const ModelEvidence& model) {
     return message_text(model_verdict(model));
 }
 
@@ -43,10 +43,10 @@ TEST(model_verdict, the_gravest_comes_first) {
 }
 
 TEST(model_verdict, known_causes_come_before_missing_dynamics) {
-    const ModelStanding remedy{
+    const ModelEvidence remedy{
         .independent = false, .acts_at_once = true, .start = Message("B."), .doubts = {.remedy = Message("A.")}};
     EXPECT_EQ(verdict_text(remedy), "A.");
-    const ModelStanding start{.independent = false, .acts_at_once = true, .start = Message("B.")};
+    const ModelEvidence start{.independent = false, .acts_at_once = true, .start = Message("B.")};
     EXPECT_EQ(verdict_text(start), "B.");
     EXPECT_THAT(verdict_text({.independent = false, .acts_at_once = true}), HasSubstr("direct feedthrough"));
     EXPECT_THAT(verdict_text({.independent = false, .acts_earlier = true}), HasSubstr("shorter delay"));

@@ -97,7 +97,7 @@ TEST(monte_carlo, snr_scales_the_noise) {  // oracle: the definition 20 log10(st
     EXPECT_NEAR(result.snr, 10, 1e-12);
 }
 
-TEST(monte_carlo, failures_of_single_runs_are_counted_and_told) {
+TEST(monte_carlo, failures_of_single_runs_are_counted_and_reported) {
     const MonteCarlo result =
         monte_carlo(first_order_study(), {{"picky", [](const IdData& data) {
                                                MonteCarloEstimate estimate = moments(data);

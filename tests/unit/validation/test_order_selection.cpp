@@ -80,7 +80,7 @@ TEST(order_selection, a_second_record_decides_when_it_is_given) {  // oracle: th
 }
 
 // Oracles: srivc() of the integrated record with the integrator appended, compare() of that model, the system.
-TEST(order_selection, structures_with_an_integrator_are_judged_with_it) {
+TEST(order_selection, structures_with_an_integrator_are_evaluated_with_it) {
     const TransferFunction G(Vector{{3.0}}, Vector{{1.0, 2.0, 0.0}});
     const IdData data = record(G, prbs(7, 8), 0.05, 30, 1), whole = record(G, prbs(8, 5), 0.05, 30, 2);
     IdData other = whole.range(300, whole.sample_count());  // begins in motion, and somewhere
@@ -121,7 +121,7 @@ TEST(order_selection, an_unstable_model_is_recommended_only_where_all_are) {  //
     EXPECT_EQ(choose_order(selection).place, 1u);
 }
 
-TEST(order_selection, a_zero_at_the_origin_tells_that_there_is_no_integrator) {  // oracle: the simulated system
+TEST(order_selection, a_zero_at_the_origin_shows_that_there_is_no_integrator) {  // oracle: the simulated system
     const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 30, 1);
     OrderSelectionOptions options;
     options.estimation.integration = true;
@@ -130,7 +130,7 @@ TEST(order_selection, a_zero_at_the_origin_tells_that_there_is_no_integrator) { 
     EXPECT_FALSE(select_order(data, order_grid({2, 2}, {0, 0}, {0.0})).candidates[0].cancellation);
 }
 
-TEST(order_selection, a_second_record_with_an_offset_is_judged_as_the_estimation_was_asked_to) {
+TEST(order_selection, a_second_record_with_an_offset_is_evaluated_as_the_estimation_was_asked_to) {
     // Oracle: the noise, which a good model leaves over, and compare() for the recommended model alone.
     const Vector period = prbs(8, 5);
     Vector periods(2 * period.size());
@@ -288,12 +288,12 @@ TEST(order_selection, constant_in_the_record_leads_to_the_same_structure) {  // 
     FitOptions asked;
     asked.initial_state = InitialState::kZero;
     asked.offset = Offset::kEstimate;
-    const OrderCandidate told = recommended(3, asked);
-    EXPECT_NEAR(found.fit_percent, told.fit_percent, 1e-6);
-    EXPECT_GT(found.bic, told.bic) << "an offset that was chosen counts as a parameter";
+    const OrderCandidate reported = recommended(3, asked);
+    EXPECT_NEAR(found.fit_percent, reported.fit_percent, 1e-6);
+    EXPECT_GT(found.bic, reported.bic) << "an offset that was chosen counts as a parameter";
 }
 
-TEST(order_selection, failures_are_kept_and_told) {
+TEST(order_selection, failures_are_kept_and_reported) {
     const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 10, 1);
     OrderSelectionOptions options;
     options.estimation.lambda = -1;

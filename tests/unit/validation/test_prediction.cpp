@@ -202,14 +202,14 @@ TEST(prediction, of_continuous_models_with_noise) {  // oracle: the noise the re
 TEST(prediction, its_errors_are_tested_for_whiteness) {  // oracle: the structures that the record has, and has not
     const IdData data = simulated(kArmax, kArmaxTheta, 3000, 7).data();
     const Fit right = armax(data, kArmax);
-    PolynomialOrders poorer = kArmax;
-    poorer.nc = 0;
+    PolynomialOrders lower_order = kArmax;
+    lower_order.nc = 0;
     const ResidualTests good = prediction_error_tests(data, predict(data, noisy(right)));
     EXPECT_TRUE(good.outputs[0].whiteness.white) << message_text(good.verdict);
     EXPECT_TRUE(good.outputs[0].inputs[0].independent);
     EXPECT_THAT(message_text(good.verdict), HasSubstr("The prediction error is white"));
     EXPECT_EQ(good.residuals[0].col(0), predict(data, noisy(right)).results[0][0].errors);
-    const ResidualTests poor = prediction_error_tests(data, predict(data, noisy(armax(data, poorer))));
+    const ResidualTests poor = prediction_error_tests(data, predict(data, noisy(armax(data, lower_order))));
     EXPECT_THAT(message_text(poor.verdict), HasSubstr("The prediction error is not white"));
     const ResidualTests of_simulation = residual_tests(data, {right.polynomial->transfer_function()});
     EXPECT_THAT(message_text(of_simulation.verdict), HasSubstr("The output error is not white"));
@@ -282,10 +282,10 @@ TEST(prediction, refuses_what_it_cannot_predict) {  // oracle: definitions
     theta.tail(2) << -2.5, 1;
     EXPECT_THAT(refusal(s.data(), noisy(PolynomialModel(kArmax, theta, 0.5))),
                 HasSubstr("C has a root on or outside the unit circle"));
-    const NoisyModel coloured{{TransferFunction()}, nullptr, Vector{{1, 0.5}}, Vector::Ones(1), 1};
-    EXPECT_THAT(refusal(s.data(), coloured), HasSubstr("the two must be equal"));
+    const NoisyModel colored{{TransferFunction()}, nullptr, Vector{{1, 0.5}}, Vector::Ones(1), 1};
+    EXPECT_THAT(refusal(s.data(), colored), HasSubstr("the two must be equal"));
     EXPECT_THAT(
-        refusal(IdData(Matrix(s.y), Matrix(s.u), Vector::LinSpaced(60, 0, 1).array().square().matrix()), coloured),
+        refusal(IdData(Matrix(s.y), Matrix(s.u), Vector::LinSpaced(60, 0, 1).array().square().matrix()), colored),
         HasSubstr("sampled irregularly"));
 }
 

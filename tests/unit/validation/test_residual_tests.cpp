@@ -59,12 +59,12 @@ TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the
     EXPECT_THAT(message_text(tests.verdict), HasSubstr("explains everything that the data show"));
 }
 
-TEST(residual_tests, coloured_noise_on_the_true_model_is_told_apart_from_missing_dynamics) {
+TEST(residual_tests, coloured_noise_on_the_true_model_is_distinguished_from_missing_dynamics) {
     const Vector u = prbs(7, 8), y = lsim(kG, u, kTs) + 0.05 * ar1(u.size(), 0.9, 3);
-    const auto coloured = plain_tests(record(y, u), kG);
-    EXPECT_FALSE(coloured.outputs[0].whiteness.white);
-    EXPECT_TRUE(coloured.outputs[0].inputs[0].independent);
-    EXPECT_THAT(message_text(coloured.verdict), HasSubstr("the dynamics. The disturbance is colored:"));
+    const auto colored = plain_tests(record(y, u), kG);
+    EXPECT_FALSE(colored.outputs[0].whiteness.white);
+    EXPECT_TRUE(colored.outputs[0].inputs[0].independent);
+    EXPECT_THAT(message_text(colored.verdict), HasSubstr("the dynamics. The disturbance is colored:"));
     const TransferFunction poor(Vector{{2.0 / 3}}, Vector{{1.0, 1.0}});
     const auto missing = plain_tests(record(y, u), poor);
     EXPECT_FALSE(missing.outputs[0].inputs[0].independent);

@@ -45,11 +45,11 @@ TEST(simulation_spread, is_that_of_first_order_for_small_errors) {
     const auto model = [](const Vector& theta) {
         return TransferFunction(theta.segment(2, 2), Vector{{1, theta[0], theta[1]}}, 0, theta[4]);
     };
-    const Vector wanted = first_order_std(model, Vector{{1.2, 400, 2, 8, 0.31}}, covariance, u, 0.02);
+    const Vector expected = first_order_std(model, Vector{{1.2, 400, 2, 8, 0.31}}, covariance, u, 0.02);
     EXPECT_EQ(spread.output, lsim(G, u, 0.02));
     EXPECT_EQ(spread.unstable, 0);
     EXPECT_EQ(spread.drawn.cols(), 2000);
-    EXPECT_NEAR((spread.std - wanted).norm() / wanted.norm(), 0, 0.05);
+    EXPECT_NEAR((spread.std - expected).norm() / expected.norm(), 0, 0.05);
 }
 
 TEST(simulation_spread, of_difference_equations) {  // oracle: the delta method, with the covariance of an estimate
@@ -61,8 +61,8 @@ TEST(simulation_spread, of_difference_equations) {  // oracle: the delta method,
     RandomStream random(2);
     const SimulationSpread spread = simulation_spread(*fit.polynomial, fit.covariance, u, 2000, random);
     const auto model = [&](const Vector& drawn) { return PolynomialModel(orders, drawn, 0.5).transfer_function(); };
-    const Vector wanted = first_order_std(model, fit.theta, fit.covariance, u, 0.5);
-    EXPECT_NEAR((spread.std - wanted).tail(550).norm() / wanted.tail(550).norm(), 0, 0.05);
+    const Vector expected = first_order_std(model, fit.theta, fit.covariance, u, 0.5);
+    EXPECT_NEAR((spread.std - expected).tail(550).norm() / expected.tail(550).norm(), 0, 0.05);
 }
 
 // Oracle: inputs whose parameters are independent add their variances; each alone is the spread of one input.
@@ -81,11 +81,11 @@ TEST(simulation_spread, of_several_inputs) {
     const SimulationSpread all = spread(both, 0, 4, u), first = spread(one, 0, 2, u.col(0)),
                            second = spread(one, 2, 2, u.col(1));
     EXPECT_LT((all.output - first.output - second.output).norm(), 1e-12 * all.output.norm());
-    const Vector wanted = (first.std.cwiseAbs2() + second.std.cwiseAbs2()).cwiseSqrt();
-    EXPECT_NEAR((all.std - wanted).norm() / wanted.norm(), 0, 0.05);
+    const Vector expected = (first.std.cwiseAbs2() + second.std.cwiseAbs2()).cwiseSqrt();
+    EXPECT_NEAR((all.std - expected).norm() / expected.norm(), 0, 0.05);
 }
 
-TEST(simulation_spread, tells_unstable_draws) {  // oracle: the share of negative normal numbers
+TEST(simulation_spread, reports_unstable_draws) {  // oracle: the share of negative normal numbers
     RandomStream random(5);
     const UncertainModel uncertain(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), Matrix{{1, 0}, {0, 0}});
     const SimulationSpread spread = simulation_spread(uncertain, Vector::Ones(20), 0.1, Hold::kZoh, 2000, random);

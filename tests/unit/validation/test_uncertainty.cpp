@@ -105,8 +105,8 @@ TEST(uncertainty, everything_agrees_with_monte_carlo_over_theta) {  // oracle: s
         samples.row(run) << step_response(G, t).y.transpose(), magnitude_db(response).transpose(),
             phase_degrees_unwrapped(response).transpose(), modes[0].natural_frequency, modes[2].damping_ratio;
     }
-    const Matrix centred = samples.rowwise() - samples.colwise().mean();
-    const Vector spread = (centred.colwise().squaredNorm() / (kRuns - 1)).cwiseSqrt().transpose();
+    const Matrix centered = samples.rowwise() - samples.colwise().mean();
+    const Vector spread = (centered.colwise().squaredNorm() / (kRuns - 1)).cwiseSqrt().transpose();
     const UncertainModel model(model_at(kTheta), kCovariance);
     const auto frequency = frequency_response_std(model, w);
     const auto modes = describe_uncertainty(model).modes;
@@ -141,7 +141,7 @@ TEST(uncertainty, poles_equal_finite_differences) {  // oracle: differences of t
 
 // Oracle: a pair x +- iy of a1 = -2x, a2 = x^2 + y^2 whose distance 2y has the standard deviation s/y when a2 alone has
 // s, and none when x alone moves, da2 = a1/2 da1.
-TEST(uncertainty, roots_are_told_apart_along_their_difference) {
+TEST(uncertainty, roots_are_distinguished_along_their_difference) {
     const TransferFunction G(Vector{{1.0}}, Vector{{1.0, 6.0, 10.0}});  // -3 +- i
     const auto near = [&](const Eigen::Vector2d& moves, double std) {
         Matrix covariance = Matrix::Zero(3, 3);
@@ -175,7 +175,7 @@ TEST(uncertainty, modes_and_gain_equal_finite_differences) {  // oracle: differe
     EXPECT_TRUE(result.warnings.empty());
 }
 
-TEST(uncertainty, warns_of_poles_it_cannot_tell_apart) {  // oracle: the poles made, 1 and 1.01
+TEST(uncertainty, warns_of_poles_it_cannot_distinguish) {  // oracle: the poles made, 1 and 1.01
     const TransferFunction G(Vector{{1.0}}, Vector{{1.0, 2.01, 1.01}});
     const auto result = describe_uncertainty({G, 1e-4 * Matrix::Identity(3, 3)});
     EXPECT_EQ(result.warnings.size(), 1u);
@@ -193,9 +193,9 @@ TEST(uncertainty, ellipses_hold_what_they_promise) {  // oracle: Mahalanobis dis
             EXPECT_NEAR(region(1, 0) - pole.root.real(), 1.959963985 * std::sqrt(pole.covariance(0, 0)), 1e-8);
             continue;
         }
-        const Eigen::Vector2d centre(pole.root.real(), pole.root.imag());
+        const Eigen::Vector2d center(pole.root.real(), pole.root.imag());
         for (Index k = 0; k < region.rows(); ++k) {
-            const Eigen::Vector2d away = region.row(k).transpose() - centre;
+            const Eigen::Vector2d away = region.row(k).transpose() - center;
             EXPECT_NEAR(away.dot(pole.covariance.inverse() * away), chi_squared_quantile(0.95, 2), 1e-8);
         }
         EXPECT_LT((region.row(0) - region.row(region.rows() - 1)).norm(), 1e-12);

@@ -19,7 +19,7 @@ TEST(data_look, shows_columns_units_sampling_gaps_and_first_rows) {
         if (i != 20)
             text += std::to_string(10 * i) + ";" + std::to_string(i % 2) + ";a;" + (i == 5 ? "" : "0,5") + "\n";
     work.write("record.csv", text);
-    const DataLook look = look_at_data(work.path("record.csv"), {});
+    const DataSummary look = summarize_data(work.path("record.csv"), {});
     EXPECT_THAT(look.text, HasSubstr("record.csv: a table of 4 columns and 39 rows\n- units from the headers: time in "
                                      "ms, u in V\n- missing numbers were replaced"));
     EXPECT_THAT(look.text, ContainsRegex("time +ms +39 numbers +0 +390 +"));
@@ -39,19 +39,19 @@ TEST(data_look, shows_the_variables_of_a_matlab_file_and_of_a_data_set) {
     const WorkFolder work;
     ASSERT_FALSE(work.run("save_mat(\"a.mat\", {y = vector{1, 2, 3}, A = eye(3), Ts = 0.5, run = {u = vector{1, 2}}})")
                      .record.error);
-    EXPECT_THAT(look_at_data(work.path("a.mat"), {}).text,
+    EXPECT_THAT(summarize_data(work.path("a.mat"), {}).text,
                 AllOf(HasSubstr("a.mat: 4 variables\n"), HasSubstr("3 x 3 numbers"),
                       ContainsRegex("run +a struct\n +run.u +2 numbers +1 +2 +1.5\n"),
                       HasSubstr("sampling time: 0.5 s, as given in the file")));
-    EXPECT_THAT(look_at_data("crane", {}).text, HasSubstr("steps.theta"));
+    EXPECT_THAT(summarize_data("crane", {}).text, HasSubstr("steps.theta"));
 }
 
 TEST(data_look, of_a_file_that_cannot_be_read_names_the_place) {
     const WorkFolder work;
     work.write("bad.csv", "t,y\n0,1\n1,2\n2,three\n");
-    EXPECT_THAT(error_of([&] { look_at_data(work.path("bad.csv"), {}); }),
+    EXPECT_THAT(error_of([&] { summarize_data(work.path("bad.csv"), {}); }),
                 HasSubstr("line 4, column y: expected a number, got \"three\""));
-    EXPECT_THAT(error_of([&] { look_at_data(work.path("none.csv"), {}); }), HasSubstr("none.csv"));
+    EXPECT_THAT(error_of([&] { summarize_data(work.path("none.csv"), {}); }), HasSubstr("none.csv"));
 }
 
 }  // namespace test_data_look

@@ -36,7 +36,7 @@ class field_records : public testing::Test {
     static std::string refusal(const IdentifyRequest& request) {
         return error_of([&] { identification_script(request); });
     }
-    static std::string look(const std::string& file) { return look_at_data(kFolder + file, {}).text; }
+    static std::string look(const std::string& file) { return summarize_data(kFolder + file, {}).text; }
 
     WorkFolder work_;
     std::string printed_;

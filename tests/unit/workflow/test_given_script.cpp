@@ -30,7 +30,7 @@ TEST(given_script, that_is_missing_is_looked_for_under_nearly_its_name) {
                 HasSubstr("text has no report.md, but Report.md: rename it to report.md"));
 }
 
-TEST(given_script, folders_that_are_no_lesson_tell_what_they_lack) {
+TEST(given_script, folders_without_a_lesson_list_what_is_missing) {
     const WorkFolder work;
     work.write("capital/Analysis.lua", "print(1)\n");
     work.write("own/analysis.lua", "print(1)\n");

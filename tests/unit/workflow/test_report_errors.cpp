@@ -52,7 +52,7 @@ TEST(report_errors, missing_figures_and_pictures_are_named) {
     EXPECT_FALSE(std::filesystem::exists(work.path("report.md")));
 }
 
-TEST(report_errors, the_error_of_a_script_stands_in_the_report_up_to_there) {
+TEST(report_errors, the_report_contains_the_error_and_everything_before_it) {
     WorkFolder work;
     with_report(work, "-- %%\nprint('before')\n-- %%\nerror('on purpose')\n-- %%\nprint('after')\n",
                 "::: {.cells}\n:::\n");

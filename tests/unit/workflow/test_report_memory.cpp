@@ -42,15 +42,15 @@ class report_memory : public testing::Test {
     }
     std::string page() const { return work_.read("a.html"); }
 
-    static void expect_calls(const ReportResult& result, std::size_t computed, std::size_t recalled) {
+    static void expect_calls(const ReportResult& result, std::size_t computed, std::size_t from_cache) {
         ASSERT_TRUE(result.long_calls) << "the script was run";
         EXPECT_EQ(result.long_calls->made, computed);
-        EXPECT_EQ(result.long_calls->recalled, recalled);
+        EXPECT_EQ(result.long_calls->from_cache, from_cache);
     }
-    static void expect_figures(const ReportResult& result, std::size_t drawn, std::size_t recalled) {
+    static void expect_figures(const ReportResult& result, std::size_t drawn, std::size_t from_cache) {
         ASSERT_TRUE(result.figures);
         EXPECT_EQ(result.figures->made, drawn);
-        EXPECT_EQ(result.figures->recalled, recalled);
+        EXPECT_EQ(result.figures->from_cache, from_cache);
     }
 
     WorkFolder work_;
@@ -65,11 +65,11 @@ TEST_F(report_memory, a_changed_late_cell_computes_and_draws_nothing_else) {
     const ReportResult second = weave(changed);
     expect_calls(second, 0, 3);
     expect_figures(second, 1, 2);
-    const std::string recalled = page();
+    const std::string from_cache = page();
     fs::remove_all(work_.cache());
     fs::remove(work_.path("a.html"));
     expect_calls(weave(changed), 3, 0);
-    EXPECT_TRUE(recalled == page()) << "a recalled result differs from the computed one";
+    EXPECT_TRUE(from_cache == page()) << "a recalled result differs from the computed one";
     // Other data: the study alone does not depend on them.
     make_data(2);
     const ReportResult other = weave(changed);
@@ -101,9 +101,9 @@ TEST_F(report_memory, corrupt_entries_are_computed_again) {
     expect_figures(again, 2, 0);
     EXPECT_TRUE(complete == page());
     forget_runs();
-    const ReportResult recalled = weave(kStudy + kLate);
-    expect_calls(recalled, 0, 1);
-    expect_figures(recalled, 0, 2);
+    const ReportResult from_cache = weave(kStudy + kLate);
+    expect_calls(from_cache, 0, 1);
+    expect_figures(from_cache, 0, 2);
 }
 
 TEST_F(report_memory, a_folder_that_cannot_hold_a_cache_changes_no_document) {
@@ -189,7 +189,7 @@ TEST_F(report_memory, another_picture_makes_another_document) {
     EXPECT_TRUE(first == with_picture("first"));
 }
 
-TEST_F(report_memory, a_figure_without_a_caption_is_described_by_its_axes_whether_its_run_is_recalled_or_not) {
+TEST_F(report_memory, a_figure_without_a_caption_is_described_by_its_axes_whether_its_run_is_cached_or_not) {
     const std::string cell = "-- %% id=b\nplot({1, 2}, {3, 4}, {xlabel = 'time (s)', ylabel = 'level (m)'})\n";
     const std::string described = "**Figure\u00A01.** Level (m) over time (s)\n";
     EXPECT_TRUE(weave(cell, "a.md").long_calls);

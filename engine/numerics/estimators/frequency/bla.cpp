@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRepeatsRoughly = 0.02, kRepeatsNot = 0.25;  // of the input's power, that changes between periods
 constexpr Index kEnoughValues = 10;                           // behind every variance
-constexpr Index kFewestSamples = 8;
+constexpr Index kMinSamples = 8;
 constexpr double kSameInput = 0.999;  // correlation of two inputs, at the best shift in time
 
 /// The Fourier coefficients of one realisation at lines 1 .. L, a column for each period.
@@ -24,7 +24,7 @@ struct Periods {
 };
 
 /// One realisation's means over the periods, and what its periods tell of noise: variances of one period.
-struct Realisation {
+struct Realization {
     ComplexVector U, Y;
     Vector input_noise, output_noise;
     ComplexVector cross_noise;
@@ -40,10 +40,10 @@ struct Cut {
 std::vector<Cut> cuts_of(const IdData& data, const BlaOptions& options, Index& rest) {
     std::vector<Cut> cuts;
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
-        const Index N = data.sample_count(e), length = N / options.realisations;
-        if (length * options.realisations != N)
+        const Index N = data.sample_count(e), length = N / options.realizations;
+        if (length * options.realizations != N)
             throw InvalidArgument("bla: {} realizations do not divide the {} samples of the data evenly",
-                                  options.realisations, N);
+                                  options.realizations, N);
         const Index periods = length / options.period;
         if (periods < 1)
             throw InvalidArgument("bla: a period of {} samples is longer than a realization of {}", options.period,
@@ -52,7 +52,7 @@ std::vector<Cut> cuts_of(const IdData& data, const BlaOptions& options, Index& r
             throw InvalidArgument("bla: no data remain without {} of {}", options.transient,
                                   plural(periods, "{} period", "{} periods"));
         rest = length - periods * options.period;
-        for (Index r = 0; r < options.realisations; ++r)
+        for (Index r = 0; r < options.realizations; ++r)
             cuts.push_back({e, r * length + rest + options.transient * options.period, periods - options.transient});
     }
     return cuts;
@@ -72,7 +72,7 @@ Periods transformed(const Experiment& experiment, const Cut& cut, Index period) 
 }
 
 /// How far the first period lies from the mean of the others, and how far noise would let it lie.
-void look_for_transient(const Periods& periods, Realisation& found) {
+void look_for_transient(const Periods& periods, Realization& found) {
     const Index others = periods.Y.cols() - 1;
     if (others < 2) return;
     const ComplexVector mean = periods.Y.rightCols(others).rowwise().mean();
@@ -82,8 +82,8 @@ void look_for_transient(const Periods& periods, Realisation& found) {
         share * (periods.Y.rightCols(others).colwise() - mean).squaredNorm() / static_cast<double>(others - 1);
 }
 
-Realisation realisation_of(const Periods& periods) {
-    Realisation found;
+Realization realisation_of(const Periods& periods) {
+    Realization found;
     found.U = periods.U.rowwise().mean(), found.Y = periods.Y.rowwise().mean();
     if (periods.U.cols() < 2) return found;
     const Eigen::MatrixXcd u = periods.U.colwise() - found.U, y = periods.Y.colwise() - found.Y;
@@ -100,10 +100,10 @@ struct Lines {
     bool some_differ = false;
 };
 
-Lines lines_of(const std::vector<Realisation>& all, double least_input) {
+Lines lines_of(const std::vector<Realization>& all, double least_input) {
     Lines lines;
     Vector least = all.front().U.cwiseAbs(), largest = least;
-    for (const Realisation& one : all) {
+    for (const Realization& one : all) {
         least = least.cwiseMin(one.U.cwiseAbs());
         largest = largest.cwiseMax(one.U.cwiseAbs());
     }
@@ -188,7 +188,7 @@ class Approximation {
     }
 
     /// Variance that noise gives the response of one realisation.
-    Vector noise_of(const Realisation& one, const ComplexVector& G) const {
+    Vector noise_of(const Realization& one, const ComplexVector& G) const {
         const std::vector<Index>& k = lines_.excited;
         const Vector input = one.input_noise(k).cwiseProduct(G.cwiseAbs2());
         const Vector common = 2 * G.conjugate().cwiseProduct(one.cross_noise(k)).real();
@@ -224,7 +224,7 @@ class Approximation {
 
     Vector input_power(const std::vector<Index>& lines) const {
         Vector power = Vector::Zero(static_cast<Index>(lines.size()));
-        for (const Realisation& one : all_) power += one.U(lines).cwiseAbs2() / count_;
+        for (const Realization& one : all_) power += one.U(lines).cwiseAbs2() / count_;
         return power;
     }
 
@@ -232,10 +232,10 @@ class Approximation {
         OutputLevels found;
         found.w = frequencies(lines);
         found.power = Vector::Zero(found.w.size());
-        for (const Realisation& one : all_) found.power += 2 * one.Y(lines).cwiseAbs2() / count_;
+        for (const Realization& one : all_) found.power += 2 * one.Y(lines).cwiseAbs2() / count_;
         if (periods_ < 2) return found;
         found.noise = Vector::Zero(found.w.size());
-        for (const Realisation& one : all_)
+        for (const Realization& one : all_)
             found.noise += 2 * one.output_noise(lines) / (count_ * static_cast<double>(periods_));
         return found;
     }
@@ -250,7 +250,7 @@ class Approximation {
     void check_repetition() {
         if (periods_ < 2) return;
         double changing = 0, all = 0;
-        for (const Realisation& one : all_) changing += one.input_noise.sum(), all += one.U.squaredNorm();
+        for (const Realization& one : all_) changing += one.input_noise.sum(), all += one.U.squaredNorm();
         const double part = changing / (changing + all);
         if (part > kRepeatsNot)
             throw InvalidArgument(
@@ -279,7 +279,7 @@ class Approximation {
     void warn_of_transient() {
         constexpr double kMore = 1.5, kChance = 6, kSeen = 1e-12;
         double unsettled = 0, spread = 0, power = 0;
-        for (const Realisation& one : all_)
+        for (const Realization& one : all_)
             unsettled += one.unsettled, spread += one.spread, power += one.Y.squaredNorm();
         const double chance = kChance / std::sqrt(count_ * static_cast<double>(all_.front().Y.size()));
         if (unsettled > kSeen * power && unsettled > (kMore + chance) * spread)
@@ -328,7 +328,7 @@ class Approximation {
 
     const BlaOptions& options_;
     FrequencyData result_;
-    std::vector<Realisation> all_;
+    std::vector<Realization> all_;
     Lines lines_;
     Index rest_ = 0, periods_ = 0;
     double count_ = 1;
@@ -337,10 +337,10 @@ class Approximation {
 }  // namespace
 
 void BlaOptions::validate() const {
-    if (period < kFewestSamples)
-        throw InvalidArgument("bla: the period must be at least {} samples, but is {}", kFewestSamples, period);
-    if (realisations < 1)
-        throw InvalidArgument("bla: the number of realizations must be at least 1, but is {}", realisations);
+    if (period < kMinSamples)
+        throw InvalidArgument("bla: the period must be at least {} samples, but is {}", kMinSamples, period);
+    if (realizations < 1)
+        throw InvalidArgument("bla: the number of realizations must be at least 1, but is {}", realizations);
     if (transient < 0)
         throw InvalidArgument("bla: the number of omitted periods must not be negative, but is {}", transient);
     if (!(least_input > 0 && least_input < 1))
@@ -352,7 +352,7 @@ void BlaOptions::validate() const {
 
 FrequencyData bla(const IdData& data, const BlaOptions& options) {
     options.validate();
-    return Approximation(nonparametric_data("bla", data, kFewestSamples, false), options).result();
+    return Approximation(nonparametric_data("bla", data, kMinSamples, false), options).result();
 }
 
 LevelSums level_sums(const FrequencyData& data) {

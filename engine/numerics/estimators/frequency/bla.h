@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 
 struct BlaOptions {
     Index period = 0;             ///< samples; must be given
-    Index realisations = 1;       ///< in each experiment, one behind the other
+    Index realizations = 1;       ///< in each experiment, one behind the other
     Index transient = 0;          ///< periods left out at the beginning of every realisation
     double least_input = 0.01;    ///< lines with less than this part of the largest amplitude count as without input
     std::optional<Index> smooth;  ///< variances are means over this many lines on either side; chosen unless given

@@ -59,8 +59,8 @@ DelayRange range_of_delays(const FrequencyData& data, const FitOptions& options)
     constexpr double kQuarter = std::numbers::pi / 2, kMostQuarters = 50;
     double nearest = data.w[0];
     for (Index k = 1; k < data.w.size(); ++k) nearest = std::min(nearest, data.w[k] - data.w[k - 1]);
-    const double told_apart = kQuarter / nearest, worth_it = kMostQuarters * kQuarter / middle_frequency(data);
-    return {options.least_delay, std::max(options.least_delay, std::min(told_apart, worth_it))};
+    const double distinguishable = kQuarter / nearest, worth_it = kMostQuarters * kQuarter / middle_frequency(data);
+    return {options.least_delay, std::max(options.least_delay, std::min(distinguishable, worth_it))};
 }
 
 FrequencyStart start_at(const FrequencyData& data, const TransferStructure& structure, double delay, int passes) {
@@ -69,21 +69,21 @@ FrequencyStart start_at(const FrequencyData& data, const TransferStructure& stru
 
 /// The best local minima of the error over a grid of delays, s.
 std::vector<double> promising_delays(const FrequencyData& data, const TransferStructure& structure,
-                                     const DelayRange& range, const FitOptions& options, Fit& told) {
+                                     const DelayRange& range, const FitOptions& options, Fit& reported) {
     const int count = range.largest > range.least ? std::max(options.delay_count, 2) : 1;
-    told.delay_grid = Vector::LinSpaced(count, range.least, range.largest);
-    told.delay_loss.resize(count);
+    reported.delay_grid = Vector::LinSpaced(count, range.least, range.largest);
+    reported.delay_loss.resize(count);
     for (Index i = 0; i < count; ++i)
-        told.delay_loss[i] =
-            start_at(data, structure, told.delay_grid[i], kGridPasses).squares / static_cast<double>(2 * data.w.size());
-    const auto loss = [&](Index i) { return i < 0 || i >= count ? kInfinity : told.delay_loss[i]; };
+        reported.delay_loss[i] = start_at(data, structure, reported.delay_grid[i], kGridPasses).squares /
+                                 static_cast<double>(2 * data.w.size());
+    const auto loss = [&](Index i) { return i < 0 || i >= count ? kInfinity : reported.delay_loss[i]; };
     std::vector<Index> minima;
     for (Index i = 0; i < count; ++i)
         if (loss(i) <= loss(i - 1) && loss(i) <= loss(i + 1)) minima.push_back(i);
     std::sort(minima.begin(), minima.end(), [&](Index a, Index b) { return loss(a) < loss(b); });
     if (minima.size() > kBestDelays) minima.resize(kBestDelays);
     std::vector<double> delays;
-    for (const Index i : minima) delays.push_back(told.delay_grid[i]);
+    for (const Index i : minima) delays.push_back(reported.delay_grid[i]);
     if (delays.empty()) delays.push_back(range.least);
     return delays;
 }
@@ -145,7 +145,7 @@ class FrequencySearch {
             if (!best || found.fit.loss < best->fit.loss) best = std::move(found);
         }
         Searched end = continued(*best, options_, stable_alone);
-        if (end.fit.termination == Termination::kIterationLimit && options_.goes_on)
+        if (end.fit.termination == Termination::kIterationLimit && options_.extend_iterations)
             end = continued(end, options_.limited(kMostIterations, options_.tolerance), stable_alone);
         return end;
     }
@@ -173,7 +173,7 @@ class FrequencySearch {
         FrequencyOutput model(data_, structure_, start.coefficients, range_.least, range_.largest);
         if (stable_alone) model.keep_stable();
         const double unit = model.time_unit();
-        Searched found{minimise_output_error(model, model.target(),
+        Searched found{minimize_output_error(model, model.target(),
                                              model.parameters(start.coefficients, start.delay / unit), options),
                        {}};
         const Index count = start.coefficients.size();
@@ -230,9 +230,10 @@ Fit frequency_fit(const std::string& method, const FrequencyData& data, const Tr
     options.validate();
     check_fit(method, data, structure);
     const DelayRange range = range_of_delays(data, options);
-    Fit told;
-    const std::vector<double> delays = structure.free_delays ? promising_delays(data, structure, range, options, told)
-                                                             : std::vector<double>{structure.channels.front().delay};
+    Fit reported;
+    const std::vector<double> delays = structure.free_delays
+                                           ? promising_delays(data, structure, range, options, reported)
+                                           : std::vector<double>{structure.channels.front().delay};
     const bool stable_alone = options.stable.value_or(false);
     const FrequencySearch search(data, structure, range, options);
     const std::vector<Start> starts = starts_of(data, structure, delays, stable_alone);
@@ -243,7 +244,7 @@ Fit frequency_fit(const std::string& method, const FrequencyData& data, const Tr
     }
     Fit& fit = found.fit;
     fit.structure = structure;
-    fit.delay_grid = told.delay_grid, fit.delay_loss = told.delay_loss;
+    fit.delay_grid = reported.delay_grid, fit.delay_loss = reported.delay_loss;
     if (data.variance.size() > 0) fit.covariance /= fit.noise_variance[0];
     if (realisations_tell(data))
         fit.covariance =

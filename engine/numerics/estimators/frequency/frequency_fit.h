@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 /// as far as the frequencies tell delays apart, a quarter of a turn for the nearest two, and at most fifty quarter
 /// turns at the middle of the power); then Levenberg-Marquardt with exact sensitivities. Where the input was held
 /// between samples, the model's response is that of its samples, exactly. Of the options least_delay, largest_delay,
-/// delay_count, max_iterations, goes_on, tolerance, stable and cancel count.
+/// delay_count, max_iterations, extend_iterations, tolerance, stable and cancel count.
 ///
 /// Covariance: (J'J)^-1 with known variances, times the mean square with unknown ones; of a response with several
 /// realisations that nonlinear distortion moves, as these move theta. noise_variance is the mean of

@@ -24,7 +24,7 @@ constexpr int kFollowedIterations = 15, kStartsOfLost = 5;  // the latter are fo
 constexpr double kFollowedTolerance = 1e-3;
 constexpr int kWeightings = 20;           // of the outputs, at most
 constexpr double kSettledWeights = 1e-4;  // of their ratios
-constexpr double kLeastError = 1e-12;     // of an output's errors beside what it varies, for its weight
+constexpr double kMinError = 1e-12;       // of an output's errors beside what it varies, for its weight
 constexpr double kConfidence = 0.95;
 constexpr double kLost = 1e-4, kFollows = 0.5;  // of the variation, left over, and its lag-one correlation: far away
 constexpr double kFirstShare = 1 / 16., kGrowth = 1.5, kSame = 1e-3;  // of the samples; of what is left: ends agree
@@ -125,7 +125,7 @@ double residual_degrees(const Fit& end, const IdData& data) {
 }
 
 Fit minimise(const GreyOutput& criterion, const Vector& start, const FitOptions& search) {
-    if (criterion.parameter_count() > 0) return minimise_output_error(criterion, criterion.measured(), start, search);
+    if (criterion.parameter_count() > 0) return minimize_output_error(criterion, criterion.measured(), start, search);
     Fit fit;  // everything is fixed
     fit.theta = start;
     fit.loss = (criterion.measured() - criterion.output_at(start)).squaredNorm() /
@@ -169,7 +169,7 @@ struct SearchEnd {
 /// The search for these weights, then for those that its errors say, until they settle.
 SearchEnd search(const Problem& problem, const Beginning& from, Vector weights) {
     const bool reweighted = problem.options.output_weights.size() == 0 && problem.data.output_count() > 1;
-    const Vector least = kLeastError * weights_of_spread(problem.data).cwiseInverse();
+    const Vector least = kMinError * weights_of_spread(problem.data).cwiseInverse();
     SearchEnd end;
     Vector theta = from.theta;
     std::vector<FitIteration> trace = from.trace;

@@ -64,7 +64,7 @@ Snapshots neighbouring_snapshots(const IdData& data, const Scale& scale, Index d
     return pairs;
 }
 
-Index told_apart(const Vector& s) {
+Index distinguishable(const Vector& s) {
     return (s.array() > kRounding * s[0]).count();
 }
 
@@ -85,11 +85,11 @@ Reduced reduce(const Snapshots& pairs, const DmdcOptions& options) {
     check_cancelled("dmdc", options.cancel);
     const Matrix now = R.leftCols(rows + nu).transpose(), next = R.rightCols(rows).transpose();
     const SingularValues of_next = jacobi_svd(next), of_now = jacobi_svd(now);
-    const Index seen = told_apart(of_next.s), r = rank > 0 ? rank : seen;
+    const Index seen = distinguishable(of_next.s), r = rank > 0 ? rank : seen;
     if (r > seen)
         throw InvalidArgument("dmdc: {} is {}, but the data show only {}", OptionName{"rank"}, rank,
                               plural(seen, "{} direction", "{} directions"));
-    const Index p = std::min(r + nu, told_apart(of_now.s));
+    const Index p = std::min(r + nu, distinguishable(of_now.s));
     const Matrix U = of_next.U.leftCols(r);
     const Matrix G = U.transpose() * next * of_now.V.leftCols(p) * of_now.s.head(p).cwiseInverse().asDiagonal() *
                      of_now.U.leftCols(p).transpose();

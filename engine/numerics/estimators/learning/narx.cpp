@@ -15,7 +15,7 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kMostTerms = 50, kRowsAtOnce = 2048;
+constexpr Index kMaxTerms = 50, kRowsAtOnce = 2048;
 constexpr double kDependent = 1e-12;  // of a candidate's power, what the others leave of it
 constexpr double kOutOfBounds = 1e3;  // times the largest output of the record
 
@@ -84,12 +84,12 @@ Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::funct
     return choice;
 }
 
-std::size_t number_of_terms(const Choice& choice, Index wanted) {
-    if (wanted == 0) return static_cast<std::size_t>(std::ranges::min_element(choice.bic) - choice.bic.begin()) + 1;
-    if (static_cast<Index>(choice.terms.size()) < wanted)
-        throw InvalidArgument("narx: {} terms are requested, but these data determine only {}", wanted,
+std::size_t number_of_terms(const Choice& choice, Index requested) {
+    if (requested == 0) return static_cast<std::size_t>(std::ranges::min_element(choice.bic) - choice.bic.begin()) + 1;
+    if (static_cast<Index>(choice.terms.size()) < requested)
+        throw InvalidArgument("narx: {} terms are requested, but these data determine only {}", requested,
                               plural(choice.terms.size(), "{} independent candidate", "{} independent candidates"));
-    return static_cast<std::size_t>(wanted);
+    return static_cast<std::size_t>(requested);
 }
 
 /// theta of the chosen terms, with all that a linear regression tells.
@@ -262,7 +262,7 @@ NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& option
     check(data, lags, options, monomials.count());
     const Index rows = equation_count(data, lags);
     const Matrix R = candidates_and_output(data, lags, monomials, options.cancel);
-    const Index most = options.terms > 0 ? options.terms : std::min({kMostTerms, monomials.count(), rows - 2});
+    const Index most = options.terms > 0 ? options.terms : std::min({kMaxTerms, monomials.count(), rows - 2});
     const Choice choice = choose_forwards(R, rows, most, options.cancel);
     if (choice.terms.empty()) throw InvalidArgument("narx: no candidate explains any of the output");
     const std::vector<Index> terms(choice.terms.begin(), choice.terms.begin() + number_of_terms(choice, options.terms));

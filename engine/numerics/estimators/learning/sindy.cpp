@@ -18,8 +18,8 @@ namespace dynlab::inline numerics {
 
 namespace {
 
-constexpr Index kMostIntegratedStates = 8;  // of the integrator
-constexpr double kStateOutOfBounds = 1e3;   // times the largest value of a state in the record
+constexpr Index kMaxIntegratedStates = 8;  // of the integrator
+constexpr double kStateOutOfBounds = 1e3;  // times the largest value of a state in the record
 
 /// R of [Theta B] over all experiments: the equations, as far as least squares ask.
 struct Rotated {
@@ -124,9 +124,9 @@ void judge(SindyFit& found, const IdData& data) {
 void check(const IdData& data, const FunctionLibrary& library, const SindyOptions& options) {
     options.validate();
     if (library.count() == 0) throw InvalidArgument("sindy: the library contains no function");
-    if (data.output_count() < 1 || data.output_count() > kMostIntegratedStates)
+    if (data.output_count() < 1 || data.output_count() > kMaxIntegratedStates)
         throw InvalidArgument("sindy uses the outputs as states, 1 to {} of them, but the data have {}",
-                              kMostIntegratedStates, data.output_count());
+                              kMaxIntegratedStates, data.output_count());
     const Vector variations = output_variations(data);
     for (Index i = 0; i < variations.size(); ++i)
         if (!(variations[i] > 0))

@@ -9,9 +9,9 @@ Fit rivsvf(const IdData& data, const TransferStructure& structure, const Recursi
                              RecursiveMethod::kInstruments, data, structure, options);
     // Without forgetting the end is a batch estimate: all errors tell their color, of which the pass learns from
     // blocks.
-    if (options.forgetting == 1 && options.drift.size() == 0 && data.sample_count() <= kMostColoured &&
+    if (options.forgetting == 1 && options.drift.size() == 0 && data.sample_count() <= kMaxColoredSamples &&
         fit.termination != Termination::kCancelled)
-        colour_covariance(fit, data, {options.lambda, options.hold_y, {}}, true);
+        color_covariance(fit, data, {options.lambda, options.hold_y, {}}, true);
     return fit;
 }
 

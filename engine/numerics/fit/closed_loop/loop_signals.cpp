@@ -135,10 +135,10 @@ void check_loop_data(const std::string& method, const IdData& data, const Transf
 
 LoopSignals::LoopSignals(const std::string& method, const IdData& data, const LoopKnowledge& known)
     : method_(method), data_(data), controller_(known.controller), hold_r_(known.hold_r) {
-    if (controller_) judge_controller(known.find_computing_delay);
+    if (controller_) check_controller(known.find_computing_delay);
 }
 
-void LoopSignals::judge_controller(bool find_delay) {
+void LoopSignals::check_controller(bool find_delay) {
     ClosedLoop(TransferFunction(Vector::Zero(1), Vector::Ones(1)), *controller_, data_.Ts);  // says what does not fit
     double explained = explained_by(*controller_, data_, hold_r_);
     if (find_delay && controller_->sampled()) {

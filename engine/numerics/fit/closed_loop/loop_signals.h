@@ -50,7 +50,7 @@ class LoopSignals {
     const std::optional<Message>& warning() const { return warning_; }
 
   private:
-    void judge_controller(bool find_delay);
+    void check_controller(bool find_delay);
 
     std::string method_;
     const IdData& data_;

@@ -19,7 +19,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr double kStartGramLimit = 1e5;  // beyond this condition number a start by sums of products loses digits
-constexpr double kLargestRoot = 0.98;    // of a start whose root lies on the unit circle
+constexpr double kMaxRoot = 0.98;        // of a start whose root lies on the unit circle
 
 /// w/C of one signal, from rest.
 void divide(const Vector& C, Eigen::Ref<Vector> w) {
@@ -72,7 +72,7 @@ class Prediction : public OutputErrorModel {
         }
     }
 
-    bool products_come_cheap() const override { return true; }
+    bool products_are_cheap() const override { return true; }
     OutputErrorProducts products(const Vector& theta, const VectorView& y) const override {
         const Index d = theta.size();
         OutputErrorProducts sums{kNaN, Matrix::Zero(d, d), Vector::Constant(d, kNaN)};
@@ -139,8 +139,8 @@ Vector regression_start(const std::vector<Vector>& records, Index nc, Index nd) 
     if (nc > 0) {
         Index longest = 0;
         for (const Vector& record : records) longest = std::max(longest, record.size());
-        const Index wanted = std::max<Index>(2 * (nc + nd), static_cast<Index>(10 * std::log10(longest)));
-        const Index order = std::min(wanted, longest / 4);
+        const Index requested = std::max<Index>(2 * (nc + nd), static_cast<Index>(10 * std::log10(longest)));
+        const Index order = std::min(requested, longest / 4);
         ArmaNoise autoregression = ArmaNoise::white(0, static_cast<int>(order));
         autoregression.D = monic(regress(records, records, 0, order, order));
         for (std::size_t r = 0; r < records.size(); ++r) e[r] = whitened(autoregression, records[r]);
@@ -163,7 +163,7 @@ Vector reflect_roots_into_unit_circle(const Vector& p) {
     ComplexVector z = roots(p);
     for (Complex& root : z) {
         if (std::abs(root) > 1) root = 1.0 / std::conj(root);
-        if (std::abs(root) > kLargestRoot) root *= kLargestRoot / std::abs(root);
+        if (std::abs(root) > kMaxRoot) root *= kMaxRoot / std::abs(root);
     }
     return polynomial_from_roots(z);
 }
@@ -213,7 +213,7 @@ ArmaNoise estimate_arma(const std::vector<Vector>& records, int nc, int nd, doub
             first << start->C.tail(nc), start->D.tail(nd);
         else
             first = regression_start(records, nc, nd);
-        solution = minimise_output_error(prediction, v, first, FitOptions{}.limited(100, tolerance));
+        solution = minimize_output_error(prediction, v, first, FitOptions{}.limited(100, tolerance));
         noise = prediction.noise(solution.theta);
         noise.termination = solution.termination;
     }

@@ -80,7 +80,7 @@ DiscreteSearch output_error_search(const FitOptions& options) {
         const Vector start = instrument_start(model, y, options.cancel);
         const InstrumentSolution rough =
             iterate_instruments(model, y, start, kScreeningIterations, kScreeningTolerance, options.cancel);
-        const Fit end = minimise_output_error(model, y, rough.theta, options);
+        const Fit end = minimize_output_error(model, y, rough.theta, options);
         return InstrumentSolution{end.theta, end.loss, end.termination, end.trace, false};
     };
 }
@@ -98,7 +98,7 @@ Fit fit_discrete_output(const std::string& method, const IdData& data, const Pol
     if (orders.na + orders.nc + orders.nd > 0)
         throw InvalidArgument("{} has only the orders nb, nf and nk: na, nc and nd must be zero", method);
     check_polynomial_data(method, data, orders);
-    const CentredData record = centred_for(data, options.offset);
+    const CenteredData record = centered_for(data, options.offset);
     const std::vector<SampledExperiment> experiments = sampled_experiments(record.data);
     const auto values = [&](const StartCondition& condition) {
         return value_count(DiscreteOutput(orders, condition, experiments));

@@ -15,7 +15,7 @@ using DiscreteSearch = std::function<InstrumentSolution(const DiscreteOutput& mo
 /// The smallest output error: a few rough instrument iterations, then damped Gauss-Newton from where they lead.
 DiscreteSearch output_error_search(const FitOptions& options);
 
-/// The experiments as the search sees them; the operating points are to be taken off before (centred_for).
+/// The experiments as the search sees them; the operating points are to be taken off before (centered_for).
 std::vector<SampledExperiment> sampled_experiments(const IdData& data);
 
 /// What oe and sriv have in common: checks data and orders (nb, nf and nk), takes the operating point off when

@@ -33,7 +33,7 @@ std::vector<Vector> promising_starts(const PredictionModel& model, const StartCo
     const Index d = model.orders().parameter_count();
     std::vector<Vector> own;
     for (const Vector& start : starts) own.push_back(brief.completed(start.head(d)));
-    const Vector found = minimise_output_error(brief, brief.target(), own, options).theta;
+    const Vector found = minimize_output_error(brief, brief.target(), own, options).theta;
     if (!found.allFinite()) return starts;
     const Vector whole = model.completed(found.head(d)), y = model.target();
     const double squares = model.products(whole, y).squares;
@@ -100,7 +100,7 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
     std::vector<Vector> complete;
     for (const Vector& values : starts) complete.push_back(model.completed(values));
     complete = promising_starts(model, start, std::move(complete), options);
-    Fit fit = minimise_output_error(model, y, complete, options);
+    Fit fit = minimize_output_error(model, y, complete, options);
     const Vector theta = fit.theta;
     make_polynomial(fit, model.orders(), Ts);
     const std::vector<Index> lengths = model.lengths();

@@ -23,7 +23,7 @@ class PredictionModel : public OutputErrorModel {
 
     void simulate(const Vector& theta, Vector& output, Matrix* sensitivities) const override;
     OutputErrorProducts products(const Vector& theta, const VectorView& y) const override;
-    bool products_come_cheap() const override { return true; }
+    bool products_are_cheap() const override { return true; }
 
     Vector target() const;               ///< measured outputs, in the rows of the prediction
     std::vector<Index> lengths() const;  ///< rows of each experiment

@@ -21,7 +21,7 @@ namespace dynlab::inline numerics {
 namespace {
 
 constexpr Index kRoomFor = 4;              // delays (samples) in one difference equation
-constexpr Index kMostWindows = 8;          // so many of these, around the delay found
+constexpr Index kMaxWindows = 8;           // so many of these, around the delay found
 constexpr Index kWindowSamples = 5'000;    // on which they are compared
 constexpr Index kExactSamples = 20'000;    // on which the chosen ones are fitted
 constexpr double kClearlySmaller = 0.995;  // of the loss found
@@ -73,8 +73,8 @@ std::vector<Vector> sampled_starts(const IdData& data, const TransferStructure& 
         const DelayRange range = delay_range(data, options);
         const Index least = samples(range.least), most = samples(range.largest);
         std::vector<Index> windows;
-        for (Index window = std::max(least, here - kRoomFor * kMostWindows / 2);
-             window <= std::min(most, here + kRoomFor * kMostWindows / 2); window += kRoomFor)
+        for (Index window = std::max(least, here - kRoomFor * kMaxWindows / 2);
+             window <= std::min(most, here + kRoomFor * kMaxWindows / 2); window += kRoomFor)
             windows.push_back(window);
         std::vector<double> losses(windows.size());
         side_by_side(windows.size(), [&](std::size_t i) {

@@ -52,9 +52,9 @@ bool move(const DiscreteOutput& model, const Vector& y, const Vector& step, Poin
     const Vector from = here.theta;
     const double loss = here.loss;
     for (double part = 1;; part /= 2) {
-        const Vector wanted = from + part * step, next = model.with_stable_poles(wanted);
+        const Vector requested = from + part * step, next = model.with_stable_poles(requested);
         here = point_at(model, y, next);
-        if (here.loss <= loss * (1 + kRounding) || part <= kShortestStep) return next != wanted;
+        if (here.loss <= loss * (1 + kRounding) || part <= kShortestStep) return next != requested;
     }
 }
 

@@ -20,14 +20,14 @@ namespace dynlab::inline numerics {
 template <int kCount, bool kInstruments>
 class InstrumentArray {
   public:
-    static constexpr std::size_t kMost = kCount > 0 ? kCount : 17;
-    using Row = SmallRow<kMost>;
+    static constexpr std::size_t kMax = kCount > 0 ? kCount : 17;
+    using Row = SmallRow<kMax>;
 
     /// `block`: samples that outlast the memory of coloured errors.
     explicit InstrumentArray(int count, double block = 1) : count_(count), colour_(block) {}
 
-    /// Weights of all rows so far are multiplied by `forgetting`, but for a row that tells next to nothing: otherwise
-    /// what is known would be forgotten while nothing is learnt.
+    /// Adds a row. The weights of all earlier rows are multiplied by `forgetting`, unless the new row has almost no
+    /// information. Otherwise earlier information would be lost without a replacement.
     void add(Row z, Row phi, double y, double forgetting) {
         const std::size_t d = size();
         const Row given_z = z, given_phi = phi;
@@ -110,7 +110,7 @@ class InstrumentArray {
     }
 
   private:
-    using Square = SmallMatrix<kMost>;
+    using Square = SmallMatrix<kMax>;
     static constexpr double kSilent = 1e-6;
 
     Matrix inverse_regressors() const {
@@ -152,7 +152,7 @@ class InstrumentArray {
     Row c_{}, theta_{};
     ErrorVariance<kInstruments> errors_;
     FadingWeights memory_;
-    ProductColour<kMost> colour_;
+    ProductColor<kMax> colour_;
     bool known_ = false, walks_ = false;
 };
 

@@ -15,7 +15,7 @@ struct ProductSums {
     double open = 0;      ///< rows of the block that is not complete: products are of complete ones
 };
 
-/// T as ProductColour::ratio has it.
+/// T as ProductColor::ratio has it.
 Matrix colour_ratio(const ProductSums& sums);
 
 /// How the products z(k) e(k) of instruments and errors add up when the errors are coloured, at constant cost a sample:
@@ -25,14 +25,14 @@ Matrix colour_ratio(const ProductSums& sums);
 /// that is hardly known, and a forgetting that leaves few blocks could not tell any colour. An estimate that forgets
 /// follows the noise, which shortens the sums of a block of L samples: by (1 - w^L)/(L (1 - w)) for white errors in the
 /// scalar case, where e is w times the change of a first-order lag; they are set against that.
-template <std::size_t kMost>
-class ProductColour {
+template <std::size_t kMax>
+class ProductColor {
   public:
     /// `block`: samples, above zero.
-    explicit ProductColour(double block) : shortest_(block), length_(block) {}
+    explicit ProductColor(double block) : shortest_(block), length_(block) {}
 
     /// The weights of all samples before were multiplied by `weight`.
-    void add(const SmallRow<kMost>& z, double error, std::size_t d, double weight) {
+    void add(const SmallRow<kMax>& z, double error, std::size_t d, double weight) {
         for (std::size_t i = 0; i < d; ++i) {
             block_[i] += z[i] * error;
             for (std::size_t j = i; j < d; ++j) now_.gram[i][j] += z[i] * z[j];
@@ -66,7 +66,7 @@ class ProductColour {
     static constexpr double kFewBlocks = 50;  // from here on blocks grow
 
     struct Sums {
-        SmallMatrix<kMost> gram{}, products{};  // upper triangles
+        SmallMatrix<kMax> gram{}, products{};  // upper triangles
         double squares = 0, rows = 0, blocks = 0;
     };
 
@@ -84,7 +84,7 @@ class ProductColour {
     }
 
     double shortest_, length_, in_block_ = 0, block_weight_ = 0, samples_ = 0;
-    SmallRow<kMost> block_{};
+    SmallRow<kMax> block_{};
     Sums now_, earlier_;
 };
 

@@ -88,7 +88,7 @@ class FixedFilter {
 
     EvolvingModel model_;
     Matrix A_;
-    std::array<EvolvingState, kMostEvolvingPoles> F_{};
+    std::array<EvolvingState, kMaxEvolvingPoles> F_{};
     EvolvingState H0_{}, H1_{};
     double step_ = 0;
 };
@@ -104,9 +104,9 @@ bool is_stable(const EvolvingModel& model) {
 /// The samples of the first batch, and the model that ivsvf, or lssvf where that one fails, makes of them.
 Index first_batch(const IdData& data, Index parameters, double lambda) {
     const double steps = kFilterMemories / (lambda * data.mean_step());
-    const Index wanted = std::max<Index>(kFirstSamplesPerParameter * parameters,
-                                         static_cast<Index>(std::min(steps * (1 + kStepRounding), 1e15)));
-    return std::min(wanted, data.sample_count());
+    const Index requested = std::max<Index>(kFirstSamplesPerParameter * parameters,
+                                            static_cast<Index>(std::min(steps * (1 + kStepRounding), 1e15)));
+    return std::min(requested, data.sample_count());
 }
 
 Vector first_model(const IdData& data, const TransferStructure& structure, const RecursiveOptions& options,
@@ -378,8 +378,8 @@ void check_recursive_data(const RecursiveName& method, const IdData& data, const
         throw InvalidArgument("{} requires one input and one output, but the data have {} and {}", method.name,
                               data.input_count(), data.output_count());
     check_transfer_data(method.name, data, structure);
-    if (structure.poles.front() > kMostEvolvingPoles)
-        throw InvalidArgument("{} supports up to {} poles, but {} were requested", method.name, kMostEvolvingPoles,
+    if (structure.poles.front() > kMaxEvolvingPoles)
+        throw InvalidArgument("{} supports up to {} poles, but {} were requested", method.name, kMaxEvolvingPoles,
                               structure.poles.front());
 }
 

@@ -38,7 +38,7 @@ enum class RecursiveMethod { kLeastSquares, kInstruments, kRefined };
 /// Filters are exact for the hold of u and y between the samples, regular or not (filters/evolving_filter.h). Fills
 /// theta, covariance, noise_variance, history, message and the rest that describe_models fills. Throws InvalidArgument
 /// for options, unsuitable data (check_transfer_data; several experiments, several channels, a delay of no whole number
-/// of samples, more than kMostEvolvingPoles poles), and where all samples together do not determine theta.
+/// of samples, more than kMaxEvolvingPoles poles), and where all samples together do not determine theta.
 Fit recursive_pass(const RecursiveName& method, RecursiveMethod kind, const IdData& data,
                    const TransferStructure& structure, const RecursiveOptions& options);
 

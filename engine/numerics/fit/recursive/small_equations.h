@@ -8,10 +8,10 @@ namespace dynlab::inline numerics {
 
 // A few equations, solved at every sample: the leading d x d of arrays of fixed size.
 
-template <std::size_t kMost>
-using SmallRow = std::array<double, kMost>;
-template <std::size_t kMost>
-using SmallMatrix = std::array<SmallRow<kMost>, kMost>;
+template <std::size_t kMax>
+using SmallRow = std::array<double, kMax>;
+template <std::size_t kMax>
+using SmallMatrix = std::array<SmallRow<kMax>, kMax>;
 
 /// A Givens rotation of two entries.
 inline void rotate(double cosine, double sine, double& kept, double& left) {
@@ -24,8 +24,8 @@ inline void rotate(double cosine, double sine, double& kept, double& left) {
 inline constexpr double kSmallRank = 1e-9;
 
 /// U x = b with U upper triangular; x stays, and false is returned, where U is singular.
-template <std::size_t kMost>
-bool solve_triangular(const SmallMatrix<kMost>& U, SmallRow<kMost> b, std::size_t d, SmallRow<kMost>& x) {
+template <std::size_t kMax>
+bool solve_triangular(const SmallMatrix<kMax>& U, SmallRow<kMax> b, std::size_t d, SmallRow<kMax>& x) {
     for (std::size_t j = 0; j < d; ++j) {
         double size = 0;
         for (std::size_t i = 0; i <= j; ++i) size += std::abs(U[i][j]);
@@ -39,9 +39,9 @@ bool solve_triangular(const SmallMatrix<kMost>& U, SmallRow<kMost> b, std::size_
 }
 
 /// A x = b by elimination with row pivots; x stays, and false is returned, where A is singular.
-template <std::size_t kMost>
-bool solve_small(SmallMatrix<kMost> A, SmallRow<kMost> b, std::size_t d, SmallRow<kMost>& x) {
-    SmallRow<kMost> sizes{}, reciprocals;
+template <std::size_t kMax>
+bool solve_small(SmallMatrix<kMax> A, SmallRow<kMax> b, std::size_t d, SmallRow<kMax>& x) {
+    SmallRow<kMax> sizes{}, reciprocals;
     for (std::size_t i = 0; i < d; ++i)
         for (std::size_t j = 0; j < d; ++j) sizes[j] += std::abs(A[i][j]);
     for (std::size_t j = 0; j < d; ++j) {
@@ -68,8 +68,8 @@ bool solve_small(SmallMatrix<kMost> A, SmallRow<kMost> b, std::size_t d, SmallRo
 }
 
 /// The upper triangular root of a symmetric positive definite matrix, U U' = A, in place of its upper triangle.
-template <std::size_t kMost>
-void upper_root(SmallMatrix<kMost>& U, std::size_t d) {
+template <std::size_t kMax>
+void upper_root(SmallMatrix<kMax>& U, std::size_t d) {
     for (std::size_t j = d; j-- > 0;) {
         U[j][j] = std::sqrt(U[j][j]);
         for (std::size_t i = 0; i < j; ++i) U[i][j] /= U[j][j];
@@ -79,9 +79,9 @@ void upper_root(SmallMatrix<kMost>& U, std::size_t d) {
 }
 
 /// The inverse of A by Gauss-Jordan elimination with row pivots; false, and no meaning, where A is singular.
-template <std::size_t kMost>
-bool invert_small(SmallMatrix<kMost> A, std::size_t d, SmallMatrix<kMost>& inverse) {
-    SmallRow<kMost> sizes{};
+template <std::size_t kMax>
+bool invert_small(SmallMatrix<kMax> A, std::size_t d, SmallMatrix<kMax>& inverse) {
+    SmallRow<kMax> sizes{};
     for (std::size_t i = 0; i < d; ++i)
         for (std::size_t j = 0; j < d; ++j) {
             sizes[j] += std::abs(A[i][j]);

@@ -87,7 +87,7 @@ class ErrorSource {
     std::vector<Index> lengths_;
     double sigma_;
     Vector pool_;
-    ColouredNoise noise_;
+    ColoredNoise noise_;
 };
 
 void summarise(Bootstrap& study, double confidence) {

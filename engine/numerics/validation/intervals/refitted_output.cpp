@@ -27,8 +27,8 @@ class HeldOutput : public OutputErrorModel {
     OutputErrorProducts products(const Vector& theta, const VectorView& y) const override {
         return inner_.products(theta, y);
     }
-    Index silent_rows() const override { return inner_.silent_rows(); }
-    bool products_come_cheap() const override { return inner_.products_come_cheap(); }
+    Index masked_rows() const override { return inner_.masked_rows(); }
+    bool products_are_cheap() const override { return inner_.products_are_cheap(); }
 
   private:
     const OutputErrorModel& inner_;
@@ -61,7 +61,7 @@ class Criterion {
 
   private:
     TransferOutput transfer_;
-    std::optional<Reparametrised> process_;
+    std::optional<Reparametrized> process_;
     Vector seconds_;
 };
 
@@ -128,7 +128,7 @@ Fit RefittedOutput::fit(const std::map<Index, double>& held, const Fit* from, co
         from != nullptr ? search_point(*from, criterion.transfer(), seconds) : criterion.start_at(fitted_.theta);
     for (const auto& [place, value] : own) start[place] = value;
     const HeldOutput model(criterion.model(), own);
-    Fit fit = minimise_output_error(model, criterion.transfer().target(), starts_around(model, start), {});
+    Fit fit = minimize_output_error(model, criterion.transfer().target(), starts_around(model, start), {});
     keep_parameters(fit, criterion.transfer(), fitted_.start, seconds);
     fit.names = fitted_.names();
     fit.std = fit.covariance.diagonal().cwiseMax(0).cwiseSqrt();

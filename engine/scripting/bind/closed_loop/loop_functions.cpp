@@ -90,24 +90,25 @@ Estimation read_clivsvf(const Call& call) {
     call.at_most(4);
     const auto orders = order_lists(call, 2, kLoopEquationOrders);
     const Options options(call, 4, kLoopEquation);
-    SvfOptions wanted;
-    wanted.lambda = call.number(3, "lambda");
-    options.read(wanted);
-    return
-        [structure = structure_of_orders(kLoopEquationOrders, orders, Denominators::kPerOutput), wanted,
-         known = loop_knowledge(options)](const IdData& data) { return clivsvf(data, structure(data), wanted, known); };
+    SvfOptions requested;
+    requested.lambda = call.number(3, "lambda");
+    options.read(requested);
+    return [structure = structure_of_orders(kLoopEquationOrders, orders, Denominators::kPerOutput), requested,
+            known = loop_knowledge(options)](const IdData& data) {
+        return clivsvf(data, structure(data), requested, known);
+    };
 }
 
 Estimation read_clsrivc(const Call& call) {
     call.at_most(3);
     const auto orders = order_lists(call, 2, kLoopOutputOrders);
     const Options options(call, 3, kLoopOutput);
-    FitOptions wanted;
-    read_fit_options(options, wanted);
+    FitOptions requested;
+    read_fit_options(options, requested);
     const auto route = options.has("route") ? static_cast<LoopRoute>(options.choice(kRoute)) : LoopRoute::kAuxiliary;
-    return [structure = structure_of_orders(kLoopOutputOrders, orders, Denominators::kPerChannel), wanted,
+    return [structure = structure_of_orders(kLoopOutputOrders, orders, Denominators::kPerChannel), requested,
             known = loop_knowledge(options),
-            route](const IdData& data) { return clsrivc(data, structure(data), wanted, known, route); };
+            route](const IdData& data) { return clsrivc(data, structure(data), requested, known, route); };
 }
 
 int estimate_clivsvf(Call& call) {

@@ -49,7 +49,7 @@ constexpr std::array kResponseOptions = {
     option<&FrequencyData::output_unit>("OutputUnit", about("unit of the output"))};
 constexpr std::array kBlaOptions = {
     OptionEntry{"period", ValueKind::kCount, about("period of the input in samples; required")},
-    option<&BlaOptions::realisations>("realisations", about("number of realizations in each experiment"), {.least = 1}),
+    option<&BlaOptions::realizations>("realisations", about("number of realizations in each experiment"), {.least = 1}),
     option<&BlaOptions::transient>("transient", about("periods to omit at the beginning of every realization"),
                                    {.member = "transient"}),
     option<&BlaOptions::smooth>(
@@ -87,7 +87,7 @@ ResponseForm form_of(const Call& call, int index, const Options& options) {
     std::array<std::string, 2> units;
     for (const int part : {1, 2}) {
         lua_geti(L, index, part);
-        units[static_cast<std::size_t>(part - 1)] = remembered_origin(L, -1).unit;
+        units[static_cast<std::size_t>(part - 1)] = column_origin(L, -1).unit;
         lua_pop(L, 1);
     }
     const auto& [size, angle] = units;
@@ -134,7 +134,7 @@ ComplexVector complex_argument(const Call& call, int index, ArgumentName what, c
 /// In rad/s.
 Vector frequencies_argument(const Call& call) {
     const VectorMap w = call.vector(2, "w");
-    if (remembered_origin(call.state(), 2).unit != "Hz") return w;
+    if (column_origin(call.state(), 2).unit != "Hz") return w;
     call.print(localized(call, Message("idfrd: the frequencies are in Hz and are converted to rad/s")) + "\n");
     return 2 * std::numbers::pi * w;
 }
@@ -147,12 +147,12 @@ struct Sampling {
 Sampling sampling_options(const Options& options, const std::optional<TransferFunction>& G) {
     const bool discrete = G && !G->continuous();
     const Sampling own{discrete ? G->Ts() : 0, discrete ? InterSample::kZoh : InterSample::kBandLimited};
-    const Sampling wanted{options.number("Ts", own.Ts), inter_sample_option(options).value_or(own.inter_sample)};
-    if (discrete && std::abs(wanted.Ts - own.Ts) > 1e-9 * own.Ts)
+    const Sampling requested{options.number("Ts", own.Ts), inter_sample_option(options).value_or(own.inter_sample)};
+    if (discrete && std::abs(requested.Ts - own.Ts) > 1e-9 * own.Ts)
         throw InvalidArgument(
             "option 'Ts' is {} s, but the model has {} s: omit the option, or convert the model with d2c and c2d",
-            wanted.Ts, own.Ts);
-    return wanted;
+            requested.Ts, own.Ts);
+    return requested;
 }
 
 int make_response(Call& call) {
@@ -180,12 +180,12 @@ int approximate(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 2, kBla);
-    BlaOptions wanted;
-    wanted.period = options.size("period", 0);
-    wanted.inter_sample = inter_sample_option(options);
-    options.read(wanted);
-    wanted.cancel = call.cancel();
-    const FrequencyData response = bla(data, wanted);
+    BlaOptions requested;
+    requested.period = options.size("period", 0);
+    requested.inter_sample = inter_sample_option(options);
+    options.read(requested);
+    requested.cancel = call.cancel();
+    const FrequencyData response = bla(data, requested);
     std::vector<Message> all = {response.message};
     all.insert(all.end(), response.warnings.begin(), response.warnings.end());
     call.print(localized(call, sentences(std::move(all))) + "\n");

@@ -99,7 +99,8 @@ constexpr std::array kResponseOperators = {
     Member{"__tostring", localized_field<FrequencyData, response_text>},
     Member{"__len", field<FrequencyData, [](const FrequencyData& d) { return d.w.size(); }>}};
 
-constexpr std::array kResponseTypes = {TypeEntry{&Boxed<FrequencyData>::type, kResponseFields, {}, kResponseOperators}};
+constexpr std::array kResponseTypes = {
+    TypeEntry{&Userdata<FrequencyData>::type, kResponseFields, {}, kResponseOperators}};
 
 }  // namespace
 

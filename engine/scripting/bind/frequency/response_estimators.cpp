@@ -44,25 +44,25 @@ int give_response_fit(const Call& call, const FrequencyData& response, const Fit
     return give_estimate(call, std::move(estimate), fit);
 }
 
-TransferStructure structure_for_response(const Call& call, const FrequencyData& response, FitOptions& wanted) {
+TransferStructure structure_for_response(const Call& call, const FrequencyData& response, FitOptions& requested) {
     if (!std::string_view(call.function_name()).starts_with("tf")) {
         call.at_most(3);
-        read_fit_options(Options(call, 3, kResponseFit), wanted);
+        read_fit_options(Options(call, 3, kResponseFit), requested);
         return ordered_structure(call, response, kOutputErrorOrders);
     }
     call.at_most(4);
     const Options options(call, 4, kDelayedResponseFit);
-    read_fit_options(options, wanted);
-    return structure_of_counts(call, options, wanted)(channels_of(response));
+    read_fit_options(options, requested);
+    return structure_of_counts(call, options, requested)(channels_of(response));
 }
 
 }  // namespace
 
 int fit_response(Call& call) {
     const FrequencyData& response = object_argument<FrequencyData>(call, 1, "F");
-    FitOptions wanted;
-    const TransferStructure structure = structure_for_response(call, response, wanted);
-    return give_response_fit(call, response, frequency_fit(call.function_name(), response, structure, wanted),
+    FitOptions requested;
+    const TransferStructure structure = structure_for_response(call, response, requested);
+    return give_response_fit(call, response, frequency_fit(call.function_name(), response, structure, requested),
                              FitForm::kOutputError);
 }
 
@@ -70,9 +70,9 @@ int filter_response(Call& call) {
     call.at_most(3);
     const FrequencyData& response = object_argument<FrequencyData>(call, 1, "F");
     const TransferStructure structure = ordered_structure(call, response, kCarxOrders);
-    SvfOptions wanted;
-    wanted.lambda = call.number(3, "lambda");
-    return give_response_fit(call, response, frequency_lssvf(response, structure, wanted), FitForm::kEquationError);
+    SvfOptions requested;
+    requested.lambda = call.number(3, "lambda");
+    return give_response_fit(call, response, frequency_lssvf(response, structure, requested), FitForm::kEquationError);
 }
 
 }  // namespace dynlab::inline scripting

@@ -45,7 +45,7 @@ constexpr std::array kGreyestArguments = {
     ArgumentEntry{"m", ValueKind::kAny, about("model returned by idgrey, with an initial value for each parameter")}};
 
 /// Option starts: how many, or a list of tables {k1 = 0.5, ...}.
-void read_starts(const Options& options, GreyOptions& wanted) {
+void read_starts(const Options& options, GreyOptions& requested) {
     lua_State* L = options.call().state();
     const int place = options.push("starts");
     if (lua_istable(L, place)) {
@@ -53,23 +53,23 @@ void read_starts(const Options& options, GreyOptions& wanted) {
             lua_createtable(L, 0, 1);
             lua_pushvalue(L, -2);
             lua_setfield(L, -2, "starts");
-            wanted.further_starts.push_back(
+            requested.further_starts.push_back(
                 Options(options.call(), lua_gettop(L), kStartsAlone).numbers_by_name("starts"));
             lua_pop(L, 1);
         }
     } else if (!lua_isnil(L, place)) {
-        wanted.starts = static_cast<int>(options.size("starts", 1));
+        requested.starts = static_cast<int>(options.size("starts", 1));
     }
     lua_settop(L, place - 1);
 }
 
 GreyOptions read_grey_options(const Call& call, int index) {
     const Options options(call, index, kGreyest);
-    GreyOptions wanted;
-    options.read(wanted);
-    read_starts(options, wanted);
-    wanted.cancel = call.cancel();
-    return wanted;
+    GreyOptions requested;
+    options.read(requested);
+    read_starts(options, requested);
+    requested.cancel = call.cancel();
+    return requested;
 }
 
 int estimate_grey_box(Call& call) {
@@ -158,7 +158,8 @@ constexpr FunctionEntry kGreyestFunctions[] = {
      kGreyestArguments},
 };
 
-constexpr std::array kGreyestTypes = {TypeEntry{&Boxed<GreyEstimate>::type, kEstimateFields, {}, kEstimateOperators}};
+constexpr std::array kGreyestTypes = {
+    TypeEntry{&Userdata<GreyEstimate>::type, kEstimateFields, {}, kEstimateOperators}};
 
 }  // namespace
 

@@ -277,7 +277,7 @@ constexpr FunctionEntry kIdgreyFunctions[] = {
      kIdgreyArguments},
 };
 
-constexpr std::array kIdgreyTypes = {TypeEntry{&Boxed<GreyModel>::type, kGreyModelFields, {}, kGreyModelOperators}};
+constexpr std::array kIdgreyTypes = {TypeEntry{&Userdata<GreyModel>::type, kGreyModelFields, {}, kGreyModelOperators}};
 
 }  // namespace
 

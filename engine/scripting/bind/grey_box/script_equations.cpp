@@ -117,8 +117,8 @@ class Tracer {
         return false;
     }
     std::optional<Node> node_on_top() const { return traced_node(L_, -1, trace_); }
-    std::vector<Node> nodes_on_top(const Wanted& wanted) {
-        return read_list<Node>(L_, wanted, [this] { return node_on_top(); });
+    std::vector<Node> nodes_on_top(const RequestedValues& requested) {
+        return read_list<Node>(L_, requested, [this] { return node_on_top(); });
     }
 
     bool follow(TracedFunctions& functions) {
@@ -214,8 +214,8 @@ Message more_than_matrices() {
 }
 
 /// A function of (t, x, u, p), called with numbers.
-Vector called_with(const ScriptEquations& equations, const ScriptFunction& function, const Wanted& wanted, double t,
-                   const Vector& x, const Vector& u, const Vector& p) {
+Vector called_with(const ScriptEquations& equations, const ScriptFunction& function, const RequestedValues& requested,
+                   double t, const Vector& x, const Vector& u, const Vector& p) {
     lua_State* L = function.state();
     luaL_checkstack(L, 16, "grey-box model");
     function.push();
@@ -224,7 +224,7 @@ Vector called_with(const ScriptEquations& equations, const ScriptFunction& funct
     push_inputs(L, u, equations.inputs_indexed);
     push_numbers(L, "parameter", "p", equations.parameters, p);
     call_or_throw(L, 4, 1, &function == equations.rates.get() ? more_than_rates : more_than_outputs);
-    return numbers_on_top(L, wanted);
+    return numbers_on_top(L, requested);
 }
 
 Vector initial_values(const ScriptEquations& equations, const Vector& p) {

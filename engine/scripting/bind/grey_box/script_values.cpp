@@ -22,8 +22,8 @@ std::optional<double> number_at_top(lua_State* L) {
     return std::nullopt;
 }
 
-Vector numbers_on_top(lua_State* L, const Wanted& wanted) {
-    const std::vector<double> values = read_list<double>(L, wanted, [L] { return number_at_top(L); });
+Vector numbers_on_top(lua_State* L, const RequestedValues& requested) {
+    const std::vector<double> values = read_list<double>(L, requested, [L] { return number_at_top(L); });
     return Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size()));
 }
 

@@ -18,7 +18,7 @@ void push_inputs(lua_State* L, const Vector& u, bool indexed);
 // ---- results of the functions
 
 /// The function's name in messages, and what it gives.
-struct Wanted {
+struct RequestedValues {
     const char* function;
     const Message* what;  ///< read where there is a count
     Index count;          ///< -1 for any
@@ -29,14 +29,14 @@ std::optional<double> number_at_top(lua_State* L);
 
 /// What a function returned, element by element: `read()` takes the value on top of the stack, or refuses it. Pops it.
 template <class Value, class Read>
-std::vector<Value> read_list(lua_State* L, const Wanted& wanted, const Read& read) {
+std::vector<Value> read_list(lua_State* L, const RequestedValues& requested, const Read& read) {
     std::vector<Value> values;
     const int top = lua_gettop(L);
     const auto refuse = [&](Index place) {
         if (place == 0)
-            throw InvalidArgument("{} must return a table of numbers, but it returned {}", wanted.function,
+            throw InvalidArgument("{} must return a table of numbers, but it returned {}", requested.function,
                                   given_value(L, -1));
-        throw InvalidArgument("{} must return a table of numbers, but its element {} is {}", wanted.function, place,
+        throw InvalidArgument("{} must return a table of numbers, but its element {} is {}", requested.function, place,
                               given_value(L, -1));
     };
     if (NumericBlock* block = to_vector(L, top); block != nullptr && block->rows != 1) {
@@ -58,14 +58,14 @@ std::vector<Value> read_list(lua_State* L, const Wanted& wanted, const Read& rea
     } else {
         refuse(0);
     }
-    if (wanted.count >= 0 && static_cast<Index>(values.size()) != wanted.count)
-        throw InvalidArgument("{} must return {}, but it returned {}", wanted.function, *wanted.what,
+    if (requested.count >= 0 && static_cast<Index>(values.size()) != requested.count)
+        throw InvalidArgument("{} must return {}, but it returned {}", requested.function, *requested.what,
                               plural(values.size(), "{} value", "{} values"));
     lua_settop(L, top - 1);
     return values;
 }
 
-Vector numbers_on_top(lua_State* L, const Wanted& wanted);
+Vector numbers_on_top(lua_State* L, const RequestedValues& requested);
 
 // ---- matrices of a function of p
 

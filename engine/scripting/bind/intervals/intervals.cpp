@@ -23,7 +23,7 @@ constexpr std::array kBootstrapOptions = {
     option<&BootstrapOptions::kind>(
         "kind", about("new errors: residuals drawn with replacement (\"residual\"), or normal errors (\"parametric\")"),
         {.initial = "\"residual\"", .choices = kBootstrapKinds}),
-    option<&BootstrapOptions::seed>("seed", about("seed of the new errors"), {.most = kLargestSeed}),
+    option<&BootstrapOptions::seed>("seed", about("seed of the new errors"), {.most = kMaxSeed}),
     option<&BootstrapOptions::confidence>("confidence", about("probability of the intervals"),
                                           {.member = "confidence"})};
 constexpr OptionEntry kProfileOptions[] = {
@@ -114,15 +114,15 @@ int repeat_experiment(Call& call) {
     call.at_most(3);
     const IdData& data = object_argument<IdData>(call, 2, "data");
     const Options options(call, 3, kBootstrapTables);
-    BootstrapOptions wanted;
-    options.read(wanted);
-    wanted.cancel = call.cancel();
-    ProgressBar bar("bootstrap", static_cast<std::size_t>(wanted.runs));
-    wanted.progress = [&bar](std::size_t done) { bar.advance(done); };
+    BootstrapOptions requested;
+    options.read(requested);
+    requested.cancel = call.cancel();
+    ProgressBar bar("bootstrap", static_cast<std::size_t>(requested.runs));
+    requested.progress = [&bar](std::size_t done) { bar.advance(done); };
     const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
-    const Bootstrap found = bootstrap(model, wanted);
+    const Bootstrap found = bootstrap(model, requested);
     call.print(localized(call, found.message) + "\n");
-    give_figure(call, monte_carlo_histograms(as_study(found, wanted.runs)));
+    give_figure(call, monte_carlo_histograms(as_study(found, requested.runs)));
     give_table(call, "names", found.names, "estimate", found.estimate, "values", found.values, "mean", found.mean,
                "std", found.std, "low", found.low, "high", found.high, "failed", found.failed, "message",
                localized(call, found.message), "warnings", localized(call, found.warnings));
@@ -139,12 +139,12 @@ int follow_parameter(Call& call) {
     const IdData& data = object_argument<IdData>(call, 2, "data");
     const std::string name = call.text(3, "parameter");
     const Options options(call, 4, kProfileTables);
-    ProfileOptions wanted;
-    options.read(wanted);
-    wanted.range = options.range("range");
-    wanted.cancel = call.cancel();
+    ProfileOptions requested;
+    options.read(requested);
+    requested.range = options.range("range");
+    requested.cancel = call.cancel();
     const RefittedOutput model(data, fitted_argument(call, 1, data, compare_options(options)));
-    const Profile found = profile_likelihood(model, name, wanted);
+    const Profile found = profile_likelihood(model, name, requested);
     call.print(localized(call, found.message) + "\n");
     give_figure(call, profile_plot(found, unit_of(data, name)));
     give_table(call, "estimate", found.estimate, "std", found.std, "low", found.low, "high", found.high, "level",

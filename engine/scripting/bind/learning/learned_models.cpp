@@ -82,10 +82,10 @@ int estimate_narx(Call& call) {
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const NarxLags lags = lags_argument(call, data.input_count());
     const Options options(call, 3, kNarx);
-    NarxOptions wanted;
-    options.read(wanted);
-    wanted.cancel = call.cancel();
-    const NarxFit found = narx(data, lags, wanted);
+    NarxOptions requested;
+    options.read(requested);
+    requested.cancel = call.cancel();
+    const NarxFit found = narx(data, lags, requested);
     Estimate estimate = basic_estimate("narx", found.fit);
     estimate.fields.edit().numbers.insert(estimate.fields.edit().numbers.end(),
                                           {{"noise_variance", found.fit.noise_variance[0]},
@@ -122,10 +122,10 @@ int estimate_sindy(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 2, kSindy);
-    SindyOptions wanted;
-    options.read(wanted);
-    wanted.cancel = call.cancel();
-    const SindyFit found = sindy(data, library_option(call, options, data), wanted);
+    SindyOptions requested;
+    options.read(requested);
+    requested.cancel = call.cancel();
+    const SindyFit found = sindy(data, library_option(call, options, data), requested);
     Estimate estimate = basic_estimate("sindy", found.fit);
     if (found.width) estimate.fields.edit().numbers.emplace_back("width", *found.width);
     estimate.fields.edit().matrices = {{"coefficients", found.model->coefficients()}};
@@ -138,10 +138,10 @@ int estimate_dmdc(Call& call) {
     call.at_most(2);
     const IdData& data = object_argument<IdData>(call, 1, "data");
     const Options options(call, 2, kDmdc);
-    DmdcOptions wanted;
-    options.read(wanted);
-    wanted.cancel = call.cancel();
-    const DmdcFit found = dmdc(data, wanted);
+    DmdcOptions requested;
+    options.read(requested);
+    requested.cancel = call.cancel();
+    const DmdcFit found = dmdc(data, requested);
     Estimate estimate = basic_estimate("dmdc", found.fit);
     estimate.fields.edit().numbers.insert(estimate.fields.edit().numbers.end(),
                                           {{"rank", found.rank}, {"delays", found.delays}});

@@ -77,13 +77,13 @@ TransferFunction fixed_model(const Options& options) {
 }
 
 RecursiveOptions recursive_options(const Call& call, const Options& options) {
-    RecursiveOptions wanted;
-    wanted.lambda = call.number(3, "lambda");
-    options.read(wanted);
-    wanted.drift = drift_of(options);
-    if (options.has("model")) wanted.model = fixed_model(options);
-    wanted.cancel = call.cancel();
-    return wanted;
+    RecursiveOptions requested;
+    requested.lambda = call.number(3, "lambda");
+    options.read(requested);
+    requested.drift = drift_of(options);
+    if (options.has("model")) requested.model = fixed_model(options);
+    requested.cancel = call.cancel();
+    return requested;
 }
 
 template <auto kMethod, bool kCarx>
@@ -93,9 +93,9 @@ Estimation read_recursive(const Call& call) {
     const auto orders = order_lists(call, 2, entries);
     const Options options(call, 4, kRecursive);
     return [structure = structure_of_orders(entries, orders, Denominators::kPerOutput),
-            wanted = recursive_options(call, options)](const IdData& data) {
+            requested = recursive_options(call, options)](const IdData& data) {
         const TransferStructure of_data = structure(data);
-        RecursiveOptions own = wanted;
+        RecursiveOptions own = requested;
         if (own.drift.size() == 1) own.drift = Vector::Constant(of_data.parameter_count(), own.drift[0]);
         return kMethod(data, of_data, own);
     };

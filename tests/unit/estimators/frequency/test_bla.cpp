@@ -25,7 +25,7 @@ constexpr double kTs = 0.05;
 const TransferFunction kPlant(Vector{{2.0}}, Vector{{1.0, 1.2, 4.0}});
 
 struct Recording {
-    Index realisations = 4, periods = 3, settling = 4;
+    Index realizations = 4, periods = 3, settling = 4;
     double noise = 0, square = 0, cube = 0;
     bool odd = false;
 };
@@ -37,8 +37,8 @@ IdData recorded(const Recording& how) {
     options.lines = Vector::LinSpaced(100, 1, 100);
     options.odd = how.odd;
     const Index length = how.periods * kPeriod;
-    Vector u(how.realisations * length), y(u.size());
-    for (Index m = 0; m < how.realisations; ++m) {
+    Vector u(how.realizations * length), y(u.size());
+    for (Index m = 0; m < how.realizations; ++m) {
         const Vector one = random_phase_multisine(kPeriod, options, random).u;
         const Vector input = one.replicate(how.settling + how.periods, 1);
         const Vector x = lsim(kPlant, input, kTs).tail(length);
@@ -52,7 +52,7 @@ IdData recorded(const Recording& how) {
 BlaOptions options_of(const Recording& how) {
     BlaOptions options;
     options.period = kPeriod;
-    options.realisations = how.realisations;
+    options.realizations = how.realizations;
     return options;
 }
 
@@ -109,7 +109,7 @@ TEST(bla, experiments_are_realisations_too) {  // second route: the same record 
     for (Index m = 0; m < 4; ++m) parts.push_back(joined.range(3 * kPeriod * m + 1, 3 * kPeriod * (m + 1)));
     BlaOptions options = options_of(how);
     const FrequencyData one = bla(joined, options);
-    options.realisations = 1;
+    options.realizations = 1;
     const FrequencyData other = bla(IdData::merge(parts), options);
     EXPECT_LT((one.response - other.response).norm(), 1e-13 * one.response.norm());
     EXPECT_LT((one.variance - other.variance).norm(), 1e-12 * one.variance.norm());
@@ -142,7 +142,7 @@ TEST(bla, levels_sum_up_to_the_output) {  // oracle: Parseval; no line at zero o
     EXPECT_THAT(message_text(found.message), HasSubstr("dB of the output, averaged over 3 periods."));
 }
 
-TEST(bla, tells_what_is_wrong_with_a_record) {
+TEST(bla, reports_what_is_wrong_with_a_record) {
     Recording how;
     how.settling = 0, how.noise = 0.001;
     EXPECT_THAT(texts_of(bla(recorded(how), options_of(how)).warnings), Contains(HasSubstr("`transient` = 1")));
@@ -153,7 +153,7 @@ TEST(bla, tells_what_is_wrong_with_a_record) {
     how = {};
     const IdData whole = recorded(how);
     BlaOptions one = options_of(how);
-    one.realisations = 1;
+    one.realizations = 1;
     const FrequencyData cut = bla(whole.range(101, 3 * kPeriod), one);
     EXPECT_THAT(texts_of(cut.warnings), Contains(HasSubstr("the first 412 samples are omitted")));
     EXPECT_THAT(texts_of(cut.warnings), Contains(HasSubstr("One realization cannot reveal")));
@@ -181,9 +181,9 @@ TEST(bla, refuses_what_it_cannot_use) {
     options.period = 10000;
     EXPECT_THAT(refusal(options), HasSubstr("longer than a realization of 6144"));
     options = options_of(how);
-    options.realisations = 5;
+    options.realizations = 5;
     EXPECT_THAT(refusal(options), HasSubstr("5 realizations do not divide the 6144 samples"));
-    options.realisations = 4, options.transient = 3;
+    options.realizations = 4, options.transient = 3;
     EXPECT_THAT(refusal(options), HasSubstr("no data remain without 3 of 3 periods"));
     options.transient = 0, options.least_input = 1;
     EXPECT_THAT(refusal(options), HasSubstr("between 0 and 1"));
@@ -192,17 +192,17 @@ TEST(bla, refuses_what_it_cannot_use) {
 // Oracle: a system without memory answers each repetition alike, whatever it does to the input.
 TEST(bla, refuses_realisations_of_one_input) {
     Recording how;
-    how.realisations = 1, how.periods = 12, how.cube = 0.3, how.noise = 0.02;
+    how.realizations = 1, how.periods = 12, how.cube = 0.3, how.noise = 0.02;
     const IdData repeated = recorded(how);
     BlaOptions options = options_of(how);
-    options.realisations = 4;
+    options.realizations = 4;
     EXPECT_THAT(thrown_message([&] { bla(repeated, options); }), HasSubstr("realizations 1 and 2 have the same input"));
-    options.realisations = 1;
+    options.realizations = 1;
     EXPECT_EQ(bla(repeated, options).distortion.size(), 0);
 
     const IdData shifted = IdData::merge({repeated.range(1, 3 * kPeriod), repeated.range(101, 3 * kPeriod + 100)});
     EXPECT_THAT(thrown_message([&] { bla(shifted, options); }), HasSubstr("have the same input"));
-    how.realisations = 3, how.periods = 3;
+    how.realizations = 3, how.periods = 3;
     const IdData others = recorded(how),
                  merged = IdData::merge({others.range(1, 3 * kPeriod), others.range(1 + 3 * kPeriod, 6 * kPeriod),
                                          others.range(1, 3 * kPeriod)});

@@ -29,14 +29,14 @@ FrequencyData noise_free(const TransferFunction& G, const Vector& w, double Ts =
 }
 
 /// With errors of this variance, told or not.
-FrequencyData noisy(const FrequencyData& truth, const Vector& variance, std::uint32_t seed, bool told = true) {
+FrequencyData noisy(const FrequencyData& truth, const Vector& variance, std::uint32_t seed, bool reported = true) {
     RandomStream random(seed);
     ComplexVector H = truth.response;
     for (Index k = 0; k < H.size(); ++k) {
         const double size = std::sqrt(variance[k] / 2), re = random.normal(), im = random.normal();
         H[k] += size * Complex(re, im);
     }
-    return frequency_data(H, truth.w, told ? variance : Vector(), truth.Ts, truth.inter_sample);
+    return frequency_data(H, truth.w, reported ? variance : Vector(), truth.Ts, truth.inter_sample);
 }
 
 double relative_error(const Vector& found, const Vector& truth) {
@@ -129,7 +129,7 @@ TEST(frequency_fit, standard_errors_are_those_of_the_information_matrix) {  // s
     EXPECT_THAT(fit.warnings, IsEmpty());
 }
 
-TEST(frequency_fit, measures_a_variance_that_is_not_told) {  // oracle: that of the errors, 120 of them
+TEST(frequency_fit, measures_a_variance_that_is_not_given) {  // oracle: that of the errors, 120 of them
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 0.8, 4.0}});
     const Vector w = logarithmic(0.2, 20, 400);
     const Fit fit = frequency_fit("coe", noisy(noise_free(G, w), Vector::Constant(400, 0.01), 3, false),
@@ -137,7 +137,7 @@ TEST(frequency_fit, measures_a_variance_that_is_not_told) {  // oracle: that of 
     EXPECT_NEAR(fit.noise_variance[0], 0.01, 4 * 0.01 / std::sqrt(400.0));
 }
 
-TEST(frequency_fit, tells_errors_that_the_variance_does_not_explain) {
+TEST(frequency_fit, reports_errors_that_the_variance_does_not_explain) {
     const TransferFunction G(Vector{{1.0}}, Vector{{1.0, 1.2, 1.5, 1.0}});
     const Vector w = logarithmic(0.1, 10, 60);
     const Fit fit =
@@ -170,7 +170,7 @@ TEST(frequency_fit, refuses_what_it_cannot_use) {
     EXPECT_THAT(thrown_message([&] { frequency_fit("coe", data, two); }), HasSubstr("the model has 2 and 1"));
 }
 
-TEST(frequency_fit, stops_when_it_is_told_to) {
+TEST(frequency_fit, stops_on_request) {
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 0.8, 4.0}});
     const Vector w = logarithmic(0.2, 20, 60);
     FitOptions options;

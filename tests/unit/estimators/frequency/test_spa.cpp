@@ -132,7 +132,7 @@ TEST(spa, says_what_it_needs) {
                 HasSubstr("select a pair with data:select"));
 }
 
-TEST(spa, poor_excitation_is_told) {
+TEST(spa, poor_excitation_is_reported) {
     Vector u(400);
     for (Index k = 0; k < 400; ++k) u[k] = std::sin(0.3 * static_cast<double>(k));
     SpaOptions options;

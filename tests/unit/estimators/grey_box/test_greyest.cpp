@@ -43,12 +43,12 @@ TEST(greyest, of_a_linear_model_is_coe) {  // oracle: second route, coe, with it
     for (const Hold hold : {Hold::kZoh, Hold::kFoh}) {
         IdData data = course_record(0.2, 3);
         data.hold = hold;
-        const Fit wanted = output_error_fit(data);
+        const Fit expected = output_error_fit(data);
         const GreyFit found = greyest(data, second_order(), tight());
-        EXPECT_LT(relative_difference(found.fit.theta, wanted.theta), 1e-7) << message_text(found.fit.full_message());
-        EXPECT_LT(relative_difference(found.fit.std, wanted.std), 1e-7);
-        EXPECT_NEAR(found.fit.noise_variance[0], wanted.noise_variance[0], 1e-9);
-        EXPECT_NEAR(found.fit.fit_percent[0], wanted.fit_percent[0], 1e-7);
+        EXPECT_LT(relative_difference(found.fit.theta, expected.theta), 1e-7) << message_text(found.fit.full_message());
+        EXPECT_LT(relative_difference(found.fit.std, expected.std), 1e-7);
+        EXPECT_NEAR(found.fit.noise_variance[0], expected.noise_variance[0], 1e-9);
+        EXPECT_NEAR(found.fit.fit_percent[0], expected.fit_percent[0], 1e-7);
     }
 }
 
@@ -58,20 +58,20 @@ TEST(greyest, by_steps_is_coe_too) {  // oracle: second route; a sine too small 
         grey_model({{"a1", 1, 0}, {"a2", 1, 0}, {"b", 1}}, {"y", "dy"}, [](const Variables& v) -> std::vector<Term> {
             return {v.x[1], v.p[2] * v.u - v.p[0] * v.x[1] - v.p[1] * v.x[0] + 1e-25 * sine(v.x[0])};
         });
-    const Fit wanted = output_error_fit(data);
+    const Fit expected = output_error_fit(data);
     const GreyFit found = greyest(data, model, tight());
-    EXPECT_LT(relative_difference(found.fit.theta, wanted.theta), 1e-7) << message_text(found.fit.full_message());
-    EXPECT_LT(relative_difference(found.fit.std, wanted.std), 1e-7);
+    EXPECT_LT(relative_difference(found.fit.theta, expected.theta), 1e-7) << message_text(found.fit.full_message());
+    EXPECT_LT(relative_difference(found.fit.std, expected.std), 1e-7);
 }
 
 TEST(greyest, with_an_estimated_initial_state_is_coe) {  // oracle: second route
     IdData data = course_record(0.2, 5).range(301, 1200);
-    const Fit wanted = output_error_fit(data, InitialState::kEstimate);
+    const Fit expected = output_error_fit(data, InitialState::kEstimate);
     GreyOptions options = tight();
     options.initial_state = GreyStart::kEstimate;
     const GreyFit found = greyest(data, second_order(), options);
-    EXPECT_LT(relative_difference(found.fit.theta, wanted.theta), 1e-6) << message_text(found.fit.full_message());
-    EXPECT_LT(relative_difference(found.fit.std, wanted.std), 1e-6);
+    EXPECT_LT(relative_difference(found.fit.theta, expected.theta), 1e-6) << message_text(found.fit.full_message());
+    EXPECT_LT(relative_difference(found.fit.std, expected.std), 1e-6);
     EXPECT_GT(found.initial_std.minCoeff(), 0);
 }
 
@@ -148,7 +148,7 @@ TEST(greyest, keeps_to_bounds_and_fixed_values) {  // oracle: definition, and th
     EXPECT_EQ(fixed.fit.std[2], 0);
 }
 
-TEST(greyest, tells_what_the_record_does_not_tell) {  // oracle: only the quotient k/m acts
+TEST(greyest, reports_what_the_record_does_not_show) {  // oracle: only the quotient k/m acts
     const GreyModel model =
         grey_model({{"k", 2, 0}, {"m", 0.5, 0}}, {"x"},
                    [](const Variables& v) -> std::vector<Term> { return {v.p[0] / v.p[1] * (v.u - v.x[0])}; });

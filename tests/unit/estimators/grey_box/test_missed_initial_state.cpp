@@ -21,22 +21,23 @@ GreyModel lag_of_second_order() {
     });
 }
 
-TEST(missed_initial_state, is_told_of_a_record_that_begins_in_a_movement) {
+TEST(missed_initial_state, is_reported_for_a_record_that_begins_in_a_movement) {
     const IdData cut = course_record(0.2, 5).range(301, 900);
     const GreyFit from_rest = greyest(cut, lag_of_second_order());
     GreyOptions options;
     options.initial_state = GreyStart::kEstimate;
     const GreyFit free = greyest(cut, lag_of_second_order(), options);
-    const auto told = missed_initial_state(cut, from_rest, Vector::Ones(1));
+    const auto reported = missed_initial_state(cut, from_rest, Vector::Ones(1));
     ASSERT_GT(free.fit.fit_percent[0], from_rest.fit.fit_percent[0] + 1);
-    ASSERT_TRUE(told.has_value());
-    EXPECT_THAT(message_text(from_rest.fit.full_message()), HasSubstr(message_text(*told)));
-    EXPECT_THAT(message_text(*told), HasSubstr("about " + number_text(free.fit.fit_percent[0], 3) + " % instead of " +
-                                               number_text(from_rest.fit.fit_percent[0], 3) + " %"));
+    ASSERT_TRUE(reported.has_value());
+    EXPECT_THAT(message_text(from_rest.fit.full_message()), HasSubstr(message_text(*reported)));
+    EXPECT_THAT(message_text(*reported),
+                HasSubstr("about " + number_text(free.fit.fit_percent[0], 3) + " % instead of " +
+                          number_text(from_rest.fit.fit_percent[0], 3) + " %"));
     EXPECT_FALSE(missed_initial_state(cut, free, Vector::Ones(1)).has_value());
 }
 
-TEST(missed_initial_state, is_not_told_of_a_record_from_rest) {
+TEST(missed_initial_state, is_not_reported_for_a_record_from_rest) {
     const IdData data = course_record(0.2, 5);
     EXPECT_FALSE(missed_initial_state(data, greyest(data, lag_of_second_order()), Vector::Ones(1)).has_value());
 }

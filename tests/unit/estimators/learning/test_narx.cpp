@@ -104,7 +104,7 @@ TEST(narx, runs_from_given_outputs) {  // oracle: the recursion written out
     EXPECT_FALSE(run.lost_at.has_value());
 }
 
-TEST(narx, tells_when_a_run_is_lost) {  // oracle: y(k) = 1.5 y(k-1) + u grows by 1.5 a sample
+TEST(narx, reports_when_a_run_is_lost) {  // oracle: y(k) = 1.5 y(k-1) + u grows by 1.5 a sample
     Vector y = Vector::Zero(40), u = RandomStream(4).normal(40);
     for (Index k = 1; k < 40; ++k) y[k] = (k < 20 ? 1.5 : -0.2) * y[k - 1] + u[k - 1];
     const IdData growing = IdData(Matrix(y), Matrix(u), 0.1).range(1, 20);

@@ -166,7 +166,7 @@ TEST(sindy, runs_freely_from_the_first_sample) {  // oracle: Runge and Kutta's m
     EXPECT_LT((run.output - data.experiments[0].y).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-TEST(sindy, tells_when_a_run_is_lost) {  // oracle: dx/dt = x^2 from 1 is 1/(1 - t)
+TEST(sindy, reports_when_a_run_is_lost) {  // oracle: dx/dt = x^2 from 1 is 1/(1 - t)
     FunctionLibrary square{{"x^2"}, [](const Matrix& X, const Matrix&) { return Matrix(X.cwiseAbs2()); }};
     const SindyModel model(square, Matrix::Ones(1, 1), 0, Vector::Constant(1, 0.1));
     IdData data = inputs_alone(Matrix(100, 0), 0.05, Hold::kZoh);

@@ -31,7 +31,7 @@ TEST(rivsvf, by_itself_it_ends_near_ivsvf) {  // oracle: ivsvf: other instrument
     const TransferStructure structure = TransferStructure::single(2, 0);
     const Fit pass = rivsvf(data, structure, recursive(3));
     Fit batch = ivsvf(data, structure, cutoff(3));
-    colour_covariance(batch, data, cutoff(3), true);
+    color_covariance(batch, data, cutoff(3), true);
     for (Index i = 0; i < 3; ++i) EXPECT_LT(std::abs(pass.theta[i] - batch.theta[i]), batch.std[i]) << i;
     EXPECT_LT(relative_difference(pass.std, batch.std), 0.05);
 }

@@ -89,8 +89,9 @@ TEST(rlssvf, follows_a_parameter_that_jumps) {  // oracle: the truth on either s
 TEST(rlssvf, refuses_what_it_cannot_use) {  // oracle: the sentence names method and fault
     const IdData data = course_record(0.1, 3);
     const TransferStructure structure = TransferStructure::single(2, 0);
-    const auto refused = [&](const IdData& record, const TransferStructure& wanted, const RecursiveOptions& options) {
-        return thrown_message([&] { rlssvf(record, wanted, options); });
+    const auto refused = [&](const IdData& record, const TransferStructure& expected_value,
+                             const RecursiveOptions& options) {
+        return thrown_message([&] { rlssvf(record, expected_value, options); });
     };
     RecursiveOptions options = recursive(3);
     for (const double forgetting : {0.0, -0.5, 1.01, std::nan("")}) {

@@ -61,11 +61,11 @@ TEST(discrete_fit, measures) {  // oracle: the simulation, sample by sample
 
 TEST(discrete_fit, the_operating_point_comes_off) {  // oracle: second route, the centred record
     const IdData data = record(400, 10);
-    const CentredData centred = without_operating_points(data);
+    const CenteredData centered = without_operating_points(data);
     const Fit removed = fitted(data, InitialState::kZero, Offset::kRemove);
-    const Fit by_hand = fitted(centred.data, InitialState::kZero, Offset::kNone);
+    const Fit by_hand = fitted(centered.data, InitialState::kZero, Offset::kNone);
     EXPECT_LT((removed.theta - by_hand.theta).cwiseAbs().maxCoeff(), 1e-12);
-    EXPECT_EQ(removed.offsets(0, 0), centred.removed[0][0].output);
+    EXPECT_EQ(removed.offsets(0, 0), centered.removed[0][0].output);
     EXPECT_EQ(sampled_experiments(data)[0].u, data.experiments[0].u);
     PolynomialOrders with_noise = kOrders;
     with_noise.nd = 1;

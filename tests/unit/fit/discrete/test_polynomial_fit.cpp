@@ -40,7 +40,7 @@ TEST(polynomial_fit, has_the_model_of_its_values) {  // oracle: values written d
     EXPECT_EQ(fit.orders->nb, orders.nb);
 }
 
-TEST(polynomial_fit, tells_of_models_that_are_not_stable) {  // oracle: poles written down
+TEST(polynomial_fit, reports_models_that_are_not_stable) {  // oracle: poles written down
     Fit stable = polynomial_fit(PolynomialOrders::arx(1, {1}, {1}), values({-0.5, 1}), 1);
     warn_of_unstable_polynomials(stable);
     EXPECT_THAT(stable.warnings, IsEmpty());
@@ -51,7 +51,7 @@ TEST(polynomial_fit, tells_of_models_that_are_not_stable) {  // oracle: poles wr
 }
 
 // Oracle: the remedy itself, on little data of a slow stable system whose best difference equation is unstable.
-TEST(polynomial_fit, what_is_told_against_unstable_models_helps) {
+TEST(polynomial_fit, the_advice_against_unstable_models_helps) {
     const Index N = 150;
     Vector u = Vector::Zero(N);
     u.segment(10, 40).setOnes();

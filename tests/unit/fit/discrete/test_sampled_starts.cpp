@@ -69,8 +69,8 @@ TEST(sampled_starts, errors_follow_the_input_where_something_is_missed) {
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
         const IdData data = slowly_sampled_record(1, seed);
         false_alarms += fast_errors_follow_input(data, fit_from(data, with_free_delay(3, 1), true_values())) ? 1 : 0;
-        const Fit poorer = fit_from(data, with_free_delay(1, 0), values({2, 4, 2.25 * kTs}));
-        EXPECT_TRUE(fast_errors_follow_input(data, poorer)) << seed;
+        const Fit lower_order = fit_from(data, with_free_delay(1, 0), values({2, 4, 2.25 * kTs}));
+        EXPECT_TRUE(fast_errors_follow_input(data, lower_order)) << seed;
     }
     EXPECT_LE(false_alarms, 1);
 }
@@ -90,7 +90,7 @@ TEST(sampled_starts, slow_errors_are_not_theirs) {
 }
 
 // Oracle: white noise, and the same behind a filter with a pole at 0.5. Four standard deviations as above.
-TEST(sampled_starts, coloured_errors_are_told_from_white_ones) {
+TEST(sampled_starts, coloured_errors_are_distinguished_from_white_ones) {
     int false_alarms = 0;
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
         IdData data = slowly_sampled_record(0, 1);
@@ -98,10 +98,10 @@ TEST(sampled_starts, coloured_errors_are_told_from_white_ones) {
         const Vector clean = data.experiments.front().y.col(0);
         Vector noise = RandomStream(seed).normal(clean.size());
         data.experiments.front().y = Matrix(clean + noise);
-        false_alarms += errors_are_coloured(data, fit) ? 1 : 0;
+        false_alarms += errors_are_colored(data, fit) ? 1 : 0;
         for (Index k = 1; k < noise.size(); ++k) noise[k] += 0.5 * noise[k - 1];
         data.experiments.front().y = Matrix(clean + noise);
-        EXPECT_TRUE(errors_are_coloured(data, fit)) << seed;
+        EXPECT_TRUE(errors_are_colored(data, fit)) << seed;
     }
     EXPECT_LE(false_alarms, 1);
 }

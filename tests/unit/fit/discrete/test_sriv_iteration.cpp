@@ -51,7 +51,7 @@ TEST(sriv_iteration, errors_are_orthogonal_to_the_instruments_at_its_end) {
     }
 }
 
-TEST(sriv_iteration, ends_when_it_is_told_to) {  // oracle: the call itself
+TEST(sriv_iteration, ends_on_request) {  // oracle: the call itself
     const auto experiments = record(200, 0.1);
     const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
     const InstrumentSolution found =

@@ -19,8 +19,8 @@ ProductSums larger_sums(double blocks) {
 TEST(product_colour, is_drawn_towards_white_errors_by_the_part_of_chance) {
     for (const double blocks : {20.0, 1e6}) {
         const double distance = 3 * (kTimes - 1) * (kTimes - 1), chance = 3 * 4 / blocks;
-        const double wanted = 1 + (1 - chance / distance) * (kTimes - 1);
-        EXPECT_TRUE(colour_ratio(larger_sums(blocks)).isApprox(wanted * Matrix::Identity(3, 3), 1e-12)) << blocks;
+        const double expected = 1 + (1 - chance / distance) * (kTimes - 1);
+        EXPECT_TRUE(colour_ratio(larger_sums(blocks)).isApprox(expected * Matrix::Identity(3, 3), 1e-12)) << blocks;
     }
 }
 

@@ -23,14 +23,14 @@ RefittedOutput model(double noise, double colour = 0, std::uint32_t seed = 1) {
     const Vector u = prbs(5, 6);
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 1.5}});
     RandomStream random(seed);
-    const ColouredNoise errors{Vector::Ones(1), Vector{{1.0, -colour}}};
+    const ColoredNoise errors{Vector::Ones(1), Vector{{1.0, -colour}}};
     const Vector y = lsim(G, u, 0.1) + errors.draw(u.size(), noise, random);
     return RefittedOutput(IdData(Matrix(y), Matrix(u), 0.1), {TransferStructure::single(1, 0), {}, Vector{{1.5, 2}}});
 }
 
-BootstrapOptions kind(BootstrapKind wanted, int runs = 400) {
+BootstrapOptions kind(BootstrapKind expected, int runs = 400) {
     BootstrapOptions options;
-    options.kind = wanted;
+    options.kind = expected;
     options.runs = runs;
     return options;
 }
@@ -38,8 +38,8 @@ BootstrapOptions kind(BootstrapKind wanted, int runs = 400) {
 TEST(bootstrap, agrees_with_the_covariance_where_that_holds) {  // oracle: linear theory; 400 runs: 3.5 % each
     const RefittedOutput one = model(0.05);
     const Fit fit = one.fit();
-    for (const BootstrapKind wanted : {BootstrapKind::kResidual, BootstrapKind::kParametric}) {
-        const Bootstrap found = bootstrap(one, kind(wanted));
+    for (const BootstrapKind expected : {BootstrapKind::kResidual, BootstrapKind::kParametric}) {
+        const Bootstrap found = bootstrap(one, kind(expected));
         EXPECT_THAT(found.names, ElementsAre("a1", "b0", "gain", "T1"));
         EXPECT_LT((found.estimate.head(2) - fit.theta).cwiseAbs().maxCoeff(), 1e-12);
         for (Index i = 0; i < 2; ++i) {

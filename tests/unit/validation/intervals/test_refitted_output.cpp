@@ -36,15 +36,15 @@ TEST(refitted_output, fits_what_coe_fits) {  // oracle: coe, from a start that i
     EXPECT_NEAR(errors.squaredNorm() / static_cast<double>(errors.size()), found.loss, 1e-12);
 }
 
-TEST(refitted_output, tells_models_that_these_data_move) {  // oracle: coe of these data and of others
+TEST(refitted_output, reports_models_that_these_data_move) {  // oracle: coe of these data and of others
     const IdData data = record(0.05);
     const TransferStructure structure = TransferStructure::single(2, 0);
     const Vector theta = coe(data, structure).theta;
     const RefittedOutput own(data, {structure, {}, theta}), others(data, {structure, {}, 1.2 * theta});
     EXPECT_FALSE(own.moved(own.fit()));
-    const auto told = others.moved(others.fit());
-    ASSERT_TRUE(told);
-    EXPECT_THAT(message_text(*told), HasSubstr("the intervals refer to that"));
+    const auto reported = others.moved(others.fit());
+    ASSERT_TRUE(reported);
+    EXPECT_THAT(message_text(*reported), HasSubstr("the intervals refer to that"));
 }
 
 TEST(refitted_output, fits_processes_with_start_and_offset) {  // oracle: procsrivc
