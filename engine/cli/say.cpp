@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/languages.h"
-#include "data_io/values/said_messages.h"
+#include "data_io/values/command_messages.h"
 #include "platform/terminal/terminal_text.h"
 #include "scripting/interpreter/catalogue.h"
 

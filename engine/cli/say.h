@@ -14,7 +14,7 @@ void speak_as_environment();
 const Reader& user();
 
 /// What a command says to its user, each on lines of its own. Where the environment wants them, the messages are in a
-/// file, too (data_io/values/said_messages.h).
+/// file, too (data_io/values/command_messages.h).
 void say(const Message& result);          ///< on standard output
 void complain(const Message& complaint);  ///< on standard error, behind "dynlab: "
 void note(const Message& remark);         ///< on standard error, behind "dynlab: note: "

@@ -13,11 +13,11 @@
 #include "documents/text_lines.h"
 #include "documents/words/scripts.h"
 #include "documents/work_file.h"
-#include "platform/box.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
 #include "platform/program_identity.h"
 #include "platform/program_lookup.h"
+#include "platform/sandbox.h"
 #include "platform/temporary_folder.h"
 #include "platform/text/foreign_text.h"
 

@@ -83,13 +83,13 @@ void check_panel(const Panel& panel, const Message& name) {
 }
 
 void check_motion(const Motion& motion, const std::vector<Panel>& panels) {
-    motion.rig.validate();
+    motion.plant.validate();
     const std::size_t curves = (motion.measured ? 1 : 0) + (motion.simulated ? 1 : 0);
-    for (std::size_t k = 0; k < motion.rig.parts.size(); ++k) {
+    for (std::size_t k = 0; k < motion.plant.parts.size(); ++k) {
         const std::size_t place = motion.picture + 1 + k;
         if (place >= panels.size() || panels[place].curves.size() < curves)
             throw InvalidArgument("panel {} must show the {} that moves the animated plant", place + 1,
-                                  motion.rig.parts[k].signal);
+                                  motion.plant.parts[k].signal);
     }
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/message.h"
-#include "figures/moving_rig.h"
+#include "figures/moving_plant.h"
 #include "numerics/linalg/types.h"
 
 namespace dynlab::inline figures {

@@ -8,13 +8,13 @@
 #include "course/intake/folder_copy.h"
 #include "data_io/mat_file.h"
 #include "data_io/values/json_values.h"
-#include "numerics/rigs/catalogue.h"
+#include "numerics/plants/plant_catalog.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "scripting/interpreter/catalogue.h"
 #include "web/page_world.h"
-#include "workflow/specimen_record.h"
+#include "workflow/variant_data.h"
 
 namespace dynlab::inline web {
 namespace {
@@ -110,27 +110,27 @@ class CheckedWork {
             fs::create_directories(kRecords / rerun);
             write_file_atomically(kRecords / rerun / "SOURCE.md", "A record.\n");
         }
-        for (const Plant& rig : plant_catalog()) {
-            if (order_.checks.find(rig.name) == std::string::npos) continue;
-            for (const std::string& run : {std::string(kHiddenRecords), rig.name}) {
+        for (const Plant& plant : plant_catalog()) {
+            if (order_.checks.find(plant.name) == std::string::npos) continue;
+            for (const std::string& run : {std::string(kHiddenRecords), plant.name}) {
                 if (run != kHiddenRecords && !reruns.contains(run)) continue;
-                const PlantChoice choice{.specimen = drawn(rig.name), .seed = drawn(noise_of(rig.name, run))};
-                submission_.specimens[run][rig.name] = choice.specimen;
-                write_variant_data(rig.name, choice, place_of(rig.name, run));
+                const PlantChoice choice{.specimen = drawn(plant.name), .seed = drawn(noise_of(plant.name, run))};
+                submission_.specimens[run][plant.name] = choice.specimen;
+                write_variant_data(plant.name, choice, place_of(plant.name, run));
             }
         }
-        for (const std::string& rig : listed.rigs) {
-            for (const std::string& run : {std::string(kHiddenRecords), rig}) {
+        for (const std::string& plant : listed.rigs) {
+            for (const std::string& run : {std::string(kHiddenRecords), plant}) {
                 if (run != kHiddenRecords && !reruns.contains(run)) continue;
-                const std::uint32_t specimen = drawn(rig);
-                const CheckResults made = read.listed({{rig, specimen, drawn(noise_of(rig, run))}});
+                const std::uint32_t specimen = drawn(plant);
+                const CheckResults made = read.listed({{plant, specimen, drawn(noise_of(plant, run))}});
                 if (made.error) throw EnvironmentError(*made.error);
                 VariableTable variables;
                 for (const auto& [name, values] : made.records.at(0))
                     variables[name] = {
                         Vector(Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size())))};
-                write_mat_file(place_of(rig, run) / (rig + ".mat"), variables);
-                submission_.specimens[run][rig] = specimen;
+                write_mat_file(place_of(plant, run) / (plant + ".mat"), variables);
+                submission_.specimens[run][plant] = specimen;
             }
         }
     }

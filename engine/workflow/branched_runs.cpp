@@ -15,7 +15,7 @@
 #include "platform/process_group.h"
 #include "scripting/runtime/script_parts.h"
 #include "workflow/process_copy.h"
-#include "workflow/script_world.h"
+#include "workflow/script_environment.h"
 
 namespace dynlab::inline workflow {
 namespace {

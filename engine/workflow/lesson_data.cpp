@@ -7,7 +7,7 @@
 
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
-#include "numerics/rigs/catalogue.h"
+#include "numerics/plants/plant_catalog.h"
 #include "platform/atomic_file.h"
 #include "platform/cache.h"
 #include "platform/error.h"

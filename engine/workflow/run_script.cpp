@@ -12,7 +12,7 @@
 #include "documents/text_lines.h"
 #include "documents/weave.h"
 #include "platform/written_files.h"
-#include "workflow/script_world.h"
+#include "workflow/script_environment.h"
 
 namespace dynlab::inline workflow {
 namespace {

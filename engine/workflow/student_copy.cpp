@@ -9,10 +9,10 @@
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/locks/whole_folder.h"
+#include "platform/locks/complete_folder.h"
 #include "platform/program_lookup.h"
 #include "workflow/lesson_data.h"
-#include "workflow/specimen_record.h"
+#include "workflow/variant_data.h"
 
 namespace dynlab::inline workflow {
 namespace {

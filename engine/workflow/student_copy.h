@@ -10,7 +10,7 @@
 namespace dynlab::inline workflow {
 
 /// Makes a student's folder for a lesson: analysis.lua (the script without its solutions), report.md, group.toml and a
-/// link to the data; with a group's seed a folder `data` with records of the group's own (specimen_record.h) of what
+/// link to the data; with a group's seed a folder `data` with records of the group's own (variant_data.h) of what
 /// the lesson loads (lesson_data.h: it may be run for this), and with those that the lesson brings along. Report and
 /// tasks are in `language` ("en", "fr"), the lesson's when empty; tasks as far as the lesson has tasks.LANGUAGE.lua.
 /// The folder appears whole or not at all, with what `further` puts into it. Throws EnvironmentError when `folder`

@@ -1,4 +1,4 @@
--- Makes data/crane: the experiments with the simulated trolley crane (engine/numerics/rigs/crane_experiments.h).
+-- Makes data/crane: the experiments with the simulated trolley crane (engine/numerics/plants/crane_experiments.h).
 local crane, experiments = rig().crane, rig("crane")
 for name, record in pairs(experiments) do
     save_csv("crane_" .. name .. ".csv", record, {units = crane.units, columns = crane.signals, Ts = crane.Ts,

@@ -1,4 +1,4 @@
--- Makes data/drive: experiments with the simulated drive (engine/numerics/rigs/drive.h).
+-- Makes data/drive: experiments with the simulated drive (engine/numerics/plants/drive.h).
 local drive, records = rig().drive, rig("drive")
 for name, record in pairs(records) do
     save_csv("drive_" .. name .. ".csv", record, {units = drive.units, columns = drive.signals, Ts = drive.Ts,

@@ -1,4 +1,4 @@
--- Makes data/thruster: chirps on the simulated thruster (engine/numerics/rigs/thruster.h).
+-- Makes data/thruster: chirps on the simulated thruster (engine/numerics/plants/thruster.h).
 local thruster, records = rig().thruster, rig("thruster")
 for name, record in pairs(records) do
     save_csv("thruster_" .. name .. ".csv", record, {units = thruster.units, columns = thruster.signals, Ts = thruster.Ts,

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "course/findings/findings_report.h"
+#include "course/issues/issues_report.h"
 #include "platform/temporary_folder.h"
 #include "support/environment_variable.h"
 

@@ -1,7 +1,7 @@
 #include "bench/bench.h"
 #include "bench/peers.h"
 #include "numerics/estimators/grey_box/greyest.h"
-#include "numerics/rigs/crane_experiments.h"
+#include "numerics/plants/crane_experiments.h"
 #include "support/grey_cases.h"
 
 namespace dynlab::bench {

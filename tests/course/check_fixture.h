@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "base/reader.h"
-#include "course/findings/document_findings.h"
+#include "course/issues/document_issues.h"
 #include "documents/document_fixture.h"
+#include "french_text.h"
 #include "platform/child_process.h"
-#include "told_in_french.h"
 
 namespace dynlab {
 

@@ -10,7 +10,7 @@
 #include "course/store/assignments.h"
 #include "course/store/groups.h"
 #include "platform/atomic_file.h"
-#include "platform/box.h"
+#include "platform/sandbox.h"
 #include "platform/temporary_folder.h"
 #include "support/program.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "platform/atomic_file.h"
-#include "platform/box.h"
+#include "platform/sandbox.h"
 #include "support/lesson_list.h"
 #include "support/program.h"
 

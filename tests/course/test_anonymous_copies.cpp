@@ -8,7 +8,7 @@
 #include <regex>
 
 #include "base/reader.h"
-#include "course/anonymity/anonymity_findings.h"
+#include "course/anonymity/anonymity_issues.h"
 #include "documents/pdf/distilled_pdf.h"
 #include "leak_corpus.h"
 

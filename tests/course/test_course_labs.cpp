@@ -11,7 +11,7 @@
 #include "course/office/course_work.h"
 #include "course/office/deadline_import.h"
 #include "course/office/receive.h"
-#include "course/office/recognised_file.h"
+#include "course/office/recognized_file.h"
 #include "course/office/who.h"
 #include "course/store/inspection.h"
 #include "course/store/marks.h"
@@ -266,7 +266,7 @@ TEST(course_labs, scripts_of_both_partners_are_versions) {
     }
 }
 
-// oracle: the names that dynlab grade takes as analysis.lua (test_odd_hand_ins.cpp)
+// oracle: the names that dynlab grade takes as analysis.lua (test_unusual_submissions.cpp)
 TEST(course_labs, script_under_a_changed_name_is_taken) {
     LabCourse course;
     for (const char* name : {"Analysis.lua", "analysis.lua.txt", "my%20analysis.lua", "analysis (1).LUA"}) {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "check_fixture.h"
-#include "course/findings/findings_report.h"
-#include "course/findings/text_findings.h"
+#include "course/issues/issues_report.h"
+#include "course/issues/text_issues.h"
 #include "platform/atomic_file.h"
 #include "support/message_texts.h"
 #include "support/pdf_inspection.h"

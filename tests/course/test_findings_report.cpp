@@ -1,5 +1,5 @@
 // Oracle: the definition in findings_report.h.
-#include "course/findings/findings_report.h"
+#include "course/issues/issues_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

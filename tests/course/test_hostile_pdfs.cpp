@@ -7,7 +7,7 @@
 
 #include "base/reader.h"
 #include "check_fixture.h"
-#include "course/findings/findings_report.h"
+#include "course/issues/issues_report.h"
 #include "documents/pdf/guarded_pdf.h"
 
 namespace dynlab {

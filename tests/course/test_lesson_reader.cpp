@@ -1,6 +1,6 @@
 // What groups that write in French read of their work. Oracles: sentences written here by hand; those that the lessons'
 // checks hold; the words of English that no French sentence has.
-#include "course/findings/lesson_reader.h"
+#include "course/issues/lesson_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,11 +11,11 @@
 #include "course/grading/feedback.h"
 #include "course/grading/folder_check.h"
 #include "documents/text_lines.h"
+#include "french_text.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "support/environment_variable.h"
 #include "support/program.h"
-#include "told_in_french.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::test {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "course/course_bench.h"
-#include "course/findings/findings_report.h"
+#include "course/issues/issues_report.h"
 
 namespace dynlab::test {
 namespace test_reviews {

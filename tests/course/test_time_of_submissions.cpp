@@ -5,10 +5,10 @@
 #include <thread>
 
 #include "base/reader.h"
-#include "course/boxes/boxed_work.h"
-#include "course/boxes/job_descriptions.h"
 #include "course/grading/grading_rules.h"
 #include "course/grading_bench.h"
+#include "course/sandbox_jobs/job_descriptions.h"
+#include "course/sandbox_jobs/sandbox_work.h"
 
 namespace dynlab::test {
 namespace test_time_of_submissions {

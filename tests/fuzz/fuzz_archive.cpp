@@ -1,6 +1,6 @@
 // Archives that are handed in, in a guarded copy as unpacking confines its process: nothing comes to lie beside the
 // folder they are unpacked to, and no more than is allowed in it.
-#include "course/boxes/unpack.h"
+#include "course/sandbox_jobs/unpack.h"
 #include "fuzz/fuzz_input.h"
 #include "platform/guarded_call.h"
 

@@ -1,9 +1,9 @@
 // What goes into boxes and comes out of them, as CBOR, and run records as JSON. What can be read is written and read
 // again with equal bytes.
-#include "course/boxes/boxed_work.h"
 #include "course/checks/check_descriptions.h"
 #include "course/checks/check_run.h"
 #include "course/review/version_description.h"
+#include "course/sandbox_jobs/sandbox_work.h"
 #include "data_io/values/json_values.h"
 #include "fuzz/fuzz_input.h"
 

@@ -1,5 +1,5 @@
 // PDFs of others: their pages and everything inside, in guarded copies.
-#include "course/anonymity/anonymity_findings.h"
+#include "course/anonymity/anonymity_issues.h"
 #include "fuzz/fuzz_input.h"
 #include "platform/error.h"
 

@@ -10,8 +10,8 @@
 
 #include "documents/text_lines.h"
 #include "lesson_record.h"
-#include "numerics/rigs/drifting_process.h"
-#include "numerics/rigs/drive.h"
+#include "numerics/plants/drifting_process.h"
+#include "numerics/plants/drive.h"
 
 namespace dynlab::test {
 namespace test_feedback_statements {

@@ -11,8 +11,8 @@
 #include "scripting/interpreter/runtime.h"
 #include "support/environment_variable.h"
 #include "workflow/lesson_data.h"
-#include "workflow/specimen_record.h"
 #include "workflow/student_copy.h"
+#include "workflow/variant_data.h"
 
 namespace dynlab::test {
 namespace test_group_data {

@@ -8,7 +8,7 @@
 
 #include "figures/figure.h"
 #include "figures/gnuplot_renderer.h"
-#include "numerics/rigs/specimen.h"
+#include "numerics/plants/plant_variant.h"
 #include "platform/temporary_folder.h"
 #include "scripting/interpreter/runtime.h"
 #include "support/lesson_list.h"

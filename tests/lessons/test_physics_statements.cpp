@@ -7,9 +7,9 @@
 
 #include "documents/text_lines.h"
 #include "lesson_record.h"
-#include "numerics/rigs/crane.h"
-#include "numerics/rigs/crane_experiments.h"
-#include "numerics/rigs/two_tanks.h"
+#include "numerics/plants/crane.h"
+#include "numerics/plants/crane_experiments.h"
+#include "numerics/plants/two_tanks.h"
 
 namespace dynlab::test {
 namespace test_physics_statements {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lesson_record.h"
-#include "numerics/rigs/crane.h"
+#include "numerics/plants/crane.h"
 
 namespace dynlab::test {
 namespace test_report_statements {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lesson_record.h"
-#include "numerics/rigs/thruster.h"
+#include "numerics/plants/thruster.h"
 #include "numerics/signals/butterworth.h"
 
 namespace dynlab::test {

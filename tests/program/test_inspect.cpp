@@ -1,5 +1,5 @@
 // The command that describes a data file. Oracle: what is asked for. The description itself:
-// tests/unit/workflow/test_data_look.cpp.
+// tests/unit/workflow/test_data_summary.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "base/languages.h"
 #include "base/reader.h"
-#include "data_io/values/said_messages.h"
+#include "data_io/values/command_messages.h"
 #include "support/program.h"
 
 namespace dynlab::test {

@@ -7,7 +7,7 @@
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/assessment.h"
 #include "numerics/fit/diagnostics.h"
-#include "numerics/fit/missed_structure.h"
+#include "numerics/fit/structure_advice.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/simulation/lsim.h"
 #include "script_run.h"

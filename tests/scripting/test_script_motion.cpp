@@ -10,7 +10,7 @@
 #include "platform/atomic_file.h"
 #include "platform/temporary_folder.h"
 #include "script_run.h"
-#include "scripting/objects/rig_drawing.h"
+#include "scripting/objects/plant_drawing.h"
 #include "support/environment_variable.h"
 
 namespace test_script_motion {
@@ -32,7 +32,7 @@ std::string page_of(const std::string& name) {
 
 TEST(script_motion, plants_are_made_of_the_shapes_of_documents) {
     for (const char* name : {"crane", "drifting_process", "drive", "thruster", "two_tanks"}) {
-        const PlantDrawing rig = rig_drawing(name);
+        const PlantDrawing rig = plant_drawing(name);
         const std::string page = page_of(name);
         Vector drawn(static_cast<Index>(rig.parts.size()));
         for (std::size_t k = 0; k < rig.parts.size(); ++k) drawn[static_cast<Index>(k)] = rig.parts[k].drawn_at;
@@ -49,8 +49,8 @@ TEST(script_motion, plants_are_made_of_the_shapes_of_documents) {
         const bool many = std::string(name) == "crane" || std::string(name) == "thruster";
         EXPECT_GE(moving, many ? 8u : 2u) << name;
     }
-    EXPECT_EQ(rig_drawing("crane").parts[1].on, 0);
-    EXPECT_EQ(rig_drawing("thruster").parts[0].unit, "N");
+    EXPECT_EQ(plant_drawing("crane").parts[1].on, 0);
+    EXPECT_EQ(plant_drawing("thruster").parts[0].unit, "N");
 }
 
 TEST(script_motion, keeps_signals_and_plant_in_one_figure) {

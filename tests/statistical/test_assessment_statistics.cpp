@@ -6,11 +6,11 @@
 #include "numerics/estimators/ivsvf.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/fit/assessment.h"
-#include "numerics/rigs/crane_experiments.h"
+#include "numerics/plants/crane_experiments.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"
-#include "support/coloured_noise.h"
+#include "support/colored_noise.h"
 
 namespace test_assessment_statistics {
 

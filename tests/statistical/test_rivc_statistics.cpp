@@ -5,7 +5,7 @@
 #include "numerics/estimators/rivc.h"
 #include "numerics/estimators/srivc.h"
 #include "numerics/filters/transfer_sensitivity.h"
-#include "support/coloured_noise.h"
+#include "support/colored_noise.h"
 
 namespace test_rivc_statistics {
 

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <limits>
 
-#include "app/kernel/cell_world.h"
+#include "app/kernel/cell_environment.h"
 #include "data_io/values/cbor_values.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "data_io/values/said_messages.h"
+#include "data_io/values/command_messages.h"
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"
 #include "platform/program_lookup.h"

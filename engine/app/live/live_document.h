@@ -11,7 +11,7 @@
 
 #include "app/live/folder_watch.h"
 #include "app/live/live_page.h"
-#include "app/live/page_memory.h"
+#include "app/live/page_cache.h"
 #include "app/live/script_runner.h"
 #include "documents/chunks/chunk_setter.h"
 #include "platform/temporary_folder.h"

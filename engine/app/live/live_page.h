@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/live/page_content.h"
-#include "course/findings/lesson_reader.h"
+#include "course/issues/lesson_reader.h"
 #include "documents/chunks/chunk_setter.h"
 #include "documents/percent_script.h"
 #include "documents/run_record.h"

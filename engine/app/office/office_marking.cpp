@@ -6,7 +6,7 @@
 
 #include "app/office/office_views.h"
 #include "base/languages.h"
-#include "course/grading/kept_stages.h"
+#include "course/grading/cached_stages.h"
 #include "course/office/course_grading.h"
 #include "course/store/answer_names.h"
 #include "course/store/groups.h"

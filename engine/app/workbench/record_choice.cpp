@@ -18,7 +18,7 @@
 #include "documents/text_lines.h"
 #include "platform/error.h"
 #include "scripting/source/lua_tokens.h"
-#include "workflow/look.h"
+#include "workflow/data_summary.h"
 #include "workflow/recording.h"
 
 namespace dynlab::inline app {

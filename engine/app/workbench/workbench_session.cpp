@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/languages.h"
 #include "base/reader.h"
-#include "course/boxes/told_reason.h"
+#include "course/sandbox_jobs/sandbox_messages.h"
 #include "data_io/values/json_values.h"
 #include "documents/error.h"
 #include "documents/text_lines.h"

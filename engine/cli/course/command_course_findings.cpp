@@ -3,8 +3,8 @@
 #include <iostream>
 
 #include "cli/course/course_commands.h"
-#include "course/findings/findings_report.h"
-#include "course/office/stored_findings.h"
+#include "course/issues/issues_report.h"
+#include "course/office/stored_issues.h"
 #include "course/review/review_pairs.h"
 #include "numerics/error.h"
 #include "platform/terminal/terminal_output.h"

@@ -3,7 +3,7 @@
 
 #include "base/reader.h"
 #include "cli/commands.h"
-#include "course/export/handed_back.h"
+#include "course/export/grade_export.h"
 #include "platform/terminal/terminal_text.h"
 
 namespace dynlab::inline cli {

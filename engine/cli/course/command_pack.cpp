@@ -10,7 +10,7 @@
 #include "cli/options/script_options.h"
 #include "cli/say.h"
 #include "course/export/bundle.h"
-#include "course/grading/hand_in.h"
+#include "course/grading/submission_files.h"
 #include "course/intake/roster.h"
 #include "documents/pdf/pdf_layout.h"
 #include "platform/atomic_file.h"

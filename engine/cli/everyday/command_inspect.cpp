@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "figures/gnuplot_renderer.h"
 #include "numerics/error.h"
-#include "workflow/look.h"
+#include "workflow/data_summary.h"
 
 namespace dynlab::inline cli {
 namespace {

@@ -10,10 +10,10 @@
 #include "data_io/dataset_index.h"
 #include "documents/latex.h"
 #include "numerics/linalg/processor_level.h"
-#include "platform/box.h"
 #include "platform/cache.h"
 #include "platform/child_process.h"
 #include "platform/program_lookup.h"
+#include "platform/sandbox.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline cli {

@@ -3,10 +3,10 @@
 #include <exception>
 #include <string_view>
 
-#include "cli/boxed_job.h"
-#include "course/boxes/boxed_document.h"
-#include "course/boxes/unpack.h"
+#include "cli/sandbox_job.h"
 #include "course/checks/check_descriptions.h"
+#include "course/sandbox_jobs/sandboxed_document.h"
+#include "course/sandbox_jobs/unpack.h"
 #include "platform/interrupt.h"
 #include "platform/memory.h"
 

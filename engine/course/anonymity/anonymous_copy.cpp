@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "base/reader.h"
-#include "course/anonymity/anonymity_findings.h"
-#include "course/boxes/boxed_work.h"
-#include "course/boxes/told_reason.h"
+#include "course/anonymity/anonymity_issues.h"
 #include "course/intake/staging.h"
+#include "course/sandbox_jobs/sandbox_messages.h"
+#include "course/sandbox_jobs/sandbox_work.h"
 #include "documents/pdf/distilled_pdf.h"
 #include "documents/pdf/pdf_layout.h"
 #include "documents/work_file.h"

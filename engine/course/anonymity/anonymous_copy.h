@@ -3,8 +3,8 @@
 #include <string>
 
 #include "course/anonymity/identity_matcher.h"
-#include "course/intake/finding.h"
-#include "platform/box.h"
+#include "course/intake/issue.h"
+#include "platform/sandbox.h"
 
 namespace dynlab::inline course {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "course/intake/roster.h"
-#include "platform/box.h"
+#include "platform/sandbox.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline course {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "platform/box.h"
+#include "platform/sandbox.h"
 
 namespace dynlab::inline course {
 

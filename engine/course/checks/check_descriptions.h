@@ -1,7 +1,7 @@
 #pragma once
-#include "course/boxes/job_descriptions.h"
 #include "course/checks/check_run.h"
-#include "course/findings/finding_description.h"
+#include "course/issues/issue_description.h"
+#include "course/sandbox_jobs/job_descriptions.h"
 
 namespace dynlab::inline course {
 

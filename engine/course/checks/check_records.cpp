@@ -21,7 +21,7 @@ void call_library(const Call& call, const char* name, int arguments) {
 }
 
 /// Pushes what a function of a declared rig returns.
-void call_of_rig(const Call& call, int function, std::uint32_t specimen, std::uint32_t seed) {
+void call_of_plant(const Call& call, int function, std::uint32_t specimen, std::uint32_t seed) {
     lua_State* L = call.state();
     lua_rawgeti(L, LUA_REGISTRYINDEX, function);
     give_table(call, "specimen", specimen, "seed", seed);
@@ -35,7 +35,7 @@ int record(Call& call) {
     const auto whole = [&](int index) { return static_cast<std::uint32_t>(call.whole(index, "number")); };
     session.record.clear();
     lua_State* L = call.state();
-    call_of_rig(call, session.rigs.at(name).record, whole(2), whole(3));
+    call_of_plant(call, session.rigs.at(name).record, whole(2), whole(3));
     const int table = lua_gettop(L);
     if (lua_type(L, table) != LUA_TTABLE)
         throw InvalidArgument("the data set of the simulated plant \"{}\" must be a table of vectors", name);
@@ -112,7 +112,7 @@ int truth(Call& call) {
     const auto [name, specimen] = specimen_meant(call, session);
     if (const auto own = session.rigs.find(name); own != session.rigs.end()) {
         if (own->second.truth == 0) throw InvalidArgument("the simulated plant \"{}\" declares no truth", name);
-        call_of_rig(call, own->second.truth, specimen, specimen);
+        call_of_plant(call, own->second.truth, specimen, specimen);
         return 1;
     }
     call.give(name);

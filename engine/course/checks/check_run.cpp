@@ -3,10 +3,10 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "course/boxes/boxed_work.h"
-#include "course/boxes/told_reason.h"
 #include "course/checks/check_descriptions.h"
 #include "course/checks/read_checks.h"
+#include "course/sandbox_jobs/sandbox_messages.h"
+#include "course/sandbox_jobs/sandbox_work.h"
 #include "platform/confinement.h"
 #include "platform/guarded_call.h"
 

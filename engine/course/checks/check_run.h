@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "course/checks/check_session.h"
-#include "course/intake/finding.h"
+#include "course/intake/issue.h"
 
 namespace dynlab::inline course {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/message.h"
-#include "course/boxes/graded_run.h"
-#include "course/intake/finding.h"
+#include "course/intake/issue.h"
+#include "course/sandbox_jobs/graded_run.h"
 
 namespace dynlab::inline course {
 
@@ -59,8 +59,8 @@ struct CheckSession {
     Issues findings;                                 ///< of the document
     std::map<std::string, PlantVariants> specimens;  ///< whose records each run read, "hidden" those of hidden(); the
                                                      ///< data sets that are not named are those of all, specimen 0
-    std::filesystem::path hidden_folder;  ///< holds NAME.mat or NAME.csv
-    bool visible_file = true;             ///< of the file that is being read
+    std::filesystem::path hidden_folder;             ///< holds NAME.mat or NAME.csv
+    bool visible_file = true;                        ///< of the file that is being read
     const DeclaredCheck* current = nullptr;
     bool took_hidden = false;  ///< the current check asked for a hidden record or what theory says of one
     Message answer_error;      ///< why an answer that the current check asked for cannot be had; quotes no record

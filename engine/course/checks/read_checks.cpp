@@ -4,9 +4,9 @@
 
 #include <chrono>
 
-#include "course/boxes/told_reason.h"
 #include "course/checks/check_functions.h"
 #include "course/checks/check_records.h"
+#include "course/sandbox_jobs/sandbox_messages.h"
 #include "documents/text_lines.h"
 #include "platform/hash.h"
 #include "platform/time_limits.h"

@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "course/boxes/boxed_work.h"
-#include "course/boxes/graded_run.h"
+#include "course/sandbox_jobs/graded_run.h"
+#include "course/sandbox_jobs/sandbox_work.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/child_process.h"

@@ -14,7 +14,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
-#include "platform/locks/whole_folder.h"
+#include "platform/locks/complete_folder.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "course/boxes/boxed_document.h"
 #include "course/grading/grading_rules.h"
 #include "course/grading/work_item.h"
+#include "course/sandbox_jobs/sandboxed_document.h"
 
 namespace dynlab::inline course {
 

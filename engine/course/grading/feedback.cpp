@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "base/languages.h"
-#include "course/findings/lesson_reader.h"
+#include "course/issues/lesson_reader.h"
 #include "documents/run_record.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"

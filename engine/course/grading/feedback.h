@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <string>
 
-#include "course/boxes/boxed_document.h"
 #include "course/grading/grade.h"
+#include "course/sandbox_jobs/sandboxed_document.h"
 
 namespace dynlab::inline course {
 

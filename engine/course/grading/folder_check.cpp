@@ -8,12 +8,12 @@
 #include <thread>
 
 #include "base/reader.h"
-#include "course/boxes/told_reason.h"
 #include "course/grading/feedback.h"
 #include "course/grading/folder_report.h"
 #include "course/grading/grading_rules.h"
 #include "course/intake/folder_copy.h"
 #include "course/intake/notebooks.h"
+#include "course/sandbox_jobs/sandbox_messages.h"
 #include "data_io/dataset_index.h"
 #include "documents/error.h"
 #include "documents/percent_script.h"
@@ -21,13 +21,13 @@
 #include "documents/template_file.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
-#include "platform/box.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
+#include "platform/sandbox.h"
 #include "platform/temporary_folder.h"
 #include "workflow/make_report.h"
 #include "workflow/notebooks/notebook.h"
-#include "workflow/specimen_record.h"
+#include "workflow/variant_data.h"
 
 namespace dynlab::inline course {
 namespace {

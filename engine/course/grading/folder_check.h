@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "course/findings/document_findings.h"
+#include "course/issues/document_issues.h"
 #include "platform/time_limits.h"
 
 namespace dynlab::inline course {

@@ -5,9 +5,9 @@
 #include <utility>
 #include <variant>
 
-#include "course/boxes/boxed_work.h"
-#include "course/boxes/told_reason.h"
-#include "data_io/values/said_messages.h"
+#include "course/sandbox_jobs/sandbox_messages.h"
+#include "course/sandbox_jobs/sandbox_work.h"
+#include "data_io/values/command_messages.h"
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "documents/run_record.h"
-#include "platform/box.h"
+#include "platform/sandbox.h"
 
 namespace dynlab::inline course {
 

@@ -3,11 +3,11 @@
 #include <optional>
 #include <string>
 
-#include "course/boxes/boxed_document.h"
+#include "course/grading/cached_stages.h"
 #include "course/grading/grading_rules.h"
-#include "course/grading/kept_stages.h"
 #include "course/grading/manual_marks.h"
 #include "course/grading/work_item.h"
+#include "course/sandbox_jobs/sandboxed_document.h"
 
 namespace dynlab::inline course {
 

@@ -1,16 +1,16 @@
 // The records of GradingRules: hidden ones, those of reruns, those of groups.
 #include <fmt/format.h>
 
-#include "course/boxes/boxed_work.h"
 #include "course/checks/read_checks.h"
 #include "course/grading/grading_rules.h"
+#include "course/sandbox_jobs/sandbox_work.h"
 #include "data_io/mat_file.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/program_lookup.h"
 #include "workflow/lesson_data.h"
-#include "workflow/specimen_record.h"
+#include "workflow/variant_data.h"
 
 namespace dynlab::inline course {
 

@@ -11,7 +11,7 @@
 
 #include "course/checks/check_run.h"
 #include "course/grading/grade.h"
-#include "platform/box.h"
+#include "platform/sandbox.h"
 #include "platform/temporary_folder.h"
 #include "platform/time_limits.h"
 #include "workflow/lesson_catalogue.h"

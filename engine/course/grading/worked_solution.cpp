@@ -1,9 +1,9 @@
 // The worked solution, which tries the checks of GradingRules before they grade.
 #include <algorithm>
 
-#include "course/boxes/told_reason.h"
+#include "course/grading/cached_stages.h"
 #include "course/grading/grading_rules.h"
-#include "course/grading/kept_stages.h"
+#include "course/sandbox_jobs/sandbox_messages.h"
 #include "platform/hash.h"
 #include "platform/temporary_folder.h"
 

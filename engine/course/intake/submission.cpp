@@ -10,9 +10,9 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "course/boxes/boxed_work.h"
-#include "course/boxes/job_descriptions.h"
 #include "course/intake/owners.h"
+#include "course/sandbox_jobs/job_descriptions.h"
+#include "course/sandbox_jobs/sandbox_work.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/text/foreign_text.h"

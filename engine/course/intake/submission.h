@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "platform/box.h"
+#include "platform/sandbox.h"
 
 namespace dynlab::inline course {
 

@@ -21,7 +21,7 @@
 #include "data_io/values/json_values.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/locks/whole_folder.h"
+#include "platform/locks/complete_folder.h"
 #include "platform/text/plain_words.h"
 
 namespace dynlab::inline course {

@@ -17,7 +17,7 @@
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/interrupt.h"
-#include "platform/locks/whole_folder.h"
+#include "platform/locks/complete_folder.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -8,7 +8,7 @@
 #include "course/intake/folder_copy.h"
 #include "course/intake/notebooks.h"
 #include "course/intake/submission.h"
-#include "course/office/recognised_file.h"
+#include "course/office/recognized_file.h"
 #include "course/review/version_reading.h"
 #include "platform/atomic_file.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/message.h"
-#include "platform/box.h"
+#include "platform/sandbox.h"
 
 namespace dynlab::inline course {
 

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/reader.h"
 #include "course/office/packed_document.h"
-#include "course/office/recognised_file.h"
+#include "course/office/recognized_file.h"
 #include "course/review/review_pairs.h"
 #include "course/store/assignments.h"
 #include "course/store/inspection.h"

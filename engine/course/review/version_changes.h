@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "course/boxes/boxed_document.h"
 #include "course/review/word_diff.h"
+#include "course/sandbox_jobs/sandboxed_document.h"
 #include "course/store/groups.h"
 #include "course/store/newest_versions.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "course/boxes/job_descriptions.h"
 #include "course/review/version_reading.h"
+#include "course/sandbox_jobs/job_descriptions.h"
 
 namespace dynlab::inline course {
 

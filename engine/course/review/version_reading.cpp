@@ -1,10 +1,10 @@
 #include "course/review/version_reading.h"
 
 #include "base/error.h"
-#include "course/boxes/boxed_work.h"
-#include "course/boxes/told_reason.h"
 #include "course/intake/staging.h"
 #include "course/review/version_description.h"
+#include "course/sandbox_jobs/sandbox_messages.h"
+#include "course/sandbox_jobs/sandbox_work.h"
 #include "documents/work_file.h"
 #include "figures/gnuplot_renderer.h"
 #include "platform/program_lookup.h"

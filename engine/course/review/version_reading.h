@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "course/boxes/boxed_document.h"
 #include "course/review/word_diff.h"
+#include "course/sandbox_jobs/sandboxed_document.h"
 #include "documents/run_record.h"
-#include "platform/box.h"
+#include "platform/sandbox.h"
 
 namespace dynlab::inline course {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "course/findings/document_text.h"
+#include "course/issues/document_text.h"
 #include "documents/run_record.h"
 
 namespace dynlab::inline course {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/box.h"
+#include "platform/sandbox.h"
 #include "workflow/lesson_catalogue.h"
 
 namespace dynlab::inline course {

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "course/findings/document_findings.h"
-#include "course/findings/findings_report.h"
+#include "course/issues/document_issues.h"
+#include "course/issues/issues_report.h"
 
 namespace dynlab::inline course {
 namespace {

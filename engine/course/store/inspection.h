@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "course/findings/document_findings.h"
+#include "course/issues/document_issues.h"
 
 namespace dynlab::inline course {
 

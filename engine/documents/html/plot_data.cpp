@@ -202,7 +202,7 @@ class PlotWriter {
 
     static json motion_of(const Motion& motion) {
         json parts = json::array(), pieces = json::array();
-        for (const PlantPart& part : motion.rig.parts)
+        for (const PlantPart& part : motion.plant.parts)
             parts.push_back({{"on", part.on},
                              {"turns", part.turns},
                              {"x", part.x},
@@ -210,13 +210,13 @@ class PlotWriter {
                              {"by", part.by},
                              {"at", part.drawn_at}});
         const auto rounded_length = [](double length) { return std::round(1e3 * length) / 1e3; };
-        for (const PlantShape& piece : motion.rig.pieces) {
+        for (const PlantShape& piece : motion.plant.pieces) {
             json points = json::array();
             for (std::size_t i = 0; i < piece.x.size(); ++i)
                 points.push_back({rounded_length(piece.x[i]), rounded_length(piece.y[i]), piece.part[i]});
             pieces.push_back({{"points", points}, {piece.filled ? "shade" : "width", piece.look}});
         }
-        return {{"size", {motion.rig.width, motion.rig.height}},
+        return {{"size", {motion.plant.width, motion.plant.height}},
                 {"parts", parts},
                 {"pieces", pieces},
                 {"picture", motion.picture},

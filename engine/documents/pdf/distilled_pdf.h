@@ -4,7 +4,7 @@
 #include <string>
 
 #include "documents/pdf/pdf_objects.h"
-#include "platform/box.h"
+#include "platform/sandbox.h"
 
 namespace dynlab::inline documents {
 

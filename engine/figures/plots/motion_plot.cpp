@@ -17,8 +17,8 @@ constexpr double kFirstHeight = 0.5, kNoNumbers = 1e3;  // of the axis of y of p
 constexpr double kMeasuredLine = 1.6, kSimulatedLine = 0.8, kFixedLine = 0.4;  // points
 constexpr int kSimulatedColour = 0, kFixedColour = 2;
 
-void check_motion_record(const PlantDrawing& rig, const MotionRecord& record) {
-    const Index parts = static_cast<Index>(rig.parts.size()), count = record.t.size();
+void check_motion_record(const PlantDrawing& plant, const MotionRecord& record) {
+    const Index parts = static_cast<Index>(plant.parts.size()), count = record.t.size();
     if (count < 2) throw InvalidArgument("an animation needs at least two instants, not {}", count);
     for (Index i = 1; i < count; ++i)
         if (!(record.t[i] > record.t[i - 1]))
@@ -96,18 +96,18 @@ Panel signal_panel(const PlantPart& part, const MotionRecord& record, Index colu
 }
 
 /// The panel of pictures, whose frame is `width` x `height` cm; its axis of y counts these cm.
-void draw_pictures(Panel& panel, const PlantDrawing& rig, const MotionRecord& record, const Vector& instants,
+void draw_pictures(Panel& panel, const PlantDrawing& plant, const MotionRecord& record, const Vector& instants,
                    double width, double height) {
     const double seconds = record.t[record.t.size() - 1] - record.t[0];
     double room = width;  // between neighbours
     for (Index k = 1; k < instants.size(); ++k)
         room = std::min(room, (instants[k] - instants[k - 1]) / seconds * width);
-    const double scale = std::min(0.97 * room / rig.width, height / (rig.height + 2 * kRim));
-    const double base = kFirstHeight + 0.5 * (height - scale * (rig.height + 2 * kRim));
+    const double scale = std::min(0.97 * room / plant.width, height / (plant.height + 2 * kRim));
+    const double base = kFirstHeight + 0.5 * (height - scale * (plant.height + 2 * kRim));
     Strokes fixed, measured, simulated;
     for (const double instant : instants) {
-        const PicturePlace place{seconds / width, scale, rig.width, instant, base};
-        for (const PlantShape& piece : rig.pieces) {
+        const PicturePlace place{seconds / width, scale, plant.width, instant, base};
+        for (const PlantShape& piece : plant.pieces) {
             if (piece.filled) continue;
             if (!piece.moves()) {
                 place.add(piece, fixed);
@@ -116,7 +116,7 @@ void draw_pictures(Panel& panel, const PlantDrawing& rig, const MotionRecord& re
             for (const auto& [signals, strokes] :
                  {std::pair{&record.measured, &measured}, std::pair{&record.simulated, &simulated}})
                 if (signals->size() > 0)
-                    place.add(rig.placed(piece, signals_at(record.t, *signals, instant)), *strokes);
+                    place.add(plant.placed(piece, signals_at(record.t, *signals, instant)), *strokes);
         }
     }
     if (!fixed.empty()) panel.curves.push_back(fixed.curve(kFixedColour, kFixedLine));
@@ -140,9 +140,9 @@ MotionRecord thinned_motion(const MotionRecord& record) {
 
 }  // namespace
 
-Figure motion_plot(const PlantDrawing& rig, const MotionRecord& whole, const MotionAppearance& look) {
-    rig.validate();
-    check_motion_record(rig, whole);
+Figure motion_plot(const PlantDrawing& plant, const MotionRecord& whole, const MotionAppearance& look) {
+    plant.validate();
+    check_motion_record(plant, whole);
     const MotionRecord record = thinned_motion(whole);
     Vector instants = look.instants.size() > 0 ? look.instants : spread_instants(record.t);
     std::sort(instants.begin(), instants.end());
@@ -156,21 +156,21 @@ Figure motion_plot(const PlantDrawing& rig, const MotionRecord& whole, const Mot
         throw InvalidArgument("the instant {} s occurs twice in the list", significant(*twice, kInstantDigits));
     Figure figure;
     figure.title = look.title, figure.width_cm = look.width_cm, figure.height_cm = look.height_cm;
-    figure.rows = static_cast<int>(rig.parts.size()) + 1;
+    figure.rows = static_cast<int>(plant.parts.size()) + 1;
     Panel pictures;
     pictures.x_range = {first, last};
     pictures.y_range = {kFirstHeight, kFirstHeight + 1};
     pictures.y_tick_step = kNoNumbers;
     figure.panels.push_back(pictures);
-    for (std::size_t k = 0; k < rig.parts.size(); ++k) {
-        Panel& panel = figure.panels.emplace_back(signal_panel(rig.parts[k], record, static_cast<Index>(k)));
+    for (std::size_t k = 0; k < plant.parts.size(); ++k) {
+        Panel& panel = figure.panels.emplace_back(signal_panel(plant.parts[k], record, static_cast<Index>(k)));
         panel.x_range = {first, last};
         for (const double instant : instants) panel.references.push_back({false, instant, {}, 2});
     }
     figure.panels.back().x_label = axis_label(Message("time"), "s");
     const Rectangle frame = lay_out(figure).panels.front().box;
-    draw_pictures(figure.panels.front(), rig, record, instants, frame.width(), frame.height());
-    figure.motion = Motion{rig, 0, record.measured.size() > 0, record.simulated.size() > 0};
+    draw_pictures(figure.panels.front(), plant, record, instants, frame.width(), frame.height());
+    figure.motion = Motion{plant, 0, record.measured.size() > 0, record.simulated.size() > 0};
     return figure;
 }
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "figures/figure.h"
-#include "figures/moving_rig.h"
+#include "figures/moving_plant.h"
 
 namespace dynlab::inline figures {
 
@@ -24,6 +24,6 @@ inline constexpr double kMaxPictures = 50;
 /// A rig at some instants, each standing where its instant lies on the axis of time, above the signals that move it;
 /// dotted lines mark the instants. What is measured is grey, behind what is simulated. Throws InvalidArgument for sizes
 /// that do not fit, instants outside the record.
-Figure motion_plot(const PlantDrawing& rig, const MotionRecord& record, const MotionAppearance& look = {});
+Figure motion_plot(const PlantDrawing& plant, const MotionRecord& record, const MotionAppearance& look = {});
 
 }  // namespace dynlab::inline figures

@@ -1,5 +1,5 @@
 #pragma once
-#include "numerics/criteria/reparametrised.h"
+#include "numerics/criteria/reparametrized.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/models/process_model.h"
 

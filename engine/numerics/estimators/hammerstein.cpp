@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "numerics/criteria/reparametrised.h"
+#include "numerics/criteria/reparametrized.h"
 #include "numerics/criteria/transfer_output.h"
 #include "numerics/error.h"
 #include "numerics/fit/diagnosis.h"

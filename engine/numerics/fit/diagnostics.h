@@ -6,7 +6,7 @@
 #include "base/deferred.h"
 #include "numerics/fit/assessment.h"
 #include "numerics/fit/fit.h"
-#include "numerics/fit/missed_structure.h"
+#include "numerics/fit/structure_advice.h"
 
 namespace dynlab::inline numerics {
 

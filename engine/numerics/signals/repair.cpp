@@ -5,7 +5,7 @@
 
 #include "numerics/error.h"
 #include "numerics/signals/checks.h"
-#include "numerics/signals/quantisation.h"
+#include "numerics/signals/quantization.h"
 #include "numerics/signals/robust_statistics.h"
 
 namespace dynlab::inline numerics {

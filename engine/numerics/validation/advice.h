@@ -48,7 +48,7 @@ struct ModelAdvice {
 /// output and regular sampling: "noise" (signal-to-noise ratio), "dead_time", "offset", "running_start", "integrator",
 /// "slow_sampling" or "fast_sampling" against the bandwidth; "drift" and "random_walk"; "outliers"; "nonlinear" curves,
 /// backlash, "saturation" under noise, "changing_gain"; "feedback"; "causality" (columns exchanged); and "nonlinear"
-/// sections that the model does not follow although it follows the rest. Tests and levels: model_findings.h. Long
+/// sections that the model does not follow although it follows the rest. Tests and levels: model_issues.h. Long
 /// records are searched in a window (advice_record.h).
 /// No findings when nothing can be fitted.
 ModelAdvice model_advice(const IdData& data, const std::function<bool()>& cancel = {});

@@ -6,8 +6,8 @@
 
 #include "numerics/error.h"
 #include "numerics/fit/first_estimate.h"
-#include "numerics/fit/missed_structure.h"
 #include "numerics/fit/operating_points.h"
+#include "numerics/fit/structure_advice.h"
 #include "numerics/validation/delay_profile.h"
 
 namespace dynlab::inline numerics {

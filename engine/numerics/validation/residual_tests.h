@@ -5,7 +5,7 @@
 #include "numerics/signals/iddata.h"
 #include "numerics/statistics/whiteness.h"
 #include "numerics/validation/compare.h"
-#include "numerics/validation/model_verdict.h"
+#include "numerics/validation/model_assessment.h"
 
 namespace dynlab::inline numerics {
 

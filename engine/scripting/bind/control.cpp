@@ -1,11 +1,11 @@
 #include <array>
 
 #include "numerics/control/state_feedback.h"
-#include "numerics/rigs/crane_control.h"
+#include "numerics/plants/crane_control.h"
 #include "scripting/arguments/simulation_options.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/conversions/boxed.h"
 #include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/userdata.h"
 #include "scripting/objects/model.h"
 
 namespace dynlab::inline scripting {

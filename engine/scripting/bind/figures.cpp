@@ -11,7 +11,7 @@
 #include "scripting/conversions/localized.h"
 #include "scripting/objects/figure_object.h"
 #include "scripting/objects/panel_options.h"
-#include "scripting/objects/rig_drawing.h"
+#include "scripting/objects/plant_drawing.h"
 #include "scripting/runtime/output_path.h"
 
 namespace dynlab::inline scripting {
@@ -262,16 +262,16 @@ int subplot(Call& call) {
 }
 
 /// The signals of the rig's parts, a column each, from a table with a vector for each.
-Matrix signals_of_parts(const Options& options, const char* name, const PlantDrawing& rig, Index count) {
+Matrix signals_of_parts(const Options& options, const char* name, const PlantDrawing& plant, Index count) {
     if (!options.has(name)) return {};
     const Call& call = options.call();
     const int table = options.push(name);
     if (lua_type(call.state(), table) != LUA_TTABLE)
         throw InvalidArgument("option '{}' must be a table such as {{} = y}, but it is {}", name,
-                              rig.parts.front().signal, given_value(call.state(), table));
-    Matrix signals(count, static_cast<Index>(rig.parts.size()));
-    for (std::size_t k = 0; k < rig.parts.size(); ++k) {
-        const PlantPart& part = rig.parts[k];
+                              plant.parts.front().signal, given_value(call.state(), table));
+    Matrix signals(count, static_cast<Index>(plant.parts.size()));
+    for (std::size_t k = 0; k < plant.parts.size(); ++k) {
+        const PlantPart& part = plant.parts[k];
         if (lua_getfield(call.state(), table, part.signal.c_str()) == LUA_TNIL)
             throw InvalidArgument("option '{}' lacks the {} ({}), which moves the animated plant", name, part.signal,
                                   part.unit);
@@ -293,15 +293,15 @@ int motion(Call& call) {
     call.at_most(1);
     const Options options(call, 1, kMotionTables);
     if (call.context().options.graded) return give_figure(call, Figure(Panel()));  // there are no drawings, and no eyes
-    const PlantDrawing rig = rig_drawing(options.text("rig", ""));
+    const PlantDrawing plant = plant_drawing(options.text("rig", ""));
     MotionRecord record;
     record.t = options.vector("t");
-    record.measured = signals_of_parts(options, "measured", rig, record.t.size());
-    record.simulated = signals_of_parts(options, "simulated", rig, record.t.size());
+    record.measured = signals_of_parts(options, "measured", plant, record.t.size());
+    record.simulated = signals_of_parts(options, "simulated", plant, record.t.size());
     MotionAppearance look;
     options.read(look);
     look.title = Message::verbatim(options.text("title", ""));
-    return give_figure(call, motion_plot(rig, record, look));
+    return give_figure(call, motion_plot(plant, record, look));
 }
 
 int save(Call& call) {

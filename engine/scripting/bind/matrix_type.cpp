@@ -1,10 +1,10 @@
 #include <array>
 
 #include "scripting/bind/bindings.h"
-#include "scripting/conversions/boxed.h"
 #include "scripting/conversions/localized.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/conversions/numeric_operators.h"
+#include "scripting/conversions/userdata.h"
 #include "scripting/runtime/text_form.h"
 
 namespace dynlab::inline scripting {

@@ -9,7 +9,7 @@
 #include "platform/atomic_file.h"
 #include "platform/stopwatch.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 #include "scripting/conversions/variable_list.h"
 #include "scripting/runtime/errors.h"
 #include "scripting/runtime/output_path.h"

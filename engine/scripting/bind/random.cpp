@@ -1,6 +1,6 @@
 
 #include "scripting/bind/bindings.h"
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 
 namespace dynlab::inline scripting {
 namespace {

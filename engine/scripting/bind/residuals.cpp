@@ -2,7 +2,7 @@
 #include "figures/plots/cross_validation_plot.h"
 #include "figures/plots/residual_plot.h"
 #include "numerics/fit/diagnosis.h"
-#include "numerics/fit/missed_structure.h"
+#include "numerics/fit/structure_advice.h"
 #include "numerics/validation/crossvalidate.h"
 #include "numerics/validation/residual_tests.h"
 #include "scripting/arguments/simulation_options.h"

@@ -4,10 +4,10 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random_phase_multisine.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/conversions/option_member.h"
 #include "scripting/conversions/table_fields.h"
+#include "scripting/conversions/userdata.h"
 
 namespace dynlab::inline scripting {
 namespace {

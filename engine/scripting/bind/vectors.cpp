@@ -8,8 +8,8 @@
 #include "numerics/signals/interpolation.h"
 #include "numerics/signals/unwrap.h"
 #include "scripting/bind/bindings.h"
-#include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric.h"
+#include "scripting/conversions/userdata.h"
 #include "scripting/runtime/option_entry.h"
 
 namespace dynlab::inline scripting {

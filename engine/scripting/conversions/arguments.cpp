@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "platform/interrupt.h"
-#include "scripting/conversions/boxed.h"
 #include "scripting/conversions/numeric.h"
 #include "scripting/conversions/option_words.h"
+#include "scripting/conversions/userdata.h"
 #include "scripting/runtime/kind_phrases.h"
 
 namespace dynlab::inline scripting {

@@ -6,7 +6,7 @@
 
 #include "base/message.h"
 #include "base/reader.h"
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 
 namespace dynlab::inline scripting {
 

@@ -5,7 +5,7 @@
 
 #include "numerics/error.h"
 #include "scripting/conversions/arguments.h"
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 #include "scripting/runtime/context.h"
 #include "scripting/runtime/sandbox.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 
 namespace dynlab::inline scripting {
 

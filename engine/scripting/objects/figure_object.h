@@ -1,5 +1,5 @@
 #pragma once
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 #include "scripting/runtime/recorder.h"
 
 namespace dynlab::inline scripting {

@@ -1,6 +1,6 @@
 #pragma once
 #include "numerics/models/frequency_data.h"
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 
 namespace dynlab::inline scripting {
 

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "numerics/estimators/grey_box/greyest.h"
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 
 namespace dynlab::inline scripting {
 

@@ -11,7 +11,7 @@
 #include "numerics/models/process_model.h"
 #include "numerics/models/state_space.h"
 #include "numerics/validation/uncertainty.h"
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 
 namespace dynlab::inline scripting {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "numerics/models/process_model.h"
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 
 namespace dynlab::inline scripting {
 

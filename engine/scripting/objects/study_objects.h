@@ -2,7 +2,7 @@
 #include "numerics/validation/arx_selection.h"
 #include "numerics/validation/monte_carlo.h"
 #include "numerics/validation/order_selection.h"
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 
 namespace dynlab::inline scripting {
 

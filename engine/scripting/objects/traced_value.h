@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "numerics/models/expression.h"
-#include "scripting/conversions/boxed.h"
+#include "scripting/conversions/userdata.h"
 
 namespace dynlab::inline scripting {
 

@@ -8,7 +8,7 @@
 #include "documents/text_lines.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "platform/locks/whole_folder.h"
+#include "platform/locks/complete_folder.h"
 
 namespace dynlab::inline workflow {
 namespace {

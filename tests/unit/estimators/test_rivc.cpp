@@ -4,7 +4,7 @@
 
 #include "base/reader.h"
 #include "numerics/estimators/srivc.h"
-#include "support/coloured_noise.h"
+#include "support/colored_noise.h"
 #include "support/thrown_message.h"
 
 namespace test_rivc {

@@ -8,8 +8,8 @@
 #include "base/reader.h"
 #include "numerics/error.h"
 #include "numerics/estimators/step_test.h"
-#include "numerics/rigs/heat_exchanger.h"
-#include "numerics/rigs/suspension.h"
+#include "numerics/plants/heat_exchanger.h"
+#include "numerics/plants/suspension.h"
 #include "numerics/signals/random.h"
 
 namespace test_step_test {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "numerics/error.h"
-#include "numerics/signals/quantisation.h"
+#include "numerics/signals/quantization.h"
 #include "numerics/signals/random.h"
 #include "support/thrown_message.h"
 

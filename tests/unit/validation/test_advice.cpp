@@ -10,8 +10,8 @@
 
 #include "base/reader.h"
 #include "numerics/linalg/decompositions.h"
-#include "numerics/rigs/crane_experiments.h"
-#include "numerics/rigs/heat_transfer.h"
+#include "numerics/plants/crane_experiments.h"
+#include "numerics/plants/heat_transfer.h"
 #include "numerics/signals/prbs.h"
 #include "numerics/signals/random.h"
 #include "numerics/simulation/lsim.h"

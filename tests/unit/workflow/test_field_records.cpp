@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "workflow/data_summary.h"
 #include "workflow/identify.h"
-#include "workflow/look.h"
 #include "workflow_run.h"
 
 namespace dynlab::test {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "numerics/fit/recursive/error_variance.h"
-#include "numerics/fit/recursive/product_colour.h"
+#include "numerics/fit/recursive/product_color.h"
 #include "numerics/fit/recursive/small_equations.h"
 #include "numerics/linalg/decompositions.h"
 
@@ -13,7 +13,7 @@ namespace dynlab::inline numerics {
 /// of the weighted rows: a new row is rotated into the array (Givens), so that nothing is ever inverted or subtracted,
 /// and theta = C^-1 c is the batch estimate to rounding at every sample, from an exactly diffuse start. Its covariance
 /// variance (C'C)^-1 = variance (Z'Phi)^-1 Z'Z (Phi'Z)^-1 for white errors is positive whatever happened before, and so
-/// is variance C^-1 T C^-T for coloured ones, T from the sums of z e over blocks of samples (product_colour.h). Where
+/// is variance C^-1 T C^-T for coloured ones, T from the sums of z e over blocks of samples (product_color.h). Where
 /// weights w(k) forget, both are multiplied by sum w(k)^2/sum w(k): 1/2 for a long memory (Ljung 1999, section 11.2).
 /// With z = phi, C is R and this is the square-root information filter of least squares (Bierman 1977, chapter V).
 /// Sizes: kCount parameters, or with Eigen::Dynamic as many as the constructor says.

@@ -6,7 +6,7 @@
 #include "base/reader.h"
 #include "numerics/estimators/coe.h"
 #include "numerics/estimators/grey_box/greyest.h"
-#include "numerics/rigs/crane_experiments.h"
+#include "numerics/plants/crane_experiments.h"
 #include "numerics/validation/grey_box/grey_comparison.h"
 #include "support/grey_cases.h"
 #include "support/thrown_message.h"

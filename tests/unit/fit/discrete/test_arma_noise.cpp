@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/coloured_noise.h"
+#include "support/colored_noise.h"
 #include "support/thrown_message.h"
 
 namespace test_arma_noise {

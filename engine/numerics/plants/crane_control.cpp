@@ -1,0 +1,49 @@
+#include "numerics/plants/crane_control.h"
+
+#include <cmath>
+
+#include "numerics/error.h"
+#include "numerics/plants/plant_data.h"
+
+namespace dynlab::inline numerics {
+namespace {
+
+double reading(double truth, double noise_std, double resolution, RandomStream& random) {
+    return measure(Vector::Constant(1, truth), noise_std, resolution, random)[0];
+}
+
+}  // namespace
+
+void CraneRun::validate(const CraneParameters& parameters) const {
+    if (!(duration > 0) || !std::isfinite(duration))
+        throw InvalidArgument("The crane's duration of a run must be positive, but is {}", significant(duration, 6));
+    if (!std::isfinite(angle)) throw InvalidArgument("The crane's angle at the start must be finite");
+    if (!(std::abs(position) <= parameters.rail))
+        throw InvalidArgument("The crane must start on its rail, between -{} m and {} m", parameters.rail,
+                              parameters.rail);
+}
+
+CraneRecord control_crane(const CraneParameters& parameters, const CraneExperiments& plan, const CraneRun& run,
+                          const CraneController& controller, std::uint32_t seed) {
+    plan.validate();
+    run.validate(parameters);
+    CraneState start;
+    start.motor_position = start.position = run.position;
+    start.angle = run.angle;
+    CraneSimulator crane(parameters, start);
+    RandomStream random(seed);
+    const Vector t = sampling_instants(run.duration, plan.Ts);
+    CraneRecord record{"control", t, Vector(t.size()), Vector(t.size()), Vector(t.size())};
+    for (Index k = 0; k < t.size(); ++k) {
+        const CraneState state = crane.state();
+        record.x[k] = reading(state.position, 0, plan.position_resolution, random);
+        record.theta[k] = reading(state.angle, plan.angle_noise_std, plan.angle_resolution, random);
+        record.u[k] = controller(t[k], record.x[k], record.theta[k]);
+        if (!std::isfinite(record.u[k]))
+            throw InvalidArgument("the controller returned a voltage that is not finite at {} s", t[k]);
+        crane.advance(record.u[k], plan.Ts);
+    }
+    return record;
+}
+
+}  // namespace dynlab::inline numerics

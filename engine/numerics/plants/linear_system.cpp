@@ -1,0 +1,42 @@
+#include "numerics/plants/linear_system.h"
+
+#include "numerics/plants/plant_data.h"
+#include "numerics/simulation/lsim.h"
+
+namespace dynlab::inline numerics {
+namespace {
+
+PlantData record_of(const LinearSystemParameters& p, const TransferFunction& G, RandomStream& random) {
+    PlantData record;
+    record.u = seeded_prbs(p.prbs_stages, p.prbs_hold, -p.amplitude, p.amplitude, random);
+    record.t = Vector::LinSpaced(record.u.size(), 0, static_cast<double>(record.u.size() - 1)) * p.Ts;
+    record.y = measure(lsim(G, record.u, p.Ts), p.noise_std, 0, random);
+    return record;
+}
+
+}  // namespace
+
+void LinearSystemParameters::validate() const {
+    const char* plant = "linear system";
+    require_positive(plant, "gain", gain, "zero", zero, "pole", pole, "frequency", frequency, "damping", damping,
+                     "amplitude", amplitude, "sampling time", Ts);
+    require_not_negative(plant, "noise standard deviation", noise_std);
+}
+
+TransferFunction linear_system_truth(const LinearSystemParameters& p) {
+    p.validate();
+    const double w = p.frequency, first = 2 * p.damping * w, scale = p.gain * p.pole * w * w / p.zero;
+    return TransferFunction(Vector{{scale, scale * p.zero}},
+                            Vector{{1, first + p.pole, w * w + first * p.pole, p.pole * w * w}});
+}
+
+LinearSystemRecords simulate_linear_system(const LinearSystemParameters& parameters, std::uint32_t seed) {
+    const TransferFunction G = linear_system_truth(parameters);
+    RandomStream random(seed);
+    LinearSystemRecords records;
+    records.estimation = record_of(parameters, G, random);
+    records.validation = record_of(parameters, G, random);
+    return records;
+}
+
+}  // namespace dynlab::inline numerics
