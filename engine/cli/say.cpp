@@ -8,7 +8,7 @@
 #include "base/languages.h"
 #include "data_io/values/command_messages.h"
 #include "platform/terminal/terminal_text.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 
 namespace dynlab::inline cli {
 namespace {

@@ -15,7 +15,7 @@ namespace dynlab::inline data_io {
 namespace {
 
 constexpr double kSecondsOfDay = 86400;
-constexpr int kInstantDigits = 15;  // of messages: neighbours may differ late
+constexpr int kInstantDigits = 15;  // of messages: neighbors may differ late
 constexpr int kStepDigits = 6;
 constexpr double kStepTolerance = 1e-3;  // relative; instants are often rounded when they are written
 

@@ -174,22 +174,25 @@ class DocumentBuilder {
             if (sentence) complaints.add(where, message(*sentence));
         };
         for (const auto& [name, value] : record_->values)
-            check("`" + name + "`", value.text,
-                  [&](const Message& what) { return Message("in the reported value \"{}\": {}", name, what); });
+            check("`" + name + "`", value.text, [&slot = name](const Message& what) {
+                return Message("in the reported value \"{}\": {}", slot, what);
+            });
         for (const auto& [name, text] : record_->texts)
-            check("name=" + name, text.markdown,
-                  [&](const Message& what) { return Message("in the reported text \"{}\": {}", name, what); });
+            check("name=" + name, text.markdown, [&slot = name](const Message& what) {
+                return Message("in the reported text \"{}\": {}", slot, what);
+            });
         for (const auto& [name, figure] : record_->figures)
-            check("figure:" + name, figure.caption, [&](const Message& what) {
-                return Message("in the caption of the reported figure \"{}\": {}", name, what);
+            check("figure:" + name, figure.caption, [&slot = name](const Message& what) {
+                return Message("in the caption of the reported figure \"{}\": {}", slot, what);
             });
         for (const auto& [name, table] : record_->tables) {
             std::string cells;
             for (const std::string& cell : table.header) cells += cell + " ";
             for (const auto& row : table.rows)
                 for (const std::string& cell : row) cells += cell + " ";
-            check("name=" + name, cells,
-                  [&](const Message& what) { return Message("in the reported table \"{}\": {}", name, what); });
+            check("name=" + name, cells, [&slot = name](const Message& what) {
+                return Message("in the reported table \"{}\": {}", slot, what);
+            });
         }
     }
 

@@ -15,7 +15,7 @@ constexpr std::array<const char*, 5> names_of(LegendPlace) {
     return {"automatic", "above", "right", "none", "direct"};
 }
 
-DYNLAB_DESCRIBE(Curve, x, y, y_upper, style, label, colour, dash, line_width, marker)
+DYNLAB_DESCRIBE(Curve, x, y, y_upper, style, label, color, dash, line_width, marker)
 DYNLAB_DESCRIBE(ReferenceLine, horizontal, at, label, dash)
 DYNLAB_DESCRIBE(SliderScale, slider, horizontal, value, values, places)
 

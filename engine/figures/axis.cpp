@@ -59,7 +59,7 @@ void add_linear_ticks(Axis& axis, double count, std::optional<double> wanted_ste
     for (double k = std::ceil((axis.low - slack) / step); k * step <= axis.high + slack; ++k) {
         axis.ticks.push_back(
             {k * step, with_minus_sign(fmt::format("{:.{}f}", k == 0 ? 0.0 : k * step / unit, decimals))});
-        if (axis.ticks.size() > 100) break;  // neighbouring floating-point numbers: k no longer advances
+        if (axis.ticks.size() > 100) break;  // neighboring floating-point numbers: k no longer advances
     }
 }
 

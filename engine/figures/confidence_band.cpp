@@ -20,7 +20,7 @@ void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_widt
     Curve band;
     band.style = CurveStyle::kBand;
     band.x = center.x;
-    band.colour = center.colour;
+    band.color = center.color;
     band.dash = center.dash;
     const auto width =
         (half_width.array() <= most).select(half_width.array(), std::numeric_limits<double>::quiet_NaN());

@@ -9,7 +9,7 @@ namespace dynlab::inline figures {
 /// "99 % confidence"
 Message confidence_text(double level);
 
-/// Adds the band value +- half width around the curve `line` of a panel, in its colour. The first band of a panel is
+/// Adds the band value +- half width around the curve `line` of a panel, in its color. The first band of a panel is
 /// named in the legend. Samples without a width of at most `most` become gaps: what is not determined is no band.
 void add_confidence_band(Panel& panel, std::size_t line, const Vector& half_width, double level,
                          double most = std::numeric_limits<double>::max());
@@ -21,7 +21,7 @@ void limit_to_readable(Panel& panel, std::size_t lines, double least_room);
 /// Numbers on a phase axis every 15, 30, 45, 90 ... degrees, at least four of them, over at least 60 degrees.
 void choose_phase_axis(Panel& phase);
 
-/// Gives every curve of the panel the colour of its index, which bands added later must not move.
+/// Gives every curve of the panel the color of its index, which bands added later must not move.
 void fix_colors(Panel& panel);
 
 }  // namespace dynlab::inline figures

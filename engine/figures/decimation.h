@@ -11,7 +11,7 @@ struct PagePoint {
 };
 using Trace = std::vector<PagePoint>;
 
-/// The same picture from fewer points. Of every run of neighbours that fall into one column of width `cell`, the
+/// The same picture from fewer points. Of every run of neighbors that fall into one column of width `cell`, the
 /// first, lowest, highest and last remain, in their order: nothing a printer of that resolution shows is lost (the M4
 /// aggregation of Jugel, Jerzak, Hackenbroich and Markl 2014). Where a curve that runs to and fro keeps
 /// more than 20000 points so, segments between the same two square cells are drawn once, with cells as coarse as

@@ -25,10 +25,10 @@ struct Curve {
     Vector y_upper;  ///< kBand only: the band lies between y and y_upper
     CurveStyle style = CurveStyle::kLine;
     Message label;              ///< legend entry; none when empty
-    std::optional<int> colour;  ///< index into the house palette, 0-based; the curve's own index unless given
-    std::optional<int> dash;    ///< 0 solid, 1 dashed, 2 dotted, 3 dash-dot; chosen with the colour unless given
+    std::optional<int> color;   ///< index into the house palette, 0-based; the curve's own index unless given
+    std::optional<int> dash;    ///< 0 solid, 1 dashed, 2 dotted, 3 dash-dot; chosen with the color unless given
     double line_width = 0.9;    ///< points
-    std::optional<int> marker;  ///< point shape, 0-based; chosen with the colour unless given
+    std::optional<int> marker;  ///< point shape, 0-based; chosen with the color unless given
 };
 
 /// A straight reference: a level (horizontal) or an instant (vertical), over the whole panel.

@@ -52,11 +52,11 @@ class PanelScript {
         put("set bmargin at screen {:.6f}; set tmargin at screen {:.6f}\n", box.bottom / page_.height,
             box.top / page_.height);
         put("set xrange [0:{:.4f}]; set yrange [0:{:.4f}]\n", width(), height());
-        put("set border 15 lw {} lc rgb '{}'\n", kFrameWidth, kFrameColour);
+        put("set border 15 lw {} lc rgb '{}'\n", kFrameWidth, kFrameColor);
         write_ticks('x', layout_.x, width());
         write_ticks('y', layout_.y, height());
         put("set grid xtics mxtics ytics mytics back lt 1 lw {} lc rgb '{}', lt 1 lw {} lc rgb '#eeeeee'\n", kGridWidth,
-            kGridColour, 0.75 * kGridWidth);
+            kGridColor, 0.75 * kGridWidth);
     }
 
     void write_ticks(char name, const Axis& axis, double length) {
@@ -72,10 +72,10 @@ class PanelScript {
         put(")\n");
     }
 
-    void text(const std::string& content, double x, double y, const char* align, double size, const char* colour,
+    void text(const std::string& content, double x, double y, const char* align, double size, const char* color,
               bool upright = false) {
         put("set label {} at {:.4f},{:.4f} {} {} font ',{:.2f}' tc rgb '{}' front\n", gnuplot_text(content), x, y,
-            align, upright ? "rotate by 90" : "norotate", size, colour);
+            align, upright ? "rotate by 90" : "norotate", size, color);
     }
 
     std::string number(const Tick& tick) const { return decimal_comma_ ? with_decimal_commas(tick.label) : tick.label; }
@@ -84,18 +84,17 @@ class PanelScript {
         const double below = -kTickLength - 0.5 * kTickLine, left = -kTickLength - 0.08;
         if (layout_.x_numbers)
             for (const Tick& tick : layout_.x.ticks)
-                text(number(tick), layout_.x.position(tick.value) * width(), below, "center", kTickSize, kFrameColour);
+                text(number(tick), layout_.x.position(tick.value) * width(), below, "center", kTickSize, kFrameColor);
         for (const Tick& tick : layout_.y.ticks)
-            text(number(tick), left, layout_.y.position(tick.value) * height(), "right", kTickSize, kFrameColour);
+            text(number(tick), left, layout_.y.position(tick.value) * height(), "right", kTickSize, kFrameColor);
         const auto power = [](int exponent) {
             return fmt::format("×10^{{{}{}}}", exponent < 0 ? "−" : "", std::abs(exponent));
         };
         if (layout_.x_numbers && layout_.x.exponent != 0)
             text(power(layout_.x.exponent), width(), layout_.exponent_x - layout_.box.bottom, "right", kTickSize,
-                 kFrameColour);
+                 kFrameColor);
         if (layout_.y.exponent != 0)
-            text(power(layout_.y.exponent), 0, layout_.exponent_y - layout_.box.bottom, "left", kTickSize,
-                 kFrameColour);
+            text(power(layout_.y.exponent), 0, layout_.exponent_y - layout_.box.bottom, "left", kTickSize, kFrameColor);
     }
 
     void block(const CenteredText& placed, bool upright = false) {
@@ -104,7 +103,7 @@ class PanelScript {
             const double step = kTextLine * placed.text.size / kTextSize;
             const double shift = step * (0.5 * (count - 1) - static_cast<double>(i));
             text(placed.text.lines[i], placed.x - layout_.box.left - (upright ? shift : 0),
-                 placed.y - layout_.box.bottom + (upright ? 0 : shift), "center", placed.text.size, kAnnotationColour,
+                 placed.y - layout_.box.bottom + (upright ? 0 : shift), "center", placed.text.size, kAnnotationColor,
                  upright);
         }
     }
@@ -115,10 +114,10 @@ class PanelScript {
         block(layout_.y_label, true);
     }
 
-    void segment(PagePoint from, PagePoint to, const char* heads, double line_width, const std::string& colour,
+    void segment(PagePoint from, PagePoint to, const char* heads, double line_width, const std::string& color,
                  const std::string& dash, const char* layer) {
         put("set arrow from {:.4f},{:.4f} to {:.4f},{:.4f} {} lw {:.3f} lc rgb '{}' dt {} {}\n", from.x, from.y, to.x,
-            to.y, heads, line_width, colour, dash, layer);
+            to.y, heads, line_width, color, dash, layer);
     }
 
     void write_references() {
@@ -128,7 +127,7 @@ class PanelScript {
             const PagePoint from =
                 line.horizontal ? PagePoint{0, position * height()} : PagePoint{position * width(), 0};
             const PagePoint to = line.horizontal ? PagePoint{width(), from.y} : PagePoint{from.x, height()};
-            segment(from, to, "nohead", kReferenceWidth, kReferenceColour, dash_pattern(line.dash), "back");
+            segment(from, to, "nohead", kReferenceWidth, kReferenceColor, dash_pattern(line.dash), "back");
         }
     }
 
@@ -143,27 +142,27 @@ class PanelScript {
             const double head = std::min(0.2, 0.4 * std::hypot(to.x - from.x, to.y - from.y));
             segment(from, to,
                     fmt::format("{} filled size first {:.3f},18", arrow.both_heads ? "heads" : "head", head).c_str(),
-                    kArrowWidth, kAnnotationColour, "solid", "front");
+                    kArrowWidth, kAnnotationColor, "solid", "front");
         }
     }
 
-    void marker(PagePoint at, int type, double size, double line_width, const std::string& colour) {
+    void marker(PagePoint at, int type, double size, double line_width, const std::string& color) {
         put("set label '' at {:.4f},{:.4f} point pt {} ps {:.2f} lw {:.2f} lc rgb '{}' front\n", at.x, at.y, type, size,
-            line_width, colour);
+            line_width, color);
     }
 
     void write_marks() {
         for (const Annotation& mark : panel_.annotations) {
             const double x = layout_.x.position(mark.x), y = layout_.y.position(mark.y);
             if (mark.marker && x >= 0 && x <= 1 && y >= 0 && y <= 1)
-                marker({x * width(), y * height()}, 7, 0.45, 0.5, kAnnotationColour);
+                marker({x * width(), y * height()}, 7, 0.45, 0.5, kAnnotationColor);
         }
     }
 
     void write_label(const PlacedLabel& label) {
         if (label.leader_from)
-            segment(*label.leader_from, *label.leader_to, "nohead", 0.3, kReferenceColour, "solid", "front");
-        text(label.text, label.x, label.y, "center", kTextSize, kAnnotationColour);
+            segment(*label.leader_from, *label.leader_to, "nohead", 0.3, kReferenceColor, "solid", "front");
+        text(label.text, label.x, label.y, "center", kTextSize, kAnnotationColor);
     }
 
     static bool draws_line(CurveStyle style) { return style != CurveStyle::kPoints && style != CurveStyle::kBars; }
@@ -177,12 +176,12 @@ class PanelScript {
         const double x = entry.x - layout_.box.left, y = entry.y - layout_.box.bottom;
         if (curve.style == CurveStyle::kBand || curve.style == CurveStyle::kBars)
             put("set object rectangle from {:.4f},{:.4f} to {:.4f},{:.4f} front noclip fc rgb '{}' fs {} noborder\n", x,
-                y - 0.11, x + kLegendSample, y + 0.11, look.colour, fill(curve.style));
+                y - 0.11, x + kLegendSample, y + 0.11, look.color, fill(curve.style));
         else if (draws_line(curve.style))
-            segment({x, y}, {x + kLegendSample, y}, "nohead", curve.line_width, look.colour, look.dash, "front");
+            segment({x, y}, {x + kLegendSample, y}, "nohead", curve.line_width, look.color, look.dash, "front");
         if (draws_points(curve.style))
-            marker({x + 0.5 * kLegendSample, y}, look.point_type, marker_size(curve), marker_line(curve), look.colour);
-        text(entry.text, x + kLegendSample + kGap, y, "left", entry.size, kAnnotationColour);
+            marker({x + 0.5 * kLegendSample, y}, look.point_type, marker_size(curve), marker_line(curve), look.color);
+        text(entry.text, x + kLegendSample + kGap, y, "left", entry.size, kAnnotationColor);
     }
 
     static const char* fill(CurveStyle style) {
@@ -209,7 +208,7 @@ class PanelScript {
 
     void write_curve(const Curve& curve, const CurveTraces& traces, const CurveAppearance& look) {
         if (!traces.lower.empty())
-            element(fmt::format("u 1:2:3 w filledcurves lc rgb '{}' fs {} noborder", look.colour, fill(curve.style)),
+            element(fmt::format("u 1:2:3 w filledcurves lc rgb '{}' fs {} noborder", look.color, fill(curve.style)),
                     [&] {
                         for (std::size_t i = 0; i < traces.lower.size(); ++i)
                             if (traces.lower[i].gap())
@@ -219,12 +218,11 @@ class PanelScript {
                     });
         if (!traces.lower.empty() && several_bands())
             for (const Trace* edge : {&traces.lower, &traces.upper})
-                element(
-                    fmt::format("u 1:2 w lines lw {:.3f} lc rgb '{}' dt {}", kBandEdgeWidth, look.colour, look.dash),
-                    [&] { put_trace(*edge); });
+                element(fmt::format("u 1:2 w lines lw {:.3f} lc rgb '{}' dt {}", kBandEdgeWidth, look.color, look.dash),
+                        [&] { put_trace(*edge); });
         if (!traces.bars.empty())
-            element(fmt::format("u 1:2:3:4:5:6 w boxxyerror lw 0.3 lc rgb '{}' fs {} border lc rgb 'white'",
-                                look.colour, fill(curve.style)),
+            element(fmt::format("u 1:2:3:4:5:6 w boxxyerror lw 0.3 lc rgb '{}' fs {} border lc rgb 'white'", look.color,
+                                fill(curve.style)),
                     [&] {
                         for (const Rectangle& bar : traces.bars)
                             put("{0:.4f} {1:.4f} {0:.4f} {2:.4f} {1:.4f} {3:.4f}\n", bar.left, bar.bottom, bar.right,
@@ -233,12 +231,12 @@ class PanelScript {
         if (!traces.line.empty())
             element(fmt::format("u 1:2 w lines lw {:.3f} lc rgb '{}' dt {}",
                                 curve.style == CurveStyle::kStems ? 0.8 * curve.line_width : curve.line_width,
-                                look.colour, look.dash),
+                                look.color, look.dash),
                     [&] { put_trace(traces.line); });
         if (!traces.points.empty())
             element(fmt::format("u 1:2 w points pt {} ps {:.2f} lw {:.2f} lc rgb '{}'",
                                 draws_points(curve.style) ? look.point_type : 7,
-                                draws_points(curve.style) ? marker_size(curve) : 0.25, marker_line(curve), look.colour),
+                                draws_points(curve.style) ? marker_size(curve) : 0.25, marker_line(curve), look.color),
                     [&] { put_trace(traces.points); });
     }
 

@@ -125,16 +125,16 @@ Axis fitted_axis(Range range, bool log, double count, std::optional<double> step
 
 }  // namespace
 
-std::pair<double, double> bar_edges(const Vector& centres, Index i) {
-    const Index last = centres.size() - 1;
-    if (last < 1) return {centres[i] - 0.5, centres[i] + 0.5};
+std::pair<double, double> bar_edges(const Vector& centers, Index i) {
+    const Index last = centers.size() - 1;
+    if (last < 1) return {centers[i] - 0.5, centers[i] + 0.5};
     const auto half_between = [&](Index left) {
-        const double half = 0.5 * centres[left + 1] - 0.5 * centres[left];
+        const double half = 0.5 * centers[left + 1] - 0.5 * centers[left];
         return std::isfinite(half) ? half : 0.5;
     };
     const double before = half_between(std::max<Index>(i - 1, 0)), after = half_between(std::min(i, last - 1));
     const double most = std::numeric_limits<double>::max();
-    return {std::max(centres[i] - before, -most), std::min(centres[i] + after, most)};
+    return {std::max(centers[i] - before, -most), std::min(centers[i] + after, most)};
 }
 
 void choose_axes(const Panel& panel, double width, double height, Axis& x, Axis& y) {

@@ -3,8 +3,8 @@
 
 namespace dynlab::inline figures {
 
-/// Left and right edges of a bar (x units): halfway to its neighbours.
-std::pair<double, double> bar_edges(const Vector& centres, Index i);
+/// Left and right edges of a bar (x units): halfway to its neighbors.
+std::pair<double, double> bar_edges(const Vector& centers, Index i);
 
 /// Axes of a panel whose frame has the given size (cm): the given ranges, else ranges that hold all curves, references,
 /// marks and arrows; numbers as many as there is room for, and

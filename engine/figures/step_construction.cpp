@@ -7,12 +7,12 @@
 namespace dynlab::inline figures {
 namespace {
 
-Curve line_of(const Vector& x, const Vector& y, const Message& label, int colour, int dash, double width) {
+Curve line_of(const Vector& x, const Vector& y, const Message& label, int color, int dash, double width) {
     Curve curve;
     curve.x = x;
     curve.y = y;
     curve.label = label;
-    curve.colour = colour;
+    curve.color = color;
     curve.dash = dash;
     curve.line_width = width;
     return curve;

@@ -15,13 +15,13 @@ inline constexpr double kPointsPerCm = 72.0 / 2.54;
 inline constexpr double kTextLine = 0.42;     ///< height of a line of text with its leading
 inline constexpr double kTickLine = 0.36;     ///< the same for the numbers on the axes
 inline constexpr double kTickLength = 0.1;    ///< outside the frame
-inline constexpr double kGap = 0.12;          ///< between neighbouring parts
+inline constexpr double kGap = 0.12;          ///< between neighboring parts
 inline constexpr double kLegendSample = 0.8;  ///< the piece of line beside a legend's text
 
-inline constexpr const char* kFrameColour = "#404040";
-inline constexpr const char* kGridColour = "#dddddd";
-inline constexpr const char* kReferenceColour = "#606060";
-inline constexpr const char* kAnnotationColour = "#202020";
+inline constexpr const char* kFrameColor = "#404040";
+inline constexpr const char* kGridColor = "#dddddd";
+inline constexpr const char* kReferenceColor = "#606060";
+inline constexpr const char* kAnnotationColor = "#202020";
 inline constexpr double kBandEdgeWidth = 0.4;  ///< where bands have to be told apart
 inline constexpr double kFrameWidth = 0.45, kGridWidth = 0.3, kReferenceWidth = 0.55, kArrowWidth = 0.5;
 
@@ -29,20 +29,20 @@ inline constexpr double kFrameWidth = 0.45, kGridWidth = 0.3, kReferenceWidth = 
 inline constexpr int kOpenCircle = 4, kCross = 8;
 /// Poles are cross, plus, asterisk; zeros open circle, square, triangle: a pair for each of three models.
 inline constexpr int kPoleMarkers = 3;
-/// The grey beyond the palette's own eight colours, for measured data and guiding curves.
+/// The grey beyond the palette's own eight colors, for measured data and guiding curves.
 inline constexpr int kGrayColor = 8;
 
 /// How a curve looks, by its index among its panel's curves.
 struct CurveAppearance {
-    std::string colour;  ///< "#rrggbb"
-    std::string dash;    ///< gnuplot's dash type
-    int point_type;      ///< gnuplot's number
+    std::string color;  ///< "#rrggbb"
+    std::string dash;   ///< gnuplot's dash type
+    int point_type;     ///< gnuplot's number
 };
 
-/// Colours after Okabe and Ito (2008), ordered so that neighbours differ in luminance and stay apart for colour-blind
-/// readers and in grey print; dash pattern and marker change with the colour, and again where the colours repeat.
+/// Colors after Okabe and Ito (2008), ordered so that neighbors differ in luminance and stay apart for color-blind
+/// readers and in grey print; dash pattern and marker change with the color, and again where the colors repeat.
 CurveAppearance appearance_of(const Curve& curve, int index);
-/// Gives a curve the look of the one with this index wherever it may stand, unless its colour was chosen.
+/// Gives a curve the look of the one with this index wherever it may stand, unless its color was chosen.
 void fix_appearance(Curve& curve, int index);
 std::string dash_pattern(int dash);
 /// Size and line of a curve's markers, in gnuplot's units of size and in points: a wide line makes markers larger

@@ -6,7 +6,7 @@
 namespace dynlab::inline platform {
 namespace {
 
-/// Optimal string alignment distance: insert, delete, replace a letter or swap two neighbours, one each.
+/// Optimal string alignment distance: insert, delete, replace a letter or swap two neighbors, one each.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;

@@ -12,7 +12,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/program_lookup.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "web/page_world.h"
 #include "workflow/variant_data.h"
 

@@ -3,7 +3,7 @@
 #include "app/live/state_questions.h"
 #include "base/languages.h"
 #include "data_io/values/json_values.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/lint/lint.h"
 #include "web/page_checks.h"
 #include "web/page_world.h"

@@ -8,7 +8,7 @@
 #include "documents/html/plot_data.h"
 #include "platform/stopwatch.h"
 #include "platform/terminal/progress.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 
 EM_JS(void, dynlab_send_news, (const char* json), { Module.news(UTF8ToString(json)); });
 

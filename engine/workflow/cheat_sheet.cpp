@@ -14,7 +14,7 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 
 namespace dynlab::inline workflow {

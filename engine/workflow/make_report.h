@@ -11,7 +11,7 @@
 #include "documents/percent_script.h"
 #include "documents/unplaced_entries.h"
 #include "platform/cache.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline workflow {
 

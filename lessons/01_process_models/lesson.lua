@@ -47,7 +47,7 @@ report.figure("exchanger_record", idplot(data), "The data of the heat exchanger"
 -- %% id=exchanger_paper echo=false
 local low, high = math.floor(min(exchanger.y)), math.ceil(max(exchanger.y))
 local paper = plot(exchanger.t, exchanger.y,
-                   {style = "points", marker = 0, colour = 2, line_width = 0.7, height = 13,
+                   {style = "points", marker = 0, color = 2, line_width = 0.7, height = 13,
                     x_range = {0, 600}, y_range = {low, high},
                     xlabel = "time (s)", ylabel = "outlet temperature (°C)"})
 report.figure("exchanger_paper", paper:rule(10, 0.2), "The response on graph paper")
@@ -137,7 +137,7 @@ local function test_figure(G, data, u0, label)
     local some, span = linspace(t[1], t[#t], #t//5 + 1), {t[1], t[#t]}
     local above = plot(some, interp1(t, data.y, some), "measured", t, y, "model",
                        {style = {"points", "line"}, marker = 0,
-                        colour = {2, 0}, x_range = span, ylabel = label})
+                        color = {2, 0}, x_range = span, ylabel = label})
     local below = plot(t, data.y - y, {x_range = span,
                                        xlabel = "time (s)", ylabel = "error"})
     return subplot(2, 1, {above, below}):set{height = 8.5}
@@ -238,9 +238,9 @@ local data2 = iddata(suspension.y, suspension.u, Ts2,
 -- the data begin with the step; also draw the rest before it
 local before = vector{-0.2, 0}
 local position = plot(data2.t, data2.y, before, zeros(2),
-                      {colour = 0, ylabel = "position (mm)"})
+                      {color = 0, ylabel = "position (mm)"})
 local voltage = plot(data2.t, data2.u, before, zeros(2), {0, 0}, {0, 1},
-                     {colour = 0, y_range = {-0.1, 1.2},
+                     {color = 0, y_range = {-0.1, 1.2},
                       xlabel = "time (s)", ylabel = "voltage (V)"})
 report.figure("suspension_record", subplot(2, 1, {position, voltage}),
               "The data of the suspension")
@@ -248,7 +248,7 @@ report.figure("suspension_record", subplot(2, 1, {position, voltage}),
 -- %% id=suspension_paper echo=false
 local top = math.ceil(max(data2.y) + 0.2)
 local paper2 = plot(data2.t, data2.y,
-                    {style = "points", marker = 0, colour = 2, line_width = 0.7, height = 13,
+                    {style = "points", marker = 0, color = 2, line_width = 0.7, height = 13,
                      x_range = {0, 1.6}, y_range = {0, top},
                      xlabel = "time (s)", ylabel = "position (mm)"})
 report.figure("suspension_paper", paper2:rule(0.02, 0.2), "The suspension on graph paper")
@@ -260,7 +260,7 @@ local peak, at = max(height)
 report.figure("second_order", figure{
     height = 6, xlabel = "ω_{0} t", ylabel = "(y − y(0)) / (u(∞) − u(0))",
     x_range = {-1, 20}, y_range = {0, 1.7}, legend = "none",
-    curves = {{x = wave, y = height, colour = 0}},
+    curves = {{x = wave, y = height, color = 0}},
     references = {{y = 1.05, dash = 2}, {y = 0.95, dash = 2}, {y = 1, dash = 1}, {x = 0, dash = 1}},
     annotations = {{x = 17, y = 1.05, text = "5 % band", marker = false}},
     arrows = {{x0 = wave[at], y0 = 1, x1 = wave[at], y1 = peak, text = "K D_{1}", both_heads = true},
@@ -395,7 +395,7 @@ local far_figure = plot(t, y_far, "measured",
                         t, simulated(G1D, data_far, u0), "with a dead time",
                         t, simulated(G1F, data_far, u0), "without",
                         {style = {"points", "line", "line"}, marker = 0,
-                         colour = {2, 0, 1}, dash = {0, 0, 1},
+                         color = {2, 0, 1}, dash = {0, 0, 1},
                          x_range = {40, 200}, height = 6,
                          xlabel = "time (s)", ylabel = "temperature (°C)"})
 report.figure("dead_time", far_figure, "A heat exchanger with a dead time")
@@ -579,7 +579,7 @@ do
     local by_hand = plot(t, interp1(exchanger.t, exchanger.y, t), "measured",
                          t, response(t), name,
                          {style = {"points", "line"}, marker = 0,
-                          colour = {2, 0}, height = 7,
+                          color = {2, 0}, height = 7,
                           x_range = {0, 600},
                           y_range = {math.floor(rest),
                                      math.ceil(rest + 0.66*change)},
@@ -617,7 +617,7 @@ do
     local by_hand = plot(t, interp1(suspension.t, suspension.y, t), "measured",
                          t, response(t), name,
                          {style = {"points", "line"}, marker = 0,
-                          colour = {2, 0}, height = 7,
+                          color = {2, 0}, height = 7,
                           x_range = {0, 2.5}, y_range = {0, 23},
                           xlabel = "time (s)", ylabel = "position (mm)"})
     by_hand:handle{x = 2.3, y = function(K) return K end,

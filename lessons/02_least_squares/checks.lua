@@ -5,9 +5,9 @@
 local games = load("winning_times")
 local N = #games.year - 1
 local years, times = games.year:range(1, N), games.time:range(1, N)
-local centre = mean(years)
-local line = lsq(matrix{years - centre, ones(N)}, times)
-local residuals = times - matrix{years - centre, ones(N)}*line.theta
+local center = mean(years)
+local line = lsq(matrix{years - center, ones(N)}, times)
+local residuals = times - matrix{years - center, ones(N)}*line.theta
 local rmse = sqrt(mean(residuals^2))
 local slope, middle = line.theta[1], line.theta[2]
 local whole = lsq(matrix{games.year - mean(games.year), ones(N + 1)}, games.time).theta
@@ -59,7 +59,7 @@ check { id = "line", points = 2, about = "The straight line up to 2020",
          say = "The fit includes 2024; reserve it for the test."},
         {when = function(a) return alike(a.line, vector{middle, slope}, 1e-3) end,
          say = "The order is slope, time at the mean year."},
-        {when = function(a) return alike(a.line, vector{slope, middle - slope*centre}, 1e-3) end,
+        {when = function(a) return alike(a.line, vector{slope, middle - slope*center}, 1e-3) end,
          say = "The second number is the time in the year 0; give the time at the mean year."},
         {when = function(a) return near(a.line[1], 10*slope, {rel = 1e-2}) end,
          say = "The slope is per decade; give seconds per year."},

@@ -70,12 +70,12 @@ report.figure("times", plot(year, time, {style = "points", height = 6,
 local N = #year - 1                       -- 2024 is kept for the test
 local y = time:range(1, N)
 local years = year:range(1, N)
-local centre = mean(years)
-local x = years - centre
+local center = mean(years)
+local x = years - center
 local Phi = matrix{x, ones(N)}
 local Phi_raw = matrix{years, ones(N)}
-print(string.format("N = %d Games, mean year %.2f", N, centre))
-print(string.format("condition number: %.3g raw, %.3g centred",
+print(string.format("N = %d Games, mean year %.2f", N, center))
+print(string.format("condition number: %.3g raw, %.3g centered",
       lsq(Phi_raw, y).condition_number, lsq(Phi, y).condition_number))
 
 -- %% [markdown]
@@ -115,7 +115,7 @@ end
 report.table("roads", {
     {"method", "$a$ (s/year)", "$b$ (s)", "difference from QR", "steps"},
     road("normal equations", theta_normal, 1),
-    road("QR factorisation", fit.theta, 1),
+    road("QR factorization", fit.theta, 1),
     road("gradient descent", descent.theta, descent.iterations),
     road("gradient descent, x scaled", theta_scaled, scaled.iterations),
 })
@@ -123,7 +123,7 @@ report.value("a", fit.theta[1], "%.5f")
 report.value("a_decade", -10*fit.theta[1], "%.3f")
 report.value("b", fit.theta[2], "%.3f")
 report.value("a_std", fit.std[1], "%.5f")
-report.value("centre", centre, "%.1f")
+report.value("center", center, "%.1f")
 report.value("condition", descent.condition_number, "%.0f")
 report.value("steps", descent.iterations, "%d")
 report.value("steps_scaled", scaled.iterations, "%d")
@@ -140,7 +140,7 @@ report.value("steps_scaled", scaled.iterations, "%d")
 -- its spread, the valley is round, and `steps_scaled`{.value} steps are enough. For two parameters, gradient descent is slow. For models with
 -- millions of parameters, however, no computer can store the matrix $\Phi^T\Phi$. Only methods that use gradients remain (stochastic gradient
 -- descent, conjugate gradients, L-BFGS), and scaling matters just as much. The line falls by `a_decade`{.value} s per decade: $\hat a =$ `a`{.value}
--- s/year with a standard error of `a_std`{.value} s/year, and $\hat b =$ `b`{.value} s in the mean year `centre`{.value}.
+-- s/year with a standard error of `a_std`{.value} s/year, and $\hat b =$ `b`{.value} s in the mean year `center`{.value}.
 -- END SOLUTION
 --
 -- ## Residuals

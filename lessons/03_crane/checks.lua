@@ -12,7 +12,7 @@ end
 local function fit_position(record, G) return fit(of(record, record.x), G, resting) end
 local function fit_angle(record, G) return fit(of(record, record.theta), G, resting) end
 
--- What SRIVC gives for the angle of a record, to recognise where a model was estimated.
+-- What SRIVC gives for the angle of a record, to recognize where a model was estimated.
 local function angle_from(record) return tfsrivc(of(record, record.theta), 3, 1, {TdMax = 0, InitialState = "zero", Offset = "none"}) end
 local angle_of_validation, angle_of_limits = angle_from(crane.validation), angle_from(crane.limits)
 -- Both outputs together, weighted by their standard deviations and by those of their errors.

@@ -62,9 +62,9 @@ local radians = "angle (rad)"
 
 local function panels(record, further)
     local list = {
-        {ylabel = volts, curves = {{x = record.t, y = record.u, style = "stairs", colour = 8}}},
-        {ylabel = metres, curves = {{x = record.t, y = record.x, colour = 0}}},
-        {ylabel = radians, xlabel = seconds, curves = {{x = record.t, y = record.theta, colour = 1, dash = 0}}},
+        {ylabel = volts, curves = {{x = record.t, y = record.u, style = "stairs", color = 8}}},
+        {ylabel = meters, curves = {{x = record.t, y = record.x, color = 0}}},
+        {ylabel = radians, xlabel = seconds, curves = {{x = record.t, y = record.theta, color = 1, dash = 0}}},
     }
     for _, panel in ipairs(list) do
         for key, value in pairs(further or {}) do panel[key] = value end
@@ -324,18 +324,18 @@ local function against_model(record, height, with_differences)
     local measured_x, measured_theta = record.x - record.x[1], record.theta - mean(record.theta:range(1, rest))
     local function pair(label, y, model_y, more)
         local panel = {ylabel = label, curves = {
-            {x = record.t, y = y, label = measured, colour = 8, line_width = 1.8},
-            {x = record.t, y = model_y, label = simulated, colour = 0, dash = 0, line_width = 0.7}}}
+            {x = record.t, y = y, label = measured, color = 8, line_width = 1.8},
+            {x = record.t, y = model_y, label = simulated, color = 0, dash = 0, line_width = 0.7}}}
         for key, value in pairs(more or {}) do panel[key] = value end
         return panel
     end
     local function difference(label, error, more)
-        local panel = {ylabel = label, legend = "none", curves = {{x = record.t, y = error, colour = 1, dash = 0}}}
+        local panel = {ylabel = label, legend = "none", curves = {{x = record.t, y = error, color = 1, dash = 0}}}
         for key, value in pairs(more or {}) do panel[key] = value end
         return panel
     end
     local x_error, theta_error = measured_x - x, measured_theta - theta
-    local panels = {pair(with_differences and metres or "x (m)", measured_x, x),
+    local panels = {pair(with_differences and meters or "x (m)", measured_x, x),
                     pair(with_differences and radians or "θ (rad)", measured_theta, theta, {legend = "none"})}
     if with_differences then
         table.insert(panels, 2, difference(say("error (mm)", "écart (mm)"), 1e3*x_error))
@@ -355,7 +355,7 @@ report.value("start_error", 1e3*math.abs(mean(x_error:range(rest + 10, rest + 50
 local residuals_theta, theta_tests = resid(theta_val, model.theta, resting)
 local residuals_x, x_tests = resid(x_val, model.x, resting)
 for name, tests in pairs{x = x_tests, theta = theta_tests} do
-    report.value("coloured_" .. name, tests.outputs[1].outside, "%d")
+    report.value("colored_" .. name, tests.outputs[1].outside, "%d")
     report.value("input_p_" .. name, tests.outputs[1].inputs[1].p_value, "%.2f")
     report.value("input_lags_" .. name, tests.outputs[1].inputs[1].outside, "%d")
 end
@@ -734,13 +734,13 @@ end
 
 local function compared(label, key, more)
     local panel = {ylabel = label, curves = {
-        {x = with_state.t, y = with_state[key], label = say("state feedback", "retour d'état"), colour = 0},
-        {x = with_p.t, y = with_p[key], label = say("proportional", "proportionnel"), colour = 1}}}
+        {x = with_state.t, y = with_state[key], label = say("state feedback", "retour d'état"), color = 0},
+        {x = with_p.t, y = with_p[key], label = say("proportional", "proportionnel"), color = 1}}}
     for name, value in pairs(more or {}) do panel[name] = value end
     return panel
 end
 report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
-    compared(metres, "x", {references = {{y = goal}}}), compared(radians, "theta", {legend = "none"}),
+    compared(meters, "x", {references = {{y = goal}}}), compared(radians, "theta", {legend = "none"}),
     compared(volts, "u", {legend = "none", xlabel = seconds})}},
     say("The nonlinear crane on its way to 0.3 m: state feedback brings the load to rest with the trolley. With proportional control, it continues to swing.",
         "La grue non linéaire en route vers 0,3 m : le retour d'état arrête la charge avec le chariot ; sous commande proportionnelle elle oscille encore."))

@@ -551,7 +551,7 @@ local t = high.t
 local both = plot(t, measured, "measured",
                   t, simulated(G1, high), "from the voltage",
                   t, simulated(G2, watts(high)), "from the power",
-                  {height = 5.5, colour = {8, 1, 2}, dash = {0, 2, 0},
+                  {height = 5.5, color = {8, 1, 2}, dash = {0, 2, 0},
                    xlabel = "time (s)", ylabel = "change (°C)"})
 report.figure("heat_high", both, "Two models on the record about 7 V")
 -- END SOLUTION

@@ -225,7 +225,7 @@ report.table("repetitions", rows)
 -- parameters are too small, in every repetition. Least squares is *biased* here. The noise of $y$ appears on both sides of @eq:solution-sample. For
 -- the true parameters the remaining equation error is
 --
--- $$ \varepsilon(t) = \frac{A(p)}{E(p)}\,e(t) , $$ {#eq:solution-colour}
+-- $$ \varepsilon(t) = \frac{A(p)}{E(p)}\,e(t) , $$ {#eq:solution-color}
 --
 -- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same $e$ with another filter. Regressors and error are correlated, as in the long noisy
 -- data at the end of lesson 2. Longer data would not help: the bias depends on the variance of the noise, not on the number of samples.
@@ -374,26 +374,26 @@ report.value("many_runs", near_best.runs, "%d")
 -- **Question 9.** Why? Put the true parameters into the regression: how does the filter color the remaining noise, and which filter is the best one?
 -- (`freqresp(G, w).abs` returns the magnitude of a transfer function.)
 
--- %% id=colour
+-- %% id=color
 -- BEGIN SOLUTION
 local w = 10^linspace(-2, 3, 300)
-local function colour(lambda)
+local function color(lambda)
     return freqresp((s^2 + 4*s + 3)/(s + lambda)^2, w).abs
 end
-local weights = plot(w, colour(0.3), "λ = 0.3", w, colour(3), "λ = 3",
-                     w, colour(30), "λ = 30", w, ones(#w), "E = A",
+local weights = plot(w, color(0.3), "λ = 0.3", w, color(3), "λ = 3",
+                     w, color(30), "λ = 30", w, ones(#w), "E = A",
                      {x_log = true, y_log = true, height = 5.5, dash = {1, 0, 2, 3},
                       xlabel = "frequency (rad/s)", ylabel = "weight |A/E|",
                       legend = "direct"})
-report.figure("colour", weights, "How the filter colors the equation error")
+report.figure("color", weights, "How the filter colors the equation error")
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![How the filter colors the equation error: the magnitude $|A/E|$, which multiplies white measurement noise, for three values of $\lambda$ (solid: 3 rad/s) and for the best filter, $E = A$, which keeps it white](figure:colour){#fig:colour}
+-- ![How the filter colors the equation error: the magnitude $|A/E|$, which multiplies white measurement noise, for three values of $\lambda$ (solid: 3 rad/s) and for the best filter, $E = A$, which keeps it white](figure:color){#fig:color}
 --
--- The regression gives all samples of $\varepsilon$ the same weight, which is optimal if they are white. By @eq:solution-colour, $\varepsilon$ is the
--- white noise $e$ filtered by $A/E$ (@fig:colour). With $\lambda = 0.3$, the slow part of the noise is much larger than the rest. The filter's memory
+-- The regression gives all samples of $\varepsilon$ the same weight, which is optimal if they are white. By @eq:solution-color, $\varepsilon$ is the
+-- white noise $e$ filtered by $A/E$ (@fig:color). With $\lambda = 0.3$, the slow part of the noise is much larger than the rest. The filter's memory
 -- is so long that the data contain little more than its transient. With $\lambda = 30$, nearly all of the noise is at frequencies where the system no
 -- longer responds, and it hides the information about the slow pole. Of the three, $\lambda = 3$ is closest to a constant magnitude. The magnitude is
 -- constant for $E = A$: the best filter is $1/A$, with the denominator of the system. Among the filters $(p+\lambda)^2$, the one nearest to
@@ -528,7 +528,7 @@ report.value("iv_more_error", 100*math.sqrt((1 - math.min(correlation, 1)^2)/(lo
 -- * TFSRIVC is also centered on the truth, and its scatter is `tf_bound`{.value} times the Cramér–Rao bound. A standard deviation from 200 runs is
 --   itself uncertain by `std_error`{.value} %. Within this uncertainty, no method can extract more from these data.
 -- * You can trust the errors that IVSVF and TFSRIVC report: on average they are `iv_over`{.value} and `tf_over`{.value} times the true scatter. The
---   errors of LSSVF are `ls_over`{.value} times the true scatter, because their formula assumes a white equation error. @fig:colour shows that the
+--   errors of LSSVF are `ls_over`{.value} times the true scatter, because their formula assumes a white equation error. @fig:color shows that the
 --   error is not white. Above all, standard errors do not include the bias.
 -- END SOLUTION
 --
@@ -555,7 +555,7 @@ local ellipse_b = 2 + r*(cab/math.sqrt(va)*cos(phi)
 local function cloud(name)
     local theta = high[name].theta
     return plot(theta:col(1), theta:col(3), ellipse_a, ellipse_b,
-                {style = {"points", "line"}, colour = {5, 2}, dash = 0,
+                {style = {"points", "line"}, color = {5, 2}, dash = 0,
                  title = name, x_range = {1, 8}, y_range = {0.5, 4},
                  xlabel = "a_{1}", ylabel = "b_{0}"}):mark(4, 2, "truth")
 end
@@ -658,7 +658,7 @@ print("d2c can convert the noisy arx model:", (pcall(d2c, Garx)))
 local t = linspace(0, 6, 601)
 local answers = plot(t, step(Go, t), "truth", t, step(Garx, t), "arx",
                      t, step(Goe, t), "oe",
-                     {height = 5.5, dash = {0, 1, 2}, colour = {0, 1, 3},
+                     {height = 5.5, dash = {0, 1, 2}, color = {0, 1, 3},
                       xlabel = "time (s)", ylabel = "step response"})
 report.figure("discrete", answers, "Step responses of the discrete-time models")
 -- END SOLUTION
@@ -820,14 +820,14 @@ report.table("orders", order_rows)
 do
     local lambda = slider("lambda", 3, 0.3, 30,
                           {log = true, unit = "rad/s", label = "λ"})
-    local colour = (s^2 + 4*s + 3)/(s + lambda)^2
+    local color = (s^2 + 4*s + 3)/(s + lambda)^2
     local w = 10^linspace(-2, 3, 101)
-    local weight = plot(w, freqresp(colour, w).abs,
+    local weight = plot(w, freqresp(color, w).abs,
                         {x_log = true, y_log = true, y_range = {1e-3, 1e3},
                          xlabel = "frequency (rad/s)", ylabel = "weight |A/E|"})
     weight:hline(1, "E = A")
     weight:handle{x = function(lambda) return lambda end, x_slider = "lambda",
-                  y = freqresp(colour, {lambda}).abs[1], text = "λ"}
+                  y = freqresp(color, {lambda}).abs[1], text = "λ"}
     local M = montecarlo{system = Go, input = u, Ts = Ts, sigma = 0.2, runs = 60,
         estimators = {{"lssvf", {2, 1, 0}, lambda, label = "LSSVF"},
                       {"ivsvf", {2, 1, 0}, lambda, label = "IVSVF"}}}

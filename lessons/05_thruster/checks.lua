@@ -114,7 +114,7 @@ check { id = "figures", points = 1, about = "Figures of the static curve and of 
     test = function() return all_of(has_figure("curve"), has_figure("validation")) end,
     hint = "report.figure(\"curve\", fig, \"...\") and report.figure(\"validation\", fig, \"...\")." }
 
--- What the static curve gives out in the end: models of one behaviour may share a gain between curve and dynamics.
+-- What the static curve gives out in the end: models of one behavior may share a gain between curve and dynamics.
 local function gains(model) return model.level*dcgain(model.G) end
 
 local typed = {

@@ -93,9 +93,9 @@ local raw_panels = {}
 for column, shape in ipairs(shapes) do
     local record = thruster[shape .. "_300"]
     raw_panels[column] = {ylabel = column == 1 and width_axis or nil, title = shape .. "_300",
-                          curves = {{x = record.t, y = record.pwm, style = "stairs", colour = 8, line_width = 0.6}}}
+                          curves = {{x = record.t, y = record.pwm, style = "stairs", color = 8, line_width = 0.6}}}
     raw_panels[2 + column] = {ylabel = column == 1 and thrust_axis or nil, xlabel = seconds, y_range = {-32, 32},
-                              curves = {{x = record.t, y = record.force, colour = 0, line_width = 0.6}}}
+                              curves = {{x = record.t, y = record.force, color = 0, line_width = 0.6}}}
 end
 report.figure("raw", figure{rows = 2, columns = 2, width = 14.4, height = 5.4, panels = raw_panels},
               say("The data of the largest amplitude: widths (above) and thrust (below)",
@@ -180,11 +180,11 @@ report.value("band", band, "%d")
 report.figure("switching", figure{width = 14.4, height = 4.6, columns = 2, panels = {
     {xlabel = say("time since the switching (ms)", "temps depuis la commutation (ms)"), ylabel = thrust_axis,
      references = {{x = 0, dash = 2}, {x = onset, label = say("answer", "réponse")}},
-     curves = {{x = since, y = answer_mean, colour = 0, line_width = 1.1}}},
+     curves = {{x = since, y = answer_mean, color = 0, line_width = 1.1}}},
     {xlabel = say("frequency (Hz)", "fréquence (Hz)"), ylabel = say("thrust per width (N/µs)", "poussée / largeur (N/µs)"),
      x_log = true, y_log = true, x_range = {0.5, 60},
      references = {{x = band, label = say("filter", "filtre")}},
-     curves = {{x = response.w/(2*math.pi), y = response.magnitude, colour = 1, dash = 0, line_width = 0.8}}}}},
+     curves = {{x = response.w/(2*math.pi), y = response.magnitude, color = 1, dash = 0, line_width = 0.8}}}}},
     say("Mean response to a switching; frequency response of square_300", "Réponse moyenne à une commutation ; réponse fréquentielle de square_300"))
 -- END SOLUTION
 
@@ -310,7 +310,7 @@ function kinds.hammerstein(records, shape, sizes)
     local f = characteristic(H)
     return H, function(u) return lsim(H, f(u), Ts) end
 end
--- The propeller's speed follows the pulses with a lag, and thrust is its square: so the root of the thrust is modelled.
+-- The propeller's speed follows the pulses with a lag, and thrust is its square: so the root of the thrust is modeled.
 local function root_of_thrust(r) return root(thrust(r)) end
 function kinds.root(records, shape, sizes)
     local H = static_curve_and_lag(records, shape, sizes, root_of_thrust)
@@ -434,10 +434,10 @@ local fine = linspace(-300, 300, 241)
 local true_curve = interp1(truth.pwm - truth.neutral, truth.thrust, fine)
 local function curve_panel(more)
     local panel = {ylabel = thrust_axis, curves = {
-        {x = curve.width, y = curve.thrust, style = "points", colour = 8, marker = 4, label = say("bins", "classes")},
-        {x = fine, y = static_curve("root", "sine", fine), colour = 0, label = say("root model, sine", "modèle racine, sinus")},
-        {x = fine, y = static_curve("hammerstein", "square", fine), colour = 1, dash = 1, label = say("Hammerstein, square", "Hammerstein, carré")},
-        {x = fine, y = true_curve, colour = 2, dash = 2, label = say("truth", "vérité")}}}
+        {x = curve.width, y = curve.thrust, style = "points", color = 8, marker = 4, label = say("bins", "classes")},
+        {x = fine, y = static_curve("root", "sine", fine), color = 0, label = say("root model, sine", "modèle racine, sinus")},
+        {x = fine, y = static_curve("hammerstein", "square", fine), color = 1, dash = 1, label = say("Hammerstein, square", "Hammerstein, carré")},
+        {x = fine, y = true_curve, color = 2, dash = 2, label = say("truth", "vérité")}}}
     for key, value in pairs(more) do panel[key] = value end
     return panel
 end
@@ -484,10 +484,10 @@ local function piece_of(name, shape, from, to, title)
     local first, last = math.floor(from/Ts) + 1, math.floor(to/Ts) + 1
     local t = r.t:range(first, last)
     local panel = {title = title, ylabel = thrust_axis, legend = "none", curves = {
-        {x = t, y = thrust(r):range(first, last), label = say("measured", "mesuré"), colour = 8, line_width = 0.8}}}
+        {x = t, y = thrust(r):range(first, last), label = say("measured", "mesuré"), color = 8, line_width = 0.8}}}
     for k, kind in ipairs{"linear", "hammerstein", "root"} do
         table.insert(panel.curves, {x = t, y = fitted[kind][shape].simulate(width(r)):range(first, last), label = kind_word[kind],
-                                    colour = ({2, 1, 0})[k], dash = ({2, 1, 0})[k], line_width = 1.1})
+                                    color = ({2, 1, 0})[k], dash = ({2, 1, 0})[k], line_width = 1.1})
     end
     return panel
 end

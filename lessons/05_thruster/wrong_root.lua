@@ -4,7 +4,7 @@
 -- expects: fit: the fit to the sine chirps
 -- expects: statics_follow: On a data set that you have not seen
 -- expects: model_follows: On a data set that you have not seen
--- The root of the thrust is modelled and never squared again; the fit is that of the records it was learnt from.
+-- The root of the thrust is modeled and never squared again; the fit is that of the records it was learnt from.
 local T = load("thruster")
 local Ts = 0.002
 local function low(v) return idfilt(v, {0, 16*math.pi}, {zero_phase = true, Ts = Ts}) end

@@ -73,7 +73,7 @@ local left = angle_val.y - lsim(linear, angle_val.u, Ts)
 local noise = std(crane.validation.theta:range(1, rest))
 outcome(say("error of the angle, in sigmas", "erreur, en écarts types"),
         std(left)/noise)  -- standard deviations of the sensor's noise
-local swing = plot(angle_val.t, angle_val.y, {colour = 8, ylabel = "angle (rad)"})
+local swing = plot(angle_val.t, angle_val.y, {color = 8, ylabel = "angle (rad)"})
 local seconds = say("time (s)", "temps (s)")
 local rest_of_it = plot(angle_val.t, 1e3*left,
                         {xlabel = seconds, ylabel = "error (mrad)"})
@@ -637,7 +637,7 @@ local errors = plot(validation.t, validation.y - picture.curves[2].y,
                     validation.t, validation.y - picture.curves[3].y,
                     validation.t, validation.y - picture.curves[4].y,
                     {xlabel = say("time (s)", "temps (s)"), ylabel = "error (V)",
-                     colour = {"blue", "orange", "green"}, dash = {0, 1, 2}})
+                     color = {"blue", "orange", "green"}, dash = {0, 1, 2}})
 report.figure("free_run", subplot(2, 1, {picture, errors}):set{height = 9},
               "Free run, and its errors")
 -- END SOLUTION

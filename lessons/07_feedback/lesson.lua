@@ -73,7 +73,7 @@ local function strip(record, name, column, label)
     local style = name == "y" and "line" or "stairs"
     return {ylabel = column == 1 and label or nil, y_range = {-20, 20},
             curves = {{x = record.t:range(1, last), y = record[name]:range(1, last),
-                       colour = 8, style = style}}}
+                       color = 8, style = style}}}
 end
 local panels = {}
 for column, record in ipairs{track, drive.regulation} do
@@ -226,9 +226,9 @@ end
 -- %% id=correlation_report echo=false
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
-local function band(name, label, colour)
+local function band(name, label, color)
     local c = curves[name]
-    return {x = c.x, y = c.y, y_upper = c.y_upper, colour = colour}, {x = c.x, y = c.mean, label = label, colour = colour, dash = name == "open" and 2 or 0}
+    return {x = c.x, y = c.y, y_upper = c.y_upper, color = color}, {x = c.x, y = c.mean, label = label, color = color, dash = name == "open" and 2 or 0}
 end
 local open_band, open_mean = band("open", "open loop", 2)
 local loop_band, loop_mean = band("loop", "in the loop", 0)
@@ -291,9 +291,9 @@ local G_response = idfrd(truth.G, w)
 local function decibels(magnitude) return 20*log(magnitude)/math.log(10) end
 local function bode_panel(quantity, more)
     local panel = {x_log = true, x_range = {0.3, 100}, curves = {
-        {x = measured.w, y = quantity(measured), label = say("measured", "mesuré"), colour = 8, line_width = 0.7},
-        {x = w, y = quantity(G_response), label = "G", colour = 2, line_width = 1.4},
-        {x = w, y = quantity(inverse), label = "-1/C", colour = 0, dash = 1, line_width = 1.8}}}
+        {x = measured.w, y = quantity(measured), label = say("measured", "mesuré"), color = 8, line_width = 0.7},
+        {x = w, y = quantity(G_response), label = "G", color = 2, line_width = 1.4},
+        {x = w, y = quantity(inverse), label = "-1/C", color = 0, dash = 1, line_width = 1.8}}}
     for key, value in pairs(more) do panel[key] = value end
     return panel
 end
@@ -694,9 +694,9 @@ end
 local hours = pick(heater.t)/60
 local function tracked(label, true_value, by_ls, by_iv, more)
     local panel = {ylabel = label, curves = {
-        {x = hours, y = pick(by_ls), label = "least squares", colour = 8, dash = 1, line_width = 0.8},
-        {x = hours, y = pick(by_iv), label = "instruments", colour = 0, line_width = 1.1},
-        {x = hours, y = pick(true_value), label = "truth", colour = 2, dash = 2, line_width = 1.6}}}
+        {x = hours, y = pick(by_ls), label = "least squares", color = 8, dash = 1, line_width = 0.8},
+        {x = hours, y = pick(by_iv), label = "instruments", color = 0, line_width = 1.1},
+        {x = hours, y = pick(true_value), label = "truth", color = 2, dash = 2, line_width = 1.6}}}
     for key, value in pairs(more) do panel[key] = value end
     return panel
 end

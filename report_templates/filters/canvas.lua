@@ -56,11 +56,11 @@ function canvas:fill(points, shade)
   end
 end
 
-local raggedness = { centre = "\\centering", left = "\\raggedright", right = "\\raggedleft" }
+local raggedness = { center = "\\centering", left = "\\raggedright", right = "\\raggedleft" }
 
 -- Inlines about (x, y), "left" or "right" of which they begin or end; at most so wide.
 function canvas:label(inlines, x, y, width, align)
-  align = align or "centre"
+  align = align or "center"
   if align == "left" then x = x + width / 2 elseif align == "right" then x = x - width / 2 end
   if self.format == "latex" then
     self:add(string.format("\\put(%.3f,%.3f){\\makebox(0,0){\\parbox{%.3fcm}{%s\\small ", x, y, width, raggedness[align]))
@@ -70,7 +70,7 @@ function canvas:label(inlines, x, y, width, align)
   local height = 0.9
   self:add(string.format('<foreignObject x="%.1f" y="%.1f" width="%.1f" height="%.1f"><div class="diagram-label%s"><span>',
     (x - 0.5 * width) * canvas.pixels, self:down(y) - 0.5 * height * canvas.pixels, width * canvas.pixels,
-    height * canvas.pixels, align == "centre" and "" or " " .. align))
+    height * canvas.pixels, align == "center" and "" or " " .. align))
   self.content:extend(inlines)
   self:add("</span></div></foreignObject>")
 end

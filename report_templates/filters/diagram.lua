@@ -102,7 +102,7 @@ end
 
 -- Drawing --------------------------------------------------------------------------------------------------------
 
-local function centre(drawing, node)
+local function center(drawing, node)
   return (node.column - 0.5) * drawing.step, (drawing.rows - node.row + 0.5) * row_height
 end
 
@@ -120,8 +120,8 @@ local function sign(x) return x > 0 and 1 or x < 0 and -1 or 0 end
 
 -- The corners of an arrow, from the rim of one node to that of the other.
 local function path(drawing, arrow)
-  local x0, y0 = centre(drawing, arrow.from)
-  local x1, y1 = centre(drawing, arrow.to)
+  local x0, y0 = center(drawing, arrow.from)
+  local x1, y1 = center(drawing, arrow.to)
   local rx0, ry0 = reach(drawing, arrow.from)
   local rx1, ry1 = reach(drawing, arrow.to)
   local dx, dy = sign(x1 - x0), sign(y1 - y0)
@@ -204,7 +204,7 @@ function diagram.draw(drawing, format)
   end
   for _, name in ipairs(drawing.order) do
     local node = drawing.nodes[name]
-    local x, y = centre(drawing, node)
+    local x, y = center(drawing, node)
     paper:add(pen.frame(drawing, node, x, y))
     label(node.label, x, y, node.kind == "block" and (block_width(drawing) - 0.06) or drawing.step)
   end

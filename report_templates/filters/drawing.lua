@@ -5,7 +5,7 @@
 --     { "line", 0, 1, 2, 1, 2, 3, dashed = true, thick = true, arrow = true },   through points
 --     { "area", 0, 0, 2, 0, 2, 1, shade = 0.15, bare = true },                   a closed line, filled; bare: without a rim
 --     { "box", 0, 0, 2, 1, shade = 0.15 },                                       from corner to corner
---     { "circle", 1, 1, 0.3, shade = 1 }, { "arc", 1, 1, 0.3, -90, -60 },        centre, radius; from and to an angle, degrees
+--     { "circle", 1, 1, 0.3, shade = 1 }, { "arc", 1, 1, 0.3, -90, -60 },        center, radius; from and to an angle, degrees
 --     { "spring", 0, 1, 2, 1 }, { "damper", 0, 1, 2, 1 }, { "ground", 0, 0, 2, 0 },   hatched to the right of its direction
 --     { "text", 1, 2, "$u$", width = 2, align = "left" } }                       or { en = "water", fr = "eau" }
 --

@@ -239,8 +239,8 @@ end
 function layout:box(division, kind)
   local title = self.words[kind]
   if self.format == "latex" then
-    local colour = kind == "warning" and "dlerror" or "dlnote"
-    return within("latex", "\\begin{dynlabbox}{" .. colour .. "}{" .. title .. "}", division.content, "\\end{dynlabbox}")
+    local color = kind == "warning" and "dlerror" or "dlnote"
+    return within("latex", "\\begin{dynlabbox}{" .. color .. "}{" .. title .. "}", division.content, "\\end{dynlabbox}")
   elseif self.format == "html" then
     division.content:insert(1, pandoc.Para { pandoc.Strong { pandoc.Str(title) } })
     return pandoc.Div(division.content, { class = "box " .. kind })

@@ -99,7 +99,7 @@ const dynlabMotion = (() => {
       const { comma } = this.plot;
       const named = this.plot.panels.find((panel) => panel.x.measure) ?? this.signals[0];
       this.time.textContent = named.x.text(this.now, comma);
-      const colours = palette(), spoken = [this.time.textContent];
+      const colors = palette(), spoken = [this.time.textContent];
       this.values.replaceChildren(...this.signals.map((panel, k) => {
         const line = document.createElement("div"), words = this.actors.map(({ kind, curves }) =>
           `${say(kind)} ${panel.y.text(curves[k].at(this.now), comma)}`);
@@ -108,7 +108,7 @@ const dynlabMotion = (() => {
         this.actors.forEach(({ curves }, i) => {
           const mark = document.createElement("b");
           mark.textContent = "● ";
-          mark.style.color = colours.of(curves[k].colour);
+          mark.style.color = colors.of(curves[k].color);
           line.append(mark, words[i], i + 1 < words.length ? ", " : "");
         });
         return line;
@@ -140,15 +140,15 @@ const dynlabMotion = (() => {
       const context = this.stage.getContext("2d");
       context.scale(dots, dots);
       const painter = new Painter(context, this, unit), moves = ({ points }) => points.some(([, , part]) => part >= 0);
-      for (const piece of this.pieces) if (!moves(piece)) this.piece(painter, piece, [], painter.colours.text, 1);
+      for (const piece of this.pieces) if (!moves(piece)) this.piece(painter, piece, [], painter.colors.text, 1);
       for (const { kind, curves } of this.actors) {
         const values = curves.map((curve) => curve.at(this.now)), ghost = kind === "measured" && this.simulated;
         if (!values.every(Number.isFinite)) continue;
         for (const piece of this.pieces)
-          if (moves(piece)) this.piece(painter, piece, values, painter.colours.of(curves[0].colour), ghost ? 2.2 : 1);
+          if (moves(piece)) this.piece(painter, piece, values, painter.colors.of(curves[0].color), ghost ? 2.2 : 1);
       }
     }
-    piece(painter, { points, shade, width }, values, colour, wider) {
+    piece(painter, { points, shade, width }, values, color, wider) {
       const { context } = painter;
       context.beginPath();
       points.forEach((point, i) => {
@@ -157,11 +157,11 @@ const dynlabMotion = (() => {
       });
       context.globalAlpha = shade ?? 1;
       if (shade === undefined) {
-        painter.stroke(colour, wider * width);
+        painter.stroke(color, wider * width);
         context.lineJoin = context.lineCap = "round";
         context.stroke();
       } else {
-        context.fillStyle = colour;
+        context.fillStyle = color;
         context.fill();
       }
       context.globalAlpha = 1;

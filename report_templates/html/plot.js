@@ -279,7 +279,7 @@ const dynlabPlots = (() => {
     }
     drawLinked(painter) {
       const { name, measure, value } = this.linked;
-      painter.stroke(painter.colours.line, 0.5);
+      painter.stroke(painter.colors.line, 0.5);
       for (const panel of this.readable) {
         const axis = this.abscissa(panel), [at] = panel.place(value, panel.y.low);
         if (!name || axis.name !== name || axis.measure !== measure || !(at >= panel.left && at <= panel.right)) continue;
@@ -287,7 +287,7 @@ const dynlabPlots = (() => {
         for (const curve of panel.curves) {
           if (!curve.shown || !curve.isFunction || !curve.covers(value)) continue;
           const read = curve.at(value), [x, y] = read === null ? [NaN, NaN] : panel.place(value, read);
-          if (panel.holds(x, y)) painter.marker(x, y, 7, 0.4, 0.6, painter.colours.of(curve.colour));
+          if (panel.holds(x, y)) painter.marker(x, y, 7, 0.4, 0.6, painter.colors.of(curve.color));
         }
       }
     }
@@ -464,9 +464,9 @@ const dynlabPlots = (() => {
           if (read === null || !Number.isFinite(read)) continue;
           const upper = curve.style === "band" ? curve.at(value, curve.upper) : null;
           const text = part.y.text(read, this.comma);
-          lines.push({ name: curve.label || part.y.name, colour: curve.colour,
+          lines.push({ name: curve.label || part.y.name, color: curve.color,
                        text: upper === null ? text : `${text} … ${part.y.text(upper, this.comma)}` });
-          places.push({ panel: part, x: value, y: read, colour: curve.colour });
+          places.push({ panel: part, x: value, y: read, color: curve.color });
         }
       return { lines, places, value };
     }
@@ -477,18 +477,18 @@ const dynlabPlots = (() => {
         curve.x.forEach((value, i) => {
           if (value === null || curve.y[i] === null) return;
           const [px, py] = panel.place(value, curve.y[i]), distance = Math.hypot(px - x, py - y);
-          if (distance < least) [best, least] = [{ panel, x: value, y: curve.y[i], colour: curve.colour, curve }, distance];
+          if (distance < least) [best, least] = [{ panel, x: value, y: curve.y[i], color: curve.color, curve }, distance];
         });
       const [a, b] = best ? [best.x, best.y]
         : [panel.x.value((x - panel.left) / panel.width), panel.y.value((y - panel.bottom) / panel.height)];
       const lines = [{ name: panel.x.name || "x", text: panel.x.text(a, this.comma, best?.curve.countsWhole) },
                      { name: panel.y.name || "y", text: panel.y.text(b, this.comma) }];
-      if (best?.curve.label) lines.unshift({ name: best.curve.label, text: "", colour: best.colour });
+      if (best?.curve.label) lines.unshift({ name: best.curve.label, text: "", color: best.color });
       return { lines, places: best ? [best] : [], value: null };
     }
 
     drawMoment(painter) {
-      painter.stroke(painter.colours.text, 0.9);
+      painter.stroke(painter.colors.text, 0.9);
       for (const panel of this.panels) {
         const [at] = panel.place(this.moment, panel.y.low);
         if (at >= panel.left && at <= panel.right) painter.segment(at, panel.bottom, at, panel.top);
@@ -502,7 +502,7 @@ const dynlabPlots = (() => {
       const boxed = this.pulled && !this.pulled.touch && !this.pulled.move && this.pulled.to !== this.pulled.from;
       if (boxed) {
         const { from, to } = this.pulled;
-        painter.stroke(painter.colours.line, 0.75, [3, 3]);
+        painter.stroke(painter.colors.line, 0.75, [3, 3]);
         context.strokeRect(painter.X(Math.min(from[0], to[0])), painter.Y(Math.max(from[1], to[1])),
                            Math.abs(to[0] - from[0]) * this.unit, Math.abs(to[1] - from[1]) * this.unit);
       }
@@ -511,7 +511,7 @@ const dynlabPlots = (() => {
       if (!this.cursor || boxed) return;
       const { panel, x, y } = this.cursor, { lines, places, value } = this.readings();
       if (value !== null) this.link({ name: this.abscissa(panel).name, measure: this.abscissa(panel).measure, value });
-      painter.stroke(painter.colours.line, 0.5);
+      painter.stroke(painter.colors.line, 0.5);
       for (const part of value === null ? [panel] : this.partners(panel)) {
         const at = value === null ? x : clamp(part.place(value, part.y.low)[0], part.left, part.right);
         painter.segment(at, part.bottom, at, part.top);
@@ -519,12 +519,12 @@ const dynlabPlots = (() => {
       }
       for (const place of places) {
         const [px, py] = place.panel.place(place.x, place.y);
-        if (place.panel.holds(px, py)) painter.marker(px, py, 7, 0.4, 0.6, painter.colours.of(place.colour));
+        if (place.panel.holds(px, py)) painter.marker(px, py, 7, 0.4, 0.6, painter.colors.of(place.color));
       }
-      this.reading.replaceChildren(...lines.map(({ name, text, colour }) => {
+      this.reading.replaceChildren(...lines.map(({ name, text, color }) => {
         const line = document.createElement("span"), mark = document.createElement("b");
-        if (colour) mark.style.color = painter.colours.of(colour);
-        mark.textContent = colour ? "● " : "";
+        if (color) mark.style.color = painter.colors.of(color);
+        mark.textContent = color ? "● " : "";
         line.append(mark, text ? `${name}: ${text}` : name);
         return line;
       }));

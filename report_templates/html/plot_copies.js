@@ -51,7 +51,7 @@ const dynlabCopies = (() => {
   /// What the figure shows now, on white paper.
   function paint(plot, context, unit) {
     const painter = new Painter(context, plot, unit);
-    painter.colours = palette(false);
+    painter.colors = palette(false);
     context.fillStyle = "#ffffff";
     context.fillRect(0, 0, plot.size[0] * unit, plot.size[1] * unit);
     painter.draw();

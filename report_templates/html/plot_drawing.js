@@ -129,12 +129,12 @@ const dynlabDrawing = (() => {
     }
   }
 
-  /// Colours of the printed figure, and what stands for them on dark paper.
+  /// Colors of the printed figure, and what stands for them on dark paper.
   function palette(dark = isDark()) {
     if (!dark) return { text: "#202020", frame: "#404040", grid: "#dddddd", minor: "#eeeeee", line: "#606060",
-                        paper: "#ffffff", of: (colour) => colour };
-    const lighter = (colour) => {
-      const parts = [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
+                        paper: "#ffffff", of: (color) => color };
+    const lighter = (color) => {
+      const parts = [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16));
       const high = Math.max(...parts), low = Math.min(...parts);
       if (high - low < 12) return `rgb(${parts.map((part) => 255 - part).join(",")})`;
       const share = clamp((165 - (high + low) / 2) / (255 - (high + low) / 2), 0, 1);
@@ -152,16 +152,16 @@ const dynlabDrawing = (() => {
   /// Draws a figure on a canvas whose pixels are CSS pixels.
   class Painter {
     constructor(context, figure, unit) {
-      Object.assign(this, { context, figure, unit, colours: palette() });
+      Object.assign(this, { context, figure, unit, colors: palette() });
     }
     X(x) { return clamp(x * this.unit, -1e5, 1e5); }
     Y(y) { return clamp((this.figure.size[1] - y) * this.unit, -1e5, 1e5); }
     width(points) { return points / 72 * 2.54 * this.unit; }
     type(points) { return Math.max(this.width(points), SMALLEST_TYPE); }
 
-    stroke(colour, points, dash = []) {
+    stroke(color, points, dash = []) {
       const context = this.context;
-      context.strokeStyle = colour;
+      context.strokeStyle = color;
       context.lineWidth = this.width(points);
       context.setLineDash(dash.map((length) => length * context.lineWidth));
     }
@@ -178,12 +178,12 @@ const dynlabDrawing = (() => {
         return sum + this.context.measureText(piece.slice(1)).width;
       }, 0);
     }
-    text(pieces, x, y, points, align, colour, upright = false) {
+    text(pieces, x, y, points, align, color, upright = false) {
       const context = this.context, size = this.type(points), width = this.measure(pieces, points);
       context.save();
       context.translate(this.X(x), this.Y(y));
       if (upright) context.rotate(-Math.PI / 2);
-      context.fillStyle = colour;
+      context.fillStyle = color;
       context.textAlign = "left";
       context.textBaseline = "alphabetic";
       let at = align === "center" ? -width / 2 : align === "right" ? -width : 0;
@@ -197,15 +197,15 @@ const dynlabDrawing = (() => {
     }
 
     /// gnuplot's point types, of which the even ones are open: plus, cross, star, square, circle, two triangles, diamond.
-    marker(x, y, type, size, points, colour) {
+    marker(x, y, type, size, points, color) {
       const context = this.context, r = 7.8 * size / 96 * this.unit, X = this.X(x), Y = this.Y(y);
       const shape = (corners) => {
         context.beginPath();
         corners.forEach(([dx, dy], i) => context[i ? "lineTo" : "moveTo"](X + r * dx, Y + r * dy));
         context.closePath();
       };
-      this.stroke(colour, points);
-      context.fillStyle = colour;
+      this.stroke(color, points);
+      context.fillStyle = color;
       if (type <= 3) {
         context.beginPath();
         const arms = type === 1 ? [[1, 0], [0, 1]] : type === 2 ? [[1, 1], [1, -1]] : [[1, 0], [0, 1], [1, 1], [1, -1]];
@@ -227,7 +227,7 @@ const dynlabDrawing = (() => {
     draw() {
       for (const panel of this.figure.panels) this.panel(panel);
       for (const { text, x, y, size, upright } of this.figure.texts)
-        this.text(text, x, y, size, "center", this.colours.text, upright);
+        this.text(text, x, y, size, "center", this.colors.text, upright);
     }
     panel(panel) {
       const context = this.context;
@@ -242,7 +242,7 @@ const dynlabDrawing = (() => {
           if (curve.shown && (curve.style === "band") === bands) this.curve(panel, curve);
       this.notes(panel);
       context.restore();
-      this.stroke(this.colours.frame, 0.45);
+      this.stroke(this.colors.frame, 0.45);
       context.strokeRect(this.X(panel.left), this.Y(panel.top), panel.width * this.unit, panel.height * this.unit);
       for (const entry of panel.legend) this.entry(panel, entry);
     }
@@ -252,34 +252,34 @@ const dynlabDrawing = (() => {
       this.axis(panel.y.marks(Math.max(2, panel.height / 0.75)), panel, false);
     }
     axis({ ticks, minor, exponent }, panel, lying) {
-      const axis = lying ? panel.x : panel.y, { colours } = this;
+      const axis = lying ? panel.x : panel.y, { colors } = this;
       const place = (value) => lying ? panel.left + axis.position(value) * panel.width
         : panel.bottom + axis.position(value) * panel.height;
-      const line = (value, colour, points, long) => {
-        this.stroke(colour, 0.3 * points);
+      const line = (value, color, points, long) => {
+        this.stroke(color, 0.3 * points);
         if (lying) this.segment(place(value), panel.bottom, place(value), panel.top);
         else this.segment(panel.left, place(value), panel.right, place(value));
-        this.stroke(colours.frame, 0.45);
+        this.stroke(colors.frame, 0.45);
         if (lying) this.segment(place(value), panel.bottom, place(value), panel.bottom - long);
         else this.segment(panel.left, place(value), panel.left - long, place(value));
       };
-      for (const value of minor) line(value, colours.minor, 0.75, 0.55 * TICK);
+      for (const value of minor) line(value, colors.minor, 0.75, 0.55 * TICK);
       let end = -Infinity;
       for (const [value, label] of ticks) {
-        line(value, colours.grid, 1, TICK);
+        line(value, colors.grid, 1, TICK);
         if (!axis.numbers) continue;
         const text = typeof label !== "string" || !axis.moved ? label : this.number(label);
         const middle = place(value) * this.unit;
         const half = lying ? this.measure(text, NUMBER_SIZE) / 2 : this.type(NUMBER_SIZE) / 2;
         if (middle - half < end) continue;
         end = middle + half + (lying ? 4 : 0);
-        if (lying) this.text(text, place(value), panel.bottom - TICK - 0.5 * TICK_LINE, NUMBER_SIZE, "center", colours.frame);
-        else this.text(text, panel.left - TICK - 0.08, place(value), NUMBER_SIZE, "right", colours.frame);
+        if (lying) this.text(text, place(value), panel.bottom - TICK - 0.5 * TICK_LINE, NUMBER_SIZE, "center", colors.frame);
+        else this.text(text, panel.left - TICK - 0.08, place(value), NUMBER_SIZE, "right", colors.frame);
       }
       if (exponent === 0 || !axis.numbers) return;
       const power = ["=×10", "^" + String(exponent).replace("-", "−")];
-      if (lying) this.text(power, panel.right, axis.power, NUMBER_SIZE, "right", colours.frame);
-      else this.text(power, panel.left, axis.power, NUMBER_SIZE, "left", colours.frame);
+      if (lying) this.text(power, panel.right, axis.power, NUMBER_SIZE, "right", colors.frame);
+      else this.text(power, panel.left, axis.power, NUMBER_SIZE, "left", colors.frame);
     }
     number(label) {
       const text = label.replace("-", "−");
@@ -288,7 +288,7 @@ const dynlabDrawing = (() => {
 
     references(panel) {
       for (const { horizontal, at, dash } of panel.lines) {
-        this.stroke(this.colours.line, 0.55, dash);
+        this.stroke(this.colors.line, 0.55, dash);
         const [x, y] = panel.place(horizontal ? panel.x.low : at, horizontal ? at : panel.y.low);
         if (horizontal) this.segment(panel.left, y, panel.right, y);
         else this.segment(x, panel.bottom, x, panel.top);
@@ -296,14 +296,14 @@ const dynlabDrawing = (() => {
     }
 
     curve(panel, curve) {
-      const context = this.context, colour = this.colours.of(curve.colour);
-      if (curve.style === "band") return this.band(panel, curve, colour);
-      if (curve.style === "bars") return this.bars(panel, curve, colour);
+      const context = this.context, color = this.colors.of(curve.color);
+      if (curve.style === "band") return this.band(panel, curve, color);
+      if (curve.style === "bars") return this.bars(panel, curve, color);
       const places = curve.x.map((x, i) => curve.y[i] === null || x === null ? null : panel.place(x, curve.y[i]));
       const valid = (place) => place !== null && Number.isFinite(place[0]) && Number.isFinite(place[1]);
       const base = panel.y.log ? panel.bottom : panel.bottom + clamp(panel.y.position(0), 0, 1) * panel.height;
       if (curve.style !== "points") {
-        this.stroke(colour, curve.style === "stems" ? 0.8 * curve.width : curve.width, curve.dash);
+        this.stroke(color, curve.style === "stems" ? 0.8 * curve.width : curve.width, curve.dash);
         context.lineJoin = "round";
         context.beginPath();
         let pen = null;
@@ -323,14 +323,14 @@ const dynlabDrawing = (() => {
       const marked = ["points", "line_points", "stems"].includes(curve.style);
       places.forEach((place, i) => {
         if (!valid(place) || !panel.holds(place[0], place[1])) return;
-        if (marked) this.marker(place[0], place[1], curve.point, curve.size, curve.edge, colour);
+        if (marked) this.marker(place[0], place[1], curve.point, curve.size, curve.edge, color);
         else if (!(i > 0 && valid(places[i - 1])) && !(i + 1 < places.length && valid(places[i + 1])))
-          this.marker(place[0], place[1], 7, 0.25, curve.edge, colour);
+          this.marker(place[0], place[1], 7, 0.25, curve.edge, color);
       });
     }
-    band(panel, curve, colour) {
+    band(panel, curve, color) {
       const context = this.context;
-      context.fillStyle = colour;
+      context.fillStyle = color;
       context.globalAlpha = 0.22;
       for (let first = 0, end; first < curve.x.length; first = end) {
         end = first;
@@ -346,7 +346,7 @@ const dynlabDrawing = (() => {
         if (panel.curves.filter((other) => other.style === "band").length < 2) continue;
         context.globalAlpha = 1;
         const half = corners.length / 2;
-        this.stroke(colour, 0.4, curve.dash);
+        this.stroke(color, 0.4, curve.dash);
         for (const edge of [corners.slice(0, half), corners.slice(half)]) {
           context.beginPath();
           edge.filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y))
@@ -354,21 +354,21 @@ const dynlabDrawing = (() => {
           context.stroke();
         }
         context.globalAlpha = 0.22;
-        context.fillStyle = colour;
+        context.fillStyle = color;
       }
       context.globalAlpha = 1;
     }
-    bars(panel, curve, colour) {
+    bars(panel, curve, color) {
       const context = this.context, last = curve.x.length - 1;
       const distance = (i) => last < 1 ? 1 : Math.abs(curve.x[clamp(i + 1, 1, last)] - curve.x[clamp(i, 0, last - 1)]);
       const base = panel.y.log ? panel.bottom : panel.bottom + clamp(panel.y.position(0), 0, 1) * panel.height;
-      this.stroke(this.colours.paper, 0.3);
-      curve.x.forEach((centre, i) => {
+      this.stroke(this.colors.paper, 0.3);
+      curve.x.forEach((center, i) => {
         if (curve.y[i] === null) return;
-        const [left, y] = panel.place(centre - distance(i - 1) / 2, curve.y[i]);
-        const right = panel.place(centre + distance(i) / 2, curve.y[i])[0];
+        const [left, y] = panel.place(center - distance(i - 1) / 2, curve.y[i]);
+        const right = panel.place(center + distance(i) / 2, curve.y[i])[0];
         const box = [this.X(left), this.Y(Math.max(y, base)), (right - left) * this.unit, Math.abs(y - base) * this.unit];
-        context.fillStyle = colour;
+        context.fillStyle = color;
         context.globalAlpha = 0.6;
         context.fillRect(...box);
         context.globalAlpha = 1;
@@ -377,10 +377,10 @@ const dynlabDrawing = (() => {
     }
 
     notes(panel) {
-      const { context, colours } = this;
+      const { context, colors } = this;
       for (const { from, to, both } of panel.arrows) {
         const [x0, y0] = panel.place(...from), [x1, y1] = panel.place(...to);
-        this.stroke(colours.text, 0.5);
+        this.stroke(colors.text, 0.5);
         this.segment(x0, y0, x1, y1);
         const head = Math.min(0.2, 0.4 * Math.hypot(x1 - x0, y1 - y0));
         for (const [x, y, turn] of both ? [[x1, y1, 0], [x0, y0, Math.PI]] : [[x1, y1, 0]]) {
@@ -389,33 +389,33 @@ const dynlabDrawing = (() => {
           context.moveTo(this.X(x), this.Y(y));
           for (const side of [-0.31, 0.31])
             context.lineTo(this.X(x - head * Math.cos(angle + side)), this.Y(y - head * Math.sin(angle + side)));
-          context.fillStyle = colours.text;
+          context.fillStyle = colors.text;
           context.fill();
         }
       }
-      for (const [x, y] of panel.marks) this.marker(...panel.place(x, y), 7, 0.45, 0.5, colours.text);
+      for (const [x, y] of panel.marks) this.marker(...panel.place(x, y), 7, 0.45, 0.5, colors.text);
       for (const { text, at, leader } of panel.labels) {
-        this.stroke(colours.line, 0.3);
+        this.stroke(colors.line, 0.3);
         if (leader) this.segment(...panel.place(...leader[0]), ...panel.place(...leader[1]));
-        this.text(text, ...panel.place(...at), TEXT_SIZE, "center", colours.text);
+        this.text(text, ...panel.place(...at), TEXT_SIZE, "center", colors.text);
       }
     }
 
     entry(panel, { curve: index, x, y, size, text }) {
-      const { context } = this, curve = panel.curves[index], colour = this.colours.of(curve.colour);
+      const { context } = this, curve = panel.curves[index], color = this.colors.of(curve.color);
       context.globalAlpha = curve.shown ? 1 : 0.3;
       if (curve.style === "band" || curve.style === "bars") {
-        context.fillStyle = colour;
+        context.fillStyle = color;
         context.globalAlpha *= curve.style === "band" ? 0.22 : 0.6;
         context.fillRect(this.X(x), this.Y(y + 0.11), SAMPLE * this.unit, 0.22 * this.unit);
         context.globalAlpha = curve.shown ? 1 : 0.3;
       } else if (curve.style !== "points") {
-        this.stroke(colour, curve.width, curve.dash);
+        this.stroke(color, curve.width, curve.dash);
         this.segment(x, y, x + SAMPLE, y);
       }
       if (["points", "line_points", "stems"].includes(curve.style))
-        this.marker(x + SAMPLE / 2, y, curve.point, curve.size, curve.edge, colour);
-      this.text(text, x + SAMPLE + GAP, y, size, "left", this.colours.text);
+        this.marker(x + SAMPLE / 2, y, curve.point, curve.size, curve.edge, color);
+      this.text(text, x + SAMPLE + GAP, y, size, "left", this.colors.text);
       context.globalAlpha = 1;
     }
   }

@@ -1,4 +1,4 @@
-// The controls of estimators follow from catalogue, signatures and help pages. Oracle: the functions themselves, which
+// The controls of estimators follow from catalog, signatures and help pages. Oracle: the functions themselves, which
 // refuse options that they do not know.
 #include "app/workbench/estimator_forms.h"
 
@@ -10,7 +10,7 @@
 
 #include "base/languages.h"
 #include "figures/gnuplot_renderer.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/interpreter/runtime.h"
 
 namespace test_estimator_forms {

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 class page_cache : public testing::Test {
   protected:
-    page_memory() {
+    page_cache() {
         ::setenv("DYNLAB_HOME", DYNLAB_SOURCE_DIR, 1);
         memory.emplace();
         write("report.md", "---\ntitle: A report\n---\n\n::: {.cells}\n:::\n");

@@ -1,11 +1,11 @@
 // The editor beside the page of `dynlab preview --edit`: what it offers and says while somebody types, and what runs
-// when. Oracles: the catalogue of functions, the values that the script's own lines give, and the files afterwards.
+// when. Oracles: the catalog of functions, the values that the script's own lines give, and the files afterwards.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
 
 #include "platform/atomic_file.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "support/page_client.h"
 #include "support/preview.h"
 

@@ -1,5 +1,5 @@
 // The pages of a site: made once by the program, then read as files, by tidy and in a browser. Oracles: help pages, the
-// catalogue of methods, HTML's rules (tidy), runs of the examples by hand.
+// catalog of methods, HTML's rules (tidy), runs of the examples by hand.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <set>
 
 #include "app/made_site.h"
-#include "numerics/estimators/catalogue.h"
+#include "numerics/estimators/method_catalog.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "support/browser.h"

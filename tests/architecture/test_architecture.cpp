@@ -1,5 +1,5 @@
 // The rules of the house that a machine can check. Oracle: engine/CMakeLists.txt (the layers and their links), the
-// catalogue of methods and the list of Lua functions.
+// catalog of methods and the list of Lua functions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@
 #include <set>
 #include <sstream>
 
-#include "numerics/estimators/catalogue.h"
-#include "scripting/interpreter/catalogue.h"
+#include "numerics/estimators/method_catalog.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 
 namespace test_architecture {
@@ -335,7 +335,7 @@ TEST(architecture, an_estimator_is_defined_in_the_file_of_its_name) {
     std::vector<std::string> offences;
     for (const fs::path& file : files_below(kRoot / "engine/numerics/estimators", {".cpp"})) {
         const std::string name = file.stem().string();
-        if (name == "catalogue") continue;
+        if (name == "method_catalog") continue;
         const std::vector<std::string> defined = functions_defined_in(text_of(file));
         const auto holds = [&](const std::string& function) {
             return std::find(defined.begin(), defined.end(), function) != defined.end();
@@ -525,7 +525,7 @@ TEST(architecture, sources_have_the_optimization_level_of_their_precompiled_head
     EXPECT_THAT(offences, IsEmpty());
 }
 
-// What the optimiser warns of differs from processor to processor: an array without values, copied, was an error where
+// What the optimizer warns of differs from processor to processor: an array without values, copied, was an error where
 // there are no instructions of AVX-512, and nobody could build dynlab there.
 TEST(architecture, warnings_that_depend_on_the_processor_stop_no_build) {
     const auto compiles = [](const std::string& source) {

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 #include "support/prose.h"
 
@@ -47,7 +47,7 @@ TEST(help_prose, has_american_spelling) {
     for (const std::string& page_and_word : misspelled_in(pages)) {
         const std::string word = page_and_word.substr(page_and_word.find(": ") + 2);
         const bool is_name =
-            word == "colour" || find_function(word) != nullptr;  // an option or a function, outside of code
+            word == "color" || find_function(word) != nullptr;  // an option or a function, outside of code
         if (!is_name) ADD_FAILURE() << page_and_word;
     }
 }

@@ -156,7 +156,7 @@ void measure_growth(const std::string& what, Method method, const Record& ten_mi
     report.results.push_back({what + ", N = 1e7 (s)", "ten records of N = 1e6 (s)", measured, reference, 1.2, 0});
 }
 
-/// Five realisations of four periods, noise and distortion included.
+/// Five realizations of four periods, noise and distortion included.
 void measure_response(Report& report) {
     constexpr Index kPeriod = 50'000, kPeriods = 4, kRealizations = 5;
     RandomStream random(1);
@@ -190,7 +190,7 @@ void measure_impulse_responses(Report& report) {
         double check = 0;
         const double measured = median_seconds(5, [&] { check += impulseest(data, options).response.sum(); });
         if (check == 0) throw std::logic_error("nothing was estimated");
-        report.results.push_back({std::string("regularised response, kernel ") + name + ", N = 1e5, 200 lags (s)",
+        report.results.push_back({std::string("regularized response, kernel ") + name + ", N = 1e5, 200 lags (s)",
                                   "0.3 s", measured, kSecondsOfAResponse, 1, 0});
     }
 }

@@ -10,7 +10,7 @@ namespace dynlab::bench {
 namespace {
 
 /// Records of N samples, made by the session itself: of two poles (d), three poles (d3), two poles behind a delay that
-/// is no whole number of samples (dd), and two poles with coloured noise (dc).
+/// is no whole number of samples (dd), and two poles with colored noise (dc).
 constexpr char kRecords[] = R"(
 N, Ts = 999000, 0.01
 s = tf("s")

@@ -1,6 +1,6 @@
 -- How often the 95 % intervals of estimates hold the true value, kind by kind: fresh noise in each of 500 records,
 -- default options but for those that a kind is about. An interval is the estimate and 1.96 of its standard errors, the
--- robust ones where the noise is coloured. The share of one value has a standard
+-- robust ones where the noise is colored. The share of one value has a standard
 -- deviation of one point.
 -- Run it: dynlab run tests/bench/coverage.lua
 local runs, first_seed = 500, 800000
@@ -182,15 +182,15 @@ do
         return H.report.levels, H.report.levels_std
     end)
 end
--- Coloured noise.
+-- Colored noise.
 study("srivc, white noise: robust", truth, function() return of_robust_errors(srivc(record(), {1, 2, 0})) end)
-local coloured = {
+local colored = {
     {"noise AR(1) 0.9", autoregression(0.9)},
     {"noise AR(1) 0.99", autoregression(0.99)},
     {"noise white + AR(1) 0.99", mixed},
     {"noise a slow swing", swing},
 }
-for _, kind in ipairs(coloured) do
+for _, kind in ipairs(colored) do
     study("srivc, " .. kind[1] .. ": robust", truth, function()
         return of_robust_errors(srivc(record(kind[2]), {1, 2, 0}))
     end)
@@ -203,7 +203,7 @@ study("procsrivc, noise AR(1) 0.9: robust", {1, 0.5, 0.3}, function()
     return {G.Kp, G.Tw, G.Zeta}, G.robust_std
 end)
 -- Without iterations.
-for _, kind in ipairs{{"white noise"}, table.unpack(coloured)} do
+for _, kind in ipairs{{"white noise"}, table.unpack(colored)} do
     study("ivsvf, " .. kind[1], truth, function() return of_errors(ivsvf(record(kind[2]), {2, 1, 0}, 3)) end)
 end
 study("lssvf, white noise, about the means", nil, function() return of_errors(lssvf(record(), {2, 1, 0}, 3)) end)

@@ -4,15 +4,15 @@ local crane, exchanger, transfer = load("crane"), load("heat_exchanger"), load("
 local linear, arm, suspension, thruster = load("linear_system"), load("robot_arm"), load("suspension"), load("thruster")
 local dryer = load("hairdryer")
 
-local function centred(y, u, Ts) return iddata(y, u, Ts):remove_mean() end
-local function of_thruster(r) return centred(r.force, r.pwm, r.t[2] - r.t[1]):resample(1, 5) end
+local function centered(y, u, Ts) return iddata(y, u, Ts):remove_mean() end
+local function of_thruster(r) return centered(r.force, r.pwm, r.t[2] - r.t[1]):resample(1, 5) end
 
 local records = {
-    {"hairdryer", centred(dryer.y, dryer.u, dryer.Ts)},
-    {"robot arm", centred(arm.y, arm.u, arm.Ts)},
+    {"hairdryer", centered(dryer.y, dryer.u, dryer.Ts)},
+    {"robot arm", centered(arm.y, arm.u, arm.Ts)},
     {"heat exchanger", iddata(exchanger.y, exchanger.u, exchanger.Ts)},
-    {"heat transfer", centred(transfer.y, transfer.u, transfer.Ts)},
-    {"heat transfer, high", centred(transfer.y_high, transfer.u_high, transfer.Ts)},
+    {"heat transfer", centered(transfer.y, transfer.u, transfer.Ts)},
+    {"heat transfer, high", centered(transfer.y_high, transfer.u_high, transfer.Ts)},
     {"linear system", iddata(linear.y, linear.u, linear.Ts)},
     {"suspension", iddata(suspension.y, suspension.u, suspension.Ts)},
     {"thruster, sine 100", of_thruster(thruster.sine_100)},

@@ -137,7 +137,7 @@ TEST_F(loopback, a_killed_task_runs_again) {
     EXPECT_LE(graded_by_parts(), kClass);  // what the killed one had done was not done again
 }
 
-TEST_F(loopback, a_cancelled_array_can_be_continued) {
+TEST_F(loopback, a_canceled_array_can_be_continued) {
     LoopbackSlurm slurm;
     if (!slurm.reason_to_skip().empty()) GTEST_SKIP() << slurm.reason_to_skip();
     ASSERT_NO_FATAL_FAILURE(hand_in_and_grade_alone(kSlow));

@@ -75,7 +75,7 @@ class LeakCorpus : public CheckTest {
         return result;
     }
 
-    /// A PDF of these objects, from 1 on, the catalogue first.
+    /// A PDF of these objects, from 1 on, the catalog first.
     static std::string pdf_of(const std::vector<std::string>& objects) {
         std::string pdf = "%PDF-1.4\n";
         std::string table = "xref\n0 " + std::to_string(objects.size() + 1) + "\n0000000000 65535 f \n";
@@ -111,12 +111,12 @@ class LeakCorpus : public CheckTest {
         return pdf.substr(begin, pdf.find('R', begin) + 1 - begin);
     }
 
-    /// One page of this content, with a font F1 (Helvetica), a form X0 and a layer L; further entries of catalogue and
+    /// One page of this content, with a font F1 (Helvetica), a form X0 and a layer L; further entries of catalog and
     /// page, objects from 6 on.
-    std::filesystem::path page_with(const std::string& content, const std::string& catalogue = "",
+    std::filesystem::path page_with(const std::string& content, const std::string& catalog = "",
                                     const std::string& page = "", const std::vector<std::string>& more = {}) const {
         std::vector<std::string> objects = {
-            "<</Type/Catalog/Pages 2 0 R" + catalogue + ">>", "<</Type/Pages/Kids[3 0 R]/Count 1>>",
+            "<</Type/Catalog/Pages 2 0 R" + catalog + ">>", "<</Type/Pages/Kids[3 0 R]/Count 1>>",
             "<</Type/Page/Parent 2 0 R/MediaBox[0 0 595 842]/Contents 4 0 R/Resources<</Font<</F1 5 0 R>>/XObject<<"
             "/X0 6 0 R>>/Properties<</L 6 0 R>>>>" +
                 page + ">>",

@@ -65,7 +65,7 @@ TEST(findings_report, a_pass_is_one_line_that_says_what_was_checked) {
               "report.pdf: nothing to fix; checked as lab_report: 7 pages of at most 6, unfilled slots.\n");
 }
 
-TEST(findings_report, colour_only_when_asked_for) {
+TEST(findings_report, color_only_when_asked_for) {
     EXPECT_THAT(issues_as_text(some_result(), false), Not(HasSubstr("\033")));
     EXPECT_THAT(issues_as_text(some_result(), true), HasSubstr("\033[31mRules violated (3)\033[0m"));
 }

@@ -19,7 +19,7 @@ using ::testing::Not;
 /// Marks of Élise and her partner Ravi, who submitted nothing himself, and of Zoë, whose archive cannot be read.
 class grade_export_numbers : public testing::Test {
   protected:
-    hand_back_numbers() {
+    grade_export_numbers() {
         add("Lefèvre Élise_99345_assignsubmission_file_", "well done");
         add("Zoë K_99400_assignsubmission_file_", "cannot be read");
         write("gradebook.csv",

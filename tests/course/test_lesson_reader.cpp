@@ -16,7 +16,7 @@
 #include "platform/error.h"
 #include "support/environment_variable.h"
 #include "support/program.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::test {
 namespace test_lesson_reader {

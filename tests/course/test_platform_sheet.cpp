@@ -108,7 +108,7 @@ TEST_F(platform_sheet, canvas_fills_the_column_of_the_assignment) {
     EXPECT_THAT(refusal(before), AllOf(HasSubstr("--assignment must name the column"), HasSubstr("Lab 3 (1233)")));
 }
 
-TEST_F(platform_sheet, what_is_not_recognised_is_named) {
+TEST_F(platform_sheet, what_is_not_recognized_is_named) {
     EXPECT_THAT(refusal("group,mark\n1,2\n"), AllOf(HasSubstr("expected Moodle's"), HasSubstr("group, mark")));
     EXPECT_THAT(refusal("Identifier,Status\nParticipant 1,x\n"), HasSubstr("the column of grades is not recognized"));
     EXPECT_THAT(refusal(""), HasSubstr("the file is empty"));

@@ -33,7 +33,7 @@ TEST_F(block_diagrams, are_figures_with_number_caption_and_label) {
         EXPECT_THAT(content.pages.at(0), HasSubstr(text));
 }
 
-// Three columns of 3 cm, two rows of 1.5 cm, 96/2.54 pixels a centimetre: the sum's centre is 4.5 cm from the left and
+// Three columns of 3 cm, two rows of 1.5 cm, 96/2.54 pixels a centimetre: the sum's center is 4.5 cm from the left and
 // 0.75 cm from above, its rim 0.25 cm below; the sensor's left edge 7.5 - 2.05/2 cm from the left.
 TEST_F(block_diagrams, arrows_go_from_rim_to_rim) {
     const std::string page = html(diagram(kLoop));

@@ -20,7 +20,7 @@ using nlohmann::json;
 using test::Browser;
 using testing::HasSubstr;
 
-/// 6 cm x 3 cm: a block of 1 cm that slides 1 cm a metre and stands at x = 1.5 cm at 0 m. Measured: t/4 m, simulated 2
+/// 6 cm x 3 cm: a block of 1 cm that slides 1 cm a meter and stands at x = 1.5 cm at 0 m. Measured: t/4 m, simulated 2
 /// m.
 Figure sliding_block() {
     PlantDrawing rig;
@@ -69,7 +69,7 @@ class motion_pages : public testing::Test {
     json value(const std::string& expression) { return json::parse(browser.evaluate("return " + expression)); }
     double now() { return value("motion.now"); }
     /// Red, green, blue, cover of the stage at a place of the drawing, cm.
-    json colour(double x, double y) {
+    json color(double x, double y) {
         return value(
             fmt::format("(() => {{ const u = motion.stage.width / (6 + 0.6); return [...motion.stage.getContext('2d')"
                         ".getImageData(Math.round(({} + 0.3) * u), Math.round((3 + 0.3 - {}) * u), 1, 1).data]; }})()",
@@ -94,14 +94,14 @@ TEST_F(motion_pages, parts_stand_where_their_signals_say) {
     EXPECT_EQ(value("motion.playing"), false) << "nothing starts by itself";
     EXPECT_EQ(now(), 0);
     browser.evaluate("motion.show(4)");  // measured 1 m, simulated 3 m
-    const json measured = colour(2.5, 1.5), simulated = colour(4.5, 1.5);
+    const json measured = color(2.5, 1.5), simulated = color(4.5, 1.5);
     EXPECT_NEAR(measured[0].get<int>(), 0x8C, 3) << measured;  // the grey of the data
     EXPECT_NEAR(measured[2].get<int>(), 0x8C, 3) << measured;
-    EXPECT_NEAR(simulated[0].get<int>(), 0x00, 3) << simulated;  // the first colour of the house
+    EXPECT_NEAR(simulated[0].get<int>(), 0x00, 3) << simulated;  // the first color of the house
     EXPECT_NEAR(simulated[2].get<int>(), 0xB2, 3) << simulated;
-    EXPECT_EQ(colour(1.5, 1.5)[3], 0) << "it has left its place";
-    EXPECT_EQ(colour(3.25, 1.5)[3], 0);
-    EXPECT_GT(colour(5.9, 0.5)[3], 100) << "the floor";
+    EXPECT_EQ(color(1.5, 1.5)[3], 0) << "it has left its place";
+    EXPECT_EQ(color(3.25, 1.5)[3], 0);
+    EXPECT_GT(color(5.9, 0.5)[3], 100) << "the floor";
 }
 
 TEST_F(motion_pages, describe_in_words_what_they_show) {

@@ -105,7 +105,7 @@ class page_figures : public testing::Test {
         browser.act(json::array({{{"type", "wheel"}, {"id", "wheel"}, {"actions", json::array({turn})}}}).dump());
     }
     /// Red, green, blue and cover of the darkest of the nine pixels of the figure around a place of the frame.
-    json colour(double x, double y) {
+    json color(double x, double y) {
         return value(fmt::format(
             "(() => {{ const d = devicePixelRatio, X = plot.unit * (panel.left + {} * panel.width), Y = plot.unit * "
             "(plot.size[1] - panel.bottom - {} * panel.height), seen = "
@@ -125,8 +125,8 @@ class page_figures : public testing::Test {
 TEST_F(page_figures, curves_are_drawn_where_their_samples_lie) {
     make(ramps());
     open();
-    const json curve = colour(0.23, 0.23), paper = colour(0.53, 0.12);
-    EXPECT_LT(curve[0].get<int>(), 120) << curve;  // the first colour of the house, #0072B2
+    const json curve = color(0.23, 0.23), paper = color(0.53, 0.12);
+    EXPECT_LT(curve[0].get<int>(), 120) << curve;  // the first color of the house, #0072B2
     EXPECT_GT(curve[2].get<int>(), 120) << curve;
     EXPECT_EQ(paper[3], 0) << paper;
     EXPECT_EQ(value("performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).length"), 0);
@@ -175,7 +175,7 @@ TEST_F(page_figures, a_drawn_box_becomes_the_whole_and_a_double_click_undoes_it)
     const double x = value("panel.x.position(4)"), y = value("panel.y.position(8)");
     EXPECT_NEAR(x, 0.5, 0.01);
     EXPECT_NEAR(y, 0.25, 0.01);
-    EXPECT_LT(colour(x, y)[0].get<int>(), 120) << "the curve is drawn anew";
+    EXPECT_LT(color(x, y)[0].get<int>(), 120) << "the curve is drawn anew";
     EXPECT_EQ(value("document.querySelector('.whole').hidden"), false);
     const auto middle = at(0.5, 0.5);
     mouse({move(middle), down(), up(), down(), up()});
@@ -231,10 +231,10 @@ TEST_F(page_figures, what_is_shown_can_be_copied_as_a_drawing_and_as_numbers) {
     EXPECT_EQ(value("drawing.tagName"), "svg") << value("drawing.textContent");
     EXPECT_EQ(value("[...drawing.querySelectorAll('text')].filter(t => /output|time/.test(t.textContent)).length"), 2);
     EXPECT_EQ(value("[...drawing.querySelectorAll('path')].filter(p => p.getAttribute('stroke') === "
-                    "plot.panels[0].curves[1].colour && p.getAttribute('d').split('L').length > 100).length"),
+                    "plot.panels[0].curves[1].color && p.getAttribute('d').split('L').length > 100).length"),
               1);
     EXPECT_EQ(value("[...drawing.querySelectorAll('path')].filter(p => p.getAttribute('stroke') === "
-                    "plot.panels[0].curves[0].colour && p.getAttribute('d').split('L').length > 100).length"),
+                    "plot.panels[0].curves[0].color && p.getAttribute('d').split('L').length > 100).length"),
               0);
     const std::string csv = value("dynlabTables.allAsCsv(plot.readable)");
     EXPECT_THAT(csv, HasSubstr("time (s),up <b>ramp</b>: output (V),down: output (V)\n"));
@@ -313,12 +313,12 @@ TEST_F(page_figures, an_entry_of_the_legend_hides_its_curve) {
     EXPECT_EQ(value("document.querySelectorAll('.entry').length"), 2);
     browser.click(".entry");
     EXPECT_EQ(value("document.querySelector('.entry').getAttribute('aria-pressed')"), "false");
-    EXPECT_EQ(colour(0.23, 0.23)[3], 0);
+    EXPECT_EQ(color(0.23, 0.23)[3], 0);
     mouse({move(at(0.3, 0.5))});
     EXPECT_THAT(reading(), Not(HasSubstr("ramp")));
     EXPECT_THAT(reading(), HasSubstr("down: 14"));
     browser.click(".entry");
-    EXPECT_GT(colour(0.23, 0.23)[3], 100);
+    EXPECT_GT(color(0.23, 0.23)[3], 100);
 }
 
 TEST_F(page_figures, panels_over_the_same_time_go_together_and_logarithms_stay_so) {

@@ -49,7 +49,7 @@ TEST(lesson_07_feedback, finds_the_bias_of_the_loop_its_cures_and_the_drift) {
     for (const char* cure : {"own", "clivsvf", "clsrivc", "indirect", "library_two", "rivc"})
         EXPECT_LT(std::abs(number(record, cure + std::string("_gain_t"))), 3) << cure;
     EXPECT_GT(number(record, "own_scatter"), number(record, "srivc_scatter")) << "the price of being right";
-    EXPECT_LT(number(record, "two_plain"), 0.3 * number(record, "two_robust")) << "the noise is coloured";
+    EXPECT_LT(number(record, "two_plain"), 0.3 * number(record, "two_robust")) << "the noise is colored";
 
     const DriftingProcessParameters heater;
     const int third = 3, fourth = 4, fifth = 5, first = 1;  // rows of the pieces, behind the whole record

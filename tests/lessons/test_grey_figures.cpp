@@ -7,7 +7,7 @@
 #include "support/grey_looks.h"
 #include "support/lesson_list.h"
 #include "support/program.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 #include "workflow/run_script.h"
 
 namespace dynlab::test {
@@ -15,7 +15,7 @@ namespace test_grey_figures {
 
 class grey_figures : public testing::TestWithParam<const char*> {};
 
-TEST_P(grey_figures, neighbouring_curves_are_distinguished) {
+TEST_P(grey_figures, neighboring_curves_are_distinguished) {
     const std::filesystem::path file = find_lesson(GetParam()).script();
     const PercentScript script = parse_percent_script(quick_solution_of(file.parent_path().filename()), file);
     const EnvironmentVariable cache_home("XDG_CACHE_HOME", Workbench(Workbench::Memory::kShared).cache());

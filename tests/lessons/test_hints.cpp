@@ -9,7 +9,7 @@
 #include "platform/atomic_file.h"
 #include "support/program.h"
 #include "workflow/hints.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::test {
 namespace test_hints {

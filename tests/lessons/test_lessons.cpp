@@ -22,7 +22,7 @@
 #include "platform/atomic_file.h"
 #include "support/lesson_list.h"
 #include "support/program.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::test {
 namespace test_lessons {

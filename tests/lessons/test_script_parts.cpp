@@ -11,7 +11,7 @@
 #include "scripting/runtime/services.h"
 #include "support/environment_variable.h"
 #include "support/program.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace test_script_parts {
 using namespace dynlab;

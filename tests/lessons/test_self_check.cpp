@@ -7,7 +7,7 @@
 #include <set>
 
 #include "lesson_record.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 #include "workflow/measures.h"
 
 namespace dynlab::test {

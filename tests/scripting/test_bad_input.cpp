@@ -1,5 +1,5 @@
 // Oracle: definitions. What cannot be estimated is refused with a sentence that names the reason, by every method of
-// the catalogue; refusals for poor excitation are shown to be right.
+// the catalog; refusals for poor excitation are shown to be right.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "numerics/criteria/process_output.h"
-#include "numerics/estimators/catalogue.h"
+#include "numerics/estimators/method_catalog.h"
 #include "numerics/filters/transfer_sensitivity.h"
 #include "numerics/simulation/lsim.h"
 #include "script_run.h"
@@ -121,7 +121,7 @@ const std::map<std::string, Calls>& dynamic_methods() {
         {"bla",
          {"bla(d, {period = 504})",
           {"bla(d)", "bla(u)", "bla(d, {period = 100})", "bla(d, {period = 505})", "bla(d, {period = 3})",
-           "bla(d, {period = 504, realisations = 5})", "bla(d, {period = 504, realisations = 0})",
+           "bla(d, {period = 504, realizations = 5})", "bla(d, {period = 504, realizations = 0})",
            "bla(d, {period = 504, transient = 1})", "bla(d, {period = 504, least_input = 2})",
            "bla(d, {period = 504, InterSample = 'x'})", "bla(d, 504)"}}},
         {"impulseest", shown("impulseest", {"{lags = 200}", "{lags = 401}", "{lags = 1.5}", "{smooth = 3}", "'a'"})},

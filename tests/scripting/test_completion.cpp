@@ -1,6 +1,6 @@
-// Completion at the prompt. Oracles: the names the session itself defined, the catalogue of functions, and a counter
+// Completion at the prompt. Oracles: the names the session itself defined, the catalog of functions, and a counter
 // that shows whether a script's function was called.
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/prompt/completion.h"
 
 #include <gmock/gmock.h>

@@ -7,7 +7,7 @@
 #include "base/reader.h"
 #include "script_run.h"
 #include "scripting/conversions/option_words.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/kind_phrases.h"
 
 namespace dynlab::test {

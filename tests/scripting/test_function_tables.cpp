@@ -9,7 +9,7 @@
 #include <set>
 
 #include "script_run.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 
 namespace dynlab::test {

@@ -11,7 +11,7 @@
 #include "platform/atomic_file.h"
 #include "platform/utf8.h"
 #include "script_run.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 #include "scripting/runtime/help_layout.h"
 
@@ -153,11 +153,11 @@ TEST(help, finds_pages_by_words) {
     EXPECT_THAT(help_search("logo", all), HasSubstr("guide-own-course"));
     const std::string delay = help_search("delay", all);
     EXPECT_LT(delay.find("delayest"), delay.find("tfsrivc"));  // names come before pages
-    for (const char* word : {"report", "cells", "noise", "csv", "colour", "Young"})
+    for (const char* word : {"report", "cells", "noise", "csv", "color", "Young"})
         EXPECT_THAT(help_text(word, all), AllOf(HasSubstr("These pages contain it:\n\n  "), HasSubstr("help NAME")))
             << word;
     EXPECT_THAT(help_text("cells", all), HasSubstr("guide-report"));
-    EXPECT_THAT(help_text("colour", all), HasSubstr("\n  plot  "));
+    EXPECT_THAT(help_text("color", all), HasSubstr("\n  plot  "));
     for (const char* words : {"prediction interval", "interval prediction"})
         EXPECT_THAT(help_text(words, all), AllOf(HasSubstr("\n  forecast  "), HasSubstr("\n  measures  "))) << words;
     EXPECT_THROW(help_search("delay zzzz", all), InvalidArgument);

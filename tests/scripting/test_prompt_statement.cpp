@@ -1,6 +1,6 @@
 // What is typed at the prompt. Oracles: Lua's grammar (reference manual 5.4, chapter 9), and for the rewritten locals
 // the definition: every statement gives what one script of all of them would give.
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/prompt_statement.h"
 
 #include <gmock/gmock.h>

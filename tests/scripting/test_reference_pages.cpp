@@ -1,5 +1,5 @@
-// Every help page: its form, its agreement with the catalogue of functions, and its example, which is run. Oracle: the
-// catalogue.
+// Every help page: its form, its agreement with the catalog of functions, and its example, which is run. Oracle: the
+// catalog.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "platform/temporary_folder.h"
 #include "script_run.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 
 namespace dynlab::test {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "script_run.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 
 namespace test_script_course {
@@ -127,8 +127,8 @@ TEST(script_course, takes_short_curve_names_but_no_line_specifications) {
                   std::string::npos)
             << look;
     }
-    EXPECT_EQ(error_of("plot({1, 2}, {3, 4}, {colour = 1.7})"),
-              "lesson.lua:1: plot: option 'colour' must be a whole number from 0, or a name such as \"red\", but 1.7 "
+    EXPECT_EQ(error_of("plot({1, 2}, {3, 4}, {color = 1.7})"),
+              "lesson.lua:1: plot: option 'color' must be a whole number from 0, or a name such as \"red\", but 1.7 "
               "was given");
 }
 

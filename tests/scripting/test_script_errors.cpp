@@ -214,9 +214,9 @@ TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
          "lesson.lua:1: matrix: write a matrix with braces: matrix{{1, 2}, {3, 4}} (rows) or matrix{v1, v2} (columns)"},
         {"plot({1, 2}, {1, 2}, 'LineWidth', 2)",
          "lesson.lua:1: plot: \"LineWidth\" is an option of MATLAB's plot; write the options as one table, plot(x, y, "
-         "{line_width = 2, colour = \"red\", style = \"points\"})"},
-        {"plot({1, 2}, {colour = 'pinkish'})",
-         "lesson.lua:1: plot: option 'colour' must be a number from 0, or one of \"blue\", \"orange\", \"black\", "
+         "{line_width = 2, color = \"red\", style = \"points\"})"},
+        {"plot({1, 2}, {color = 'pinkish'})",
+         "lesson.lua:1: plot: option 'color' must be a number from 0, or one of \"blue\", \"orange\", \"black\", "
          "\"green\", \"purple\", \"cyan\", \"red\", \"magenta\", \"grey\", \"gray\", but \"pinkish\" was given"},
         {"io.open('x')",
          "lesson.lua:1: unknown function 'io'; scripts read with load(name), write with save_csv(path, data), and "

@@ -11,7 +11,7 @@
 #include "numerics/signals/prbs.h"
 #include "numerics/simulation/lsim.h"
 #include "script_run.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 
 namespace test_script_estimators {
 
@@ -22,22 +22,22 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kColoured =
+const std::string kColored =
     "rng(1)\nlocal u = prbs(7, 8)\nlocal e, v = randn(#u), zeros(#u)\nv[1] = e[1]\n"
     "for k = 2, #u do v[k] = 0.9*v[k - 1] + e[k] end\n"
     "local data = iddata(lsim(tf({2}, {1, 4, 3}, {IODelay = 0.3}), u, 0.05) + 0.01*v, u, 0.05)\n"
     "local function near(a, b, std) return math.abs(a - b) <= 3*std end\n";
 
 TEST(script_estimators, rivc_shows_the_noise_model_with_its_errors) {
-    EXPECT_EQ(printed(kColoured + "local G = rivc(data, {1, 0, 1, 2, 6})\n"
-                                  "print(#G.C, #G.D, G.D[1], near(G.D[2], -0.9, G.report.D_std[2]), G.report.D_std[1], "
-                                  "math.abs(G.report.D_std[2]^2/G.report.noise_covariance[{1, 1}] - 1) < 1e-12)\n"
-                                  "for i, p in ipairs{4, 3, 2} do print(near(G.param[i], p, G.std[i])) end\n"
-                                  "print(near(G.report.noise_variance/1e-4, 1, math.sqrt(2/#u)))"),
+    EXPECT_EQ(printed(kColored + "local G = rivc(data, {1, 0, 1, 2, 6})\n"
+                                 "print(#G.C, #G.D, G.D[1], near(G.D[2], -0.9, G.report.D_std[2]), G.report.D_std[1], "
+                                 "math.abs(G.report.D_std[2]^2/G.report.noise_covariance[{1, 1}] - 1) < 1e-12)\n"
+                                 "for i, p in ipairs{4, 3, 2} do print(near(G.param[i], p, G.std[i])) end\n"
+                                 "print(near(G.report.noise_variance/1e-4, 1, math.sqrt(2/#u)))"),
               "1\t2\t1\ttrue\t0\ttrue\ntrue\ntrue\ntrue\ntrue\n");
-    EXPECT_THAT(printed(kColoured + "present(rivc(data, {1, 0, 1, 2, 6}))"),
+    EXPECT_THAT(printed(kColored + "present(rivc(data, {1, 0, 1, 2, 6}))"),
                 AllOf(HasSubstr("Noise C(q^-1)/D(q^-1) e"), HasSubstr("  d1"), Not(HasSubstr("  c1"))));
-    EXPECT_THAT(printed(kColoured + "present(rivc(data, {1, 0, 0, 2, 6}))"), HasSubstr("Noise: assumed white"));
+    EXPECT_THAT(printed(kColored + "present(rivc(data, {1, 0, 0, 2, 6}))"), HasSubstr("Noise: assumed white"));
 }
 
 // Oracle: where errors are white both kinds of standard errors are the same on average, whatever the weights.
@@ -68,7 +68,7 @@ TEST(script_estimators, weights_of_outputs_change_both_kinds_of_standard_errors)
 }
 
 TEST(script_estimators, tfrivc_finds_the_delay_too) {
-    EXPECT_EQ(printed(kColoured +
+    EXPECT_EQ(printed(kColored +
                       "local G = tfrivc(data, 2, 0, {nd = 1, TdMax = 1})\n"
                       "print(near(G.IODelay, 0.3, G.std[4]), near(G.D[2], -0.9, G.report.D_std[2]))\n"
                       "print(tfrivc(data, 2, 0, {IODelay = 0.3}).IODelay, #tfrivc(data, 2, 0, {IODelay = 0.3}).param)"),
@@ -83,13 +83,13 @@ TEST(script_estimators, rivc_and_tfrivc_can_be_studied) {
 }
 
 TEST(script_estimators, models_without_a_noise_model_say_who_has_one) {
-    EXPECT_THAT(error_of(kColoured + "print(srivc(data, {1, 2, 6}).C)"), HasSubstr("rivc B, C, D and F"));
+    EXPECT_THAT(error_of(kColored + "print(srivc(data, {1, 2, 6}).C)"), HasSubstr("rivc B, C, D and F"));
 }
 
 TEST(script_estimators, difference_equations_have_robust_errors_too) {
     for (const char* method : {"oe", "sriv"})
         EXPECT_THAT(
-            printed(kColoured + "local G = " + method +
+            printed(kColored + "local G = " + method +
                     "(data, {1, 2, 7})\nprint(#G.robust_std, G.robust_std[3] > G.std[3], G.report.white)\n"
                     "present(G)"),
             AllOf(HasSubstr("3\ttrue\tfalse"), HasSubstr("(robust ± "), HasSubstr("Use the robust standard errors")))

@@ -5,7 +5,7 @@
 
 #include "numerics/plants/plant_catalog.h"
 #include "script_run.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 
 namespace test_script_plants {

@@ -21,7 +21,7 @@ const std::string kRecord =
     "local x = lsim(idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}), u, 0.05)\n"
     "local white = iddata(x + 0.1*randn(#u), u, 0.05)\n"
     "local noise = lsim(tf({1}, {0.4, 1}), randn(#u), 0.05)\n"
-    "local coloured = iddata(x + noise, u, 0.05)\n";
+    "local colored = iddata(x + noise, u, 0.05)\n";
 
 TEST(script_validation, resid_says_what_is_left) {
     EXPECT_THAT(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P2'))\nprint(t.white, t.independent, "
@@ -83,11 +83,11 @@ TEST(script_validation, measures_blind_to_constants_are_so_in_each_experiment) {
         "true\ttrue\n");
 }
 
-TEST(script_validation, present_shows_robust_errors_for_coloured_noise_only) {
-    EXPECT_THAT(printed(kRecord + "present(procsrivc(coloured, 'P2'))"),
+TEST(script_validation, present_shows_robust_errors_for_colored_noise_only) {
+    EXPECT_THAT(printed(kRecord + "present(procsrivc(colored, 'P2'))"),
                 testing::AllOf(HasSubstr("(robust ± "), HasSubstr("not white")));
     EXPECT_THAT(printed(kRecord + "present(procsrivc(white, 'P2'))"), Not(HasSubstr("robust")));
-    EXPECT_EQ(printed(kRecord + "local G = procsrivc(coloured, 'P2')\nprint(#G.robust_std, G.robust_std[1] > G.std[1], "
+    EXPECT_EQ(printed(kRecord + "local G = procsrivc(colored, 'P2')\nprint(#G.robust_std, G.robust_std[1] > G.std[1], "
                                 "math.abs(G.robust_covariance[{1, 1}] - G.robust_std[1]^2) < 1e-12)"),
               "3\ttrue\ttrue\n");
 }
@@ -111,7 +111,7 @@ TEST(script_validation, present_reports_errors_of_gain_and_time_constants) {  //
 
 // Oracle: the place of the last digit that is printed, against the error beside it.
 TEST(script_validation, present_writes_no_digits_below_the_error) {
-    const std::string text = printed(kRecord + "present(procsrivc(white, 'P2'))\npresent(srivc(coloured, {2, 2, 0}))");
+    const std::string text = printed(kRecord + "present(procsrivc(white, 'P2'))\npresent(srivc(colored, {2, 2, 0}))");
     static const std::regex kPair(R"(\d+(?:\.(\d+))? +± (\d+(?:\.\d+)?(?:e-?\d+)?))");
     int pairs = 0;
     for (std::sregex_iterator pair(text.begin(), text.end(), kPair), end; pair != end; ++pair, ++pairs)
@@ -178,8 +178,8 @@ TEST(script_validation, predict_and_pe_know_the_noise) {
                       "print(norm(predict(d, G, 5) - predict(d, G, {k = 5})))\n"
                       "print(fit(d, G, {k = 1}) > fit(d, G, {k = 3}), fit(d, G, {k = 3}) > fit(d, G))"),
               "508\t3\ttrue\t0\n0\ntrue\ttrue\n");
-    EXPECT_EQ(printed(kRecord + "local G = rivc(coloured, {1, 0, 1, 2, 0})\n"
-                                "print(G.report.Ts, fit(coloured, G, {k = 1}) > fit(coloured, G) + 5)"),
+    EXPECT_EQ(printed(kRecord + "local G = rivc(colored, {1, 0, 1, 2, 0})\n"
+                                "print(G.report.Ts, fit(colored, G, {k = 1}) > fit(colored, G) + 5)"),
               "0.05\ttrue\n");
     EXPECT_EQ(printed(kRecord + "local G = procsrivc(white, 'P2')\n"
                                 "print(norm(predict(white, G) - fit_measures(white, G).output))\n"

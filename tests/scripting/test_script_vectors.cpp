@@ -68,7 +68,7 @@ TEST(script_vectors, delays_are_written_as_exponentials) {
 TEST(script_vectors, logarithmic_axes_say_what_they_leave_out) {
     EXPECT_EQ(printed("local fig = semilogy(range(1, 4), vector{1, 0, -1, 2})"),
               "semilogy: 2 of 4 points are left out, because a logarithmic axis has no values that are not positive\n");
-    EXPECT_EQ(printed("local fig = loglog(range(1, 4), range(1, 4), {colour = 'red'})"), "");
+    EXPECT_EQ(printed("local fig = loglog(range(1, 4), range(1, 4), {color = 'red'})"), "");
 }
 
 // Lengths are compared before anything is read: behind the shorter one lies other memory.

@@ -10,7 +10,7 @@
 #include "platform/temporary_folder.h"
 #include "script_run.h"
 #include "scripting/conversions/numeric.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/objects/data_object.h"
 #include "scripting/runtime/shown_calls.h"
 #include "scripting/runtime/shown_expressions.h"

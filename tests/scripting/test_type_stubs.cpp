@@ -1,4 +1,4 @@
-// The stubs that editors read. Oracles: Lua itself, which reads and runs them; the catalogue of functions; the tags
+// The stubs that editors read. Oracles: Lua itself, which reads and runs them; the catalog of functions; the tags
 // that LuaLS documents.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <regex>
 
 #include "documents/text_lines.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/lint.h"
 #include "scripting/lint/type_stubs.h"

@@ -39,7 +39,7 @@ struct TwoOutputs {
         return IdData(y, Matrix(u), kTs);
     }
 
-    /// Coloured, of variance one.
+    /// Colored, of variance one.
     static Vector noise(Index N, std::uint32_t seed) {
         return 0.8 * arma_signal(values({1}), values({1, -0.6}), N, seed);
     }
@@ -157,7 +157,7 @@ TEST(assessment_statistics, robust_intervals_see_slow_noise_behind_white_in_a_sh
     EXPECT_NEAR(coverage_of(srivc_of, mixed_noise, true, 0.02), 0.95, 0.05);
 }
 
-// The filters colour the equation error, whatever the noise.
+// The filters color the equation error, whatever the noise.
 TEST(assessment_statistics, intervals_of_the_instrumental_variable_method_hold_what_they_say) {
     for (const Noise noise : {white_noise, slow_noise, mixed_noise, resonant_noise})
         EXPECT_NEAR(coverage_of(ivsvf_of, noise, false), 0.95, 0.03);

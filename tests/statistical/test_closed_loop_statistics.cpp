@@ -1,4 +1,4 @@
-// Oracle: the truth. 500 records of a loop with coloured noise: the means of consistent methods lie within three
+// Oracle: the truth. 500 records of a loop with colored noise: the means of consistent methods lie within three
 // standard errors of it, those of the direct least squares are off by more than ten, but for a2.
 #include <gtest/gtest.h>
 

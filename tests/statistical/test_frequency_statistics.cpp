@@ -51,8 +51,8 @@ TEST(frequency_statistics, maximum_likelihood_reaches_the_cramer_rao_bound) {
     }
 }
 
-// The square of what is left, u^3 - 3 s^2 u, has 9.6 times its mean as standard deviation, and a realisation of F lines
-// holds 2 F independent values: 0.5 dB (12 %) are four standard errors of the means over the realisations below.
+// The square of what is left, u^3 - 3 s^2 u, has 9.6 times its mean as standard deviation, and a realization of F lines
+// holds 2 F independent values: 0.5 dB (12 %) are four standard errors of the means over the realizations below.
 TEST(frequency_statistics, a_cube_has_its_gain_and_its_distortion) {
     constexpr Index kPeriod = 1024, kRealizations = 100;
     const double eps = 0.1, s = 0.7;

@@ -79,7 +79,7 @@ TEST(recursive_statistics, standard_errors_match_the_scatter_of_any_memory) {
     for (const double forgetting : {0.95, 0.99, 0.999}) {
         const std::uint32_t records = forgetting > 0.99 ? 60 : 20;  // hold more than a hundred independent values each
         EXPECT_NEAR(errors_in_standard_errors(rsrivc, forgetting, records), 1, 0.15) << "rsrivc, " << forgetting;
-        // Its equation errors are coloured, which makes it up to a quarter more precise than white ones would: of that
+        // Its equation errors are colored, which makes it up to a quarter more precise than white ones would: of that
         // so few blocks may tell half (product_color.h).
         const double errors = errors_in_standard_errors(rivsvf, forgetting, records);
         EXPECT_GT(errors, 0.75) << "rivsvf, " << forgetting;

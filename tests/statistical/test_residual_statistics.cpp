@@ -64,7 +64,7 @@ TEST(residual_statistics, short_records_are_rejected_as_often_as_promised) {
     }
 }
 
-TEST(residual_statistics, coloured_errors_do_not_feign_a_dependence) {
+TEST(residual_statistics, colored_errors_do_not_feign_a_dependence) {
     for (const Vector& u : {prbs(7, 8), prbs(4, 100), Vector(RandomStream(99).normal(800))})
         for (const double pole : {0.5, 0.95}) {
             const Rates rates = rejection_rates(u, pole);
@@ -111,7 +111,7 @@ TEST(residual_statistics, robust_errors_of_white_noise_are_the_plain_ones) {
     }
 }
 
-TEST(residual_statistics, robust_errors_of_coloured_noise_are_honest_where_plain_ones_are_not) {
+TEST(residual_statistics, robust_errors_of_colored_noise_are_honest_where_plain_ones_are_not) {
     for (const double pole : {0.8, 0.95}) {
         const auto study = error_study(prbs(7, 8), 0.05, pole, 0.2);
         for (Index i = 0; i < 2; ++i) {

@@ -59,7 +59,7 @@ Vector cramer_rao(const ColoredProblem& problem) {
     return problem.sigma() * (Psi.transpose() * Psi).inverse().diagonal().cwiseSqrt();
 }
 
-/// The standard deviations of the smallest sum of squares of the simulation error, which takes coloured noise as white.
+/// The standard deviations of the smallest sum of squares of the simulation error, which takes colored noise as white.
 Vector unweighted(const ColoredProblem& problem) {
     const Matrix Psi = true_sensitivities(problem), inverse = (Psi.transpose() * Psi).inverse();
     Matrix back(Psi.rows(), Psi.cols());  // the transposed noise filter: the filter backwards in time

@@ -41,7 +41,7 @@ double deviation(const Vector& x) {
 // Oracle: the innovation variance of the noise, by the steady Kalman filter of a random walk (variance q of a step)
 // under white noise (variance r): P = (q + sqrt(q^2 + 4 q r))/2, P + r. Its estimate has a relative deviation of
 // sqrt(2/N).
-TEST(search_statistics, drifting_noise_is_modelled_down_to_its_innovations) {
+TEST(search_statistics, drifting_noise_is_modeled_down_to_its_innovations) {
     const double q = 0.05 * 0.05, r = 0.1 * 0.1;
     const double innovations = (q + std::sqrt(q * q + 4 * q * r)) / 2 + r;
     const Vector u = prbs(8, 6), x = lsim(TransferFunction(values({2}), values({1, 1.4, 2})), u, 0.1);

@@ -124,7 +124,7 @@ TEST(start_statistics, records_from_rest_stay_at_rest) {
 }
 
 // Errors that follow each other imitate constants and movements.
-TEST(start_statistics, coloured_errors_seldom_move_the_start) {
+TEST(start_statistics, colored_errors_seldom_move_the_start) {
     int moved = 0;
     for (std::uint32_t seed = 2; seed <= 2 * kSystems; seed += 2) {
         Case made = made_case(seed, Beginning::kRest);

@@ -127,7 +127,7 @@ inline Vector multisine_input(RandomExperiment& chance) {
 }
 
 /// Sines whose frequency rises, in steps of a converter.
-inline Vector quantised_sine_input(RandomExperiment& chance) {
+inline Vector quantized_sine_input(RandomExperiment& chance) {
     Vector u(chance.N);
     const double steps = chance.between(20, 400), first = chance.between(0.05, 0.3), last = chance.between(1.2, 3);
     for (Index k = 0; k < u.size(); ++k) {
@@ -405,7 +405,7 @@ inline std::vector<CorpusKind> clean_kinds() {
     const auto with = [](InputOf input) { return [input](std::uint32_t seed) { return clean_record(input, seed); }; };
     return {{"prbs", with(prbs_input), {}},           {"multisine", with(multisine_input), {}},
             {"steps", with(steps_input), {}},         {"stairs", with(stairs_input), {}},
-            {"staircase", with(staircase_input), {}}, {"quantised sine", with(quantised_sine_input), {}},
+            {"staircase", with(staircase_input), {}}, {"quantized sine", with(quantized_sine_input), {}},
             {"jittered clock", jittered_record, {}},  {"long", long_record, {}},
             {"slow noise", slow_noise_record, {}}};
 }

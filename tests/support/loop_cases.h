@@ -14,7 +14,7 @@ inline LoopController loop_controller() {
     return {TransferFunction(values({4, -3.9}), values({1, -1}), kLoopTs), 1};
 }
 
-/// With a prbs reference of 635 samples and noise v of the colour 1/(1 - 0.9/q), white e of standard deviation `sigma`.
+/// With a prbs reference of 635 samples and noise v of the color 1/(1 - 0.9/q), white e of standard deviation `sigma`.
 inline IdData loop_record(double sigma, std::uint32_t seed) {
     const Vector r = prbs(7, 5);
     RandomStream random(seed);

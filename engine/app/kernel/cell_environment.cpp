@@ -19,7 +19,7 @@
 #include "platform/terminal/aligned_table.h"
 #include "platform/terminal/progress.h"
 #include "platform/written_files.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/prompt/completion.h"

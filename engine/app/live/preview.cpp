@@ -19,7 +19,7 @@
 #include "platform/hash.h"
 #include "platform/locks/file_lock.h"
 #include "workflow/authoring/made_folders.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline app {
 namespace {

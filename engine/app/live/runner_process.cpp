@@ -26,7 +26,7 @@
 #include "platform/process_group.h"
 #include "platform/stopwatch.h"
 #include "platform/terminal/progress.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/services.h"

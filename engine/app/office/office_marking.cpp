@@ -15,7 +15,7 @@
 #include "platform/error.h"
 #include "platform/hash.h"
 #include "platform/text/read_number.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline app {
 namespace {

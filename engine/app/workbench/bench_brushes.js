@@ -13,7 +13,7 @@ export class Brushes {
     for (const kind of KINDS) {
       const bar = element("div", { className: `brush ${kind}`, title: say(kind + "Part") });
       const edges = ["From", "To"].map((side, i) => {
-        const edge = element("button", { type: "button", className: "edge", ariaLabel: say("labelled", say(kind + "Part"), say("edge" + side)) });
+        const edge = element("button", { type: "button", className: "edge", ariaLabel: say("labeled", say(kind + "Part"), say("edge" + side)) });
         edge.setAttribute("role", "slider");
         edge.onpointerdown = (event) => this.take(event, kind, i);
         edge.onkeydown = (event) => this.step(event, kind, i);

@@ -34,5 +34,5 @@ export function deleteStep(key) {
 }
 export function deletion(step) {
   const key = keyOf(step);
-  return button(say("labelled", say("remove"), step.names[0] ?? step.function), () => deleteStep(key));
+  return button(say("labeled", say("remove"), step.names[0] ?? step.function), () => deleteStep(key));
 }

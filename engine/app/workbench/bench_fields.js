@@ -35,10 +35,10 @@ const isNumber = (text) => text.trim() !== "" && Number.isFinite(Number(text));
 /// A text whose T_s, R_T² and the like are set as formulas are.
 export const typeset = (words) => words.split(/\b([A-Z]_[A-Za-z])\b/).map((piece, i) => (i % 2 === 0 ? piece.replace(/^\^2/, "²") : element("span", {}, element("i", { textContent: piece[0] }), element("sub", { textContent: piece[2] }))));
 
-function labelled(words, control, title = "") {
+function labeled(words, control, title = "") {
   control.title = title;
   const range = control.querySelector?.("input[type=range]");
-  if (range) range.ariaLabel = say("labelled", words, say("slider"));
+  if (range) range.ariaLabel = say("labeled", words, say("slider"));
   return element("label", { title }, element("span", {}, ...typeset(words)), control);
 }
 /// The beginning of what a help page says of an option, and what is taken where it is not given.
@@ -46,7 +46,7 @@ function shortWords(words) {
   const [begin] = words.split(/[;.](?:\s|$)/), initial = /[^;.(]*\b(?:default|défaut)\b(?:[^;.]|\.\d)*/.exec(words.slice(begin.length))?.[0].trim();
   return inline(begin + (initial ? `; ${initial}` : ""));
 }
-const option = (key, field, now) => element("div", { className: "option" }, labelled(field.name, optionControl(key, field, now), field.words), element("small", {}, ...shortWords(field.words)));
+const option = (key, field, now) => element("div", { className: "option" }, labeled(field.name, optionControl(key, field, now), field.words), element("small", {}, ...shortWords(field.words)));
 
 function choice(values, now, act, names = values) {
   const list = element("select", { onchange: () => act(list.value) });
@@ -129,11 +129,11 @@ function numberField(now, act, { slider = true } = {}) {
 
 function ordersField(key, parts, now, act) {
   const numbers = /^\{\s*[\d\s,]*\}$/.test(now) ? now.slice(1, -1).split(",").map((text) => text.trim()) : null;
-  if (!numbers || numbers.length !== parts.length) return labelled(parts.join(", "), textField(now, act));
+  if (!numbers || numbers.length !== parts.length) return labeled(parts.join(", "), textField(now, act));
   const row = element("span", { className: "orders" });
   parts.forEach((name, i) => {
     const tell = (text, how) => { numbers[i] = text; act(`{${numbers.join(", ")}}`, how); };
-    row.append(labelled(name, countField(`${key} ${name}`, numbers[i], tell)));
+    row.append(labeled(name, countField(`${key} ${name}`, numbers[i], tell)));
   });
   return row;
 }
@@ -149,7 +149,7 @@ function processField(now, act) {
   for (const letter of "DIZU") {
     const box = element("input", { type: "checkbox", checked: letters.has(letter), disabled: letter === "U" && poles === "1" });
     box.onchange = () => { if (box.checked) letters.add(letter); else letters.delete(letter); tell(); };
-    row.append(labelled(letter, box, say("letter" + letter)));
+    row.append(labeled(letter, box, say("letter" + letter)));
   }
   return row;
 }
@@ -158,9 +158,9 @@ function argumentControl(key, field, place, now) {
   const act = (text, how) => rewrite(key, (step) => withArgument(step, place, text), how);
   if (field.kind === "orders") return ordersField(key, field.parts, now, act);
   if (field.kind === "process") return processField(now, act);
-  if (field.kind === "text") return labelled(field.name, longField(now, act), field.words);
+  if (field.kind === "text") return labeled(field.name, longField(now, act), field.words);
   const whole = field.name !== "lambda" && isNumber(now);
-  return labelled(field.name, whole ? countField(`${key} ${field.name}`, now, act) : numberField(now, act), field.words);
+  return labeled(field.name, whole ? countField(`${key} ${field.name}`, now, act) : numberField(now, act), field.words);
 }
 
 function optionControl(key, field, now) {
@@ -178,8 +178,8 @@ function delayControl(key, step) {
   const act = (way) => rewrite(key, (step) => ({
     options: [...without(step), ...(way === "free" ? [] : [way === "none" ? { key: "TdMax", text: "0" } : { key: "IODelay", text: fixed || "0.1" }])],
   }));
-  const row = element("span", { className: "orders" }, labelled(say("delay"), choice(["free", "fixed", "none"], now, act, [say("free"), say("fixed"), say("noDelay")])));
-  if (fixed) row.append(labelled("IODelay (s)", numberField(fixed, (text, how) => rewrite(key, (step) => withOption(step, "IODelay", text), how))));
+  const row = element("span", { className: "orders" }, labeled(say("delay"), choice(["free", "fixed", "none"], now, act, [say("free"), say("fixed"), say("noDelay")])));
+  if (fixed) row.append(labeled("IODelay (s)", numberField(fixed, (text, how) => rewrite(key, (step) => withOption(step, "IODelay", text), how))));
   return row;
 }
 
@@ -206,4 +206,4 @@ export function firstCall(form, data) {
   const args = form.arguments.map((field) => (field.kind === "orders" ? `{${field.initial}}` : field.initial || "3"));
   return `${form.name}(${[data, ...args].join(", ")})`;
 }
-export { labelled, choice, numberField, textField, longField, isNumber };
+export { labeled, choice, numberField, textField, longField, isNumber };

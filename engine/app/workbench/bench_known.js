@@ -1,6 +1,6 @@
 // A system that is known, an input, noise, and what estimators make of it: the cloud of their estimates grows while one looks.
 import { change, session } from "./bench_session.js";
-import { button, element, labelled, longField, numberField, rewrite, textField, why, withOption } from "./bench_fields.js";
+import { button, element, labeled, longField, numberField, rewrite, textField, why, withOption } from "./bench_fields.js";
 import { formOf, freeName, keyOf, newCell, stepOf, written } from "./bench_steps.js";
 import { say } from "./bench_words.js";
 
@@ -36,9 +36,9 @@ function dragged(key, make) {
 /// The expression that a name of the study stands for, in its own line.
 function defined(study, name, words) {
   const value = optionOf(study, name), step = session.steps.find((one) => one.on && one.names[0] === value);
-  if (!step) return labelled(words, textField(value, (text) => rewrite(keyOf(study), (now) => withOption(now, name, text))));
+  if (!step) return labeled(words, textField(value, (text) => rewrite(keyOf(study), (now) => withOption(now, name, text))));
   const place = keyOf(step), right = step.function ? written(step).replace(/^[^=]*= /, "") : step.arguments[0];
-  return labelled(words, textField(right, (text) => change(() => {
+  return labeled(words, textField(right, (text) => change(() => {
     const now = stepOf(place);
     return now ? [{ first: now.first_line, last: now.last_line, text: `${now.names[0]} = ${text}` }] : null;
   })));
@@ -49,7 +49,7 @@ function lambdaControl(key, study) {
   const found = /(lambda = )([\d.eE+-]+)/.exec(optionOf(study, "estimators"));
   if (!found) return "";
   const make = (step, text) => withOption(step, "estimators", optionOf(step, "estimators").replace(/(lambda = )[\d.eE+-]+/, `$1${text}`));
-  return labelled("lambda (rad/s)", numberField(found[2], dragged(key, make)));
+  return labeled("lambda (rad/s)", numberField(found[2], dragged(key, make)));
 }
 
 /// The estimators with their arguments, and what these are called in each of them.
@@ -57,7 +57,7 @@ function estimatorsControl(key, study) {
   const text = optionOf(study, "estimators"), named = [...new Set([...text.matchAll(/(\w+) = \{/g)].map(([, name]) => name))].map(formOf).filter(Boolean);
   const call = (form) => `${form.name} {${form.arguments.map((field) => (field.parts.length > 0 ? `{${field.parts.join(", ")}}` : field.name)).join(", ")}}`;
   const field = longField(text, (now) => rewrite(key, (step) => withOption(step, "estimators", now)));
-  return element("div", { className: "tall" }, labelled("estimators", field), element("small", { textContent: named.map(call).join("; ") }));
+  return element("div", { className: "tall" }, labeled("estimators", field), element("small", { textContent: named.map(call).join("; ") }));
 }
 
 function begin() {
@@ -76,8 +76,8 @@ export function knownPanel() {
     return node;
   }
   const key = keyOf(study);
-  const number = (name, words) => labelled(words, numberField(optionOf(study, name), dragged(key, (step, text) => withOption(step, name, text))));
-  const plain = (name, words, field = textField) => labelled(words, field(optionOf(study, name), (text) => rewrite(key, (step) => withOption(step, name, text)), { slider: false }));
+  const number = (name, words) => labeled(words, numberField(optionOf(study, name), dragged(key, (step, text) => withOption(step, name, text))));
+  const plain = (name, words, field = textField) => labeled(words, field(optionOf(study, name), (text) => rewrite(key, (step) => withOption(step, name, text)), { slider: false }));
   node.append(defined(study, "system", say("system")), defined(study, "input", say("inputSignal")), number("Ts", "T_s (s)"), number("sigma", say("noise")),
               lambdaControl(key, study), plain("runs", say("runs"), numberField), estimatorsControl(key, study), why("montecarlo"));
   return node;

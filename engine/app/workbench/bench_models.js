@@ -1,6 +1,6 @@
 // Estimating, and the table of models.
 import { change, request, session } from "./bench_session.js";
-import { button, choice, element, firstCall, labelled, rewrite, stepControls, textField, typeset, why } from "./bench_fields.js";
+import { button, choice, element, firstCall, labeled, rewrite, stepControls, textField, typeset, why } from "./bench_fields.js";
 import { formOf, freeName, keyOf, linesWith, modelSteps, newCell, preparingSteps, roles, taken, variables, written } from "./bench_steps.js";
 import { addModel, choose, chosenStep, rechoose, redraw, rowOf } from "./bench_choice.js";
 import { help } from "./bench_help.js";
@@ -71,7 +71,7 @@ export function estimatePanel() {
   const node = element("section", { className: "panel" }, element("h2", { textContent: say("estimate") }));
   const quick = element("div", { className: "adding" });
   const list = methodList((name) => { method = name; }, method, say("method"));
-  quick.append(labelled(say("method"), list), button(say("newModel"), () => estimateNew(list.value), { className: "main" }),
+  quick.append(labeled(say("method"), list), button(say("newModel"), () => estimateNew(list.value), { className: "main" }),
                button(say("why"), () => help(list.value), { className: "why", ariaLabel: `${say("why")} ${say("method")}` }));
   quick.append(...searchControls());
   node.append(quick);
@@ -80,7 +80,7 @@ export function estimatePanel() {
     const key = keyOf(step), form = session.forms.find((one) => one.name === step.function), name = step.names[0];
     const box = element("div", { className: "chosen" }, element("h3", { textContent: name }));
     if (form) box.append(methodList((method) => exchangeMethod(key, method), step.function, say("methodOf", name)), why(step.function), element("p", { className: "faint", textContent: `${form.structure}; ${form.noise}` }), stepControls(key, step));
-    else box.append(labelled(`${name} =`, textField(rightSide(step), (text) => rewrite(key, () => ({ receiver: "", function: "", options: [], braces: false, arguments: [text] })))));
+    else box.append(labeled(`${name} =`, textField(rightSide(step), (text) => rewrite(key, () => ({ receiver: "", function: "", options: [], braces: false, arguments: [text] })))));
     for (const trap of trapsOf(step, form)) box.append(element("p", { className: "warning", textContent: trap }));
     const [words, kind] = verdictOf(step);
     if (words) box.append(element("p", { className: kind, textContent: words }));
@@ -120,13 +120,13 @@ async function unfit(name) {
 }
 function renameModel(step) {
   const now = step.names[0], dialog = document.getElementById("rename"), box = document.getElementById("new-name"), told = document.getElementById("name-trouble");
-  document.getElementById("rename-title").textContent = say("labelled", say("rename"), now);
+  document.getElementById("rename-title").textContent = say("labeled", say("rename"), now);
   Object.assign(box, { value: now, ariaLabel: say("newName") });
   told.textContent = "";
   dialog.querySelector("form").onsubmit = async (event) => {
     event.preventDefault();
     const next = box.value.trim(), wrong = next === now ? null : await unfit(next);
-    told.textContent = wrong ? say("labelled", next, wrong) : "";
+    told.textContent = wrong ? say("labeled", next, wrong) : "";
     if (wrong) return;
     dialog.close();
     if (next !== now) rename(now, next);
@@ -144,7 +144,7 @@ function rename(now, next) {
 
 function actionsOf(step) {
   const key = keyOf(step), name = step.names[0];
-  const act = (word, does) => button(say(word), does, { ariaLabel: say("labelled", say(word), name) });
+  const act = (word, does) => button(say(word), does, { ariaLabel: say("labeled", say(word), name) });
   return element("span", { className: "actions" }, element("b", { textContent: name }),
     act("copy", () => change(() => {
       const other = freeName("G");
@@ -174,7 +174,7 @@ export function modelsPanel() {
   const chosen = chosenStep();
   const body = lines.flatMap(({ step, all }) => all.map((row, i) => {
     const line = element("tr", { className: chosen === step ? "chosen" : "" }), span = (cell) => Object.assign(cell, { rowSpan: all.length });
-    const shown = element("input", { type: "checkbox", checked: step.on && !isHidden(row.name), ariaLabel: say("labelled", say("shown"), row.name), onchange: () => setHidden(row.name, !shown.checked) });
+    const shown = element("input", { type: "checkbox", checked: step.on && !isHidden(row.name), ariaLabel: say("labeled", say("shown"), row.name), onchange: () => setHidden(row.name, !shown.checked) });
     if (i === 0) line.append(span(element("td", {}, shown)));
     for (const [name, read] of COLUMNS) {
       if (i > 0 && ["name", "method"].includes(name)) continue;

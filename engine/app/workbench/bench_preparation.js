@@ -50,7 +50,7 @@ function preparingStep(step, all) {
     const old = now(steps), next = old && { ...structuredClone(old), ...make(old) };
     return old && { edits: [replaced(old, next)], after: steps.map((one) => (one === old ? next : one)) };
   });
-  const on = element("input", { type: "checkbox", checked: step.on, ariaLabel: say("labelled", say("off"), step.function) });
+  const on = element("input", { type: "checkbox", checked: step.on, ariaLabel: say("labeled", say("off"), step.function) });
   on.onchange = () => alter(() => ({ on: on.checked }));
   row.append(on, element("code", { textContent: step.function }));
   const first = step.receiver ? 0 : 1;
@@ -58,7 +58,7 @@ function preparingStep(step, all) {
     const act = (value) => alter((old) => ({ arguments: old.arguments.map((one, k) => (k === i + first ? value : one)) }));
     const field = step.function === "detrend" ? choice(["\"mean\"", "\"linear\"", "\"start\""], text, act, ["mean", "linear", "start"])
       : isNumber(text) ? numberField(text, act, { slider: false }) : textField(text, act);
-    field.ariaLabel = say("labelled", step.function, `${say("argument")} ${i + 1}`);
+    field.ariaLabel = say("labeled", step.function, `${say("argument")} ${i + 1}`);
     row.append(field);
   });
   const swap = (other) => prepare((steps) => {
@@ -67,10 +67,10 @@ function preparingStep(step, all) {
     return { edits: [{ first: above.first_line, last: below.last_line, text: `${lines(below)}\n${lines(above)}` }],
              after: steps.map((each) => (each === one ? two : each === two ? one : each)) };
   });
-  if (at > 0 && all[at - 1].last_line + 1 === step.first_line) row.append(button("↑", () => swap(keyOf(all[at - 1])), { ariaLabel: say("labelled", say("up"), step.function) }));
-  if (at + 1 < all.length && step.last_line + 1 === all[at + 1].first_line) row.append(button("↓", () => swap(keyOf(all[at + 1])), { ariaLabel: say("labelled", say("down"), step.function) }));
+  if (at > 0 && all[at - 1].last_line + 1 === step.first_line) row.append(button("↑", () => swap(keyOf(all[at - 1])), { ariaLabel: say("labeled", say("up"), step.function) }));
+  if (at + 1 < all.length && step.last_line + 1 === all[at + 1].first_line) row.append(button("↓", () => swap(keyOf(all[at + 1])), { ariaLabel: say("labeled", say("down"), step.function) }));
   const remove = () => prepare((steps) => now(steps) && { edits: [removed(now(steps))], after: steps.filter((one) => one !== now(steps)) });
-  row.append(button("×", remove, { ariaLabel: say("labelled", say("remove"), step.function) }), why(step.receiver ? "iddata" : step.function));
+  row.append(button("×", remove, { ariaLabel: say("labeled", say("remove"), step.function) }), why(step.receiver ? "iddata" : step.function));
   return row;
 }
 
@@ -89,7 +89,7 @@ export function partsPanel() {
   const node = element("section", { className: "panel" }, element("h2", { textContent: say("parts") }));
   const seen = variables(), a = seen[estimation], b = seen[validation];
   const same = estimation === validation || (!second && a && b && a.start === b.start && a.last === b.last && a.N === b.N);
-  const about = (name, data, more = "") => node.append(element("p", { textContent: say("labelled", name, `${shortNumber(data.start)} … ${shortNumber(data.last)} s (${data.N})${more}`) }));
+  const about = (name, data, more = "") => node.append(element("p", { textContent: say("labeled", name, `${shortNumber(data.start)} … ${shortNumber(data.last)} s (${data.N})${more}`) }));
   if (a?.kind === "data") about(estimation, a);
   if (b?.kind === "data") about(validation, b, second ? ` – ${say("ofRecord", second)}` : "");
   if (b?.kind === "data" && (a?.outputs !== b.outputs || a?.inputs !== b.inputs)) node.append(element("p", { className: "warning", textContent: say("otherValidation") }));

@@ -1,6 +1,6 @@
 // The record: where it comes from, which column is what, what advice says of it, and the steps that prepare it.
 import { change, inTurn, post, request, session, settled, trouble, upload } from "./bench_session.js";
-import { button, choice, element, labelled, rewrite, typeset, why, withOption } from "./bench_fields.js";
+import { button, choice, element, labeled, rewrite, typeset, why, withOption } from "./bench_fields.js";
 import { formOf, freeName, keyOf, newCell, roles, variables } from "./bench_steps.js";
 import { chosenStep } from "./bench_choice.js";
 import { preparedAlike } from "./bench_parts.js";
@@ -104,19 +104,19 @@ function columnsTable() {
     for (const column of shown.filter((one) => one.role === role)) {
       const list = choice(ROLES, column.role, (value) => { column.role = value; redraw(); }, ROLES.map((one) => say(one || "unused")));
       list.disabled = !column.usable;
-      list.ariaLabel = say("labelled", say("role"), column.name);
+      list.ariaLabel = say("labeled", say("role"), column.name);
       const about = column.trouble || `${shortNumber(column.smallest)} … ${shortNumber(column.largest)}`;
-      const chip = element("div", { className: "chip", draggable: column.usable, title: say("labelled", column.name, about) }, element("b", { textContent: groups().length > 1 ? column.name.slice(group.length + 1) : column.name }),
+      const chip = element("div", { className: "chip", draggable: column.usable, title: say("labeled", column.name, about) }, element("b", { textContent: groups().length > 1 ? column.name.slice(group.length + 1) : column.name }),
         list, element("small", { textContent: about }));
       if (role === "input" || role === "output")
-        chip.append(element("input", { className: "unit", value: column.unit, placeholder: say("unit"), ariaLabel: say("labelled", say("unit"), column.name), oninput: ({ target }) => { column.unit = target.value; } }));
+        chip.append(element("input", { className: "unit", value: column.unit, placeholder: say("unit"), ariaLabel: say("labeled", say("unit"), column.name), oninput: ({ target }) => { column.unit = target.value; } }));
       chip.ondragstart = (event) => event.dataTransfer.setData("text/plain", column.name);
       row.append(chip);
     }
     return row;
   };
   const node = element("div", { className: "roles" });
-  if (groups().length > 1) node.append(labelled(say("experiment"), choice(groups(), group, chooseGroup)));
+  if (groups().length > 1) node.append(labeled(say("experiment"), choice(groups(), group, chooseGroup)));
   node.append(...ROLES.map(chips));
   return node;
 }
@@ -141,7 +141,7 @@ async function take(name) {
 
 function offeredRecord() {
   const box = element("input", { type: "number", className: "sampling", min: 0, step: "any", placeholder: say("asFile"), value: offered.Ts ?? "", oninput: () => { offered.Ts = box.value; } });
-  const node = element("div", { className: "controls" }, element("h3", { textContent: offered.data }), columnsTable(), labelled(say("sampling"), box));
+  const node = element("div", { className: "controls" }, element("h3", { textContent: offered.data }), columnsTable(), labeled(say("sampling"), box));
   node.append(element("details", {}, element("summary", { textContent: "dynlab inspect" }), element("pre", { textContent: offered.look, tabIndex: 0 })));
   node.append(button(say("take"), () => take("data"), { className: "main" }));
   if (roles().raw) node.append(button(say("second"), takeSecond));
@@ -186,7 +186,7 @@ function findingsList() {
   if (list.length === 0) node.append(element("p", { textContent: say("clean") }));
   for (const finding of list) {
     const line = element("p", { className: finding.warning ? "warning" : "" }, finding.message + " ");
-    if (finding.sections?.length > 0) line.append(button(say("show"), () => showSamples(finding.sections[0]), { ariaLabel: say("labelled", say("show"), finding.code) }));
+    if (finding.sections?.length > 0) line.append(button(say("show"), () => showSamples(finding.sections[0]), { ariaLabel: say("labeled", say("show"), finding.code) }));
     line.append(...remedies(finding));
     node.append(line);
   }
@@ -200,7 +200,7 @@ export function recordPanel() {
   else if (!raw) node.append(opener());
   else {
     if (data?.kind === "data") {
-      node.append(element("p", {}, ...typeset(say("labelled", raw, `${say("samples", data.N)}, T_s = ${shortNumber(data.Ts)} s`))),
+      node.append(element("p", {}, ...typeset(say("labeled", raw, `${say("samples", data.N)}, T_s = ${shortNumber(data.Ts)} s`))),
                   element("p", { className: "channels" }, channelsOf(data), " ", button(say("channels"), offerAgain)));
     }
     node.append(element("details", {}, element("summary", { textContent: say("open") }), opener()), findingsList());

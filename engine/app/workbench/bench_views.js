@@ -138,14 +138,14 @@ function makeTile(name) {
   const node = element("section", { className: "tile", ariaLabel: viewName(name) });
   node.dataset.view = name;
   node.classList.toggle("wide", WIDE.includes(name));
-  const close = button("×", () => toggleView(name, false), { className: "close", ariaLabel: say("labelled", say("close"), viewName(name)) });
-  const into = button(say("intoScript"), () => intoScript(name), { className: "into", ariaLabel: say("labelled", say("intoScript"), viewName(name)) });
+  const close = button("×", () => toggleView(name, false), { className: "close", ariaLabel: say("labeled", say("close"), viewName(name)) });
+  const into = button(say("intoScript"), () => intoScript(name), { className: "into", ariaLabel: say("labeled", say("intoScript"), viewName(name)) });
   const body = element("div", { className: "body" }), words = element("p", { className: "told" });
   const title = element("h2", { textContent: viewName(name) });
-  const saved = element("select", { className: "save", ariaLabel: say("labelled", say("saveAs"), viewName(name)) });
+  const saved = element("select", { className: "save", ariaLabel: say("labeled", say("saveAs"), viewName(name)) });
   saved.append(...["↓", "PDF", "SVG", "PNG"].map((text) => element("option", { value: text.toLowerCase(), textContent: text })));
   saved.onchange = () => { if (saved.selectedIndex > 0) save({ what: "figure", view: name, format: saved.value }); saved.selectedIndex = 0; };
-  const made = ["orders", "study", "reading"].includes(name) ? [button(say("remove"), () => deleteStep(keyOf(session.steps.find((step) => step.on && step.names[0] === roles()[name]))), { ariaLabel: say("labelled", say("remove"), viewName(name)) })] : [];
+  const made = ["orders", "study", "reading"].includes(name) ? [button(say("remove"), () => deleteStep(keyOf(session.steps.find((step) => step.on && step.names[0] === roles()[name]))), { ariaLabel: say("labeled", say("remove"), viewName(name)) })] : [];
   const tools = element("span", { className: "tools-of-tile" }, why(HELP[name]), ...(TABLES[name] ? [] : [saved]), ...(goesIntoReport(name) ? [into] : []), ...made, close);
   node.append(element("header", {}, title, tools), body, words);
   for (const group of OVER_TIME) if (group.includes(name)) linkCursor(name, body, group);
@@ -250,7 +250,7 @@ function ordersMap(seen) {
     const row = rows.find((row) => row.poles === p && row.zeros === z);
     if (!row) return "";
     const fit = fitOf(row), words = row.failure ? say("failed") : `${fit > 0 ? shortNumber(fit, 4) : "< 0"} %${row.best ? " ★" : ""}${row.doubt ? " ?" : ""}`;
-    const node = button(words, () => takeOrders(p, z, row.delay), { title: row.failure ?? say("labelled", say("takeOrders"), `YIC ${shortNumber(row.yic, 3)}, BIC ${shortNumber(row.bic, 5)}`) });
+    const node = button(words, () => takeOrders(p, z, row.delay), { title: row.failure ?? say("labeled", say("takeOrders"), `YIC ${shortNumber(row.yic, 3)}, BIC ${shortNumber(row.bic, 5)}`) });
     node.style.setProperty("--share", String(best > worst ? (fit - worst) / (best - worst) : 1));
     node.className = "order";
     return node;
@@ -285,7 +285,7 @@ function drawTile(name) {
   const error = seen.error && say("notDrawn", seen.error.replace(/^\S+:\d+: /, ""));
   const words = empty ? emptyWords(name) : error ?? [older && say("older"), name === "reading" && seen.numbers ? readingWords(seen) : seen.words, out.length > 0 && say("elsewhere", out.join(", ")), name === "delay" && !seen.figure && !session.running && say("no_delays")].filter(Boolean).join(" – ");
   tile.words.replaceChildren(...typeset(words));
-  if (name === "orders") tile.title.textContent = say("labelled", viewName(name), searchedName()).replace(/\W+$/, "");
+  if (name === "orders") tile.title.textContent = say("labeled", viewName(name), searchedName()).replace(/\W+$/, "");
   tile.words.classList.toggle("broken", Boolean(seen.error));
   if (empty || bare) return;
   if (seen.figure) drawFigure(name, tile, seen.figure);

@@ -33,7 +33,7 @@ addWords({
   estimateHere: tr("Estimate from here"), tooFew: tr("This file does not contain two signals."),
   asked: tr("This script runs programs. Run it? Answer yes only if you know its origin."), shapeFirst: tr("First order"),
   shapeSecond: tr("Second order"), shapeDelayed: tr("First order with dead time"), argument: tr("argument"),
-  slider: tr("slider"), methodOf: tr("Method of {}"), labelled: trIn("label", "{}: {}"), controls: tr("Controls"),
+  slider: tr("slider"), methodOf: tr("Method of {}"), labeled: trIn("label", "{}: {}"), controls: tr("Controls"),
   bar: tr("Session"), language: tr("Language"), giveUp: tr("Cancel"), newName: tr("new name"),
   invitation: tr("Open data on the left, or start a study of a known system there. Figures and models then appear here."),
   noName: tr("a name must consist of letters, digits and _; it must not start with a digit or be a Lua keyword."),

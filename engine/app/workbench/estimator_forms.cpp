@@ -4,8 +4,8 @@
 #include <map>
 
 #include "base/catalog.h"
-#include "numerics/estimators/catalogue.h"
-#include "scripting/interpreter/catalogue.h"
+#include "numerics/estimators/method_catalog.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/lint/function_forms.h"
 
 namespace dynlab::inline app {
@@ -15,7 +15,7 @@ std::string text_of(const MessageId<>& description, const Reader& reader) {
     return message_text(Message(description), reader);
 }
 
-/// A text of the catalogues, which mark it for translation: marked("estimator", ...).
+/// A text of the catalogs, which mark it for translation: marked("estimator", ...).
 std::string text_of(const std::string& text, const Reader& reader) {
     const std::string_view other = reader.catalog == nullptr ? "" : reader.catalog->translation(text, "estimator");
     return other.empty() ? text : std::string(other);

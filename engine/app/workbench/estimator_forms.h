@@ -27,8 +27,8 @@ struct EstimatorForm {
 };
 DYNLAB_DESCRIBE(EstimatorForm, name, summary, structure, noise, domain, arguments, options)
 
-/// All methods of the catalogue that make a model of a record, in its order, with their texts for the reader. They
-/// follow from the catalogue of methods and from the table of functions: a new method is among them by itself.
+/// All methods of the catalog that make a model of a record, in its order, with their texts for the reader. They
+/// follow from the catalog of methods and from the table of functions: a new method is among them by itself.
 std::vector<EstimatorForm> estimator_forms(const Reader& reader = {});
 
 }  // namespace dynlab::inline app

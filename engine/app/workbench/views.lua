@@ -46,7 +46,7 @@ local function sized(fig, settings, name)
 end
 
 --- The chosen models that a view can show, and their names.
-local function labelled(settings, values, is_shown)
+local function labeled(settings, values, is_shown)
   local models, labels = {}, {}
   for _, name in ipairs(settings.models or {}) do
     if is_shown(values[name]) then
@@ -159,9 +159,9 @@ function views.spectrum(settings, values)
   local figures, titles = {}, names_of(raw, "OutputName", raw.ny, "y")
   for i = 1, raw.ny do
     local curves = {}
-    local function add(data, label, colour)
+    local function add(data, label, color)
       local w, power = power_of(data.ny > 1 and data.y:col(i) or data.y, data.Ts)
-      curves[#curves + 1] = {x = w, y = power, label = label, colour = colour}
+      curves[#curves + 1] = {x = w, y = power, label = label, color = color}
     end
     add(raw, settings.raw, 8)
     if prepared ~= raw and is_data(prepared) and prepared.ny == raw.ny then add(prepared, settings.prepared, 0) end
@@ -200,7 +200,7 @@ local function simulates(settings, name, model, data, i)
 end
 
 function views.compare(settings, values)
-  local models, labels = labelled(settings, values, is_model)
+  local models, labels = labeled(settings, values, is_model)
   local data = values[settings.validation] or values[settings.estimation]
   if not is_data(data) or #models == 0 then return end
   local figures, told = {}, {}
@@ -223,7 +223,7 @@ function views.compare(settings, values)
 end
 
 function views.residuals(settings, values)
-  local models, labels = labelled(settings, values, is_model)
+  local models, labels = labeled(settings, values, is_model)
   local data = values[settings.validation] or values[settings.estimation]
   if not is_data(data) or #models == 0 then return end
   local figures, told = {}, {}
@@ -263,7 +263,7 @@ end
 
 for name, f in pairs{step = step, impulse = impulse, bode = bode, nyquist = nyquist, poles = pzmap} do
   views[name] = function(settings, values)
-    local models, labels = labelled(settings, values, is_linear)
+    local models, labels = labeled(settings, values, is_linear)
     local options, figures, titles = {}, {}, {}
     if #models == 0 then return end
     if settings.bands == false and name ~= "nyquist" and name ~= "impulse" then options.confidence = false end
@@ -289,7 +289,7 @@ end
 function views.correlation(settings, values)
   local data = values[settings.estimation]
   if not is_data(data) then return end
-  local models, labels = labelled(settings, values, is_linear)
+  local models, labels = labeled(settings, values, is_linear)
   local figures, titles, told = {}, {}, {}
   local channels, _, inputs = all_channels(settings, values, models)
   for _, one in ipairs(channels) do
@@ -312,7 +312,7 @@ end
 
 --- Estimates with their intervals, as rows: a picture of numbers of several sizes says little.
 function views.parameters(settings, values)
-  local models, labels = labelled(settings, values, is_model)
+  local models, labels = labeled(settings, values, is_model)
   if #models == 0 then return end
   local rows = {}
   for k, model in ipairs(models) do
@@ -325,7 +325,7 @@ function views.parameters(settings, values)
 end
 
 function views.delay(settings, values)
-  local models, labels = labelled(settings, values, is_linear)
+  local models, labels = labeled(settings, values, is_linear)
   local model = models[#models]
   local report = model and field(model, "report")
   local delays, losses = report and field(report, "delay_grid"), report and field(report, "delay_loss")
@@ -420,7 +420,7 @@ function views.reading(settings, values)
   local t = data.t
   local since = t - r.start
   local y = r.rest + r.change*curve((since + abs(since))/2)
-  local fig = plot(t, data.y, figure_label("measured"), t, y, figure_label("by_hand"), {style = {"points", "line"}, marker = 0, colour = {8, 0}, xlabel = figure_label("time")})
+  local fig = plot(t, data.y, figure_label("measured"), t, y, figure_label("by_hand"), {style = {"points", "line"}, marker = 0, color = {8, 0}, xlabel = figure_label("time")})
   for _, name in ipairs{"K", "T", "Td", "z", "w0"} do
     if r[name] then ranged(name, r[name]) end
   end

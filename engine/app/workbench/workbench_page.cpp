@@ -19,9 +19,9 @@
 #include "platform/error.h"
 #include "platform/memory.h"
 #include "platform/system_call.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 #include "workflow/recording.h"
 
 namespace dynlab::inline app {

@@ -19,7 +19,7 @@
 #include "platform/atomic_file.h"
 #include "platform/error.h"
 #include "platform/interrupt.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/prompt_statement.h"
 
 namespace dynlab::inline app {

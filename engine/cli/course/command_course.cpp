@@ -16,7 +16,7 @@
 #include "course/store/groups.h"
 #include "numerics/error.h"
 #include "platform/terminal/terminal_text.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline cli {
 namespace {

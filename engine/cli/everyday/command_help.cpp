@@ -4,7 +4,7 @@
 
 #include "cli/commands.h"
 #include "platform/terminal/terminal_output.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 #include "workflow/cheat_sheet.h"
 

@@ -13,7 +13,7 @@
 #include "scripting/runtime/help_layout.h"
 #include "workflow/given_script.h"
 #include "workflow/hints.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline cli {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "cli/commands.h"
 #include "platform/terminal/terminal_text.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline cli {
 namespace {

@@ -5,10 +5,10 @@
 #include "cli/commands.h"
 #include "cli/pages/next_words.h"
 #include "data_io/dataset_index.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "platform/child_process.h"
 #include "platform/program_lookup.h"
 #include "platform/sandbox.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "course/anonymity/identity_matcher.h"
 #include "platform/atomic_file.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -163,7 +163,7 @@ bool may_count(const Tokens& tokens, std::size_t first, std::size_t end, std::st
                                     tokens.begin() + static_cast<std::ptrdiff_t>(end), is_number);
     const std::size_t from = first > 0 ? tokens[first - 1].end : 0;
     const std::string_view before = text.substr(from, tokens[first].begin - from);
-    if (!digits || is_labelled(tokens, first) || before.find('(') != std::string_view::npos) return false;
+    if (!digits || is_labeled(tokens, first) || before.find('(') != std::string_view::npos) return false;
     if (first > 0 && before.empty()) return false;  // "s20214711", an account
     if (before.find_first_of("=<>") != std::string_view::npos) return true;
     // Whether the word is one of a sentence, and a space alone is between `behind` and the token before it.
@@ -271,7 +271,7 @@ void IdentityMatcher::find_patterns(const Tokens& tokens, std::string_view text,
             const bool alone = pattern.kind == NameKind::kName && !pattern.whole;
             const bool in_small = manner == TextManner::kProse && alone && !tokens[i].capital;
             const bool short_or_given = pattern.given_only || pattern.letters.size() < kShortestInSmall;
-            if (pattern.labelled && !whole_text && !is_labelled(tokens, i)) continue;
+            if (pattern.labeled && !whole_text && !is_labeled(tokens, i)) continue;
             if (pattern.kind == NameKind::kNumber && has_decimals(tokens, end, text)) continue;
             if (!whole_text && may_be_words(pattern, tokens, i, end, written)) continue;
             if (!whole_text && is_counted(pattern, tokens, i, end)) continue;
@@ -285,7 +285,7 @@ void IdentityMatcher::find_patterns(const Tokens& tokens, std::string_view text,
             if (pattern.ordinary && (passed_over || cited || !as_name)) continue;
             if (alone && (is_cited(pattern, tokens, i, end) || (cited && cited_.contains(pattern.letters)))) continue;
             bool certain = pattern.given_only ? identifier && pattern.own : pattern.whole || !cited;
-            if (in_small && !identifier && !(pattern.own && is_labelled(tokens, i))) certain = false;
+            if (in_small && !identifier && !(pattern.own && is_labeled(tokens, i))) certain = false;
             if (pattern.bare && !pattern.own) certain = false;
             if (manner == TextManner::kProse && pattern.kind == NameKind::kNumber && !identifier &&
                 may_count(tokens, i, end, text))

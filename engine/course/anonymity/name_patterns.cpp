@@ -212,7 +212,7 @@ void add_number(NameKind kind, const std::string& who, const std::string& text, 
         if (token.digits && token.letters.size() == 1) pattern.spaced = false;
     }
     if (!digits || (kind != NameKind::kGroup && !is_searched_number(text))) return;
-    pattern.labelled = pattern.letters.size() < (letters ? kShortestMixed : kMinNumberDigits);
+    pattern.labeled = pattern.letters.size() < (letters ? kShortestMixed : kMinNumberDigits);
     patterns.push_back(pattern);
 }
 

@@ -22,7 +22,7 @@ struct NamePattern {
     bool reversed = false;    ///< surname first
     bool capital = false;     ///< in prose, each part begins with a capital
     bool ordinary = false;    ///< a surname alone that is also an ordinary word: "Page"
-    bool labelled = false;    ///< counts only after "student", "ID" and similar words
+    bool labeled = false;     ///< counts only after "student", "ID" and similar words
     bool spaced = true;       ///< parts may be apart: "group 01", but not "group 1", which counts something
     std::string initials;     ///< of the given names, for a surname alone
     bool own = false;         ///< of one of the document's own authors

@@ -121,7 +121,7 @@ class PatternMatcher {
         const bool power = behind.letters == "e" && next_ + 1 < tokens_.size() && tokens_[next_ + 1].gap == Gap::kNone;
         if (behind.digits || power || !tokens_[next_ - 1].digits) return false;
         return pattern_.kind == NameKind::kGroup ? pattern_.own
-                                                 : pattern_.kind == NameKind::kNumber && !pattern_.labelled;
+                                                 : pattern_.kind == NameKind::kNumber && !pattern_.labeled;
     }
 
     /// A number is not part of a longer one and has no decimals. Accounts have letters before it: "s20214711".
@@ -131,7 +131,7 @@ class PatternMatcher {
         const NameToken& before = tokens_[first_ - 1];
         const bool is_account = pattern_.kind == NameKind::kNumber && tokens_[first_].digits && !before.digits &&
                                 (first_ == 1 || before.gap != Gap::kNone);
-        return is_account && (!pattern_.labelled || before.letters.size() <= kLongestPrefix || is_label(before));
+        return is_account && (!pattern_.labeled || before.letters.size() <= kLongestPrefix || is_label(before));
     }
 
     const NamePattern& pattern_;
@@ -149,7 +149,7 @@ std::optional<PatternMatch> match_pattern(const NamePattern& pattern, const Toke
     return PatternMatcher(pattern, tokens, first, text, manner).match();
 }
 
-bool is_labelled(const Tokens& tokens, std::size_t first) {
+bool is_labeled(const Tokens& tokens, std::size_t first) {
     for (std::size_t back = 1; back <= 2 && back <= first; ++back)
         if (is_label(tokens[first - back])) return true;
     return false;

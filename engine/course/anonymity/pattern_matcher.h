@@ -23,6 +23,6 @@ std::optional<PatternMatch> match_pattern(const NamePattern& pattern, const std:
                                           std::size_t first, std::string_view text, TextManner manner);
 
 /// Whether a word such as "student" or "ID" is before a token.
-bool is_labelled(const std::vector<NameToken>& tokens, std::size_t first);
+bool is_labeled(const std::vector<NameToken>& tokens, std::size_t first);
 
 }  // namespace dynlab::inline course

@@ -5,7 +5,7 @@
 
 #include "course/intake/roster.h"
 #include "platform/sandbox.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline course {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "course/answers/written_answers.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline course {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "course/intake/roster.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline course {
 

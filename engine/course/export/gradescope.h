@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline course {
 

@@ -80,9 +80,9 @@ PlatformSheet::PlatformSheet(const std::filesystem::path& file, const std::strin
     if (lines_.empty()) throw EnvironmentError("{}: the file is empty; download it again", file.string());
     for (const std::string& cell : lines_.front().cells) names_.push_back(words_of_header(without_quotes(cell)));
     if (names_.size() > 1 && names_[1] == "id")
-        recognise_canvas(assignment);
+        recognize_canvas(assignment);
     else
-        recognise_moodle();
+        recognize_moodle();
     find_people();
 }
 
@@ -143,7 +143,7 @@ std::string PlatformSheet::listed_columns() const {
     return message_text(Message("{}", listed(names)));
 }
 
-void PlatformSheet::recognise_moodle() {
+void PlatformSheet::recognize_moodle() {
     const std::vector<std::size_t> all = rows();
     const auto holds_participants = [&](std::size_t column) {
         return !all.empty() &&
@@ -174,14 +174,14 @@ void PlatformSheet::recognise_moodle() {
     comment_ = first_column(names_, [](const std::string& name) { return has_word(name, kCommentWords); });
     if (!name_ && *number_ + 1 < names_.size() && grade_ != *number_ + 1) name_ = *number_ + 1;
     if (!comment_)
-        unrecognised_.push_back(
+        unrecognized_.push_back(
             Message("{}: no column of feedback comments is recognized; comments are left out", file_.string()));
     for (const std::size_t row : all)
         for (const auto column : {grade_, maximum})
             decimal_comma_ = decimal_comma_ || value(row, column).find(',') != std::string::npos;
 }
 
-void PlatformSheet::recognise_canvas(const std::string& assignment) {
+void PlatformSheet::recognize_canvas(const std::string& assignment) {
     static const RE2 kAssignment(R"((.*\S)\s*\(\d+\))");
     platform_ = Platform::kCanvas;
     name_ = 0, number_ = 1;

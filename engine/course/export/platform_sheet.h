@@ -14,7 +14,7 @@ namespace dynlab::inline course {
 /// comments are filled in; every other byte stays as it was: language and order of the columns, separator, quotes, line
 /// ends, byte order mark.
 ///
-/// Columns are recognised by known words in several languages, otherwise by their content:
+/// Columns are recognized by known words in several languages, otherwise by their content:
 ///
 /// * Moodle: a column of participants ("Participant 900001"), and the grade in front of the maximum grade.
 /// * Canvas: a second column "ID", and assignments with a number behind their name ("Lab 4 (1234)").
@@ -28,12 +28,12 @@ class PlatformSheet {
     };
 
     /// `assignment`: the column of Canvas's gradebook to fill in, with or without its number; needed where there are
-    /// several. Throws EnvironmentError where the file is neither table, or its column of grades is not recognised.
+    /// several. Throws EnvironmentError where the file is neither table, or its column of grades is not recognized.
     PlatformSheet(const std::filesystem::path& file, const std::string& assignment);
 
     Platform platform() const { return platform_; }
     const std::vector<Person>& people() const { return people_; }
-    const std::vector<Message>& unrecognized() const { return unrecognised_; }  ///< sentences
+    const std::vector<Message>& unrecognized() const { return unrecognized_; }  ///< sentences
     std::optional<double> maximum() const;  ///< the most points in the column of grades, where the table has it
     void set_grade(const Person& person, const std::string& points);
     void set_comment(const Person& person, const std::string& comment);  ///< where the table has such a column
@@ -45,8 +45,8 @@ class PlatformSheet {
         std::string end;                 ///< "\r\n", "\n" or nothing
     };
     void split(std::string_view text);
-    void recognise_moodle();
-    void recognise_canvas(const std::string& assignment);
+    void recognize_moodle();
+    void recognize_canvas(const std::string& assignment);
     void find_people();
     std::string value(std::size_t row, std::optional<std::size_t> column) const;
     std::vector<std::size_t> rows() const;  ///< as long as the header
@@ -63,7 +63,7 @@ class PlatformSheet {
     std::vector<std::string> names_;  ///< of the columns, as words without accents
     std::optional<std::size_t> number_, id_, mail_, name_, grade_, comment_, maximum_;
     std::vector<Person> people_;
-    std::vector<Message> unrecognised_;
+    std::vector<Message> unrecognized_;
 };
 
 /// The participants' numbers of students, by id: whose id, mail or, where nobody else has it, name the table has.

@@ -14,7 +14,7 @@
 #include "platform/sandbox.h"
 #include "platform/temporary_folder.h"
 #include "platform/time_limits.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline course {
 

@@ -25,7 +25,7 @@ std::string joined_words(const Words& words) {
     return fmt::format("{}", fmt::join(words, ""));
 }
 
-/// As German and its neighbours write names without their dots and rings: ä is ae, å is aa, ø is oe.
+/// As German and its neighbors write names without their dots and rings: ä is ae, å is aa, ø is oe.
 std::string spelt_out(std::string_view text) {
     constexpr std::u32string_view kDotted = U"äöüÄÖÜøØ", kRinged = U"åÅ";
     std::string plain;

@@ -36,7 +36,7 @@ struct Submission {
 
 /// What stands in `folder`: folders, archives (.zip, .tar, .tar.gz, .tgz, .tar.xz), and files that can be somebody's
 /// work, sorted by name. Hidden entries, what systems add (__MACOSX, Thumbs.db) and Moodle's folders of typed text are
-/// passed over, and so is `results`; links and other files go to `left_out`, each as a clause. Recognised are Moodle's
+/// passed over, and so is `results`; links and other files go to `left_out`, each as a clause. Recognized are Moodle's
 /// "Name_ID_assignsubmission_file_...", Canvas's "name_LATE_ID_ID_file.zip", whose loose files of one sender are
 /// joined, and Gradescope's submission_metadata.yml; one folder around all of it is looked through. Throws
 /// EnvironmentError where there is none.

@@ -10,7 +10,7 @@
 #include "course/intake/issue.h"
 #include "documents/document_rules.h"
 #include "documents/pdf/pdf_layout.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline course {
 

@@ -25,9 +25,9 @@ class LineMaker {
     bool takes(const PdfWord& word) const {
         if (line_.words.empty()) return true;
         const double height = std::max(line_.bottom - line_.top, word.bottom - word.top);
-        const double center = (word.top + word.bottom) / 2, line_centre = (line_.top + line_.bottom) / 2;
+        const double center = (word.top + word.bottom) / 2, line_center = (line_.top + line_.bottom) / 2;
         const double gap = word.left - line_.right, size = std::max(word.size, line_.size);
-        return std::abs(center - line_centre) < 0.5 * height && gap > -size && gap < 2.5 * size;
+        return std::abs(center - line_center) < 0.5 * height && gap > -size && gap < 2.5 * size;
     }
 
     void add(const PdfWord& word, const std::string& text, int page) {

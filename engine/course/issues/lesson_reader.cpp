@@ -7,8 +7,8 @@
 #include "base/languages.h"
 #include "platform/atomic_file.h"
 #include "platform/error.h"
-#include "scripting/interpreter/catalogue.h"
-#include "workflow/lesson_catalogue.h"
+#include "scripting/interpreter/catalog.h"
+#include "workflow/lesson_catalog.h"
 
 namespace dynlab::inline course {
 namespace {

@@ -8,7 +8,7 @@ namespace dynlab::inline course {
 
 /// A row a student: identifiers (id, name, mail, Moodle's and Canvas's), group, when the versions were received and how
 /// late, reviews written, marks in percent with the reasons of overrides, remarks on reviews that need the instructor's
-/// eye. CSV with formulas neutralised.
+/// eye. CSV with formulas neutralized.
 std::string marks_csv(Course& course, const Assignment& assignment, Instant now = CourseClock::now());
 
 /// All of the store but the handed-in files, as JSON: tables with their rows.

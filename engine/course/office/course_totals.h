@@ -49,7 +49,7 @@ struct CourseTotals {
 CourseTotals course_totals(Course& course, Instant now);
 
 /// A row a student: identifiers, group, the percent of each assignment, the total, and what is not marked yet. CSV with
-/// formulas neutralised.
+/// formulas neutralized.
 std::string totals_csv(const CourseTotals& totals);
 
 }  // namespace dynlab::inline course

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kStart = 1024;
 
-/// As much as its kind can be recognised from: all of a script.
+/// As much as its kind can be recognized from: all of a script.
 std::string start_of(const std::string& name, const fs::path& file) {
     if (name.ends_with(".lua")) return read_file(file);
     std::string start(kStart, '\0');

@@ -136,7 +136,7 @@ class Allocator {
         return false;
     }
 
-    /// A fresh circle would let neighbours read the same reports; random exchanges take that order away.
+    /// A fresh circle would let neighbors read the same reports; random exchanges take that order away.
     void mix() {
         if (!problem_.loose.empty() || !problem_.fixed.empty()) return;
         std::vector<ReviewEdge> pairs = loose_pairs();

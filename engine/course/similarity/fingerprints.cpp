@@ -5,7 +5,7 @@
 #include <set>
 #include <string_view>
 
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/source/lua_tokens.h"
 
 namespace dynlab::inline course {

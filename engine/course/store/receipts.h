@@ -35,7 +35,7 @@ struct ReceiptCheck {
 };
 
 /// Whether this text is a receipt that the owner of this public key signed, not a letter changed (line ends and blank
-/// lines aside). Coded receipts are recognised: they need the course.
+/// lines aside). Coded receipts are recognized: they need the course.
 ReceiptCheck verify_receipt(std::string_view text, std::string_view public_key);
 /// The same by the course itself, coded receipts too. Of a genuine receipt that is not valid any more the reason says
 /// so: its file was withdrawn, its time corrected, or a newer version submitted.

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 60> kWords = {
     "degrees", "celsius", "kelvin", "rpm",     "rps",    "rev",     "turn",   "turns",  "dB",      "ppm",
     "pH",      "Nm",      "VA",     "VAr",     "var",    "Wh",      "kWh",    "Ah",     "mAh",     "ohm",
     "Ohm",     "psi",     "atm",    "mmHg",    "inch",   "ft",      "sr",     "volt",   "volts",   "ampere",
-    "amperes", "amp",     "amps",   "meter",   "meters", "metre",   "metres", "newton", "newtons", "pascal",
+    "amperes", "amp",     "amps",   "metre",   "metres", "meter",   "meters", "newton", "newtons", "pascal",
     "watt",    "watts",   "radian", "radians", "hertz",  "percent", "counts", "bit",    "bits",    "a.u."};
 
 template <class Names>

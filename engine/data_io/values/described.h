@@ -58,7 +58,7 @@ struct StoredAs<std::filesystem::path> {
     static std::filesystem::path value(std::string&& text) { return std::move(text); }
 };
 
-/// A value to be filled; classes that cannot be empty specialise it.
+/// A value to be filled; classes that cannot be empty specialize it.
 template <class T>
 T blank() {
     return T{};

@@ -10,7 +10,7 @@ namespace dynlab::inline data_io {
 /// Results of estimations and studies as described.h stores them.
 
 constexpr std::array<const char*, 5> names_of(Termination) {
-    return {"converged", "iteration_limit", "no_progress", "diverged", "cancelled"};
+    return {"converged", "iteration_limit", "no_progress", "diverged", "canceled"};
 }
 
 constexpr std::array<const char*, 4> names_of(InitialState) {
@@ -68,13 +68,13 @@ void describe(T& object, V& member) {
 DYNLAB_DESCRIBE(OrderCandidate, poles, zeros, delay, failure, estimate, r_squared, yic, aic, bic, fpe, log_condition,
                 iterations, fit_percent, validation_fit, evidence, undetermined, cancellation, converged, integrator,
                 unstable)
-DYNLAB_DESCRIBE(OrderSelection, candidates, samples, validated, cancelled)
+DYNLAB_DESCRIBE(OrderSelection, candidates, samples, validated, canceled)
 DYNLAB_DESCRIBE(OrderChoice, place, explanation)
 DYNLAB_DESCRIBE(MonteCarloEstimate, theta, std, names, continuous, converged)
 DYNLAB_DESCRIBE(MonteCarloOutcome, estimate, failure, done)
 DYNLAB_DESCRIBE(MonteCarloRun, outcomes)
 DYNLAB_DESCRIBE(MonteCarloResult, label, names, theta, std, truth, mean, spread, median, low, high, reported, bias,
                 bound, estimated, failed, not_converged, first_failure)
-DYNLAB_DESCRIBE(MonteCarlo, results, sigma, snr, runs, cancelled)
+DYNLAB_DESCRIBE(MonteCarlo, results, sigma, snr, runs, canceled)
 
 }  // namespace dynlab::inline data_io

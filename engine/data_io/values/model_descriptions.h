@@ -30,7 +30,7 @@ constexpr std::array<const char*, 3> names_of(InterSample) {
 
 DYNLAB_DESCRIBE(OutputLevels, w, power, noise, distortion)
 DYNLAB_DESCRIBE(FrequencyData, w, response, variance, Ts, inter_sample, input_name, output_name, input_unit,
-                output_unit, neighbours_share_errors, noise_variance, distortion, realised, coherence, noise_spectrum,
+                output_unit, neighbors_share_errors, noise_variance, distortion, realized, coherence, noise_spectrum,
                 excited, odd, even, method, message, warnings)
 void check_value(const FrequencyData& data, const ValueLimits& limits);
 

@@ -146,7 +146,7 @@ class PlotWriter {
         const style::CurveAppearance look = style::appearance_of(curve, index);
         json data = {{"style", names_of(CurveStyle{})[static_cast<std::size_t>(curve.style)]},
                      {"name", pieces_of(curve.label)},
-                     {"colour", look.colour},
+                     {"color", look.color},
                      {"dash", dash_lengths(look.dash)},
                      {"width", curve.line_width},
                      {"point", look.point_type},

@@ -43,7 +43,7 @@ Figure arx_order_plot(const ArxSelection& selection, ArxCriterion criterion, con
     if (both) panel.curves.back().label = Message("validation data");
     Extent x_extent(false), y_extent(false);
     for (std::size_t i = 0; i < panel.curves.size(); ++i) {
-        panel.curves[i].colour = static_cast<int>(i);
+        panel.curves[i].color = static_cast<int>(i);
         x_extent.include(panel.curves[i].x);
         y_extent.include(panel.curves[i].y);
     }

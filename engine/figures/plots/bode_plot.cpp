@@ -104,7 +104,7 @@ void add_responses(Panel& magnitude, Panel& phase, const std::vector<NamedRespon
         curve.x = data.w;
         curve.label = responses[i].name;
         curve.style = CurveStyle::kPoints;
-        curve.colour = static_cast<int>(models.size() + i), curve.marker = static_cast<int>(i);
+        curve.color = static_cast<int>(models.size() + i), curve.marker = static_cast<int>(i);
         curve.y = magnitude_db(data.response);
         magnitude.curves.push_back(curve);
         curve.y = phase_beside(data, models);

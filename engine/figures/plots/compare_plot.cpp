@@ -31,12 +31,12 @@ Message model_label(const ModelOutput& model, Index output, const std::string& u
 }
 
 Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int index, const std::string& unit) {
-    static constexpr int kColours[] = {0, 6, 3, 4, 1, 7, 5};  // apart from the grey of the data
+    static constexpr int kColors[] = {0, 6, 3, 4, 1, 7, 5};  // apart from the grey of the data
     Curve curve;
     curve.x = t;
     curve.y = model.y.col(output);
     curve.label = curve.y.allFinite() ? model_label(model, output, unit) : Message("{}: unstable", model.name);
-    curve.colour = kColours[index % 7];
+    curve.color = kColors[index % 7];
     curve.dash = index % 8;
     return curve;
 }
@@ -76,7 +76,7 @@ Figure compare_plot(const IdData& data, const std::vector<ModelOutput>& models, 
         curve.x = t;
         curve.y = measured.col(output);
         curve.label = Message("measured");
-        curve.colour = style::kGrayColor;
+        curve.color = style::kGrayColor;
         curve.dash = 0;
         curve.line_width = kMeasuredWidth;
         panel.curves.push_back(std::move(curve));

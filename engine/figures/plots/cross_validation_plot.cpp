@@ -22,7 +22,7 @@ Figure cross_validation_plot(const CrossValidation& result, const std::vector<st
         points.x = Vector::LinSpaced(folds, 1, end);
         points.y = result.fit_percent.col(i);
         points.style = CurveStyle::kPoints;
-        points.colour = static_cast<int>(i);
+        points.color = static_cast<int>(i);
         points.line_width = 1.4;
         if (outputs > 1) points.label = Message::verbatim(output_names[static_cast<std::size_t>(i)]);
         panel.curves.push_back(std::move(points));
@@ -32,7 +32,7 @@ Figure cross_validation_plot(const CrossValidation& result, const std::vector<st
         Curve mean;
         mean.x = Vector{{0.5, end + 0.5}};
         mean.y = Vector::Constant(2, result.mean[i]);
-        mean.colour = static_cast<int>(i);
+        mean.color = static_cast<int>(i);
         mean.dash = 1 + static_cast<int>(i);
         mean.line_width = 0.7;
         mean.label = Message("mean {} %", decimals(result.mean[i], 1));

@@ -16,18 +16,18 @@ Curve loss_curve(const DelaySearch& search) {
     curve.y = search.losses();
     curve.style = CurveStyle::kLinePoints;
     curve.line_width = 0.7;
-    curve.colour = 0;
+    curve.color = 0;
     curve.label = Message("best model at each delay");
     return curve;
 }
 
-Curve mark(double x, double y, int marker, int colour, const Message& label) {
+Curve mark(double x, double y, int marker, int color, const Message& label) {
     Curve curve;
     curve.x = Vector::Constant(1, x);
     curve.y = Vector::Constant(1, y);
     curve.style = CurveStyle::kPoints;
     curve.marker = marker;
-    curve.colour = colour;
+    curve.color = color;
     curve.line_width = 3;
     curve.label = label;
     return curve;
@@ -51,7 +51,7 @@ Message delay_text(const DelaySearch& search) {
 }  // namespace
 
 Figure delay_plot(const DelaySearch& search) {
-    if (search.cancelled) throw InvalidArgument("nothing to draw: the search was interrupted");
+    if (search.canceled) throw InvalidArgument("nothing to draw: the search was interrupted");
     Panel panel;
     panel.curves.push_back(loss_curve(search));
     Extent x_extent(false), y_extent(false);

@@ -39,7 +39,7 @@ Panel panel_of(const ParameterHistory& history, Index parameter, const std::stri
     Curve curve;
     curve.x = history.t;
     curve.y = history.theta.col(parameter);
-    curve.colour = 0;
+    curve.color = 0;
     curve.dash = 0;
     curve.label = Message("estimate");
     panel.curves.push_back(std::move(curve));
@@ -47,7 +47,7 @@ Panel panel_of(const ParameterHistory& history, Index parameter, const std::stri
         Curve line;
         line.x = Vector::LinSpaced(std::max<Index>(truth.size(), 2), history.t[0], history.t[history.t.size() - 1]);
         line.y = truth.size() == 1 ? Vector(Vector::Constant(2, truth[0])) : truth;
-        line.colour = style::kGrayColor;
+        line.color = style::kGrayColor;
         line.dash = 1;
         line.label = Message("true value");
         panel.curves.push_back(std::move(line));

@@ -50,7 +50,7 @@ void add_curve(Panel& panel, Curve curve, bool output) {
     if (same == panel.curves.end())
         panel.curves.push_back(std::move(curve));
     else
-        same->colour = style::kGrayColor;
+        same->color = style::kGrayColor;
 }
 
 /// The reference that a loop's output is to follow.
@@ -59,7 +59,7 @@ Curve reference_curve(const IdData& data, std::size_t experiment, Index number) 
     curve.x = data.time(experiment);
     curve.y = data.experiments[experiment].r.col(number);
     curve.label = Message("reference");
-    curve.colour = style::kGrayColor;
+    curve.color = style::kGrayColor;
     if (data.hold == Hold::kZoh) curve.style = CurveStyle::kStairs;
     return curve;
 }
@@ -84,7 +84,7 @@ Panel panel_of(const Channel& channel, const std::vector<const IdData*>& data, c
                     experiment.name.empty() ? Message("experiment {}", k + 1) : Message::verbatim(experiment.name);
                 curve.label = curve.label.empty() ? name : Message("{}, {}", curve.label, name);
             }
-            curve.colour = index++;
+            curve.color = index++;
             add_curve(panel, std::move(curve), channel.output);
             if (channel.output && channel.number < experiment.r.cols())
                 panel.curves.push_back(reference_curve(*data[i], k, channel.number));

@@ -16,7 +16,7 @@ Curve stems_of(const ImpulseEstimate& estimate, double Ts) {
     stems.x = estimate.t;
     stems.y = estimate.response / Ts;
     stems.style = CurveStyle::kStems;
-    stems.colour = 0;
+    stems.color = 0;
     stems.dash = 0;
     stems.marker = 0;
     stems.label = Message("estimate");
@@ -29,13 +29,13 @@ Curve band_of(const ImpulseEstimate& estimate, double Ts, double level) {
     band.y_upper = normal_half_width(level) * estimate.null_std / Ts;
     band.y = -band.y_upper;
     band.style = CurveStyle::kBand;
-    band.colour = style::kGrayColor;
+    band.color = style::kGrayColor;
     band.label = Message("{} % chance bounds", significant(100 * level, 4));
     return band;
 }
 
 /// A discrete model's response to a unit sample is divided by its sampling time like the estimate.
-Curve curve_of(const NamedModel& model, double end, int colour) {
+Curve curve_of(const NamedModel& model, double end, int color) {
     Vector t = Vector::LinSpaced(kModelPoints, 0, end);
     if (!model.G.continuous()) {
         const Index count = samples_within(end, model.G.Ts());
@@ -46,7 +46,7 @@ Curve curve_of(const NamedModel& model, double end, int colour) {
     curve.x = response.t;
     curve.y = response.y;
     curve.label = model.name;
-    curve.colour = colour;
+    curve.color = color;
     return curve;
 }
 
@@ -60,8 +60,8 @@ Figure impulse_estimate_plot(const ImpulseEstimate& estimate, double Ts, const s
     panel.y_label = Message("impulse response (per s)");
     panel.curves = {band_of(estimate, Ts, level), stems_of(estimate, Ts)};
     const double end = estimate.t[estimate.t.size() - 1];
-    int colour = 1;
-    for (const NamedModel& model : models) panel.curves.push_back(curve_of(model, end, colour++));
+    int color = 1;
+    for (const NamedModel& model : models) panel.curves.push_back(curve_of(model, end, color++));
     panel.references = {{true, 0, {}, 0}};
     panel.x_range = {-0.02 * end, 1.02 * end};
     if (estimate.first && *estimate.first > 1) {

@@ -14,7 +14,7 @@ void add_levels(Panel& panel, const Message& label, const Vector& w, const Vecto
     curve.y = (power.array() > 0).select(10 * power.array().max(1e-300).log10(), kNaN);
     curve.label = label;
     curve.style = style;
-    curve.colour = look, curve.marker = look, curve.dash = 0;
+    curve.color = look, curve.marker = look, curve.dash = 0;
     panel.curves.push_back(std::move(curve));
 }
 

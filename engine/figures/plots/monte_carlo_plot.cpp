@@ -19,7 +19,7 @@ constexpr double kShownShare = 0.99;     // of all estimates, in the middle
 constexpr double kFence = 6;             // quartile distances beside the quartiles, where still more lies far out
 constexpr double kRangeExtension = 0.5;  // times the range of those: what lies farther out would squeeze the picture
 constexpr double kTruthWidth = 2.5;
-constexpr int kTruthColour = 6;  // seen on top of any cloud
+constexpr int kTruthColor = 6;  // seen on top of any cloud
 
 /// Finite values of a column.
 Vector estimates_of(const MonteCarloResult& result, Index column) {
@@ -80,7 +80,7 @@ std::optional<double> truth_of(const MonteCarloResult& result, Index index) {
     return result.truth[index];
 }
 
-Panel histogram_panel(const Vector& values, std::pair<double, double> range, std::optional<double> truth, int colour) {
+Panel histogram_panel(const Vector& values, std::pair<double, double> range, std::optional<double> truth, int color) {
     std::vector<double> shown;
     for (const double value : values)
         if (value >= range.first && value <= range.second) shown.push_back(value);
@@ -95,11 +95,11 @@ Panel histogram_panel(const Vector& values, std::pair<double, double> range, std
     if (const Index outside = values.size() - count; outside > 0)
         panel.title = Message("{} of {} outside", outside, values.size());
     panel.x_range = range;
-    panel.curves.front().colour = colour;
+    panel.curves.front().color = color;
     return panel;
 }
 
-/// Points of {v : (v - centre)' C^-1 (v - centre) = -2 ln(1 - level)}, the chi-square quantile for two numbers.
+/// Points of {v : (v - center)' C^-1 (v - center) = -2 ln(1 - level)}, the chi-square quantile for two numbers.
 /// `root` is the lower triangle L of C = L L'.
 Matrix ellipse(const Eigen::Vector2d& center, const Eigen::Matrix2d& root, double level) {
     constexpr Index kPoints = 91;
@@ -117,7 +117,7 @@ double cloud_width(std::size_t points) {
     return points > 1000 ? 0.6 : points > 300 ? 0.9 : 1.2;
 }
 
-Curve cloud(const MonteCarloResult& result, Index x, Index y, int colour) {
+Curve cloud(const MonteCarloResult& result, Index x, Index y, int color) {
     std::vector<double> xs, ys;
     for (Index k = 0; k < result.theta.rows(); ++k) {
         if (!std::isfinite(result.theta(k, x))) continue;
@@ -129,7 +129,7 @@ Curve cloud(const MonteCarloResult& result, Index x, Index y, int colour) {
     curve.y = Eigen::Map<const Vector>(ys.data(), static_cast<Index>(ys.size()));
     curve.style = CurveStyle::kPoints;
     curve.label = Message::verbatim(result.label);
-    curve.colour = colour;
+    curve.color = color;
     curve.line_width = cloud_width(xs.size());
     return curve;
 }
@@ -140,7 +140,7 @@ void add_truth(Panel& panel, const MonteCarloResult& result, Index x, Index y, d
     truth.y = Vector::Constant(1, result.truth[y]);
     truth.style = CurveStyle::kPoints;
     truth.marker = style::kCross;
-    truth.colour = kTruthColour;
+    truth.color = kTruthColor;
     truth.line_width = kTruthWidth;
     truth.label = Message("true value");
     panel.references = {{true, result.truth[y], {}, 2}, {false, result.truth[x], {}, 2}};
@@ -153,7 +153,7 @@ void add_truth(Panel& panel, const MonteCarloResult& result, Index x, Index y, d
             Curve curve;
             curve.x = points.col(0);
             curve.y = points.col(1);
-            curve.colour = style::kGrayColor;
+            curve.color = style::kGrayColor;
             curve.dash = 0;
             curve.line_width = 1.2;
             curve.label = Message("Cramér–Rao ellipse, {} %", significant(100 * level, 4));

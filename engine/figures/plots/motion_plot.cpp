@@ -15,7 +15,7 @@ constexpr Index kInstants = 4;
 constexpr int kInstantDigits = 15;                      // of messages: instants may differ late
 constexpr double kFirstHeight = 0.5, kNoNumbers = 1e3;  // of the axis of y of pictures, which has no numbers to show
 constexpr double kMeasuredLine = 1.6, kSimulatedLine = 0.8, kFixedLine = 0.4;  // points
-constexpr int kSimulatedColour = 0, kFixedColour = 2;
+constexpr int kSimulatedColor = 0, kFixedColor = 2;
 
 void check_motion_record(const PlantDrawing& plant, const MotionRecord& record) {
     const Index parts = static_cast<Index>(plant.parts.size()), count = record.t.size();
@@ -55,11 +55,11 @@ class Strokes {
         x_.push_back(x.empty() ? 0 : x.back()), y_.push_back(std::numeric_limits<double>::quiet_NaN());
     }
     bool empty() const { return x_.empty(); }
-    Curve curve(int colour, double width) const {
+    Curve curve(int color, double width) const {
         Curve curve;
         curve.x = Eigen::Map<const Vector>(x_.data(), static_cast<Index>(x_.size()));
         curve.y = Eigen::Map<const Vector>(y_.data(), static_cast<Index>(y_.size()));
-        curve.colour = colour, curve.dash = 0, curve.line_width = width;
+        curve.color = color, curve.dash = 0, curve.line_width = width;
         return curve;
     }
 
@@ -82,16 +82,16 @@ struct PicturePlace {
 Panel signal_panel(const PlantPart& part, const MotionRecord& record, Index column) {
     Panel panel;
     panel.y_label = axis_label(Message::verbatim(part.signal), part.unit);
-    const auto add = [&](const Matrix& signals, const Message& label, int colour, double width) {
+    const auto add = [&](const Matrix& signals, const Message& label, int color, double width) {
         if (signals.size() == 0) return;
         Curve curve;
         curve.x = record.t, curve.y = signals.col(column);
         curve.label = column == 0 ? label : Message();
-        curve.colour = colour, curve.dash = 0, curve.line_width = width;
+        curve.color = color, curve.dash = 0, curve.line_width = width;
         panel.curves.push_back(std::move(curve));
     };
     add(record.measured, Message("measured"), style::kGrayColor, kMeasuredLine);
-    add(record.simulated, Message("simulated"), kSimulatedColour, kSimulatedLine);
+    add(record.simulated, Message("simulated"), kSimulatedColor, kSimulatedLine);
     return panel;
 }
 
@@ -99,7 +99,7 @@ Panel signal_panel(const PlantPart& part, const MotionRecord& record, Index colu
 void draw_pictures(Panel& panel, const PlantDrawing& plant, const MotionRecord& record, const Vector& instants,
                    double width, double height) {
     const double seconds = record.t[record.t.size() - 1] - record.t[0];
-    double room = width;  // between neighbours
+    double room = width;  // between neighbors
     for (Index k = 1; k < instants.size(); ++k)
         room = std::min(room, (instants[k] - instants[k - 1]) / seconds * width);
     const double scale = std::min(0.97 * room / plant.width, height / (plant.height + 2 * kRim));
@@ -119,9 +119,9 @@ void draw_pictures(Panel& panel, const PlantDrawing& plant, const MotionRecord& 
                     place.add(plant.placed(piece, signals_at(record.t, *signals, instant)), *strokes);
         }
     }
-    if (!fixed.empty()) panel.curves.push_back(fixed.curve(kFixedColour, kFixedLine));
+    if (!fixed.empty()) panel.curves.push_back(fixed.curve(kFixedColor, kFixedLine));
     if (!measured.empty()) panel.curves.push_back(measured.curve(style::kGrayColor, kMeasuredLine));
-    if (!simulated.empty()) panel.curves.push_back(simulated.curve(kSimulatedColour, kSimulatedLine));
+    if (!simulated.empty()) panel.curves.push_back(simulated.curve(kSimulatedColor, kSimulatedLine));
     panel.y_range = {kFirstHeight, kFirstHeight + height};
 }
 

@@ -60,7 +60,7 @@ Figure nyquist_plot(const std::vector<NamedModel>& models, const Vector& w) {
         curve.x = response.real();
         curve.y = response.imag();
         curve.label = model.name;
-        curve.colour = index++;
+        curve.color = index++;
         panel.curves.push_back(curve);
         curve.y = -curve.y;
         curve.label = {};

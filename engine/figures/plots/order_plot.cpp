@@ -52,7 +52,7 @@ Curve curve_of(const std::map<double, double>& values, int zeros, int index) {
     Index i = 0;
     for (const auto& [x, y] : values) curve.x[i] = x, curve.y[i++] = y;
     curve.style = CurveStyle::kLinePoints;
-    curve.colour = index;
+    curve.color = index;
     curve.label = zeros == 0 ? Message("no zero") : plural(zeros, "{} zero", "{} zeros");
     return curve;
 }
@@ -65,7 +65,7 @@ Curve mark_of_choice(double x, double y) {
     mark.y = Vector::Constant(1, y);
     mark.style = CurveStyle::kPoints;
     mark.marker = style::kOpenCircle;
-    mark.colour = 6;
+    mark.color = 6;
     mark.line_width = 3;
     mark.label = Message("chosen");
     return mark;

@@ -17,7 +17,7 @@ Curve guide(Vector x, Vector y) {
     Curve curve;
     curve.x = std::move(x);
     curve.y = std::move(y);
-    curve.colour = style::kGrayColor;
+    curve.color = style::kGrayColor;
     curve.dash = 2;
     curve.line_width = 0.5;
     return curve;
@@ -46,20 +46,20 @@ void add_damping_rays(Panel& panel, double reach) {
     }
 }
 
-void add_roots(Panel& panel, const ComplexVector& roots, const Message& label, int colour, int marker) {
+void add_roots(Panel& panel, const ComplexVector& roots, const Message& label, int color, int marker) {
     if (roots.size() == 0) return;
     Curve curve;
     curve.x = roots.real();
     curve.y = roots.imag();
     curve.label = label;
     curve.style = CurveStyle::kPoints;
-    curve.colour = colour;
+    curve.color = color;
     curve.marker = marker;
     curve.line_width = 1.6;
     panel.curves.push_back(std::move(curve));
 }
 
-void add_regions(Panel& panel, const ModelConfidence& confidence, int colour, const Message& label, Extent& real,
+void add_regions(Panel& panel, const ModelConfidence& confidence, int color, const Message& label, Extent& real,
                  Extent& imaginary) {
     std::vector<RootUncertainty> roots = pole_uncertainty(confidence.model);
     for (const RootUncertainty& zero : zero_uncertainty(confidence.model)) roots.push_back(zero);
@@ -73,7 +73,7 @@ void add_regions(Panel& panel, const ModelConfidence& confidence, int colour, co
         Curve curve;
         curve.x = region.col(0);
         curve.y = region.col(1);
-        curve.colour = colour;
+        curve.color = color;
         curve.line_width = root.root.imag() == 0 ? 1.6 : 0.7;
         if (first) curve.label = label;
         first = false;
@@ -93,7 +93,7 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
     if (!continuous)
         for (const double edge : {-1.0, 1.0}) real.include(edge), imaginary.include(edge);
     Panel panel;
-    int colour = 0;
+    int color = 0;
     bool explained = false;
     for (const NamedModel& model : models) {
         if (model.G.continuous() != continuous)
@@ -101,18 +101,18 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
         const ComplexVector poles = model.G.poles(), zeros = model.G.zeros();
         for (const ComplexVector* roots : {&poles, &zeros})
             real.include(Vector(roots->real())), imaginary.include(Vector(roots->imag()));
-        const int mark = colour % style::kPoleMarkers;
-        add_roots(panel, poles, model.name.empty() ? Message("poles") : Message("{}: poles", model.name), colour,
+        const int mark = color % style::kPoleMarkers;
+        add_roots(panel, poles, model.name.empty() ? Message("poles") : Message("{}: poles", model.name), color,
                   style::kCross + mark);
-        add_roots(panel, zeros, model.name.empty() ? Message("zeros") : Message("{}: zeros", model.name), colour,
+        add_roots(panel, zeros, model.name.empty() ? Message("zeros") : Message("{}: zeros", model.name), color,
                   style::kOpenCircle + mark);
         if (model.confidence) {
             const double level = model.confidence->level;
-            add_regions(panel, *model.confidence, colour, explained ? Message() : confidence_text(level), real,
+            add_regions(panel, *model.confidence, color, explained ? Message() : confidence_text(level), real,
                         imaginary);
             explained = true;
         }
-        ++colour;
+        ++color;
     }
     if (panel.curves.empty()) throw InvalidArgument("neither a pole nor a zero to draw");
     panel.equal_axes = true;

@@ -23,7 +23,7 @@ Curve rise_curve(const Profile& profile, double top) {
     curve.y = Vector::Map(y.data(), static_cast<Index>(y.size()));
     curve.style = CurveStyle::kLinePoints;
     curve.line_width = 0.7;
-    curve.colour = 0;
+    curve.color = 0;
     curve.label = Message("other parameters refitted");
     return curve;
 }
@@ -33,7 +33,7 @@ Curve parabola(const Profile& profile, double low, double high) {
     Curve curve;
     curve.x = Vector::LinSpaced(kPoints, low, high);
     curve.y = ((curve.x.array() - profile.estimate) / profile.std).square();
-    curve.colour = style::kGrayColor;
+    curve.color = style::kGrayColor;
     curve.dash = 1;
     curve.label = Message("from the standard error");
     return curve;

@@ -5,24 +5,24 @@
 namespace dynlab::inline figures {
 namespace {
 
-Curve curve_of(const Vector& x, const Vector& y, const Message& label, CurveStyle style, int colour) {
+Curve curve_of(const Vector& x, const Vector& y, const Message& label, CurveStyle style, int color) {
     Curve curve;
     curve.x = x;
     curve.y = y;
     curve.label = label;
     curve.style = style;
-    curve.colour = colour;
+    curve.color = color;
     curve.dash = 0;
     return curve;
 }
 
 void add_band(Panel& panel, const RegressionPicture& picture, const Vector& lower, const Vector& upper,
-              const Message& label, int colour) {
+              const Message& label, int color) {
     if (lower.size() == 0 && upper.size() == 0) return;
     if (lower.size() != picture.line_x.size() || upper.size() != picture.line_x.size())
         throw InvalidArgument("the {} needs one value for each of the {} points of the line, not {} and {}", label,
                               picture.line_x.size(), lower.size(), upper.size());
-    panel.curves.push_back(curve_of(picture.line_x, lower, label, CurveStyle::kBand, colour));
+    panel.curves.push_back(curve_of(picture.line_x, lower, label, CurveStyle::kBand, color));
     panel.curves.back().y_upper = upper;
 }
 

@@ -8,17 +8,17 @@
 namespace dynlab::inline figures {
 namespace {
 
-constexpr int kInsideColour = 0, kOutsideColour = 6;
+constexpr int kInsideColor = 0, kOutsideColor = 6;
 constexpr int kInsideMarker = 0, kOutsideMarker = 5;  ///< a filled circle, an open square
 
-Curve stems(const std::vector<double>& lags, const std::vector<double>& values, int colour, int marker,
+Curve stems(const std::vector<double>& lags, const std::vector<double>& values, int color, int marker,
             const Message& label) {
     const auto count = static_cast<Index>(lags.size());
     Curve curve;
     curve.x = Eigen::Map<const Vector>(lags.data(), count);
     curve.y = Eigen::Map<const Vector>(values.data(), count);
     curve.style = CurveStyle::kStems;
-    curve.colour = colour;
+    curve.color = color;
     curve.dash = 0;
     curve.marker = marker;
     curve.label = label;
@@ -35,7 +35,7 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
     band.y = Vector::Constant(2, -bound);
     band.y_upper = Vector::Constant(2, bound);
     band.style = CurveStyle::kBand;
-    band.colour = style::kGrayColor;
+    band.color = style::kGrayColor;
     band.label = Message("{} % bound", significant(100 * confidence, 4));
     panel.curves = {std::move(band)};
     std::vector<double> lags[2], values[2];
@@ -44,9 +44,9 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
         lags[outside].push_back(static_cast<double>(first + i));
         values[outside].push_back(correlation[i]);
     }
-    if (!lags[0].empty()) panel.curves.push_back(stems(lags[0], values[0], kInsideColour, kInsideMarker, {}));
+    if (!lags[0].empty()) panel.curves.push_back(stems(lags[0], values[0], kInsideColor, kInsideMarker, {}));
     if (!lags[1].empty())
-        panel.curves.push_back(stems(lags[1], values[1], kOutsideColour, kOutsideMarker, Message("outside the bound")));
+        panel.curves.push_back(stems(lags[1], values[1], kOutsideColor, kOutsideMarker, Message("outside the bound")));
     panel.references = {{true, 0, {}, 0}};
     return panel;
 }

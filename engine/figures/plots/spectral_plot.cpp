@@ -42,17 +42,17 @@ Curve curve_of(const SpectralEstimate& estimate, const Vector& y, const Message&
     curve.x = estimate.w;
     curve.y = y;
     curve.label = label;
-    curve.colour = 0;
+    curve.color = 0;
     curve.dash = 0;
     if (estimate.std.size() == 0) {
         curve.style = CurveStyle::kPoints;
-        curve.colour = style::kGrayColor;
+        curve.color = style::kGrayColor;
         curve.marker = 0;
     }
     return curve;
 }
 
-/// The curves of models from the first to the last frequency, in colours of their own.
+/// The curves of models from the first to the last frequency, in colors of their own.
 void add_models(Figure& figure, const std::vector<NamedModel>& models, double first, double last) {
     constexpr Index kModelPoints = 800;
     if (models.empty()) return;
@@ -60,9 +60,9 @@ void add_models(Figure& figure, const std::vector<NamedModel>& models, double fi
         models,
         Vector::LinSpaced(kModelPoints, std::log(first), std::log(last)).array().exp().max(first).min(last).matrix());
     for (std::size_t panel = 0; panel < 2; ++panel) {
-        int colour = 1;
+        int color = 1;
         for (Curve& curve : theirs.panels[panel].curves) {
-            if (curve.style != CurveStyle::kBand) curve.colour = colour++;
+            if (curve.style != CurveStyle::kBand) curve.color = color++;
             if (curve.style != CurveStyle::kBand) figure.panels[panel].curves.push_back(std::move(curve));
         }
     }

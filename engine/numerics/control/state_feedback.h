@@ -10,7 +10,7 @@ struct StateFeedback {
 };
 
 /// The state feedback of dx/dt = A x + B u that makes the integral of x'Q x + u'R u smallest: K = R^-1 B'P with the
-/// stabilising solution of A'P + P A - P B R^-1 B'P + Q = 0, from the stable eigenvectors of the Hamiltonian matrix.
+/// stabilizing solution of A'P + P A - P B R^-1 B'P + Q = 0, from the stable eigenvectors of the Hamiltonian matrix.
 /// A n x n, B n x nu, Q n x n symmetric and not negative, R nu x nu symmetric and positive. Throws InvalidArgument for
 /// other sizes, and when no feedback makes the criterion finite: a mode that B does not reach is unstable, or Q does
 /// not see one on the imaginary axis. By duality the transposed K of (A', C') is the gain of an observer. Reference:

@@ -27,7 +27,7 @@ struct EstimatingTerms {
 /// error of the equation with all signals filtered by gain/E, E monic of degree n, theta the coefficients of `model`.
 /// With v = y - sum B_j/A u_j it is e = gain A/E v, but for what the hold of y between its samples changes. For regular
 /// records and a stable model the terms are therefore the instruments filtered by gain A/E backwards in time and the
-/// output errors v, which no filter has coloured.
+/// output errors v, which no filter has colored.
 EstimatingTerms estimating_terms(const RegressionRecord& record, const VectorView& E, double gain,
                                  const CommonDenominator& model, const CommonDenominator* instrument = nullptr);
 

@@ -11,7 +11,7 @@ struct OutputErrorProducts {
     Vector descent;      ///< J'e
 };
 
-/// A model whose output depends smoothly on parameters: what an output-error method minimises over. Implemented by
+/// A model whose output depends smoothly on parameters: what an output-error method minimizes over. Implemented by
 /// each structure (process models, transfer functions); the search (fit/output_error.h) knows nothing else of it.
 class OutputErrorModel {
   public:

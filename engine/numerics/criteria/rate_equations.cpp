@@ -12,7 +12,7 @@ namespace {
 
 constexpr Index kHighestLocalDegree = 4;
 constexpr int kPower = 8;  // of the test functions
-constexpr Index kCentresPerWidth = 10;
+constexpr Index kCentersPerWidth = 10;
 
 /// Value and derivative at t[at] of the closest polynomial, as weights of the samples at the instants t.
 Matrix polynomial_weights(const VectorView& t, Index at) {
@@ -80,7 +80,7 @@ RateEquations weak_equations(const IdData& data, std::size_t experiment, const F
         held.bottomRows(N - 1) = record.u.topRows(N - 1);
         ends = library_values(library, record.y, held);
     }
-    const double step = std::max(width / kCentresPerWidth, data.mean_step());
+    const double step = std::max(width / kCentersPerWidth, data.mean_step());
     const double room = t[N - 1] - t[0] - 2 * width;
     const Index rows = room < 0 ? 0 : static_cast<Index>(room / step) + 1;
     RateEquations equations{Matrix::Zero(rows, library.count()), Matrix::Zero(rows, record.y.cols())};

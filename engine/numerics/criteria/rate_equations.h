@@ -17,8 +17,8 @@ struct RateEquations {
 RateEquations derivative_equations(const IdData& data, std::size_t experiment, const FunctionLibrary& library,
                                    int window);
 
-/// Of one experiment in weak form with the test functions (1 - s^2)^8, s = (t - centre)/width, `width` in the time unit
-/// of the data, centred at every tenth of the width. Throws InvalidArgument for a width that leaves no room or holds
+/// Of one experiment in weak form with the test functions (1 - s^2)^8, s = (t - center)/width, `width` in the time unit
+/// of the data, centered at every tenth of the width. Throws InvalidArgument for a width that leaves no room or holds
 /// fewer than 3 samples, and as library_values().
 RateEquations weak_equations(const IdData& data, std::size_t experiment, const FunctionLibrary& library, double width);
 

@@ -5,7 +5,7 @@
 namespace dynlab::inline numerics {
 
 /// A(q) y(k) = sum_i B_i(q) u_i(k) + C(q) e(k), by the prediction-error method:
-///     minimise sum_k e(k)^2,   e = (A y - sum_i B_i u_i)/C,
+///     minimize sum_k e(k)^2,   e = (A y - sum_i B_i u_i)/C,
 /// over the samples whose past is recorded (as arx, with nc = 0 it is arx), the e before them taken as zero; by damped
 /// Gauss-Newton with exact sensitivities (fit/discrete/prediction_model.h) in which C keeps its roots inside the unit
 /// circle. Starts, of which the best is followed: A and B of arx and of iv4 with a C fitted to their errors; and Hannan

@@ -5,7 +5,7 @@
 namespace dynlab::inline numerics {
 
 /// A(q) y(k) = sum_i B_i(q) u_i(k) + e(k): least squares,
-///     minimise sum_k (y(k) + a_1 y(k-1) + ... - b_nk u(k-nk) - ...)^2,
+///     minimize sum_k (y(k) + a_1 y(k-1) + ... - b_nk u(k-nk) - ...)^2,
 /// over every sample of every experiment whose whole past is recorded (k > max(na, nk + nb - 1)); nothing is assumed
 /// about what came before. The estimate is consistent, and its covariance right, when e is white: when the noise comes
 /// to the output through the same poles 1/A. Measurement noise on y biases it, the more the faster the sampling.

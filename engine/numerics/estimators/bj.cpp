@@ -79,7 +79,7 @@ Fit search_from(const Fit& first, const std::vector<Vector>& errors, const Predi
 Fit or_from_filtered_data(Fit best, const IdData& data, const PredictionModel& model, const FitOptions& options) {
     const PolynomialOrders& orders = model.orders();
     const StartCondition condition = best.start;
-    if (orders.nd == 0 || best.termination == Termination::kCancelled) return best;
+    if (orders.nd == 0 || best.termination == Termination::kCanceled) return best;
     const LongRegression regression(data, *std::max_element(orders.nk.begin(), orders.nk.end()));
     if (!regression.predicts_better_than(best.noise_variance[0])) return best;
     const FitOptions plain = options.started({condition.state, false});
@@ -93,7 +93,7 @@ Fit or_from_filtered_data(Fit best, const IdData& data, const PredictionModel& m
         }
         first.start = condition;
         Fit other = search_from(first, output_errors(first, model.experiments()), model, data, options);
-        if (other.termination == Termination::kCancelled) break;
+        if (other.termination == Termination::kCanceled) break;
         if (other.noise_variance[0] < best.noise_variance[0]) best = std::move(other);
         if (!regression.predicts_better_than(best.noise_variance[0])) break;
     }

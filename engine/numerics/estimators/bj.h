@@ -5,7 +5,7 @@
 namespace dynlab::inline numerics {
 
 /// y(k) = sum_i B_i(q)/F_i(q) u_i(k) + C(q)/D(q) e(k) (Box and Jenkins), by the prediction-error method:
-///     minimise sum_k e(k)^2,   e = D/C (y - sum_i B_i/F_i u_i - free motion - offset),
+///     minimize sum_k e(k)^2,   e = D/C (y - sum_i B_i/F_i u_i - free motion - offset),
 /// by damped Gauss-Newton with exact sensitivities (fit/discrete/prediction_model.h) in which C and D keep their roots
 /// inside the unit circle. It starts from oe's estimate, which also chooses among start conditions, with C and D fitted
 /// to its errors. The first nd errors are left out, for the noise before the record is unknown. System and noise have

@@ -33,7 +33,7 @@ Message ending_of(const GradientDescentResult& result) {
         case Termination::kDiverged:
             return Message("Gradient descent diverged: the step size {} is too large; it must be below {}.",
                            result.step_size, result.largest_step);
-        case Termination::kCancelled:
+        case Termination::kCanceled:
             return Message("Gradient descent was stopped after {}; the result is the best point so far.", count);
         default:
             return Message(
@@ -74,7 +74,7 @@ GradientDescentResult gradient_descent(const MatrixView& Phi, const VectorView& 
     result.theta = theta;
     while (result.iterations < options.max_iterations) {
         if (options.cancel && options.cancel()) {
-            result.termination = Termination::kCancelled;
+            result.termination = Termination::kCanceled;
             break;
         }
         const Vector change = result.step_size / N * (Phi.transpose() * residuals);

@@ -22,7 +22,7 @@ struct HammersteinOptions : FitOptions {
 /// with f on straight lines between its values at the edges of bins, and constant beyond them. With f = sum c_i phi_i
 /// (phi_i the hat functions of the edges) the model is linear in f: coe of the inputs phi_i(u) with one denominator
 /// gives a start without a guess, from which the closest product c_i b_j follows (Bai 1998); then A, B, the c_i and the
-/// delay minimise sum e^2 together, by damped Gauss-Newton with exact sensitivities. The delay starts where the linear
+/// delay minimize sum e^2 together, by damped Gauss-Newton with exact sensitivities. The delay starts where the linear
 /// model has it. Exact for held inputs, of which f(u) is held too. Errors of white measurement noise give the right
 /// covariance; nothing need be known of f, which tells a dead band, a saturation or unequal gains. Edges whose
 /// surroundings the input hardly visits are left out, with a warning, and an input of no more values than there are
@@ -32,7 +32,7 @@ struct HammersteinOptions : FitOptions {
 /// Reference: Bai (1998), Automatica 34, 333-338; Giri and Bai (2010), Block-oriented Nonlinear System Identification.
 Fit hammerstein(const IdData& data, const TransferStructure& structure, const HammersteinOptions& options = {});
 
-/// The hat functions of the edges at each value of u (N x K): 1 at the edge, 0 at its neighbours and beyond, on
+/// The hat functions of the edges at each value of u (N x K): 1 at the edge, 0 at its neighbors and beyond, on
 /// straight lines between; constant outside. Their sum is 1, and their product with `levels` is f(u).
 Matrix hat_functions(const VectorView& edges, const VectorView& u);
 

@@ -15,9 +15,9 @@ namespace {
 constexpr Index kFewestSamplesOfImpulseest = 8, kMaxLags = 400;
 
 /// Rows [u(k) u(k-1) .. u(k-n)] and y(k) of an experiment, without their means over it (which estimates c).
-class CentredRows {
+class CenteredRows {
   public:
-    CentredRows(const Experiment& experiment, Index n)
+    CenteredRows(const Experiment& experiment, Index n)
         : u_(experiment.u.col(0)), y_(experiment.y.col(0).tail(experiment.y.rows() - n)), means_(n + 1) {
         for (Index i = 0; i <= n; ++i) means_[i] = u_.segment(n - i, y_.size()).mean();
         mean_ = y_.mean();
@@ -44,7 +44,7 @@ Regression regression_of(const IdData& data, Index n) {
     for (const Experiment& experiment : data.experiments) rows += experiment.y.rows() - n;
     Regression regression{Matrix(rows, n + 1), Vector(rows)};
     for (const Experiment& experiment : data.experiments) {
-        const CentredRows of(experiment, n);
+        const CenteredRows of(experiment, n);
         of.put(0, regression.Phi.middleRows(at, of.count()), regression.y.segment(at, of.count()));
         at += of.count();
     }

@@ -29,7 +29,7 @@ struct RegressedResponse : ImpulseEstimate {
 /// needs no order, and poor inputs are no trouble; its standard errors take the prior for granted. All of it follows
 /// from Phi'Phi, whose lags are running sums, so that a long record costs little. Data:
 /// one input, one output, any number of experiments. Throws InvalidArgument for other data, constant signals, fewer
-/// than 3 n samples, and, without `smooth`, for an input that does not tell neighbouring samples of the response apart.
+/// than 3 n samples, and, without `smooth`, for an input that does not tell neighboring samples of the response apart.
 /// Reference: Ljung (1999), section 4.3; Chen, Ohlsson and Ljung (2012), On the estimation of transfer functions,
 /// regularizations and Gaussian processes - revisited, Automatica 48; Chen and Ljung (2013), Implementation of
 /// algorithms for tuning parameters in regularized least squares problems in system identification, Automatica 49.

@@ -4,7 +4,7 @@
 
 namespace dynlab::inline numerics {
 
-/// A(q) y(k) = sum_i B_i(q) u_i(k) + v(k) with coloured v, by instrumental variables in four steps:
+/// A(q) y(k) = sum_i B_i(q) u_i(k) + v(k) with colored v, by instrumental variables in four steps:
 ///   1. least squares (arx);
 ///   2. Z'(y - Phi theta) = 0 with instruments Z made as Phi is, but from the output that the model of step 1 simulates
 ///      out of the inputs alone, which knows nothing of v;

@@ -53,7 +53,7 @@ Matrix powers(const Vector& x, int degree) {
     return Phi;
 }
 
-// The polynomial in x whose value is that of `p` at x - centre, by Horner's scheme on polynomials.
+// The polynomial in x whose value is that of `p` at x - center, by Horner's scheme on polynomials.
 Vector shifted_back(const Vector& p, double center) {
     Vector result = p.head(1);
     for (Index i = 1; i < p.size(); ++i) {

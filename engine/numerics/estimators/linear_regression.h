@@ -5,7 +5,7 @@
 namespace dynlab::inline numerics {
 
 enum class RegressionMethod {
-    kQr,      ///< "qr": orthogonal factorisation of the column-scaled regressors; accurate, works at any rank
+    kQr,      ///< "qr": orthogonal factorization of the column-scaled regressors; accurate, works at any rank
     kNormal,  ///< "normal": (Phi'Phi) theta = Phi'y by Cholesky, as on the blackboard; squares the condition number
 };
 
@@ -30,10 +30,10 @@ struct PolyfitOptions {
     RegressionMethod method = RegressionMethod::kQr;
 };
 
-/// y = c_1 (x - centre)^n + ... + c_n (x - centre) + c_(n+1) + e.
+/// y = c_1 (x - center)^n + ... + c_n (x - center) + c_(n+1) + e.
 struct PolynomialFit {
     int degree = 0;
-    double center = 0;            ///< 0 when not centred
+    double center = 0;            ///< 0 when not centered
     LinearRegression regression;  ///< theta = [c_1 ... c_(n+1)], highest power first
     Vector coefficients;          ///< of the same polynomial in powers of x itself, highest first
 };

@@ -17,9 +17,9 @@ struct SvfOptions {
 
 /// Least squares on state-variable filtered signals, for the CARX structure A(p) y = sum_j B_j(p) u_j(t - delay) + e:
 /// with signals filtered by 1/(p + lambda)^n (lsgpmf: by (beta/(p + lambda))^n, which gives the same theta),
-///     minimise sum_k (p^n y_f - phi' theta)^2,  phi = [-p^(n-1) y_f .. -y_f, p^m u_f .. u_f].
+///     minimize sum_k (p^n y_f - phi' theta)^2,  phi = [-p^(n-1) y_f .. -y_f, p^m u_f .. u_f].
 /// Exact filters from rest; inputs as the data's hold says, delays fixed and of any size. Biased by noise on the
-/// output: see ivsvf, srivc. Standard errors are those of a white equation error, which the filters colour: see
+/// output: see ivsvf, srivc. Standard errors are those of a white equation error, which the filters color: see
 /// color_covariance. All inputs of an
 /// output share a denominator (kPerOutput or kCommon). Memory does not grow with longer records. The fit of the
 /// simulation is not measured (measure_simulation does). Throws InvalidArgument for unsuitable data
@@ -34,8 +34,8 @@ void check_carx(const char* method, const TransferStructure& structure);
 inline constexpr Index kMaxColoredSamples = 200'000;
 
 /// Replaces the covariance of an estimate by lssvf or, with `instruments`, by ivsvf, which takes the equation error as
-/// white, by one that takes its colour into account (criteria/estimating_terms.h, statistics/robust_covariance.h):
-/// the filters colour it even where the noise is white. It takes ten times as long as the estimate; records of more
+/// white, by one that takes its color into account (criteria/estimating_terms.h, statistics/robust_covariance.h):
+/// the filters color it even where the noise is white. It takes ten times as long as the estimate; records of more
 /// than kMaxColoredSamples samples keep the plain one, and a warning says so. data and options as for the estimate.
 void color_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments);
 

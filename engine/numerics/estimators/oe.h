@@ -5,7 +5,7 @@
 namespace dynlab::inline numerics {
 
 /// y(k) = sum_i B_i(q)/F_i(q) u_i(k) + e(k), output error:
-///     minimise sum_k (y(k) - sum_i B_i/F_i u_i(k) - free motion(k) - offset)^2
+///     minimize sum_k (y(k) - sum_i B_i/F_i u_i(k) - free motion(k) - offset)^2
 /// by damped Gauss-Newton with exact sensitivities (fit/output_error.h, criteria/discrete_output.h). It starts where
 /// a few rough passes of SRIV lead (fit/discrete/sriv_iteration.h), so that no guess is needed. Consistent for any
 /// noise independent of the inputs; the maximum-likelihood estimate when e is white and Gaussian, for which the

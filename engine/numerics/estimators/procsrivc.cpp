@@ -194,7 +194,7 @@ Fit best_fit_to_long(ProcessProblem problem, const IdData& data, const std::vect
     std::vector<Fit> trials;
     for (const StartCondition& condition : conditions) {
         trials.push_back(trial.fit(beginning, condition));
-        if (trials.back().termination == Termination::kCancelled) return problem.best_fit(data, {condition});
+        if (trials.back().termination == Termination::kCanceled) return problem.best_fit(data, {condition});
     }
     const std::vector<Fit> starts = worth_a_fit(trials, problem, beginning, data.sample_count());
     if (!std::ranges::all_of(starts, [&](const Fit& start) { return is_a_start(problem, start); }))

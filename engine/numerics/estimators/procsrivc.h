@@ -11,7 +11,7 @@ struct ProcsrivcOptions : FitOptions {};
 /// Output-error estimate of a process model of any structure (P1, P2, P3, P2U, P3U, each with any of D, I, Z) from one
 /// or several experiments with one input and one output, sampled regularly or not (y = G u + e with white e; the SRIVC
 /// fixed point is the same optimum). Initial state and offset are each experiment's own:
-///     minimise sum_k (y(k) - G(p, theta) u(k) - free motion(k) - offset)^2.
+///     minimize sum_k (y(k) - G(p, theta) u(k) - free motion(k) - offset)^2.
 /// Start values come from a grid (no guess is needed), then damped Gauss-Newton searches with exact
 /// sensitivities run from the best few, the best of them to the end; a real-valued delay is searched on a grid between
 /// least_delay and largest_delay and refined jointly with the rest. Records of many times 20,000 samples get their

@@ -117,7 +117,7 @@ class Passes {
         noise_ = ArmaNoise::white(orders_.nc, orders_.nd);
         for (int pass = 0; pass < std::max(1, options_.max_iterations); ++pass) {
             if (pass > 0 && options_.cancel && options_.cancel()) {
-                termination_ = Termination::kCancelled;
+                termination_ = Termination::kCanceled;
                 break;
             }
             const double change = one_pass(pass > 0);
@@ -133,7 +133,7 @@ class Passes {
 
     Vector simulated() const { return model_.output_at(theta_); }
     double variance() const { return variance_; }  ///< of e
-    bool cancelled() const { return termination_ == Termination::kCancelled; }
+    bool canceled() const { return termination_ == Termination::kCanceled; }
     /// Nothing but rounding is left, so that there is no noise to model.
     bool exact(const Vector& errors) const {
         return errors.norm() <= kNoiseRounding * (y_.array() - y_.mean()).matrix().norm();
@@ -234,7 +234,7 @@ Passes best_passes(const IdData& data, const TransferOutput& model, const Fit& s
                    const NoiseOrders& orders, const FitOptions& options) {
     Passes best(model, start, orders, options);
     best.run();
-    if (orders.nd == 0 || best.without_noise_ || best.cancelled()) return best;
+    if (orders.nd == 0 || best.without_noise_ || best.canceled()) return best;
     const LongRegression regression(data, most_late(start.structure, range, data.Ts));
     if (!regression.predicts_better_than(best.variance())) return best;
     const FitOptions plain = options.started({start.start.state, false});
@@ -250,7 +250,7 @@ Passes best_passes(const IdData& data, const TransferOutput& model, const Fit& s
         Passes passes(model, other, orders, options);
         passes.set_linear_part();
         passes.run();
-        if (passes.cancelled()) break;
+        if (passes.canceled()) break;
         if (passes.variance() < best.variance()) best = std::move(passes);
         if (!regression.predicts_better_than(best.variance())) break;
     }

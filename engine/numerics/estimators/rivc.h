@@ -14,7 +14,7 @@ struct NoiseOrders {
 /// Refined instrumental variables for continuous-time models with discrete-time noise, for the hybrid CBJ structure
 ///     y = sum_j B_j(p)/F_j(p) u_j(t - delay_j) + v,   v(k) = C(q^-1)/D(q^-1) e(k),  e white.
 /// What it computes is the prediction-error estimate: from srivc's fit, passes fit C and D to the simulation error
-/// (fit/discrete/arma_noise.h) and then minimise the sum of squares of e = D/C (y - simulated output), the output
+/// (fit/discrete/arma_noise.h) and then minimize the sum of squares of e = D/C (y - simulated output), the output
 /// whitened with the noise model found, by Levenberg-Marquardt. Where that ends,
 ///     sum_k [D/C z(k)] [D/C (y(k) - simulated output(k))] = 0,
 /// the instrumental equations of RIVC whose instruments z are the exact sensitivities of the simulated output. The

@@ -186,7 +186,7 @@ Fit srivc(const IdData& data, const TransferStructure& structure, const FitOptio
             return search_with_chosen_start("srivc", seen, structure, requested, aids);
         const auto passes = [&](const FitOptions& how) { return srivc_by_passes(seen, structure, how); };
         const auto finish = [&](Fit estimate, const FitOptions& how) {
-            if (estimate.termination == Termination::kCancelled) return estimate;
+            if (estimate.termination == Termination::kCanceled) return estimate;
             return search_where_passes_fail(std::move(estimate), seen, how, aids);
         };
         if (!start_is_open(requested)) return finish(passes(requested), requested);

@@ -38,7 +38,7 @@ class Lanes {
         repeat<2>([&](auto column) __attribute__((always_inline)) {
             Part pairs[kWidth / 2];
             repeat<kWidth / 2>([&](auto i) __attribute__((always_inline)) {
-                pairs[i] = neighbours<column>(rows[2 * i], rows[2 * i + 1], Places());
+                pairs[i] = neighbors<column>(rows[2 * i], rows[2 * i + 1], Places());
             });
             spread<kWidth / 2, 2>(pairs, tile + column);
         });
@@ -49,7 +49,7 @@ class Lanes {
 
     /// Of two rows, the numbers in the even (first = 0) or odd columns, those of one column side by side.
     template <int first, int... lane>
-    [[gnu::always_inline]] static Part neighbours(const Part& a, const Part& b, std::integer_sequence<int, lane...>) {
+    [[gnu::always_inline]] static Part neighbors(const Part& a, const Part& b, std::integer_sequence<int, lane...>) {
         return __builtin_shufflevector(a, b, (lane % 2 ? kWidth + lane - 1 + first : lane + first)...);
     }
     /// Of two vectors of pairs, the pairs in even (first = 0) or odd places.

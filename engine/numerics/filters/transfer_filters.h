@@ -41,7 +41,7 @@ class TransferFilters {
                                         const std::vector<Vector>& B) const = 0;
 };
 
-/// Those of this folder: sums while filtering (normal_equations.h), discretised systems (transfer_sensitivity.h).
+/// Those of this folder: sums while filtering (normal_equations.h), discretized systems (transfer_sensitivity.h).
 const TransferFilters& transfer_filters();
 
 }  // namespace dynlab::inline numerics

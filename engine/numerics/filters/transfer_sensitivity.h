@@ -7,7 +7,7 @@ namespace dynlab::inline numerics {
 /// Exact simulation of a proper y = B(p)/A(p) u(t - delay) with derivatives with respect to every coefficient:
 /// A = p^n + a_1 p^(n-1) + ... + a_n, B = b_0 p^m + ... + b_m, 0 <= m <= n, n >= 1. Zero state and zero input before
 /// the first sample; `hold` says how u behaves between samples. One filter of order 2n, the cascade of 1/A with itself,
-/// gives everything without a discretisation error:
+/// gives everything without a discretization error:
 ///     dy/da_i = -p^(n-i) B/A^2 u,   dy/db_j = p^(m-j)/A u,   dy/d delay = -p B/A u.
 /// With m = n - 1 the last one jumps where a zero-order-held input does: when the delay is a multiple of Ts, the
 /// value just after the jump is given. With m = n the output itself jumps there, which its derivative leaves out.

@@ -78,7 +78,7 @@ struct ChannelPlaces {
     Index a = 0, b = 0, delay = -1;
 };
 
-struct Linearised {
+struct Linearized {
     Matrix Psi;  // N x d, without what the linear unknowns can do
     Vector errors;
     Index linear_unknowns = 0;
@@ -95,10 +95,10 @@ std::vector<const ChannelPlaces*> free_systems(std::span<const ChannelPlaces> ch
     return systems;
 }
 
-Linearised linearise(const AssessedRecord& record, std::span<const ChannelPlaces> channels, const StartCondition& start,
+Linearized linearize(const AssessedRecord& record, std::span<const ChannelPlaces> channels, const StartCondition& start,
                      Index parameters) {
     const Index N = record.y.size();
-    Linearised result{Matrix::Zero(N, parameters), record.y, 0};
+    Linearized result{Matrix::Zero(N, parameters), record.y, 0};
     for (std::size_t j = 0; j < channels.size(); ++j) {
         const ChannelPlaces& channel = channels[j];
         const Index n = channel.G.pole_count(), b_count = channel.G.num().size();
@@ -216,7 +216,7 @@ Assessment assess_channels(const IdData& data, const std::vector<ChannelPlaces>&
             const Experiment& experiment = data.experiments[k];
             const AssessedRecord record{experiment.u, experiment.y.col(i), data.time(k), data.Ts, data.hold};
             const std::span<const ChannelPlaces> own(channels.data() + i * nu, static_cast<std::size_t>(nu));
-            const Linearised part = linearise(record, own, fit.start, by_parameter.rows());
+            const Linearized part = linearize(record, own, fit.start, by_parameter.rows());
             Psi.middleRows(first, lengths[k]) = part.Psi * by_parameter;
             errors.segment(first, lengths[k]) = part.errors;
             first += lengths[k];
@@ -313,7 +313,7 @@ Assessment assess(const IdData& data, const Fit& fit, const ResidualOptions& opt
 }
 
 std::optional<Assessment> assess_if_affordable(const IdData& data, const Fit& fit) {
-    if (fit.termination == Termination::kCancelled || fit.covariance.rows() != fit.theta.size()) return std::nullopt;
+    if (fit.termination == Termination::kCanceled || fit.covariance.rows() != fit.theta.size()) return std::nullopt;
     if (!fit.process && data.sample_count() > kMaxAssessedSamples) return std::nullopt;
     if (fit.polynomial && !fit.covariance.allFinite()) return std::nullopt;
     try {

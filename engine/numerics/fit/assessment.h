@@ -35,7 +35,7 @@ Assessment assess(const IdData& data, const Fit& fit, const ResidualOptions& opt
 
 /// Samples: robust errors of longer records would take longer than the fit, but for process models.
 inline constexpr Index kMaxAssessedSamples = 200'000;
-/// The assessment of a fit where it costs little beside it and has a meaning. Nothing for longer records, for cancelled
+/// The assessment of a fit where it costs little beside it and has a meaning. Nothing for longer records, for canceled
 /// fits and those without a covariance, for difference equations without finite standard errors, and for models whose
 /// output grows beyond all bounds.
 std::optional<Assessment> assess_if_affordable(const IdData& data, const Fit& fit);

@@ -30,9 +30,9 @@ class ChannelSearch {
 
     DelayScan run() {
         begin();
-        for (int round = 0; round < kChannelRounds && !cancelled(); ++round) {
+        for (int round = 0; round < kChannelRounds && !canceled(); ++round) {
             const double before = loss_;
-            for (Index input = 0; input < structure_.inputs && !cancelled(); ++input) improve(input);
+            for (Index input = 0; input < structure_.inputs && !canceled(); ++input) improve(input);
             if (!(loss_ < (1 - kGain) * before)) break;
         }
         scan_.starts = {theta_};
@@ -41,7 +41,7 @@ class ChannelSearch {
     }
 
   private:
-    bool cancelled() const { return options_.cancel && options_.cancel(); }
+    bool canceled() const { return options_.cancel && options_.cancel(); }
     FitOptions rough() const { return options_.rough(kChannelIterations, kChannelTolerance); }
 
     TransferStructure single(Index input) const {

@@ -34,7 +34,7 @@ struct DelayPoint {
     double loss = kInfinity;
 };
 
-/// A minimum of the loss over the delay between two neighbouring points, as their slopes tell it.
+/// A minimum of the loss over the delay between two neighboring points, as their slopes tell it.
 struct Valley {
     std::size_t left = 0;  ///< its points: this and the next, unless it is the last
     double loss = 0;       ///< expected there
@@ -64,7 +64,7 @@ class DelayCurve {
     }
 
     /// Where joint searches begin, best first: on both sides of the lowest minimum, and at the next ones. Solutions of
-    /// neighbouring delays may lie on different branches, so that a minimum between two points need not show in their
+    /// neighboring delays may lie on different branches, so that a minimum between two points need not show in their
     /// losses.
     std::vector<DelayPoint> beginnings() const {
         std::vector<Valley> all = valleys_between();
@@ -144,7 +144,7 @@ class DelayCurve {
         return delays;
     }
 
-    /// Delays between point i and the next, each fitted from its neighbour towards point i and back again.
+    /// Delays between point i and the next, each fitted from its neighbor towards point i and back again.
     void fill(std::size_t i, double spacing) {
         const double gap = points_[i + 1].delay - points_[i].delay;
         const auto parts = static_cast<std::size_t>(std::ceil(gap / spacing - 1e-9));
@@ -157,7 +157,7 @@ class DelayCurve {
         for (std::size_t k = i + parts; k-- > i + 1;) improve(k, k + 1, false);
     }
 
-    /// Fits at a delay from a neighbour's solution (if there is such a point), from a filtered start where wanted.
+    /// Fits at a delay from a neighbor's solution (if there is such a point), from a filtered start where wanted.
     void improve(std::size_t i, std::size_t neighbor, bool fresh) {
         if (options_.cancel && options_.cancel()) return;
         structure_.channels[channel_].delay = points_[i].delay;

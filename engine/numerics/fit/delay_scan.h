@@ -30,7 +30,7 @@ TransferStructure with_delays_of(const TransferStructure& structure, const Vecto
 
 /// Loss over the delay of every channel in turn (the others as found so far), zero state and no offset, in at most
 /// delay_count steps of at least one mean sampling time, and no more than two samples apart near the lowest valleys.
-/// Every delay is fitted from its neighbours' solutions on both sides, some from filtered starts too, so that the curve
+/// Every delay is fitted from its neighbors' solutions on both sides, some from filtered starts too, so that the curve
 /// is the lower envelope of what was found. Unless the options give the largest delay, the range grows while the curve
 /// is lowest at its end, up to a quarter of the shortest record. Of longer records the first 50,000 samples are looked
 /// at, of those sampled irregularly 1,500 where they tell of the whole: the inputs move as much as later, and the

@@ -104,7 +104,7 @@ void check_sample_count(const std::string& method, Index samples, Index values) 
 }
 
 void check_transient(const std::string& method, const IdData& data, const Fit& fit, Index values) {
-    if (fit.termination == Termination::kCancelled) return;
+    if (fit.termination == Termination::kCanceled) return;
     for (const Experiment& experiment : data.experiments)
         for (Index input = 0; input < data.input_count(); ++input)
             if (!is_constant(experiment.u.col(input))) return;
@@ -295,7 +295,7 @@ void warn_of_search(Fit& fit, const FitOptions& options) {
         fit.warnings.push_back(
             Message("The search did not converge within {} = {} iterations; the result is the best point so far.",
                     OptionName{"max_iterations"}, options.max_iterations));
-    if (fit.termination == Termination::kCancelled)
+    if (fit.termination == Termination::kCanceled)
         fit.warnings.push_back(Message("The search was interrupted; the result is the best point so far."));
 }
 

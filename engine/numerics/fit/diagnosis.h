@@ -24,7 +24,7 @@ void check_sampled_data(const std::string& method, const IdData& data);
 void check_sample_count(const std::string& method, Index samples, Index values);
 
 /// For data whose inputs never change: a fit of so many estimated values that explains no transient (see
-/// require_transient in criteria/initial_conditions.h). A cancelled fit passes.
+/// require_transient in criteria/initial_conditions.h). A canceled fit passes.
 void check_transient(const std::string& method, const IdData& data, const Fit& fit, Index values);
 
 double shortest_record(const IdData& data);  ///< s, of all experiments

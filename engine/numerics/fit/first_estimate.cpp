@@ -69,7 +69,7 @@ struct CutoffStart {
     double loss;
 };
 
-/// Of starts in rising order of the cut-off frequency those of smaller loss than their neighbours.
+/// Of starts in rising order of the cut-off frequency those of smaller loss than their neighbors.
 std::vector<CutoffStart> valleys_over_the_cutoff(const std::vector<CutoffStart>& starts) {
     std::vector<CutoffStart> valleys;
     for (std::size_t i = 0; i < starts.size(); ++i) {

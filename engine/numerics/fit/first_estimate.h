@@ -18,7 +18,7 @@ IdData single_channel(const IdData& data, const std::vector<Vector>& outputs, In
 /// the equations cannot be solved.
 Vector lssvf_start(const IdData& data, const TransferStructure& structure, double lambda, Hold hold_y);
 
-/// Which cut-off frequencies are followed: all, or those whose first estimate has a smaller loss than its neighbours'
+/// Which cut-off frequencies are followed: all, or those whose first estimate has a smaller loss than its neighbors'
 /// and no more than three times the smallest loss found, which nearly always lead to the same in a third of the time:
 /// enough for SRIVC's passes, behind which a search follows where they fail.
 enum class CutoffTrials { kValleys, kAll };

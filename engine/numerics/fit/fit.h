@@ -25,7 +25,7 @@ enum class Termination {
     kIterationLimit,  ///< the allowed iterations were used up before that
     kNoProgress,      ///< no step, however short, lowered the loss any more
     kDiverged,        ///< the loss grew without bound (a step size that is too large)
-    kCancelled,       ///< the cancel callback asked to stop
+    kCanceled,        ///< the cancel callback asked to stop
 };
 
 struct FitIteration {

@@ -12,7 +12,7 @@ struct EquationLines {
 /// The delay in seconds.
 EquationLines equation_lines(const FrequencyData& data, double delay);
 
-/// B/F that minimises sum_k weight_k^2 |F(s_k) G_k - B(s_k)|^2/|size_k|^2, F monic: [a_1 .. a_n b_0 .. b_m], in the
+/// B/F that minimizes sum_k weight_k^2 |F(s_k) G_k - B(s_k)|^2/|size_k|^2, F monic: [a_1 .. a_n b_0 .. b_m], in the
 /// time units of the lines. `sizes` (K) are what the equation of each line is divided by. Polynomials that are
 /// orthogonal on the lines keep it accurate over many decades. Throws InvalidArgument for fewer lines than the degrees
 /// need. Reference: Levy (1959).

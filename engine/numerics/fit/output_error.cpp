@@ -35,7 +35,7 @@ class Search {
         Termination termination = Termination::kIterationLimit;
         for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
             if (options_.cancel && options_.cancel()) {
-                termination = Termination::kCancelled;
+                termination = Termination::kCanceled;
                 break;
             }
             const double change = improve();
@@ -239,7 +239,7 @@ Fit minimize_output_error(const OutputErrorModel& model, const VectorView& y, co
     side_by_side(starts.size(),
                  [&](std::size_t i) { trials[i] = search_for(model, y, starts[i], rough).run(starts[i]); });
     Fit best = std::move(trials.front());
-    for (std::size_t i = 1; i < trials.size() && best.termination != Termination::kCancelled; ++i)
+    for (std::size_t i = 1; i < trials.size() && best.termination != Termination::kCanceled; ++i)
         if (trials[i].loss < (1 - kRoughTolerance) * best.loss) best = std::move(trials[i]);
     Fit end = minimize_output_error(model, y, best.theta, options);
     end.trace.insert(end.trace.begin(), best.trace.begin(), best.trace.end());
@@ -274,7 +274,7 @@ Fit fit_output_error(const FitProblem& problem) {
             best = std::move(fit);
             smallest = bic;
         }
-        if (best.termination == Termination::kCancelled) break;
+        if (best.termination == Termination::kCanceled) break;
     }
     check_transient(problem.method, problem.data, best, problem.value_count(best.start));
     return best;

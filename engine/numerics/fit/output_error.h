@@ -8,7 +8,7 @@
 
 namespace dynlab::inline numerics {
 
-/// Minimises |y - output(theta)|^2 within the bounds by damped Gauss-Newton (Levenberg-Marquardt with the columns of
+/// Minimizes |y - output(theta)|^2 within the bounds by damped Gauss-Newton (Levenberg-Marquardt with the columns of
 /// the sensitivities scaled to norm one, More 1978); a parameter at a bound is held while the descent direction
 /// points outwards or both bounds are equal, and steps are cut back at the bounds. It has converged when every
 /// parameter changes by at most tolerance (|theta_i| + |y - mean(y)|/|J_i|), where the second term is the change that
@@ -53,7 +53,7 @@ struct FitProblem {
 };
 
 /// What every output-error method does: the fit of smallest BIC among the start conditions. Conditions that leave too
-/// few samples are left out, but for the first; a cancelled fit ends the choice. Throws InvalidArgument for inputs that
+/// few samples are left out, but for the first; a canceled fit ends the choice. Throws InvalidArgument for inputs that
 /// never change and outputs that show no transient (check_transient).
 Fit fit_output_error(const FitProblem& problem);
 

@@ -203,7 +203,7 @@ class LinearPart {
         for (double& value : scale)
             if (!(value > 0)) value = 1;
         Matrix scaled = scale.cwiseInverse().asDiagonal() * gram_ * scale.cwiseInverse().asDiagonal();
-        scaled.diagonal().array() += 1e-12;  // keeps columns that look alike from cancelling each other at any size
+        scaled.diagonal().array() += 1e-12;  // keeps columns that look alike from canceling each other at any size
         solution_ = solve_semidefinite(scaled, moment_.cwiseQuotient(scale)).cwiseQuotient(scale);
         const double squares = power_ - 2 * moment_.dot(solution_) + solution_.dot(gram_ * solution_);
         return std::max(0.0, squares) / static_cast<double>(rest_.rows());

@@ -38,7 +38,7 @@ FrequencyData frequency_data_of(const SpectralEstimate& estimate, const IdData& 
     response.Ts = data.Ts, response.inter_sample = inter_sample_of(data.hold);
     response.input_name = data.input_names.front(), response.output_name = data.output_names.front();
     response.input_unit = data.input_units.front(), response.output_unit = data.output_units.front();
-    response.neighbours_share_errors = smoothed;
+    response.neighbors_share_errors = smoothed;
     response.coherence = estimate.coherence, response.noise_spectrum = estimate.noise_spectrum;
     response.method = method, response.message = estimate.message, response.warnings = estimate.warnings;
     return response;

@@ -22,7 +22,7 @@ struct SpectralEstimate {
 };
 
 /// The estimate as a measured response, which models are fitted to; `smoothed`: over the frequencies, so that
-/// neighbours share their errors. `method` is the one that gave it, `data` what it was given.
+/// neighbors share their errors. `method` is the one that gave it, `data` what it was given.
 FrequencyData frequency_data_of(const SpectralEstimate& estimate, const IdData& data, const std::string& method,
                                 bool smoothed);
 
@@ -33,7 +33,7 @@ IdData nonparametric_data(const std::string& caller, const IdData& data, Index f
 
 /// Turns averaged (cross) spectra at one frequency into response, spread, coherence and noise. `averages` is the number
 /// of independent values that went into each of them, `real_share` the part of the response's variance that its real
-/// part has: one half where its neighbours are all different frequencies; more near 0 and pi/Ts, where the averages
+/// part has: one half where its neighbors are all different frequencies; more near 0 and pi/Ts, where the averages
 /// hold values and their conjugates; all of it at these two, where the response is real.
 struct SpectralPoint {
     Complex response;

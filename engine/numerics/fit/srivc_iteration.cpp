@@ -109,7 +109,7 @@ SrivcSolution iterate_srivc(const IdData& data, const TransferStructure& structu
     double last_change = kInfinity;
     for (int pass = 0; pass < options.max_iterations; ++pass) {
         if (options.cancel && options.cancel()) {
-            solution.termination = Termination::kCancelled;
+            solution.termination = Termination::kCanceled;
             break;
         }
         const Vector found = groups.pass(solution.theta);

@@ -26,7 +26,7 @@ constexpr double kLostFit = 5;             // per cent, of a difference equation
 constexpr double kStartRidge = 1e-9;       // of a sum of squares of sensitivities
 constexpr double kStartEvidence = 2;       // of BIC
 constexpr double kWorthATry = 100;         // of BIC, with all samples: then a fit decides what follows from its errors
-constexpr double kLargestNeighbours = 0.999;
+constexpr double kLargestNeighbors = 0.999;
 constexpr double kLowerStart = 1e-3;                                             // of the loss
 constexpr double kStartRounding = 1e3 * std::numeric_limits<double>::epsilon();  // of the output: what is no error
 
@@ -45,7 +45,7 @@ Columns both(const Columns& one, const Columns& other) {
 }
 
 /// Of errors from one sample to the next, between 0 and 1.
-double neighbours_correlation(const Vector& errors, const std::vector<Index>& lengths) {
+double neighbors_correlation(const Vector& errors, const std::vector<Index>& lengths) {
     double products = 0;
     Index first = 0;
     for (const Index length : lengths) {
@@ -53,7 +53,7 @@ double neighbours_correlation(const Vector& errors, const std::vector<Index>& le
         first += length;
     }
     const double squares = errors.squaredNorm();
-    return squares > 0 ? std::clamp(products / squares, 0.0, kLargestNeighbours) : 0;
+    return squares > 0 ? std::clamp(products / squares, 0.0, kLargestNeighbors) : 0;
 }
 
 double independent_samples(double samples, double correlation) {
@@ -124,7 +124,7 @@ class StartLookAhead {
         if (!(at_most > kStartEvidence) || at_most > kWorthATry) return at_most > kWorthATry;
         const Vector left =
             model_.errors - model_.J(Eigen::all, places) * step(places).cwiseQuotient(scale_(places)).matrix();
-        const double r = neighbours_correlation(left, model_.lengths);
+        const double r = neighbors_correlation(left, model_.lengths);
         return start_evidence(before, after, least, independent_samples(samples, r), values) > kStartEvidence;
     }
 
@@ -200,7 +200,7 @@ bool convinces(const IdData& data, const Fit& from_rest, const Fit& other) {
     const CountedErrors rest(data, from_rest, masked_seconds), found(data, other, masked_seconds);
     if (!found.errors.allFinite()) return false;
     if (!rest.errors.allFinite()) return true;
-    const double r = neighbours_correlation(found.errors, lengths_of(found.model));
+    const double r = neighbors_correlation(found.errors, lengths_of(found.model));
     const Index values = found.model.parameter_count() - rest.model.parameter_count();
     return start_evidence(rest.errors.squaredNorm(), found.errors.squaredNorm(), least_squares_of(found.model.target()),
                           independent_samples(static_cast<double>(found.model.sample_count()), r),
@@ -236,8 +236,8 @@ Fit with_chosen_start(const IdData& data, const FitOptions& options, const Start
     } catch (const InvalidArgument&) {
         return trials.among_all(options);  // a constant input whose output does not start from rest
     }
-    const auto cancelled = [](const Fit& fit) { return fit.termination == Termination::kCancelled; };
-    if (cancelled(rest)) return rest;
+    const auto canceled = [](const Fit& fit) { return fit.termination == Termination::kCanceled; };
+    if (canceled(rest)) return rest;
     bool finished = false;
     const auto finish = [&] {
         if (!finished) rest = trials.finish(std::move(rest), plain);
@@ -246,10 +246,10 @@ Fit with_chosen_start(const IdData& data, const FitOptions& options, const Start
     if (!other_start_promises(data, rest, options)) {
         const double before = rest.loss;
         finish();
-        if (rest.loss == before || cancelled(rest) || !other_start_promises(data, rest, options)) return rest;
+        if (rest.loss == before || canceled(rest) || !other_start_promises(data, rest, options)) return rest;
     }
     Fit other = trials.among_all(options);
-    if (cancelled(other) || (!is_from_rest(other) && convinces(data, rest, other))) return other;
+    if (canceled(other) || (!is_from_rest(other) && convinces(data, rest, other))) return other;
     finish();
     return is_from_rest(other) && other.loss < (1 - kLowerStart) * rest.loss ? other : rest;
 }
@@ -263,7 +263,7 @@ Fit best_predicting_start(Fit fit, const FitOptions& options, const std::functio
     const StartCondition first = fit.start;
     for (const StartCondition& other :
          {StartCondition{InitialState::kZero, false}, StartCondition{InitialState::kEstimate, true}}) {
-        if (fit.termination == Termination::kCancelled) break;
+        if (fit.termination == Termination::kCanceled) break;
         if (other.state == first.state && other.offset == first.offset) continue;
         Fit next = fit_with(options.started(other));
         if (next.noise_variance[0] < fit.noise_variance[0]) fit = std::move(next);

@@ -153,7 +153,7 @@ class LookAhead {
     Places own_, zeros_, direct_;
 };
 
-double correlation_of_neighbours(const Vector& errors, const TransferOutput& model) {
+double correlation_of_neighbors(const Vector& errors, const TransferOutput& model) {
     double products = 0, squares = 0;
     for (std::size_t e = 0; e < model.experiment_count(); ++e) {
         const auto own = errors.segment(model.row(e, 0), model.rows(e));
@@ -169,7 +169,7 @@ Explanation explanation_of(const IdData& record, const Fit& fit, double masked_s
     model.mask_start(masked_seconds);
     const Vector errors = model.target() - model.output_at(search_point(fit, model, model.seconds()));
     const bool finite = errors.allFinite();
-    const double r = finite ? correlation_of_neighbours(errors, model) : 0;
+    const double r = finite ? correlation_of_neighbors(errors, model) : 0;
     return {finite ? std::max(errors.squaredNorm(), kLeastSquares) : kInfinity, counted_variations(model)[0],
             static_cast<double>(model.sample_count()) * (1 - r) / (1 + r), model.parameter_count()};
 }
@@ -191,7 +191,7 @@ struct Question {
         how.output_weights.resize(0);
         try {
             Fit fit = search_with_chosen_start("missed_structure", record, structure, how);
-            if (fit.termination != Termination::kCancelled) return fit;
+            if (fit.termination != Termination::kCanceled) return fit;
         } catch (const InvalidArgument&) {
             return std::nullopt;
         }
@@ -415,7 +415,7 @@ bool late_input(const IdData& data, int poles, double loss) {
 }
 
 std::optional<StructureAdvice> missed_structure(const IdData& data, const Fit& fit, const FitOptions& options) {
-    if (fit.termination == Termination::kCancelled || !fit.removed.empty()) return std::nullopt;
+    if (fit.termination == Termination::kCanceled || !fit.removed.empty()) return std::nullopt;
     if (fit.structure.outputs == 1) return missed_by_output(data, fit, options);
     std::optional<StructureAdvice> most;
     const bool rests = fit.start.state == InitialState::kZero && !fit.start.offset;

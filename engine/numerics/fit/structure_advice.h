@@ -52,7 +52,7 @@ bool late_input(const IdData& data, int poles, double loss);
 /// input that moves at nearly every sample does as well when it is not held, kHold takes its place.
 ///
 /// `data` and `options`: as the search was given them, with integrated inputs where it had an integrator
-/// (options.integration; no feedthrough is looked for then). Nothing for cancelled fits, those with an operating point
+/// (options.integration; no feedthrough is looked for then). Nothing for canceled fits, those with an operating point
 /// removed, and where outputs share a denominator.
 std::optional<StructureAdvice> missed_structure(const IdData& data, const Fit& fit, const FitOptions& options);
 

@@ -171,7 +171,7 @@ Fit refine_jointly(const IdData& data, const TransferStructure& structure, const
     return fit;
 }
 
-// The later of two in the order converged, no progress, iteration limit, diverged, cancelled.
+// The later of two in the order converged, no progress, iteration limit, diverged, canceled.
 Termination worse(Termination a, Termination b) {
     const auto rank = [](Termination termination) {
         switch (termination) {
@@ -183,7 +183,7 @@ Termination worse(Termination a, Termination b) {
                 return 2;
             case Termination::kDiverged:
                 return 3;
-            case Termination::kCancelled:
+            case Termination::kCanceled:
                 return 4;
         }
         return 4;

@@ -7,12 +7,12 @@
 namespace dynlab::inline numerics {
 
 /// Output-error estimate from a given start:
-///     minimise sum_k w_i^2 (y_i(k) - sum_j B_ij/A_ij u_j(k - delay) - free motion - offset)^2
+///     minimize sum_k w_i^2 (y_i(k) - sum_j B_ij/A_ij u_j(k - delay) - free motion - offset)^2
 /// over all parameters of the structure together with the initial values and offsets that `condition` asks for, in
 /// all experiments, by Levenberg-Marquardt with exact sensitivities (criteria/transfer_output.h). `theta_start` holds
 /// the parameters of the structure (s); unstable starts are mirrored when their simulation has no end, initial values
 /// and offsets start from least squares. Free delays stay between least_delay and largest_delay of the options
-/// (delay_range); where the output is not smooth in them, the search also sets out from the two neighbouring sampling
+/// (delay_range); where the output is not smooth in them, the search also sets out from the two neighboring sampling
 /// intervals. Steps to models whose simulation grows beyond bounds raise the loss and are never taken.
 ///
 /// Outputs that share no denominator are problems of their own and are solved one by one. Others are weighted with one

@@ -96,7 +96,7 @@ class NestedFits {
     /// that the same search finds.
     Fit no_worse(const TransferStructure& structure, Fit best, const std::vector<const Fit*>& known) const {
         if (structure.outputs > 1 || record_.sample_count() > kNestedSamples || !options_.fixed.empty() ||
-            best.termination == Termination::kCancelled)
+            best.termination == Termination::kCanceled)
             return best;
         std::vector<Vector> starts;
         if (known.empty()) {
@@ -190,7 +190,7 @@ Fit without_masked_inputs(const IdData& record, const TransferStructure& structu
                           const FitOptions& options) {
     constexpr int kRounds = 3;
     double left_out = 0;
-    for (int round = 0; round < kRounds && fit.termination != Termination::kCancelled; ++round) {
+    for (int round = 0; round < kRounds && fit.termination != Termination::kCanceled; ++round) {
         const double masked_seconds = masked_start(fit, record);
         if (masked_seconds <= left_out + record.mean_step()) break;
         left_out = masked_seconds;
@@ -241,7 +241,7 @@ void withdraw_errors_of_rivals(Fit& fit, const IdData& record, const DelayScan& 
 Fit or_from_further_starts(const IdData& record, const TransferStructure& structure, Fit best,
                            const FitOptions& options) {
     const bool suits = structure.inputs == 1 && structure.outputs == 1 && options.fixed.empty() &&
-                       best.termination != Termination::kCancelled;
+                       best.termination != Termination::kCanceled;
     if (!suits) return best;
     // One after the other: those that are slow to show what they lead to would be dropped beside the others.
     const auto refined = [&](const std::vector<Vector>& starts) {
@@ -285,7 +285,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
                                                                          : scan_delays(for_start, structure, options);
         options.largest_delay = scan.largest;
         starts = scan.starts;
-        // A scan from neighbours may miss the solution for the least delay.
+        // A scan from neighbors may miss the solution for the least delay.
         const std::vector<double> least(structure.channels.size(), options.least_delay);
         starts.push_back(start_at_delays(for_start, structure, least, options));
     }
@@ -309,7 +309,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     // Where errors still follow the input, a free delay may have led away from the best model without one.
     const auto or_without_delay = [&](Fit found) {
         if (!structure.free_delays || !structure.single_channel() || aids.start.size() > 0 || !given.fixed.empty() ||
-            found.termination == Termination::kCancelled || !errors_follow_input(record, found))
+            found.termination == Termination::kCanceled || !errors_follow_input(record, found))
             return found;
         TransferStructure at = with_fixed_delays(structure);
         at.channels.front().delay = options.least_delay;
@@ -322,7 +322,7 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
     const Vector first_end = best.theta;
     best = or_without_delay(further(options, std::move(best)));
     const bool unstable = std::any_of(best.models.begin(), best.models.end(), has_unstable_pole);
-    if (!options.stable && unstable && best.termination != Termination::kCancelled) {
+    if (!options.stable && unstable && best.termination != Termination::kCanceled) {
         FitOptions stable = options;
         stable.stable = true;
         starts.insert(starts.end(), {first_end, best.theta});

@@ -130,7 +130,7 @@ Vector balance(Eigen::Ref<Matrix> A) {
     constexpr double kWorthwhile = 0.95;  // a smaller reduction of the norms is not worth another sweep
     const Index n = A.rows();
     Vector scale = Vector::Ones(n);
-    const Vector diagonal = A.diagonal();  // stays as it is, and would hide small neighbours in the sums
+    const Vector diagonal = A.diagonal();  // stays as it is, and would hide small neighbors in the sums
     A.diagonal().setZero();
     for (bool changed = true; changed;) {
         changed = false;

@@ -3,7 +3,7 @@
 
 namespace dynlab::inline numerics {
 
-/// The theta that minimises |b - A theta|^2 for an N x d matrix A with N >= d.
+/// The theta that minimizes |b - A theta|^2 for an N x d matrix A with N >= d.
 struct LeastSquares {
     Vector solution;          ///< d; the one of least scaled norm when the rank is deficient
     Vector residuals;         ///< N, b - A theta

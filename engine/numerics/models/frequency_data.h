@@ -19,7 +19,7 @@ InterSample inter_sample_of(Hold hold);  ///< zoh or foh
 /// What a periodic output holds at lines of one kind, each as its part of the output's variance.
 struct OutputLevels {
     Vector w;           ///< rad/s
-    Vector power;       ///< of the mean over the periods, mean over the realisations
+    Vector power;       ///< of the mean over the periods, mean over the realizations
     Vector noise;       ///< what noise adds to it; empty with one period
     Vector distortion;  ///< what nonlinear distortion adds to it; empty where it is not known
 };
@@ -34,11 +34,11 @@ struct FrequencyData {
     InterSample inter_sample = InterSample::kBandLimited;
     std::string input_name = "u1", output_name = "y1", input_unit, output_unit;
 
-    bool neighbours_share_errors = false;  ///< the response was smoothed over the frequencies
+    bool neighbors_share_errors = false;  ///< the response was smoothed over the frequencies
 
     Vector noise_variance;      ///< of bla: the part of `variance` that noise makes
-    Vector distortion;          ///< of bla: variance of the response of one realisation that nonlinearity makes
-    Eigen::MatrixXcd realised;  ///< of bla: the response of each realisation, a column each; empty with one
+    Vector distortion;          ///< of bla: variance of the response of one realization that nonlinearity makes
+    Eigen::MatrixXcd realized;  ///< of bla: the response of each realization, a column each; empty with one
     Vector coherence;           ///< of spa and etfe: 0 to 1
     Vector noise_spectrum;      ///< of spa and etfe: power per sample
     OutputLevels excited;       ///< of bla: at the lines of w

@@ -5,7 +5,7 @@
 
 namespace dynlab::inline numerics {
 
-/// A sampled single-input system with p outputs whose input acts through its neighbouring samples, d samples late:
+/// A sampled single-input system with p outputs whose input acts through its neighboring samples, d samples late:
 ///   x[k+1] = F x[k] + G [u[k-d+1]; u[k-d]; u[k-d-1]],   y[k] = C x[k] + D [u[k-d]; u[k-d-1]].
 /// The signal begins at its first sample and is zero, not a ramp, before it: the step and the output at k = d use
 /// first_G [u[1]; u[0]] and first_D u[0] instead (free motion before).

@@ -31,8 +31,8 @@ struct CraneParameters {
     double static_friction = 0.85;   ///< N
     double stribeck_speed = 0.01;    ///< m/s
     double pendulum_mass = 0.23;     ///< m, kg
-    double pendulum_length = 0.36;   ///< l, from the pivot to the centre of mass, m
-    double pendulum_inertia = 1e-3;  ///< I, about the centre of mass, kg m^2
+    double pendulum_length = 0.36;   ///< l, from the pivot to the center of mass, m
+    double pendulum_inertia = 1e-3;  ///< I, about the center of mass, kg m^2
     double pivot_damping = 3e-3;     ///< N m s
     double air_drag = 8e-4;          ///< N m s^2
     double gravity = 9.81;           ///< g, m/s^2

@@ -36,7 +36,7 @@ class Experimenter {
     }
 
     /// Where the trolley must start so that the way it will go, as speed follows voltage, lies in the rail's middle.
-    double centred_start(const Vector& u) const {
+    double centered_start(const Vector& u) const {
         double way = 0, lowest = 0, highest = 0;
         for (double voltage : u) {
             way += crane_truth(crane_).speed_gain * voltage * plan_.Ts;
@@ -79,7 +79,7 @@ class Experimenter {
 
     Plan random_record(std::string name) {
         const Vector u = joined({quiet(), prbs()});
-        return plan(std::move(name), u, centred_start(u));
+        return plan(std::move(name), u, centered_start(u));
     }
 
     Plan steps() {
@@ -96,7 +96,7 @@ class Experimenter {
         return plan(
             "limits",
             joined({quiet(), before, held(12, 1.2), held(0, 1), held(-12, 1.8), held(0, 1), held(3, 2.6), after}),
-            centred_start(before));
+            centered_start(before));
     }
 
   private:

@@ -32,7 +32,7 @@ struct CraneRecord {
 };
 
 /// The experiments, in this order:
-///   estimation, validation  a seeded PRBS each, the trolley placed so that the way it will go is centred on the rail;
+///   estimation, validation  a seeded PRBS each, the trolley placed so that the way it will go is centered on the rail;
 ///   steps                   pushes of 2 V and 4 V to either side with rests between them;
 ///   free_swing              motor at 0 V, pendulum let go at release_angle;
 ///   limits                  PRBS, then +-12 V by hand: beyond the amplifier's limit and into both buffers, then PRBS.

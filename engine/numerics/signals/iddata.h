@@ -51,7 +51,7 @@ struct IdData {
     bool regular() const { return Ts > 0; }
     Vector time(std::size_t experiment = 0) const;  ///< N sampling instants of one experiment, in time_unit
     double duration(std::size_t experiment) const;  ///< from its first sample to its last, in time_unit
-    /// Ts, or the mean interval between neighbouring samples of all experiments; 1 where none has a second sample.
+    /// Ts, or the mean interval between neighboring samples of all experiments; 1 where none has a second sample.
     double mean_step() const;
 
     /// Samples first..last (1-based, inclusive). Throws InvalidArgument for several experiments or samples outside.

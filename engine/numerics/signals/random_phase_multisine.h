@@ -22,8 +22,8 @@ struct RandomPhaseMultisine {
 };
 
 /// One period of a sum of cosines of equal amplitude whose phases come from `phases`, evenly over the circle: one
-/// realisation; another call gives the next. Which lines detect is drawn from a stream of its own, so that all
-/// realisations of the same options have the same lines. With many lines samples are nearly normally distributed,
+/// realization; another call gives the next. Which lines detect is drawn from a stream of its own, so that all
+/// realizations of the same options have the same lines. With many lines samples are nearly normally distributed,
 /// unless peaks are lowered: by clipping and giving the lines back their amplitudes (Van der Ouderaa, Schoukens and
 /// Renneboog 1988). Odd lines with some left out tell even and odd distortion apart (Pintelon and Schoukens 2012,
 /// chapter 4). Throws InvalidArgument for a period of fewer than 8 samples, lines that are not whole numbers within the

@@ -20,7 +20,7 @@ std::vector<Segment> stretches_of(const std::vector<Index>& places) {
     return joined(std::move(single));
 }
 
-/// The samples that are not good are filled from their good neighbours; `t` may be empty for regular ones.
+/// The samples that are not good are filled from their good neighbors; `t` may be empty for regular ones.
 RepairedSignal bridged(const VectorView& x, const VectorView& t, const std::vector<bool>& good, FillMethod method) {
     RepairedSignal result{x, {}, {}};
     const Index N = x.size();
@@ -121,7 +121,7 @@ RepairedSignal replace_outliers(const VectorView& x, const OutlierOptions& optio
     options.validate();
     check_samples("filloutliers", SignalName::kSignal, x);
     const double scatter = noise_from_differences(x);
-    const double step = options.quantisation ? *options.quantisation : usual_step(x);
+    const double step = options.quantization ? *options.quantization : usual_step(x);
     const double rounding = 1.5 * step + 1e-9 * (x.maxCoeff() - x.minCoeff());
     std::vector<bool> good(static_cast<std::size_t>(x.size()));
     const double allowed = options.threshold * scatter + rounding;

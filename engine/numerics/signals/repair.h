@@ -10,13 +10,13 @@ namespace dynlab::inline numerics {
 struct RepairedSignal {
     Vector signal;
     std::vector<Index> replaced;     ///< 1-based, increasing
-    std::vector<Segment> stretches;  ///< the same, neighbours joined
+    std::vector<Segment> stretches;  ///< the same, neighbors joined
 };
 
 enum class FillMethod { kLinear, kPrevious };
 
 /// Samples that are not finite numbers (NaN marks a missing one) become points of the straight line between their
-/// neighbours (kLinear, for a sampled output), or hold the sample before them (kPrevious, for an input that is logged
+/// neighbors (kLinear, for a sampled output), or hold the sample before them (kPrevious, for an input that is logged
 /// when it changes); at the ends the nearest sample. `t` holds increasing instants, or nothing for regular sampling.
 /// Throws InvalidArgument when there is no finite sample, for instants of another number or order, and for a gap of
 /// more than `longest` samples, 10 for kLinear by default: a straight line over a long gap is invention.
@@ -26,16 +26,16 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t = Vector(),
 struct OutlierOptions {
     Index window = 7;      ///< samples of the moving median, odd, at least 3; groups of up to (window - 1)/2 are found
     double threshold = 6;  ///< robust standard deviations that an outlier lies off the median
-    std::optional<double> quantisation = {};  ///< step on which the samples lie, 0 for none; looked for unless given
+    std::optional<double> quantization = {};  ///< step on which the samples lie, 0 for none; looked for unless given
 
     void validate() const;
 };
 
 /// Hampel's rule: a sample farther from the median of the samples around it than the threshold times the scatter is an
-/// outlier and becomes the value of the straight line between its good neighbours. The scatter is the larger of 1.4826
+/// outlier and becomes the value of the straight line between its good neighbors. The scatter is the larger of 1.4826
 /// times the median distance inside the window (so that fast passages of the signal are not suspected) and the noise of
 /// the whole record, 1.4826 times the median of its second differences over sqrt(6); flicker by one and a half
-/// quantisation steps never counts, but for a record at rest from which one sample in a hundred or fewer stand out. A
+/// quantization steps never counts, but for a record at rest from which one sample in a hundred or fewer stand out. A
 /// step stays, because a median passes it on unchanged. Throws InvalidArgument for samples that are not finite.
 /// Reference: Pearson (2002), Outliers in process modeling and identification, IEEE Transactions on Control Systems
 /// Technology 10.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Index kSegments = 4;  // of the shortest record
 constexpr Index kShortestSegment = 64, kLongestSegment = 8192;
-constexpr Index kNeighbours = 2;  // on each side, below a peak
+constexpr Index kNeighbors = 2;  // on each side, below a peak
 
 Index segment_length(const IdData& data) {
     Index shortest = data.sample_count();
@@ -52,7 +52,7 @@ std::vector<double> response_peaks(const IdData& data, std::size_t most) {
     if (!(power.maxCoeff() > 0)) return {};
     std::vector<Index> peaks;
     for (Index i = 0; i < power.size(); ++i) {
-        const Index first = std::max<Index>(0, i - kNeighbours), last = std::min(power.size() - 1, i + kNeighbours);
+        const Index first = std::max<Index>(0, i - kNeighbors), last = std::min(power.size() - 1, i + kNeighbors);
         if (power.segment(first, last - first + 1).maxCoeff() <= power[i]) peaks.push_back(i);
     }
     std::ranges::stable_sort(peaks, [&](Index a, Index b) { return power[a] > power[b]; });

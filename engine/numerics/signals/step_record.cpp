@@ -123,12 +123,12 @@ Index rough_rise(const StepRecord& record) {
 }
 
 Index smoothing_window(const StepRecord& record, double widest_window) {
-    // The centre of a parabola through w samples has the variance 9/4 noise^2/w.
+    // The center of a parabola through w samples has the variance 9/4 noise^2/w.
     const double requested = 2.25 * std::pow(record.noise_std / (0.0025 * record.output_change()), 2);
     return static_cast<Index>(std::min(requested, widest_window * static_cast<double>(rough_rise(record))));
 }
 
-// The record's output with single outliers replaced by the middle one of three neighbours.
+// The record's output with single outliers replaced by the middle one of three neighbors.
 Vector without_outliers(const StepRecord& record) {
     const double allowed = 6 * record.noise_std + 0.25 * std::abs(record.output_change());
     Vector y = record.y;

@@ -17,7 +17,7 @@ class SimulationBreakdown : public InvalidArgument {
 
 /// Adaptive integration of dx/dt = f(t, x, u(t); p) from sample to sample, with the sensitivities S = dx/dtheta (n x D,
 /// of the parameters of the evaluation first) by the variational equations dS/dt = f_x S + f_p with the same steps: S
-/// is the derivative of the computed states (discretise, then differentiate).
+/// is the derivative of the computed states (discretize, then differentiate).
 /// Explicit pair of orders 5 and 4 (Dormand and Prince 1980) until its steps are bound by stability instead of accuracy
 /// (test of Hairer and Wanner 1996, section IV.2), from then on the L-stable ESDIRK pair of orders 4 and 3 by Kennedy
 /// and Carpenter (2003), table 5.

@@ -41,7 +41,7 @@ void add_resonances(std::vector<double>& grid, const TransferFunction& G) {
         }
 }
 
-/// Rising frequencies from far below the corner frequencies up to `last`, neighbours within a small part of a turn of
+/// Rising frequencies from far below the corner frequencies up to `last`, neighbors within a small part of a turn of
 /// the delay.
 std::vector<double> margin_grid(const TransferFunction& G, double first, double last) {
     constexpr int kPerDecade = 400;
@@ -90,7 +90,7 @@ std::vector<StabilityMargins::Crossover> axis_crossovers(const TransferFunction&
     Complex before = 0;
     for (const double w : grid) {
         const Complex here = response_at(G, w);
-        if (here.imag() == 0) continue;  // a crossing, if its neighbours say so
+        if (here.imag() == 0) continue;  // a crossing, if its neighbors say so
         if ((before.imag() > 0) != (here.imag() > 0) && before.real() < 0 && here.real() < 0) {
             const double crossing = sign_change(imaginary, w_before, w);
             add(crossing, response_at(G, crossing).real());

@@ -5,7 +5,7 @@
 
 namespace dynlab::inline numerics {
 
-/// e(k) + a_1 e(k-1) + ... + a_p e(k-p) = w(k), w white: what makes a coloured error white. The roots of the polynomial
+/// e(k) + a_1 e(k-1) + ... + a_p e(k-p) = w(k), w white: what makes a colored error white. The roots of the polynomial
 /// lie inside the unit circle.
 struct Autoregression {
     std::vector<Vector> predictors;  ///< of the orders 0 to p: a_1 first; the last one is the model
@@ -38,7 +38,7 @@ Vector filtered_past(const Autoregression& model, const VectorView& x);
 /// unseen past has left behind is in them.
 Vector whitened(const Autoregression& model, const VectorView& e, const std::vector<Index>& lengths);
 
-/// Column by column the transposed operation of colouring w into e, from the end of each record to its start: x(k) with
+/// Column by column the transposed operation of coloring w into e, from the end of each record to its start: x(k) with
 /// z'e = x'w for every e.
 Matrix colored_backwards(const Autoregression& model, const MatrixView& Z, const std::vector<Index>& lengths);
 

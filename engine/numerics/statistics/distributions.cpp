@@ -29,12 +29,12 @@ void check_probability(double probability) {
         throw InvalidArgument("A probability must be between 0 and 1, but it is {}", probability);
 }
 
-constexpr double kNearCentre = 0.1;
+constexpr double kNearCenter = 0.1;
 
 // The x > 0 with P(0 < t <= x) = part, for a small part. Boost's own quantile loses digits there, at even degrees of
 // freedom all of them. Newton from below, where the density is as high as at zero: monotone, the distribution being
 // concave for x > 0.
-double quantile_above_centre(double part, double degrees) {
+double quantile_above_center(double part, double degrees) {
     const StudentT distribution(degrees);
     double x = part / pdf(distribution, 0.0);
     for (int step = 0; step < 20; ++step) {
@@ -74,10 +74,10 @@ double student_t_quantile(double probability, double degrees) {
             degrees);
     check_probability(probability);
     try {
-        const double off_centre = probability - 0.5;  // exact, for a probability near one half
-        if (off_centre == 0) return 0;
-        if (std::abs(off_centre) < kNearCentre)
-            return std::copysign(quantile_above_centre(std::abs(off_centre), degrees), off_centre);
+        const double off_center = probability - 0.5;  // exact, for a probability near one half
+        if (off_center == 0) return 0;
+        if (std::abs(off_center) < kNearCenter)
+            return std::copysign(quantile_above_center(std::abs(off_center), degrees), off_center);
         return quantile(StudentT(degrees), probability);
     } catch (const std::exception&) {  // beyond what a number can hold, or the series that Boost has
         throw InvalidArgument(

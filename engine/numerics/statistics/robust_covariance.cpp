@@ -68,7 +68,7 @@ Index bartlett_bandwidth(const Vector& rho, Index N, Index longest) {
     return std::clamp<Index>(static_cast<Index>(L), 1, std::max<Index>(1, longest / 2));
 }
 
-// sum_|l|<L (1 - |l|/L) sum_k v(k) v(k-l)' = (1/L) sum of s s' over all sums s of up to L neighbouring rows.
+// sum_|l|<L (1 - |l|/L) sum_k v(k) v(k-l)' = (1/L) sum of s s' over all sums s of up to L neighboring rows.
 Matrix bartlett_sum(const Eigen::Ref<const Matrix>& V, Index L) {
     const Index N = V.rows();
     Matrix sum = Matrix::Zero(V.cols(), V.cols());
@@ -106,7 +106,7 @@ RobustCovariance robust_covariance(const MatrixView& H, const MatrixView& Z, con
 
 namespace {
 
-/// Of errors of one size: H X'X H times their mean square, x the instruments coloured backwards.
+/// Of errors of one size: H X'X H times their mean square, x the instruments colored backwards.
 Vector variances_of_one_size(const Matrix& H, const MatrixView& Psi, const Vector& e, const std::vector<Index>& lengths,
                              const Autoregression& model) {
     const Matrix V = colored_backwards(model, Psi, lengths) * H;

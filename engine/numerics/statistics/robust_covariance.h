@@ -6,7 +6,7 @@
 
 namespace dynlab::inline numerics {
 
-/// The covariance of an estimate whose errors are coloured, or of changing size.
+/// The covariance of an estimate whose errors are colored, or of changing size.
 struct RobustCovariance {
     Matrix covariance;                      ///< d x d
     Vector std;                             ///< d, its standard errors
@@ -16,9 +16,9 @@ struct RobustCovariance {
 
 /// Sandwich (heteroscedasticity and autocorrelation consistent) covariance of a theta that solves
 /// sum_k z(k) e(k, theta) = 0, with H (d x d) the inverse of -d/dtheta sum z e: (Psi'Psi)^-1 with z = Psi for
-/// output-error estimates, (Z'Phi)^-1 for instrumental variables. The z are known and free of noise, so that the colour
+/// output-error estimates, (Z'Phi)^-1 for instrumental variables. The z are known and free of noise, so that the color
 /// of e alone makes the terms z(k) e(k) depend on each other: e is whitened by an autoregression
-/// (autoregression.h) into w, and z'e = x'w with x the instruments coloured backwards in time. What is left of
+/// (autoregression.h) into w, and z'e = x'w with x the instruments colored backwards in time. What is left of
 /// dependence is met after Newey and West (1987) with the Bartlett window, as Andrews and Monahan (1992) do with
 /// prewhitened terms:
 ///     P = N/(N - d) sum_|l|<L (1 - |l|/L) sum_k v(k) v(k - l)',   v(k) = H x(k) w(k).

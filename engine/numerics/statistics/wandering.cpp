@@ -9,8 +9,8 @@ bool wanders(const VectorView& x) {
     if (length < 4 || !x.allFinite()) return false;
     Vector means = x.head(kParts * length).reshaped(length, kParts).colwise().mean().transpose();
     means.array() -= means.mean();
-    const double squares = means.squaredNorm(), neighbours = means.head(kParts - 1).dot(means.tail(kParts - 1));
-    return kParts * (squares - neighbours) < kPersistence * squares;
+    const double squares = means.squaredNorm(), neighbors = means.head(kParts - 1).dot(means.tail(kParts - 1));
+    return kParts * (squares - neighbors) < kPersistence * squares;
 }
 
 }  // namespace dynlab::inline numerics

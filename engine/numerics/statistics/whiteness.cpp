@@ -18,7 +18,7 @@ Message white_verdict(ModelError kind, const Message& probability, Index lags) {
     return Message("The output error is white (Ljung-Box {} over {}).", probability, plural(lags, "{} lag", "{} lags"));
 }
 
-Message coloured_verdict(ModelError kind, const Message& probability, Index outside, Index lags, double confidence) {
+Message colored_verdict(ModelError kind, const Message& probability, Index outside, Index lags, double confidence) {
     const Number percent = significant(100 * confidence, 4);
     if (kind == ModelError::kPrediction)
         return Message("The prediction error is not white (Ljung-Box {}; {} of {} lags exceed the {} % bound).",
@@ -60,7 +60,7 @@ WhitenessTest whiteness_of_covariances(const std::vector<Vector>& e, const Vecto
     test.white = test.p_value >= 1 - confidence;
     const Message probability = probability_text(test.p_value);
     test.verdict = test.white ? white_verdict(kind, probability, lags)
-                              : coloured_verdict(kind, probability, test.outside, lags, confidence);
+                              : colored_verdict(kind, probability, test.outside, lags, confidence);
     return test;
 }
 

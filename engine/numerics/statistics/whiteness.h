@@ -17,7 +17,7 @@ struct ResidualOptions {
 
 /// Is the output error of one output predictable from its own past?
 struct WhitenessTest {
-    Vector correlation;              ///< lags 0..L, normalised: the first is 1
+    Vector correlation;              ///< lags 0..L, normalized: the first is 1
     double bound = 0;                ///< a white error stays within +-bound with the wanted confidence, lag by lag
     double statistic = 0;            ///< Ljung-Box, chi-squared with `degrees` if white
     Index degrees = 0, outside = 0;  ///< outside: lags 1..L beyond the bound

@@ -33,7 +33,7 @@ struct Advice {
 };
 
 /// What the signals alone tell: "constant" channels, a "time_column", the "same_column" twice, "saturation" and
-/// "quantisation" of outputs, "outliers", "degrees" declared as radians, "mixed_sampling" and "gaps" between the
+/// "quantization" of outputs, "outliers", "degrees" declared as radians, "mixed_sampling" and "gaps" between the
 /// instants, and "excitation": how many parameters each input can determine. Any number of channels and experiments.
 std::vector<DataIssue> signal_advice(const IdData& data);
 

@@ -142,7 +142,7 @@ std::optional<DelaySearch> search_model(const IdData& data, const std::function<
     options.cancel = cancel;
     try {
         DelaySearch search = search_delay(block > 1 ? block_averages(data, block) : data, options);
-        if (search.cancelled) return std::nullopt;
+        if (search.canceled) return std::nullopt;
         choose_start(search, data, options.estimation);
         return search;
     } catch (const InvalidArgument&) {

@@ -53,7 +53,7 @@ struct FittedRecord {
 /// same high-pass filter, which slow disturbances hardly pass, and taken unless it explains these worse by more than 5
 /// %. An integrator that explains 80 % from rest and a constant is not doubted: it is not seen behind the filter either
 /// (a free motion of it, though, is what a drift looks like); nor is a model taken that explains the whole record worse
-/// than -50 %. Nothing when nothing can be fitted, or when cancelled.
+/// than -50 %. Nothing when nothing can be fitted, or when canceled.
 std::optional<FittedRecord> fitted_record(const IdData& data, const std::function<bool()>& cancel);
 
 /// A finding about the output.

@@ -218,7 +218,7 @@ struct Compared {
     double squares = 0, variation = 0;  // of the errors, and of the outputs about their mean
 };
 
-CompareResult compare_centred(const ComparedRecord& record, Channels channels, const CompareOptions& options) {
+CompareResult compare_centered(const ComparedRecord& record, Channels channels, const CompareOptions& options) {
     const Index N = record.y.size(), order = free_order(channels);
     const auto conditions = start_conditions(record.u, options.initial_state, options.offset);
     const auto values = [order](const StartCondition& condition) {
@@ -246,11 +246,11 @@ Compared compare_record(const ComparedRecord& record, Channels channels, const C
         const JointOperatingPoint removed = joint_operating_point(record.u, record.y);
         const Matrix u = record.u.rowwise() - removed.inputs.transpose();
         const Vector y = record.y.array() - removed.output;
-        result = compare_centred({u, y, record.t, record.Ts, record.hold}, channels, options);
+        result = compare_centered({u, y, record.t, record.Ts, record.hold}, channels, options);
         removed_output = removed.output;
         result.output.array() += removed_output;
     } else {
-        result = compare_centred(record, channels, options);
+        result = compare_centered(record, channels, options);
     }
     result.offset += removed_output;
     compared.squares = (record.y - result.output).squaredNorm();

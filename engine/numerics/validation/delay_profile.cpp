@@ -48,8 +48,8 @@ class DelayProfile {
     void sweep() {
         for (sweep_ = 1; sweep_ <= kMostSweeps; ++sweep_) {
             bool lower = false;
-            for (std::size_t i = 0; i + 1 < points_.size(); ++i) lower |= try_neighbour(i + 1, points_[i]);
-            for (std::size_t i = points_.size(); i-- > 1;) lower |= try_neighbour(i - 1, points_[i]);
+            for (std::size_t i = 0; i + 1 < points_.size(); ++i) lower |= try_neighbor(i + 1, points_[i]);
+            for (std::size_t i = points_.size(); i-- > 1;) lower |= try_neighbor(i - 1, points_[i]);
             if (!lower) return;
         }
     }
@@ -73,7 +73,7 @@ class DelayProfile {
             take(i, on_all_samples(i, srivc(data_, structure_at(i), options_)));
             if (i % kSearchedApart == 0) take(i, on_all_samples(i, coe(data_, structure_at(i), options_)));
         } catch (const InvalidArgument&) {
-            // no solution of its own: the neighbours' are left
+            // no solution of its own: the neighbors' are left
         }
     }
 
@@ -82,8 +82,8 @@ class DelayProfile {
         return condition_.state == InitialState::kEstimate ? refined(i, fit.theta) : fit;
     }
 
-    /// Follows a neighbour's solution here, unless that was done in a sweep before.
-    bool try_neighbour(std::size_t i, const ProfilePoint& neighbor) {
+    /// Follows a neighbor's solution here, unless that was done in a sweep before.
+    bool try_neighbor(std::size_t i, const ProfilePoint& neighbor) {
         if (stopped() || !std::isfinite(neighbor.loss) || neighbor.lowered < sweep_ - 1) return false;
         const Fit fit = refined(i, neighbor.theta);
         return !swings_fast(fit) && take(i, fit);

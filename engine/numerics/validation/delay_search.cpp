@@ -134,13 +134,13 @@ DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options) 
     const OrderSelection selection =
         select_order(data, order_grid(options.poles, options.zeros, {options.estimation.least_delay}, true), selecting);
     DelaySearch search;
-    search.cancelled = selection.cancelled;
-    if (search.cancelled) return search;
+    search.canceled = selection.canceled;
+    if (search.canceled) return search;
     search.candidate = selection.candidates[choose_order(selection).place];
     Vector& losses = search.candidate.estimate.delay_loss;
     if (options.profile) losses = profile_of(search, data, options);
-    search.cancelled = options.cancel && options.cancel();
-    if (search.cancelled) return search;
+    search.canceled = options.cancel && options.cancel();
+    if (search.canceled) return search;
     losses = losses.cwiseMin(loss_without_model(data));
     search.delay = search.candidate.delay;
     const Fit& estimate = search.candidate.estimate;

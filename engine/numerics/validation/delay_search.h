@@ -21,7 +21,7 @@ struct DelaySearch {
     OrderCandidate candidate;     ///< the structure that was taken, with its model
     std::optional<double> rival;  ///< s, another delay on the grid whose loss chance does not tell from the smallest
     Message explanation;          ///< plain sentences
-    bool cancelled = false;       ///< nothing else holds then
+    bool canceled = false;        ///< nothing else holds then
 
     /// s, the delays that were tried, and the smallest mean square error at each (delay_profile.h), on at most the
     /// first 50,000 samples.

@@ -21,7 +21,7 @@ constexpr double kFeedbackLevel = 1e-5;
 constexpr double kOneSided = 3;  // times more correlation with later inputs than with earlier ones
 
 /// x with mean zero and mean square one, cut off at so many robust standard deviations.
-Vector standardised(Vector x, double cut) {
+Vector standardized(Vector x, double cut) {
     x.array() -= median(x);
     const double scale = kRobust * median(x.cwiseAbs().eval());
     if (scale > 0) x = x.cwiseMin(cut * scale).cwiseMax(-cut * scale);
@@ -129,11 +129,11 @@ void find_feedback(const FittedRecord& fit, DataIssues& findings) {
     if (count < 20 * kInputMemory) return;
     const Vector u = fit.u().segment(first, count);
     const bool predicts = !fit.model().stable() || fit.runs_away();
-    const Vector e = standardised(
+    const Vector e = standardized(
         predicts ? prediction_errors(fit.y().segment(first, count), u) : white_errors(fit.error.segment(first, count)),
         kCutError);
     const Vector x = predicts ? delayed(fit.y().segment(first, count)) : fit.simulation.output.segment(first, count);
-    const Vector w = standardised(input_innovations(u, x), kCutInput);
+    const Vector w = standardized(input_innovations(u, x), kCutInput);
     const Index common = std::min(e.size(), w.size());
     if (w.isZero()) return;
     const auto samples = static_cast<double>(common);

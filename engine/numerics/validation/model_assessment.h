@@ -33,7 +33,7 @@ struct ModelEvidence {
 
 /// What all of it says together, in a sentence or two. An unstable model is never called good, nor is one that explains
 /// little (explains_little in fit/diagnosis.h), however white its errors; of less than half of the output no dynamics
-/// are called described where the errors are coloured; a cause that is known is named in the place
+/// are called described where the errors are colored; a cause that is known is named in the place
 /// of missing poles.
 Message model_verdict(const ModelEvidence& model);
 

@@ -105,7 +105,7 @@ class Runner {
     }
 
     std::vector<MonteCarloRun> take() { return std::move(runs_); }
-    bool cancelled() const { return cancelled_; }
+    bool canceled() const { return canceled_; }
 
   private:
     int end() const { return first_ + static_cast<int>(runs_.size()); }
@@ -145,8 +145,8 @@ class Runner {
     bool asked_to_stop() {
         if (!study_.cancel) return false;
         const std::scoped_lock lock(callbacks_);
-        if (!cancelled_ && study_.cancel()) cancelled_ = true;
-        return cancelled_;
+        if (!canceled_ && study_.cancel()) canceled_ = true;
+        return canceled_;
     }
 
     void report_progress() {
@@ -162,7 +162,7 @@ class Runner {
     int first_;
     std::vector<MonteCarloRun> runs_;
     std::mutex callbacks_;
-    std::atomic<bool> cancelled_ = false;
+    std::atomic<bool> canceled_ = false;
     std::size_t estimations_ = 0;
 };
 
@@ -302,7 +302,7 @@ MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarl
     const auto some = [&](std::size_t first, std::size_t count) {
         Runner runner(study, methods, records, all.sigma, first, count);
         runner.run();
-        all.cancelled = all.cancelled || runner.cancelled();
+        all.canceled = all.canceled || runner.canceled();
         return runner.take();
     };
     const auto count = static_cast<std::size_t>(study.runs);

@@ -90,7 +90,7 @@ struct MonteCarlo {
     std::vector<MonteCarloResult> results;  ///< in the order of the methods
     double sigma = 0, snr = 0;              ///< snr infinite without noise
     int runs = 0;
-    bool cancelled = false;  ///< runs that had not begun count neither as estimated nor as failed
+    bool canceled = false;  ///< runs that had not begun count neither as estimated nor as failed
 };
 
 /// Runs every method on every record, on several cores. Truth and bound are told for methods whose parameters are the

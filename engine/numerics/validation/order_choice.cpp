@@ -135,7 +135,7 @@ OrderChoice recommend(const OrderSelection& selection, const Places& estimated) 
     } else {
         explanation.push_back(Message("Recommended: {} ({}).", structure_text(taken), measures_of(taken)));
         explanation.push_back(selection.validated
-                                  ? Message("Among the models without cancelling zeros or undetermined parameters, no "
+                                  ? Message("Among the models without canceling zeros or undetermined parameters, no "
                                             "simpler model fits the validation data nearly as well.")
                                   : Message("This structure balances a small error against few parameters (BIC). It "
                                             "has neither a zero that cancels a pole nor an undetermined parameter."));

@@ -241,8 +241,8 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
     std::size_t done = 0;
     const auto stopped = [&] {
         const std::scoped_lock lock(callbacks);
-        selection.cancelled = selection.cancelled || (options.cancel && options.cancel());
-        return selection.cancelled;
+        selection.canceled = selection.canceled || (options.cancel && options.cancel());
+        return selection.canceled;
     };
     const auto try_one = [&](std::size_t i) {
         OrderCandidate& candidate = selection.candidates[i];
@@ -268,7 +268,7 @@ OrderSelection select_order(const IdData& data, const std::vector<TransferStruct
     if (options.estimation.integration)
         for (OrderCandidate& candidate : selection.candidates)
             if (estimated(candidate)) append_integrator(candidate.estimate);
-    if (!selection.cancelled && std::none_of(selection.candidates.begin(), selection.candidates.end(), estimated))
+    if (!selection.canceled && std::none_of(selection.candidates.begin(), selection.candidates.end(), estimated))
         throw InvalidArgument("none of the structures could be estimated; the first error: {}",
                               selection.candidates.front().failure);
     return selection;

@@ -40,7 +40,7 @@ struct OrderSelection {
     std::vector<OrderCandidate> candidates;  ///< in the order they were given
     Index samples = 0;
     bool validated = false;
-    bool cancelled = false;  ///< candidates that had not begun say so in their failure
+    bool canceled = false;  ///< candidates that had not begun say so in their failure
 };
 
 struct OrderSelectionOptions {

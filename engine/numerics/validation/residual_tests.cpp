@@ -26,7 +26,7 @@ Vector centered(const VectorView& x) {
     return x.array() - x.mean();
 }
 
-Signals centred_column(const std::vector<Matrix>& signals, Index column) {
+Signals centered_column(const std::vector<Matrix>& signals, Index column) {
     Signals all;
     for (const Matrix& x : signals) all.push_back(centered(x.col(column)));
     return all;
@@ -186,7 +186,7 @@ ModelEvidence standing_of(const OutputResiduals& output, ErrorKind kind) {
 OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& data, Index output, ErrorKind kind,
                             const ResidualOptions& options) {
     OutputResiduals result;
-    const Signals e = centred_column(errors, output);
+    const Signals e = centered_column(errors, output);
     const double N = total_size(e);
     double output_power = 0, squares = 0;
     for (std::size_t k = 0; k < errors.size(); ++k) {

@@ -14,7 +14,7 @@ struct Predictions;
 /// Does the error of one output depend on one input?
 struct IndependenceTest {
     Index input = 0;            ///< 0-based
-    Vector correlation;         ///< lags -L..L, normalised; at positive ones the input acts before the error
+    Vector correlation;         ///< lags -L..L, normalized; at positive ones the input acts before the error
     double bound = 0;           ///< lag by lag, for an error that the input does not touch
     double statistic = 0;       ///< of lags 0..L, chi-squared with `degrees` if independent, N large
     Index degrees = 0;          ///< fewer than L + 1 when the input is not rich enough to tell the lags apart

@@ -19,7 +19,7 @@ constexpr Index kShortestRun = 5;        // samples at a limit that are no chanc
 constexpr Index kReach = 4;              // samples before a run over which its slope is taken
 constexpr double kSharp = 10;            // steps of the converter that a signal rises before it is cut off
 constexpr double kClippedExcess = 0.05;  // of the range, what the signal would have gone beyond its limit
-constexpr double kCoarse = 100;          // steps over the range below which quantisation matters
+constexpr double kCoarse = 100;          // steps over the range below which quantization matters
 constexpr Index kMaxExcitation = 20, kPoorOrder = 6;
 constexpr double kExcited = 5e-3;  // singular value against the largest one
 
@@ -163,11 +163,11 @@ void find_saturation(const Channel& channel, const Quantization& grid, std::vect
     findings.push_back(std::move(issue));
 }
 
-void find_quantisation(const Channel& channel, const Quantization& grid, std::vector<DataIssue>& findings) {
+void find_quantization(const Channel& channel, const Quantization& grid, std::vector<DataIssue>& findings) {
     const double range = range_of(channel.x);
     if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
     findings.push_back(
-        about(channel, "quantisation", Weight::kWarning,
+        about(channel, "quantization", Weight::kWarning,
               Message("{} is quantized in steps of {}, only {} of them over its range. The effect is like noise of "
                       "standard deviation {}; use a finer range of the converter or a larger amplitude.",
                       subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
@@ -203,7 +203,7 @@ void drop_usual_bends(RepairedSignal& repaired, const Vector& x) {
 void find_outliers(const Channel& channel, const Quantization& grid, std::vector<DataIssue>& findings) {
     if (!channel.output || has_few_levels(grid)) return;
     OutlierOptions options;
-    options.quantisation = grid.step;
+    options.quantization = grid.step;
     RepairedSignal repaired = replace_outliers(channel.x, options);
     drop_usual_bends(repaired, channel.x);
     const auto count = static_cast<Index>(repaired.replaced.size());
@@ -368,7 +368,7 @@ std::vector<DataIssue> signal_advice(const IdData& data) {
         if (!has_few_levels(grid) && find_wrap(channel, findings)) continue;
         find_time_column(channel, findings);
         find_saturation(channel, grid, findings);
-        find_quantisation(channel, grid, findings);
+        find_quantization(channel, grid, findings);
         find_outliers(channel, grid, findings);
         find_degrees(channel, findings);
         if (!channel.output) find_excitation(channel, grid, findings);

@@ -17,7 +17,7 @@ void print_shown(const std::string& text);
 std::size_t terminal_columns(int descriptor, std::size_t otherwise);
 /// Columns of standard output to fill with text: the terminal's, up to what is easy to read; `otherwise` in a pipe.
 std::size_t columns_of_text(std::size_t otherwise);
-/// Whether what is printed may be coloured: on a terminal, unless NO_COLOR says otherwise.
+/// Whether what is printed may be colored: on a terminal, unless NO_COLOR says otherwise.
 bool in_color();
 
 }  // namespace dynlab::inline platform

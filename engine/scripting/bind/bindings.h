@@ -6,7 +6,7 @@
 
 namespace dynlab::inline scripting {
 
-/// The functions of each area; catalog_of_functions() (interpreter/catalogue.h) joins them in the order of help().
+/// The functions of each area; catalog_of_functions() (interpreter/catalog.h) joins them in the order of help().
 FunctionEntries vector_functions();
 FunctionEntries column_statistics();
 FunctionEntries element_functions();

@@ -172,7 +172,7 @@ Curve ruled_lines(std::pair<double, double> along, double step, std::pair<double
     Curve curve;
     curve.x = upright ? places : ends;
     curve.y = upright ? ends : places;
-    curve.colour = style::kGrayColor;
+    curve.color = style::kGrayColor;
     curve.dash = 0;
     return curve;
 }

@@ -24,7 +24,7 @@ constexpr std::array kCurveLists = {
                 about("\"line\", \"points\", \"line_points\", \"stairs\", \"stems\" or \"bars\", for all curves or as "
                       "a list with one per curve"),
                 {.initial = "\"line\"", .choices = kCurveStyles}},
-    OptionEntry{"colour", ValueKind::kAny,
+    OptionEntry{"color", ValueKind::kAny,
                 about("number in the palette, starting at 0, or a name such as \"red\", for all curves or as a list "
                       "with one per curve")},
     OptionEntry{"dash", ValueKind::kVector,
@@ -74,7 +74,7 @@ constexpr std::array kSaveFigureArguments = {
 struct CurveLists {
     std::vector<std::string> labels, styles;
     std::vector<double> dashes, markers;
-    std::vector<int> colours;
+    std::vector<int> colors;
 };
 
 std::vector<double> numbers(const Options& options, const char* name) {
@@ -105,7 +105,7 @@ const T* value_for(const std::vector<T>& values, std::size_t i, std::size_t coun
 
 void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
     const CurveLists lists{options.texts("label"), options.texts("style"), numbers(options, "dash"),
-                           numbers(options, "marker"), colours_of(options)};
+                           numbers(options, "marker"), colors_of(options)};
     if (lists.labels.size() > curves.size())
         throw InvalidArgument("option 'label' has {} for {}", plural(lists.labels.size(), "{} text", "{} texts"),
                               plural(curves.size(), "{} curve", "{} curves"));
@@ -116,12 +116,12 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
         if (auto dash = value_for(lists.dashes, i, curves.size(), "dash")) curve.dash = place_of_look(*dash, "dash");
         if (auto marker = value_for(lists.markers, i, curves.size(), "marker"))
             curve.marker = place_of_look(*marker, "marker");
-        if (auto colour = value_for(lists.colours, i, curves.size(), "colour")) curve.colour = *colour;
+        if (auto color = value_for(lists.colors, i, curves.size(), "color")) curve.color = *color;
         options.read(curve);
     }
 }
 
-/// MATLAB's line specification: "--", "r:", ".-", or a colour with a marker such as "ro".
+/// MATLAB's line specification: "--", "r:", ".-", or a color with a marker such as "ro".
 bool is_line_specification(const std::string& text) {
     if (text.empty() || text.size() > 3 || text.find_first_not_of("-:.ox+*sdrgbkmcy") != std::string::npos)
         return false;
@@ -136,7 +136,7 @@ std::string curve_name(const Call& call, int index) {
                                                "MarkerSize", "DisplayName", "MarkerFaceColor"};
     if (std::find(kProperties.begin(), kProperties.end(), name) != kProperties.end())
         throw InvalidArgument(
-            "\"{}\" is an option of MATLAB's plot; write the options as one table, plot(x, y, {line_width = 2, colour "
+            "\"{}\" is an option of MATLAB's plot; write the options as one table, plot(x, y, {line_width = 2, color "
             "= \"red\", style = \"points\"})",
             name);
     if (is_line_specification(name))

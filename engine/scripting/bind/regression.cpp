@@ -38,7 +38,7 @@ constexpr OptionEntry kRegressionMethod = option<&PolyfitOptions::method>(
     {.initial = "\"qr\"", .choices = kRegressionMethods});
 constexpr std::array kLsqOptions = {kRegressionMethod};
 constexpr std::array kPolyfitOptions = {
-    option<&PolyfitOptions::centered>("centred", about("powers of x minus its mean, instead of those of x itself")),
+    option<&PolyfitOptions::centered>("centered", about("powers of x minus its mean, instead of those of x itself")),
     kRegressionMethod};
 constexpr OptionEntry kRegressionPlotOptions[] = {
     {"forecast", ValueKind::kNumber, about("x of a forecast to mark")},
@@ -80,7 +80,7 @@ constexpr lua_CFunction regression_field =
 Vector coefficients_of(const RegressionFit& fit) {
     return fit.polynomial ? fit.polynomial->coefficients : fit.regression.theta;
 }
-double centre_of(const RegressionFit& fit) {
+double center_of(const RegressionFit& fit) {
     return fit.polynomial ? fit.polynomial->center : 0.0;
 }
 
@@ -110,7 +110,7 @@ constexpr std::array kRegressionFields = {
     Member{"rank", regression_field<&LinearRegression::rank>},
     Member{"message", localized_field<RegressionFit, message_of>},
     Member{"coefficients", field<RegressionFit, coefficients_of>},
-    Member{"centre", field<RegressionFit, centre_of>},
+    Member{"center", field<RegressionFit, center_of>},
 };
 constexpr std::array kRegressionOperators = {Member{"__tostring", localized_field<RegressionFit, regression_text>}};
 

@@ -76,7 +76,7 @@ Estimation read_filtered(const Call& call) {
     };
 }
 
-/// The simulation and standard errors that know the filters' colour take ten times as long as the estimate: they wait
+/// The simulation and standard errors that know the filters' color take ten times as long as the estimate: they wait
 /// until they are read, unless one of them has a warning.
 template <auto kMethod, bool kInstruments, bool kMomentFunctionals>
 int estimate_filtered(Call& call) {

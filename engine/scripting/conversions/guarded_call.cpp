@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "numerics/estimators/catalogue.h"
+#include "numerics/estimators/method_catalog.h"
 #include "platform/error.h"
 #include "scripting/conversions/arguments.h"
 #include "scripting/conversions/option_words.h"

@@ -6,7 +6,7 @@
 #include "base/languages.h"
 #include "numerics/error.h"
 #include "platform/error.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/interpreter/restricted_library.h"
 #include "scripting/runtime/call_chain.h"
 #include "scripting/runtime/context.h"

@@ -6,7 +6,7 @@
 #include "base/languages.h"
 #include "base/reader.h"
 #include "documents/script_header.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/lint.h"
 #include "scripting/runtime/errors.h"

@@ -12,7 +12,7 @@
 #include "figures/gnuplot_renderer.h"
 #include "scripting/answers/answer_value.h"
 #include "scripting/conversions/option_words.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/lint/script_walk.h"

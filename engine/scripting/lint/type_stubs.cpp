@@ -7,7 +7,7 @@
 
 #include "base/reader.h"
 #include "documents/text_lines.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/lint/function_forms.h"
 #include "scripting/source/lua_tokens.h"
 

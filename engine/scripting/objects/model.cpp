@@ -45,13 +45,13 @@ std::vector<Message> Estimate::all_warnings() const {
     return all;
 }
 
-std::shared_ptr<const Assessment> Estimate::colour() const {
+std::shared_ptr<const Assessment> Estimate::color() const {
     std::shared_ptr<const Assessment> assessment = diagnostics.assessment();
     return assessment && !assessment->white ? assessment : nullptr;
 }
 
 Matrix Estimate::trusted_covariance() const {
-    const auto colored = colour();
+    const auto colored = color();
     return colored ? colored->covariance : covariance();
 }
 

@@ -53,12 +53,12 @@ struct Estimate {
     /// Message and warnings with what the diagnostics add.
     Message full_message() const;
     std::vector<Message> all_warnings() const;
-    /// The assessment of errors that are coloured; nothing for others.
-    std::shared_ptr<const Assessment> colour() const;
+    /// The assessment of errors that are colored; nothing for others.
+    std::shared_ptr<const Assessment> color() const;
     const Vector& std() const { return errors.get().std; }
     const Matrix& covariance() const { return errors.get().covariance; }
     const ReportFields& report() const { return fields.get(); }
-    /// The robust covariance when the output errors are coloured.
+    /// The robust covariance when the output errors are colored.
     Matrix trusted_covariance() const;
 };
 

@@ -84,24 +84,23 @@ Arrow read_arrow(const Call& call, int index) {
 }
 
 /// In the order of the palette of figures/style; "gray" is "grey".
-constexpr std::array kColourNames = {"blue", "orange", "black",   "green", "purple",
-                                     "cyan", "red",    "magenta", "grey",  "gray"};
+constexpr std::array kColorNames = {"blue", "orange", "black",   "green", "purple",
+                                    "cyan", "red",    "magenta", "grey",  "gray"};
 constexpr std::ptrdiff_t kGrey = 8;
 
-int colour_at(const Call& call, int index) {
+int color_at(const Call& call, int index) {
     lua_State* L = call.state();
     if (lua_type(L, index) == LUA_TSTRING) {
         const std::string name = lua_tostring(L, index);
-        const auto found = std::ranges::find(kColourNames, name);
-        if (found != kColourNames.end()) return static_cast<int>(std::min(found - kColourNames.begin(), kGrey));
+        const auto found = std::ranges::find(kColorNames, name);
+        if (found != kColorNames.end()) return static_cast<int>(std::min(found - kColorNames.begin(), kGrey));
         throw InvalidArgument(
-            "{} must be {}, but \"{}\" was given", option_label("colour"),
-            Message("a number from 0, or one of {}", listed_in_quotes({kColourNames.begin(), kColourNames.end()})),
-            name);
+            "{} must be {}, but \"{}\" was given", option_label("color"),
+            Message("a number from 0, or one of {}", listed_in_quotes({kColorNames.begin(), kColorNames.end()})), name);
     }
     const double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : -1;
     if (number < 0 || number != std::floor(number) || number > 1000)
-        refuse_option("colour", Message("a whole number from 0, or a name such as \"red\""), given_value(L, index));
+        refuse_option("color", Message("a whole number from 0, or a name such as \"red\""), given_value(L, index));
     return static_cast<int>(number);
 }
 
@@ -140,30 +139,30 @@ CurveStyle parse_curve_style(const std::string& name) {
     return static_cast<CurveStyle>(found - kCurveStyles.begin());
 }
 
-std::vector<int> colours_of(const Options& options) {
-    if (!options.has("colour")) return {};
+std::vector<int> colors_of(const Options& options) {
+    if (!options.has("color")) return {};
     lua_State* L = options.call().state();
-    const int given = options.push("colour");
-    std::vector<int> colours;
+    const int given = options.push("color");
+    std::vector<int> colors;
     if (const NumericBlock* v = to_vector(L, given)) {
         for (Index i = 0; i < v->rows; ++i) {
             lua_pushnumber(L, to_vector(L, given)->data()[i]);
-            colours.push_back(colour_at(options.call(), -1));
+            colors.push_back(color_at(options.call(), -1));
             lua_pop(L, 1);
         }
     } else if (lua_type(L, given) == LUA_TTABLE) {
         for (lua_Integer i = 1; lua_rawgeti(L, given, i) != LUA_TNIL; ++i, lua_pop(L, 1))
-            colours.push_back(colour_at(options.call(), -1));
+            colors.push_back(color_at(options.call(), -1));
     } else {
-        colours.push_back(colour_at(options.call(), given));
+        colors.push_back(color_at(options.call(), given));
     }
     lua_settop(L, given - 1);
-    return colours;
+    return colors;
 }
 
 void read_curve_appearance(const Options& options, Curve& curve) {
     options.read(curve);
-    if (const std::vector<int> colours = colours_of(options); !colours.empty()) curve.colour = colours.front();
+    if (const std::vector<int> colors = colors_of(options); !colors.empty()) curve.color = colors.front();
     curve.dash = optional_index(options, "dash");
     curve.marker = optional_index(options, "marker");
 }

@@ -24,7 +24,7 @@ inline constexpr std::array kPanelOptions = {
                                  "legend if space is missing"),
                            {.initial = "\"automatic\"", .choices = kLegendPlaces}),
     OptionEntry{"curves", ValueKind::kTable,
-                about("list of curves, each {x =, y =, label =, style =, colour =, dash =, line_width =, marker =}; a "
+                about("list of curves, each {x =, y =, label =, style =, color =, dash =, line_width =, marker =}; a "
                       "curve with y_upper is a band from y to y_upper")},
     OptionEntry{"references", ValueKind::kTable,
                 about("list of reference lines, {y = level, label =, dash =} or {x = instant, label =, dash =}")},
@@ -34,7 +34,7 @@ inline constexpr std::array kPanelOptions = {
 inline constexpr std::array kCurveAppearanceOptions = {
     OptionEntry{"label", ValueKind::kText, about("name of the curve in the legend")},
     option<&Curve::style>("style", about("style of the curve"), {.initial = "\"line\"", .choices = kCurveStyles}),
-    OptionEntry{"colour", ValueKind::kAny, about("number in the palette, starting at 0, or a name such as \"red\"")},
+    OptionEntry{"color", ValueKind::kAny, about("number in the palette, starting at 0, or a name such as \"red\"")},
     OptionEntry{"dash", ValueKind::kCount,
                 about("dash pattern: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns")},
     OptionEntry{
@@ -50,8 +50,8 @@ inline constexpr std::array kFigureSizeOptions = {
 /// Sets of `panel` what the options name.
 void read_panel_options(const Call& call, const Options& options, Panel& panel);
 /// Places in the palette by number or name: one for all curves, or one each; empty when the option is not given.
-std::vector<int> colours_of(const Options& options);
-/// Sets style, colour, dash, width and marker of `curve`.
+std::vector<int> colors_of(const Options& options);
+/// Sets style, color, dash, width and marker of `curve`.
 void read_curve_appearance(const Options& options, Curve& curve);
 /// What an author wrote, with its indices marked; empty where the option is not given.
 Message label_option(const Options& options, const char* name);

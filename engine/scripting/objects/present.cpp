@@ -63,7 +63,7 @@ std::string Presentation::error_of(const Vector& std, Index index) const {
 
 std::string Presentation::parameter_lines(const Model& model) const {
     const ModelParameters parameters = parameters_of(model);
-    const auto colored = model.estimate ? model.estimate->colour() : nullptr;
+    const auto colored = model.estimate ? model.estimate->color() : nullptr;
     std::string lines = text(Message("Parameters:")) + "\n";
     for (std::size_t i = 0; i < parameters.names.size(); ++i) {
         const auto index = static_cast<Index>(i);
@@ -194,7 +194,7 @@ std::string Presentation::estimate_lines(const Estimate& estimate) const {
     lines += "\n";
     if (fit && !estimate.report().simulated.empty()) lines += text(estimate.report().simulated) + "\n";
     if (const Message message = estimate.full_message(); !message.empty()) lines += text(message) + "\n";
-    if (const auto colored = estimate.colour()) lines += text(colored->verdict) + "\n";
+    if (const auto colored = estimate.color()) lines += text(colored->verdict) + "\n";
     return lines;
 }
 

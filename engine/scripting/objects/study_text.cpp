@@ -117,7 +117,7 @@ std::string StudyText::of(const MonteCarlo& study) const {
                            sigma, significant(study.snr, 3))
                  : Message("Monte Carlo study of {} runs, noise of standard deviation {}", study.runs, sigma)) +
         "\n";
-    if (study.cancelled) lines += text(Message("The study was interrupted.")) + "\n";
+    if (study.canceled) lines += text(Message("The study was interrupted.")) + "\n";
     std::size_t who_width = 5;
     for (const MonteCarloResult& result : study.results) who_width = std::max(who_width, result.label.size());
     const MonteCarloResult* before = nullptr;

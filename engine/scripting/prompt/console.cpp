@@ -12,7 +12,7 @@
 #include "platform/interrupt.h"
 #include "platform/terminal/terminal_output.h"
 #include "platform/terminal/terminal_text.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/prompt/line_editor.h"
 #include "scripting/prompt/prompt_session.h"
 #include "scripting/runtime/placed_message.h"
@@ -107,9 +107,9 @@ class Prompt {
         print_now(in_color_ ? "\033[31m" + shown + "\033[0m\n" : shown + '\n');
     }
 
-    static bool takes_colour() {
-        const char *no_colour = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
-        return (no_colour == nullptr || *no_colour == '\0') && terminal != nullptr && std::string(terminal) != "dumb";
+    static bool takes_color() {
+        const char *no_color = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
+        return (no_color == nullptr || *no_color == '\0') && terminal != nullptr && std::string(terminal) != "dumb";
     }
 
     PromptSession session_;
@@ -117,7 +117,7 @@ class Prompt {
     LineEditor editor_;
     std::string pending_;  ///< lines of a statement that is not complete yet
     unsigned count_ = 0;
-    bool in_color_ = takes_colour();
+    bool in_color_ = takes_color();
 };
 
 /// Runs a statement whose text was shifted to its line of the input. False when it failed.

@@ -13,7 +13,7 @@ namespace dynlab::inline scripting {
 void run_prompt(const std::filesystem::path& figure_folder, const std::string& greeting, const std::string& first,
                 const FigureListener& see);
 
-/// The same for statements that come from a pipe or file, without prompts and colours: values and the paths of figures
+/// The same for statements that come from a pipe or file, without prompts and colors: values and the paths of figures
 /// go to standard output, errors with the line of the input to standard error. After an error the next statement runs.
 /// Returns whether all went well. Ctrl-C throws Interrupted.
 bool run_statements_of(std::istream& input, const std::filesystem::path& figure_folder, const FigureListener& see);

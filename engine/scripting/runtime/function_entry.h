@@ -7,7 +7,7 @@
 
 namespace dynlab::inline scripting {
 
-/// One function of the scripting language as the catalogue, help and the registration know it.
+/// One function of the scripting language as the catalog, help and the registration know it.
 struct FunctionEntry {
     const char* name;       ///< as a script writes it; "report.value" becomes a field of the table `report`
     const char* area;       ///< heading under which help() lists it

@@ -6,7 +6,7 @@
 
 namespace dynlab::inline scripting {
 
-/// How a habit from MATLAB or another language is written in Lua; nothing (nullptr, empty) where none is recognised.
+/// How a habit from MATLAB or another language is written in Lua; nothing (nullptr, empty) where none is recognized.
 const Message* matlab_name_hint(std::string_view name);
 /// The same for a field or method of an object of this type.
 const Message* foreign_member_hint(std::string_view type, std::string_view name);

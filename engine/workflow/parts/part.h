@@ -6,7 +6,7 @@
 
 namespace dynlab::inline workflow {
 
-/// A share of a list of work: every `count`-th entry, from the `index`-th on, so that neighbours, which take as long,
+/// A share of a list of work: every `count`-th entry, from the `index`-th on, so that neighbors, which take as long,
 /// are spread.
 struct WorkPart {
     int index = 1, count = 1;  ///< 1 to count, of at most kMax

@@ -3,7 +3,7 @@
 #include "documents/error.h"
 #include "documents/text_lines.h"
 #include "figures/gnuplot_renderer.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/interpreter/runtime.h"
 #include "scripting/memoized_calls/memoized_call.h"
 #include "scripting/runtime/help.h"

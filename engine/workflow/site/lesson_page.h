@@ -3,7 +3,7 @@
 #include <string>
 
 #include "documents/chunks/chunk_setter.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 #include "workflow/site/site_page.h"
 
 namespace dynlab::inline platform {

@@ -11,7 +11,7 @@
 #include "platform/error.h"
 #include "platform/program_lookup.h"
 #include "platform/temporary_folder.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
 #include "workflow/make_report.h"

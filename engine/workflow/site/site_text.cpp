@@ -8,13 +8,13 @@
 #include <set>
 
 #include "documents/text_lines.h"
-#include "numerics/estimators/catalogue.h"
+#include "numerics/estimators/method_catalog.h"
 #include "platform/atomic_file.h"
 #include "platform/text/small_letters.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/runtime/help.h"
 #include "workflow/demonstration.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 #include "workflow/site/table_columns.h"
 
 namespace dynlab::inline workflow {
@@ -79,7 +79,7 @@ const FunctionEntry* entry_of(const std::string& name) {
     return nullptr;
 }
 
-/// The place of the first function of the area in the catalogue.
+/// The place of the first function of the area in the catalog.
 std::size_t place_of_area(const std::string& area) {
     const auto& all = catalog_of_functions();
     return static_cast<std::size_t>(std::ranges::find(all, area, &FunctionEntry::area) - all.begin());
@@ -165,7 +165,7 @@ SiteText methods_text() {
             names, method.structure, domain_of(method.domain), method.noise, places_that_teach(method.lua_names),
             method.reference, method.file);
     }
-    methods.markdown.append(text, "catalogue.cpp", 1);
+    methods.markdown.append(text, "catalog.cpp", 1);
     return methods;
 }
 

@@ -19,7 +19,7 @@ struct SiteText {
 /// are about, then functions by area.
 std::vector<SiteText> help_texts(const HelpExamples& examples);
 
-/// Every method with what it fits, its assumptions and its literature, from the catalogue of methods, and with what its
+/// Every method with what it fits, its assumptions and its literature, from the catalog of methods, and with what its
 /// help page says of it before the arguments.
 SiteText methods_text();
 

@@ -1,6 +1,6 @@
 """Direct continuous-time identification in numpy, as fast as numpy and scipy honestly go.
 
-The twins of dynlab's lsim, lssvf, ivsvf and srivc with the conventions of tests/reference/data: exact discretisation,
+The twins of dynlab's lsim, lssvf, ivsvf and srivc with the conventions of tests/reference/data: exact discretization,
 inputs held (zoh), outputs on straight lines between the samples (foh), zero filter states at the first sample, the
 highest derivative by the identity p^n/E y = y - sum e_i p^(n-i)/E y, normal equations. Every filtered signal is one
 compiled recursion (scipy.signal.lfilter); the rest are a few array operations.

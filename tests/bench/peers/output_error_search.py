@@ -3,7 +3,7 @@
 output_error_search.py DYNLAB [RECORD ...]
 
 DYNLAB, the program, runs ../further_orders.lua in a temporary folder: records, and its fits of many structures from
-default settings. For each of these structures this program minimises the simulation error from random starts that know
+default settings. For each of these structures this program minimizes the simulation error from random starts that know
 nothing of dynlab's answers: the poles (and the delay) are searched by scipy's least_squares, the numerator and a free
 start follow by linear least squares in each step (variable projection, Golub and Pereyra 1973). Poles are those of
 quadratics s^2 + a s + b with a, b > 0, which all stable polynomials are products of, and of one s + a where their number

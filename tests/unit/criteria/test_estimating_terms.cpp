@@ -47,8 +47,8 @@ Vector forwards(const TwoInputs& system, const CommonDenominator& model, const C
     const Vector x = lsim(TransferFunction(model.B[0], model.A), system.data.experiments[0].u.col(0), system.data.Ts) +
                      lsim(TransferFunction(model.B[1], model.A, 0, 0.0137), system.second, system.data.Ts);
     const Vector v = system.data.experiments[0].y.col(0) - x;
-    const FilterChain colouring{SampleView(v.data(), v.size()), transfer_system(model.A, system.E), Hold::kFoh};
-    return 3 * z.transpose() * chain_outputs(colouring, {system.data.Ts, SampleView(nullptr, 0)}).col(0);
+    const FilterChain coloring{SampleView(v.data(), v.size()), transfer_system(model.A, system.E), Hold::kFoh};
+    return 3 * z.transpose() * chain_outputs(coloring, {system.data.Ts, SampleView(nullptr, 0)}).col(0);
 }
 
 TEST(estimating_terms, of_regular_records_are_those_of_the_output_errors_backwards) {

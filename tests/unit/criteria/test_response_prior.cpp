@@ -76,7 +76,7 @@ TEST(response_prior, posterior_is_the_dense_one) {  // oracle: conditioning of y
     }
 }
 
-TEST(response_prior, is_the_most_likely_one) {  // oracle: the dense likelihood, which no neighbour exceeds
+TEST(response_prior, is_the_most_likely_one) {  // oracle: the dense likelihood, which no neighbor exceeds
     for (const ResponseKernel kernel : kAll) {
         const Dense dense = equations(30, 2);
         const ResponsePrior prior = most_likely_prior(sums_of(dense), kernel);

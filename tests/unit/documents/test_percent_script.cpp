@@ -89,7 +89,7 @@ TEST(percent_script, reads_windows_line_ends) {
 TEST(percent_script, header_mistakes_name_the_line_and_the_fix) {
     EXPECT_THAT(refusal("-- ---\n-- titel: A\n-- ---\n"), StartsWith("lesson.lua:2: "));
     EXPECT_THAT(refusal("-- ---\n-- titel: A\n-- ---\n"), HasSubstr("did you mean \"title\"?"));
-    EXPECT_THAT(refusal("-- ---\n-- colour: A\n-- ---\n"), HasSubstr("the keys are title, subtitle"));
+    EXPECT_THAT(refusal("-- ---\n-- color: A\n-- ---\n"), HasSubstr("the keys are title, subtitle"));
     EXPECT_THAT(refusal("-- ---\n-- title\n-- ---\n"), HasSubstr("\"key: value\""));
     EXPECT_THAT(refusal("-- ---\n-- title:\n-- ---\n"), HasSubstr("has no value"));
     EXPECT_THAT(refusal("-- ---\n-- title: \"A\n-- ---\n"), HasSubstr("not closed"));

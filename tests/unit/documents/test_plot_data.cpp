@@ -91,7 +91,7 @@ TEST(plot_data, long_records_keep_the_extremes_of_every_column) {
     };
     for (Index i = 0; i < count; ++i) include(all, x[i], y[i]);
     for (std::size_t i = 0; i < curve["y"].size(); ++i) include(kept, curve["x"][i], curve["y"][i]);
-    int other = 0;  // a sample at a column's edge may be rounded into its neighbour
+    int other = 0;  // a sample at a column's edge may be rounded into its neighbor
     for (const auto& [column, extremes] : all)
         other += std::abs(kept[column].first - extremes.first) > 1e-4 ||
                  std::abs(kept[column].second - extremes.second) > 1e-4;

@@ -120,10 +120,10 @@ TEST(armax, prediction_errors_are_tested_for_whiteness) {  // oracle: statistics
     EXPECT_FALSE(poor.white);
 }
 
-TEST(armax, can_be_cancelled) {  // oracle: definition
+TEST(armax, can_be_canceled) {  // oracle: definition
     FitOptions options;
     options.cancel = [] { return true; };
-    EXPECT_EQ(armax(record(300, 0.5, 1), kOrders, options).termination, Termination::kCancelled);
+    EXPECT_EQ(armax(record(300, 0.5, 1), kOrders, options).termination, Termination::kCanceled);
 }
 
 TEST(armax, refuses_what_it_cannot_fit) {  // oracle: definitions

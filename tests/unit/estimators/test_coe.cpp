@@ -196,7 +196,7 @@ TEST(coe, running_experiment) {  // oracle: the simulated system, cut from a run
     EXPECT_LT(wrong.fit_percent[0] + 20, chosen.fit_percent[0]);
 }
 
-TEST(coe, rest_is_recognised) {  // oracle: the simulated system, from rest without offset
+TEST(coe, rest_is_recognized) {  // oracle: the simulated system, from rest without offset
     const IdData data = course_record(0.2, 4);
     FitOptions options;
     options.initial_state = InitialState::kAuto;
@@ -233,7 +233,7 @@ TEST(coe, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definition 
     FitOptions options;
     options.cancel = [] { return true; };
     const auto found = coe(course_record(0.2, 1), kCourse, options);
-    EXPECT_EQ(found.termination, Termination::kCancelled);
+    EXPECT_EQ(found.termination, Termination::kCanceled);
     EXPECT_TRUE(found.theta.allFinite());
 }
 

@@ -58,7 +58,7 @@ TEST(gradient_descent, loss_never_grows_below_the_limit_and_runs_away_beyond_it)
     EXPECT_TRUE(wild.theta.allFinite());
 }
 
-TEST(gradient_descent, reports_when_it_was_too_slow) {  // justified: years uncentred have condition number 1e9
+TEST(gradient_descent, reports_when_it_was_too_slow) {  // justified: years uncentered have condition number 1e9
     Matrix Phi = Matrix::Ones(29, 2);
     Phi.col(0) = Vector::LinSpaced(29, 1896, 2020);
     const Vector y = 11 - 0.012 * (Phi.col(0).array() - 1896);
@@ -72,13 +72,13 @@ TEST(gradient_descent, reports_when_it_was_too_slow) {  // justified: years unce
     EXPECT_NE(message_text(result.message).find("center and scale"), std::string::npos);
 }
 
-TEST(gradient_descent, can_be_cancelled) {  // oracle: definition
+TEST(gradient_descent, can_be_canceled) {  // oracle: definition
     const Problem p = line_problem();
     GradientDescentOptions options;
     int asked = 0;
     options.cancel = [&] { return ++asked > 5; };
     const auto result = gradient_descent(p.Phi, p.y, options);
-    EXPECT_EQ(result.termination, Termination::kCancelled);
+    EXPECT_EQ(result.termination, Termination::kCanceled);
     EXPECT_EQ(result.iterations, 5);
 }
 

@@ -108,7 +108,7 @@ TEST(impulseest, the_smooth_estimate_follows_the_data_when_noise_vanishes) {  //
     EXPECT_LT((impulseest(record(g, u, 1e-6, 1), options).response - g).cwiseAbs().maxCoeff(), 1e-5);
 }
 
-TEST(impulseest, regularised_is_the_dense_posterior) {  // oracle: N x N conditioning, N = 100, means taken off
+TEST(impulseest, regularized_is_the_dense_posterior) {  // oracle: N x N conditioning, N = 100, means taken off
     const IdData data = record(response_with(1, 25), random_levels(100, 1, 3), 0.2, 4);
     for (const ResponseKernel kernel : {ResponseKernel::kTc, ResponseKernel::kDc, ResponseKernel::kSs}) {
         ImpulseestOptions options;

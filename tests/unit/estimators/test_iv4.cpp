@@ -28,7 +28,7 @@ IdData record(Index N, double noise, std::uint32_t seed) {
 }
 
 /// Autoregressive noise inside the equation.
-IdData coloured_record(Index N, std::uint32_t seed) {
+IdData colored_record(Index N, std::uint32_t seed) {
     PolynomialOrders orders = kOrders;
     orders.nd = 1;
     const Vector u = random_levels(N, 2, seed + 1000), theta{{-1.5, 0.7, 1, 0.5, -0.8}};
@@ -76,12 +76,12 @@ TEST(iv4, follows_its_four_steps) {  // oracle: the definition with everything s
     EXPECT_LT((result.covariance - covariance).cwiseAbs().maxCoeff(), 1e-6 * covariance.cwiseAbs().maxCoeff());
 }
 
-TEST(iv4, coloured_noise_does_not_bias_it) {  // oracle: statistics with fixed seeds
+TEST(iv4, colored_noise_does_not_bias_it) {  // oracle: statistics with fixed seeds
     constexpr Index kRuns = 150;
     Matrix thetas(4, kRuns), errors(4, kRuns);
     double arx_error = 0;
     for (Index run = 0; run < kRuns; ++run) {
-        const IdData data = coloured_record(1000, static_cast<std::uint32_t>(run + 1));
+        const IdData data = colored_record(1000, static_cast<std::uint32_t>(run + 1));
         const auto result = iv4(data, kOrders);
         thetas.col(run) = result.theta;
         errors.col(run) = result.std;

@@ -160,12 +160,12 @@ TEST(oe, doubtful_results_come_with_a_sentence) {  // oracle: the simulated syst
     EXPECT_GT(high.fit_percent[0], 99.99);
 }
 
-TEST(oe, can_be_cancelled) {  // oracle: definition
+TEST(oe, can_be_canceled) {  // oracle: definition
     FitOptions options;
     int asked = 0;
     options.cancel = [&] { return ++asked > 3; };
     const auto result = oe(simulated(cases()[1], 300, 0.1, 1), cases()[1].orders, options);
-    EXPECT_EQ(result.termination, Termination::kCancelled);
+    EXPECT_EQ(result.termination, Termination::kCanceled);
     EXPECT_TRUE(result.theta.allFinite());
 }
 

@@ -419,13 +419,13 @@ TEST(procsrivc, doubtful_results_come_with_a_sentence) {  // oracle: the simulat
     EXPECT_GT(result.fit_percent[0], 0);
 }
 
-TEST(procsrivc, can_be_cancelled) {  // oracle: definition
+TEST(procsrivc, can_be_canceled) {  // oracle: definition
     const Vector u = rough_input(600, 30), y = lsim(model_of("P1", Vector{{2.0, 0.5}}), u, 0.05);
     ProcsrivcOptions options;
     int asked = 0;
     options.cancel = [&] { return ++asked > 1; };
     const auto result = fit(siso(y, u, 0.05), "P1", options);
-    EXPECT_EQ(result.termination, Termination::kCancelled);
+    EXPECT_EQ(result.termination, Termination::kCanceled);
     EXPECT_TRUE(result.theta.allFinite());
 }
 

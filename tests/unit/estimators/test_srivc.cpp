@@ -114,7 +114,7 @@ TEST(srivc, stops_when_asked_to_and_still_gives_a_model) {  // oracle: definitio
     int asked = 0;
     options.cancel = [&] { return ++asked > 2; };
     const Fit found = srivc(data, kCourse, options);
-    EXPECT_EQ(found.termination, Termination::kCancelled);
+    EXPECT_EQ(found.termination, Termination::kCanceled);
     EXPECT_TRUE(found.theta.allFinite());
     EXPECT_EQ(found.trace.size(), 2u);
 }

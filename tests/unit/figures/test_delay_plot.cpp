@@ -57,7 +57,7 @@ TEST(delay_plot, marks_a_rival_on_the_curve) {
 
 TEST(delay_plot, refuses_a_search_that_was_stopped) {
     DelaySearch stopped;
-    stopped.cancelled = true;
+    stopped.canceled = true;
     EXPECT_THROW(delay_plot(stopped), InvalidArgument);
 }
 

@@ -35,7 +35,7 @@ TEST(id_plot, an_input_that_several_share_is_drawn_once) {
     const Figure shared = id_plot({&kData, &other});
     EXPECT_EQ(shared.panels[0].curves.size(), 2u);
     ASSERT_EQ(shared.panels[1].curves.size(), 1u);
-    EXPECT_NE(shared.panels[1].curves[0].colour, shared.panels[0].curves[0].colour);  // it is not the first one's alone
+    EXPECT_NE(shared.panels[1].curves[0].color, shared.panels[0].curves[0].color);  // it is not the first one's alone
     other.experiments[0].u(1) = 0.5;
     EXPECT_EQ(id_plot({&kData, &other}).panels[1].curves.size(), 2u);
 }

@@ -67,8 +67,8 @@ TEST(impulse_estimate_plot, models_lie_over_it_as_their_own_impulse_responses) {
     EXPECT_NEAR((continuous.y.array() - (-continuous.x.array()).exp()).abs().maxCoeff(), 0, 1e-9);
     EXPECT_NEAR((discrete.x - Vector{{0, 0.5, 1, 1.5, 2}}).norm(), 0, 1e-12);
     EXPECT_NEAR((discrete.y - Vector{{0, 1, 0.5, 0.25, 0.125}}).norm(), 0, 1e-12);
-    EXPECT_EQ(continuous.colour, 1);
-    EXPECT_EQ(discrete.colour, 2);
+    EXPECT_EQ(continuous.color, 1);
+    EXPECT_EQ(discrete.color, 2);
 }
 
 TEST(impulse_estimate_plot, refuses_an_empty_estimate) {

@@ -14,7 +14,7 @@ namespace test_motion_plot {
 using namespace dynlab;
 using testing::HasSubstr;
 
-/// 4 cm x 2 cm: a rail, a trolley that is drawn 1 cm from the left at 0.2 m and slides 5 cm a metre, and on it a rod
+/// 4 cm x 2 cm: a rail, a trolley that is drawn 1 cm from the left at 0.2 m and slides 5 cm a meter, and on it a rod
 /// that hangs down from (1, 1.5) over 1 cm at 0 rad.
 PlantDrawing crane() {
     PlantDrawing rig;

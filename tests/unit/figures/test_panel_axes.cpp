@@ -57,9 +57,9 @@ TEST(panel_axes, a_wanted_step_is_thinned_but_never_divided) {
 }
 
 TEST(panel_axes, edges_of_bars_are_numbers) {
-    const Vector centres{{-1.7e308, 0, 1.7e308}};
+    const Vector centers{{-1.7e308, 0, 1.7e308}};
     for (const Index i : {0, 1, 2}) {
-        const auto [left, right] = bar_edges(centres, i);
+        const auto [left, right] = bar_edges(centers, i);
         EXPECT_TRUE(std::isfinite(left) && std::isfinite(right)) << i;
         EXPECT_LT(left, right);
     }

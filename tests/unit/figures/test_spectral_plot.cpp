@@ -47,7 +47,7 @@ TEST(spectral_plot, values_without_errors_are_grey_points_that_are_not_unwrapped
     const Figure figure = spectral_plot(estimate, Message("etfe"), {});
     for (const Panel& panel : figure.panels) {
         EXPECT_EQ(panel.curves[0].style, CurveStyle::kPoints);
-        EXPECT_EQ(panel.curves[0].colour, style::kGrayColor);
+        EXPECT_EQ(panel.curves[0].color, style::kGrayColor);
         EXPECT_EQ(panel.curves.size(), 1u);
     }
     EXPECT_NEAR((figure.panels[1].curves[0].y - Vector{{90, -225, -135, 0}}).norm(), 0, 1e-12);
@@ -83,7 +83,7 @@ TEST(spectral_plot, the_phase_has_a_gap_where_nothing_is_known_of_it) {
     EXPECT_FALSE(std::isnan(spectral_plot(estimate, Message("spa"), {}).panels[1].curves[0].y[2]));
 }
 
-TEST(spectral_plot, models_lie_over_the_estimate_in_colours_of_their_own) {
+TEST(spectral_plot, models_lie_over_the_estimate_in_colors_of_their_own) {
     SpectralEstimate estimate = lag();
     estimate.w = Vector{{0.25, 0.5, 1, 2}};
     for (Index i = 0; i < 4; ++i) estimate.response[i] = 2.0 / Complex(1, estimate.w[i]);
@@ -91,8 +91,8 @@ TEST(spectral_plot, models_lie_over_the_estimate_in_colours_of_their_own) {
     const Figure figure = spectral_plot(estimate, Message("spa"), {{Message("a"), kLag}, {Message("b"), kLag}});
     figure.validate();
     for (const Panel& panel : figure.panels) {
-        EXPECT_EQ(panel.curves[1].colour, 1);
-        EXPECT_EQ(panel.curves[2].colour, 2);
+        EXPECT_EQ(panel.curves[1].color, 1);
+        EXPECT_EQ(panel.curves[2].color, 2);
         EXPECT_EQ(panel.curves[1].x[0], 0.25);
         EXPECT_EQ(panel.curves[1].x.tail(1)[0], 2);
         EXPECT_NEAR(panel.curves[1].y[0], panel.curves[0].y[0], 1e-9);

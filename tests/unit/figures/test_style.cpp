@@ -182,7 +182,7 @@ TEST(style, bands_of_six_models_are_distinguished_in_grey) {
     for (int i = 0; i < 6; ++i) {
         Curve line;
         line.x = line.y = Vector::LinSpaced(12, 0, 1);
-        line.colour = i;
+        line.color = i;
         panel.curves.push_back(line);
     }
     for (std::size_t i = 0; i < 6; ++i) add_confidence_band(panel, i, Vector::Constant(12, 0.1), 0.95);
@@ -195,7 +195,7 @@ TEST(style, bands_of_six_models_are_distinguished_in_grey) {
 TEST(style, the_ninth_model_does_not_look_like_the_first) {
     for (const Panel& panel : bode_plot(models(9)).panels) {
         const auto look = [&](std::size_t i) { return style::appearance_of(panel.curves[i], static_cast<int>(i)); };
-        EXPECT_EQ(look(0).colour, look(8).colour);
+        EXPECT_EQ(look(0).color, look(8).color);
         EXPECT_NE(look(0).dash, look(8).dash);
     }
 }

@@ -45,7 +45,7 @@ TEST(validation_plots, step_band_is_the_response_and_its_standard_deviations) { 
     const Curve* band = band_of(panel);
     ASSERT_NE(band, nullptr);
     EXPECT_EQ(message_text(band->label), "95 % confidence");
-    EXPECT_EQ(band->colour, panel.curves[0].colour);
+    EXPECT_EQ(band->color, panel.curves[0].color);
     const Vector width =
         normal_half_width(0.95) * step_response_std(certain_to(0.95).confidence->model, panel.curves[0].x);
     EXPECT_LT((band->y_upper - panel.curves[0].y - width).norm(), 1e-12);

@@ -57,7 +57,7 @@ TEST(data_checks, a_constant_input_teaches_through_a_transient_only) {  // oracl
     fit.loss = (y.array() - y.mean()).square().mean();
     EXPECT_THAT(thrown_message([&] { check_transient("method", data, fit, 2); }),
                 HasSubstr("method: the input never changes"));
-    fit.termination = Termination::kCancelled;
+    fit.termination = Termination::kCanceled;
     EXPECT_EQ(thrown_message([&] { check_transient("method", data, fit, 2); }), "");
 }
 

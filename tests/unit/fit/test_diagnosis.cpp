@@ -33,9 +33,9 @@ TEST(diagnosis, of_models) {  // oracle: poles and zeros written down
     EXPECT_THAT(plain.names, ElementsAre("a1", "a2", "b0"));
     EXPECT_LT((plain.std - values({0.04, 0.03, 0.02})).cwiseAbs().maxCoeff(), 1e-15);
     EXPECT_NEAR(plain.models.front().dc_gain(), 2.0 / 3, 1e-15);
-    Fit cancelling = fit_of(2, 1, values({4, 3, 2, 2.001}));  // (s + 1)(s + 3) over 2 (s + 1.0005)
-    describe_models(cancelling);
-    EXPECT_THAT(texts_of(cancelling.warnings), ElementsAre(HasSubstr("A pole near -1 and a zero nearly cancel")));
+    Fit canceling = fit_of(2, 1, values({4, 3, 2, 2.001}));  // (s + 1)(s + 3) over 2 (s + 1.0005)
+    describe_models(canceling);
+    EXPECT_THAT(texts_of(canceling.warnings), ElementsAre(HasSubstr("A pole near -1 and a zero nearly cancel")));
     Fit unstable = fit_of(2, 0, values({-1, 3, 2}));
     describe_models(unstable);
     EXPECT_THAT(texts_of(unstable.warnings), ElementsAre("The model is unstable. Unless the system is also unstable, "
@@ -109,7 +109,7 @@ TEST(diagnosis, of_the_search) {  // oracle: the sentences that scripts promise
     describe_search(fit, course_record(0, 1), options, {});
     EXPECT_THAT(texts_of(fit.warnings), ElementsAre("The search did not converge within `max_iterations` = 7 "
                                                     "iterations; the result is the best point so far."));
-    fit.termination = Termination::kCancelled;
+    fit.termination = Termination::kCanceled;
     fit.warnings.clear();
     warn_of_search(fit, options);
     EXPECT_THAT(texts_of(fit.warnings), ElementsAre(HasSubstr("was interrupted")));

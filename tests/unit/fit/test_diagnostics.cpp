@@ -69,7 +69,7 @@ TEST(diagnostics, nothing_is_missed_of_a_record_with_an_offset) {
     EXPECT_TRUE(found.assessment->white);
 }
 
-TEST(diagnostics, assessment_sees_the_colour_that_errors_were_given) {
+TEST(diagnostics, assessment_sees_the_color_that_errors_were_given) {
     const IdData data = record_with(0, true);
     const Fit fit = srivc(data, kStructure);
     const Diagnostics plain = diagnose(srivc(record_with(0), kStructure), record_with(0), {}),

@@ -103,7 +103,7 @@ TEST(output_error, stops_on_request) {  // oracle: definition
     EXPECT_EQ(solution.trace.size(), 2u);
     options.cancel = [] { return true; };
     solution = minimize_output_error(Decay(kTimes), y, Vector{{1.0, 0.1}}, options);
-    EXPECT_EQ(solution.termination, Termination::kCancelled);
+    EXPECT_EQ(solution.termination, Termination::kCanceled);
     EXPECT_EQ(solution.theta[0], 1.0);
 }
 

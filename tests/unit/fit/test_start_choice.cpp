@@ -41,10 +41,10 @@ TEST(start_choice, keeps_the_smallest_bic) {  // oracle: the definition
     EXPECT_EQ(kept({3, 1, 2}, {false, false, false}, settled), 0) << "the first is always fitted";
 }
 
-TEST(start_choice, a_cancelled_fit_ends_it) {  // oracle: the definition
+TEST(start_choice, a_canceled_fit_ends_it) {  // oracle: the definition
     int fitted = 0;
     EXPECT_EQ(kept({3, 1, 0}, {true, true, true},
-                   {Termination::kConverged, Termination::kCancelled, Termination::kConverged}, &fitted),
+                   {Termination::kConverged, Termination::kCanceled, Termination::kConverged}, &fitted),
               1);
     EXPECT_EQ(fitted, 2);
 }

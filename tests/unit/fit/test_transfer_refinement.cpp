@@ -196,9 +196,9 @@ TEST(transfer_refinement, separate_outputs_are_separate_problems) {  // oracle: 
 TEST(transfer_refinement, doubts_are_reported) {  // oracle: the simulated system
     const TransferStructure plain = TransferStructure::single(1, 0);
     const IdData data = simulated(plain, Vector{{0.8, 2.0}}, 400, 0.01);
-    const auto cancelling =
+    const auto canceling =
         refine_output_error(data, TransferStructure::single(2, 1), kRest, Vector{{3.0, 2.0, 2.0, 4.0}}, {});
-    EXPECT_THAT(message_text(cancelling.full_message()), HasSubstr("nearly cancel")) << cancelling.theta;
+    EXPECT_THAT(message_text(canceling.full_message()), HasSubstr("nearly cancel")) << canceling.theta;
     FitOptions options;
     options.max_iterations = 1;
     EXPECT_THAT(message_text(refine_output_error(data, plain, kRest, Vector{{3.0, 1.0}}, options).full_message()),

@@ -211,8 +211,8 @@ TEST(transfer_search, begins_at_a_start_or_a_delay_that_is_given) {
     }
 }
 
-// Oracle: the search that begins at the least delay alone. On these records the scan, which goes from neighbour to
-// neighbour, misses where it leads to.
+// Oracle: the search that begins at the least delay alone. On these records the scan, which goes from neighbor to
+// neighbor, misses where it leads to.
 TEST(transfer_search, the_solution_for_the_least_delay_is_never_lost) {
     for (const std::uint32_t seed : {40'301U, 40'597U}) {
         const SearchCase one = search_case(seed, 1000);

@@ -28,7 +28,7 @@ TEST(balance, brings_rows_and_columns_to_like_norms) {  // oracle: definition (P
     }
 }
 
-TEST(balance, sees_neighbours_that_are_small_beside_the_diagonal) {  // oracle: by hand, both near sqrt(1e-18 1e18) = 1
+TEST(balance, sees_neighbors_that_are_small_beside_the_diagonal) {  // oracle: by hand, both near sqrt(1e-18 1e18) = 1
     Matrix A{{2, 1e-18}, {1e18, 3}};
     balance(A);
     EXPECT_EQ(A.diagonal(), (Vector{{2, 3}}));

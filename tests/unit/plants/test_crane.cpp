@@ -35,7 +35,7 @@ CraneState at(double position, double angle) {
     return state;
 }
 
-/// Of rotor, belt, trolley and pendulum, whose centre of mass moves in the plane; zero hanging at rest, J.
+/// Of rotor, belt, trolley and pendulum, whose center of mass moves in the plane; zero hanging at rest, J.
 double crane_energy(const CraneParameters& p, const CraneState& s) {
     const double rotor_speed = s.motor_speed * p.gear_ratio / p.pulley_radius, l = p.pendulum_length;
     const double across = s.speed + l * std::cos(s.angle) * s.angle_rate,
@@ -252,7 +252,7 @@ TEST(crane, experiments_repeat_for_equal_seeds_only) {  // oracle: definition
     EXPECT_NE(one[0].u, other[0].u);
 }
 
-TEST(crane, sensors_quantise) {  // oracle: definition
+TEST(crane, sensors_quantize) {  // oracle: definition
     const CraneExperiments plan;
     for (const CraneRecord& record : simulate_crane({}, plan, 2)) {
         for (double x : record.x)

@@ -93,7 +93,7 @@ TEST(thruster, speeds_up_with_its_time_constant) {  // oracle: analytic, a motor
     }
 }
 
-TEST(thruster, small_changes_at_full_width_are_faster) {  // oracle: linearisation, slope of a logarithm
+TEST(thruster, small_changes_at_full_width_are_faster) {  // oracle: linearization, slope of a logarithm
     ThrusterParameters p = exact();
     p.cell_frequency = 2000;
     p.cell_damping = 0.7;

@@ -12,7 +12,7 @@ TEST(spelling, finds_the_slip) {
     EXPECT_EQ(nearest_word("heatexchanger", kNames), "heat_exchanger");  // one inserted
     EXPECT_EQ(nearest_word("suspenssion", kNames), "suspension");        // one deleted
     EXPECT_EQ(nearest_word("winning_tines", kNames), "winning_times");   // one replaced
-    EXPECT_EQ(nearest_word("setp", kNames), "step");                     // neighbours swapped: one of four letters
+    EXPECT_EQ(nearest_word("setp", kNames), "step");                     // neighbors swapped: one of four letters
     EXPECT_EQ(nearest_word("Bode", kNames), "bode");                     // case ignored
 }
 

@@ -100,11 +100,11 @@ TEST(iddata, merge_keeps_experiments_apart) {
 }
 
 TEST(iddata, merge_takes_no_part_for_what_it_is_not) {
-    IdData on_lines = numbered(3), volts = numbered(3), millivolts = numbered(3), metres = numbered(3);
+    IdData on_lines = numbered(3), volts = numbered(3), millivolts = numbered(3), meters = numbered(3);
     on_lines.hold = Hold::kFoh;
     volts.input_units = {"V"};
     millivolts.input_units = {"mV"};
-    metres.output_units = {"", "m"};
+    meters.output_units = {"", "m"};
     EXPECT_THAT(thrown_message([&] {
                     IdData::merge({numbered(3), on_lines});
                 }),
@@ -114,7 +114,7 @@ TEST(iddata, merge_takes_no_part_for_what_it_is_not) {
                     IdData::merge({volts, millivolts});
                 }),
                 HasSubstr("part 2 has its input 1 in mV but the first in V"));
-    EXPECT_EQ(IdData::merge({volts, metres, numbered(3)}).experiments.size(), 3u);  // what is not known does not differ
+    EXPECT_EQ(IdData::merge({volts, meters, numbered(3)}).experiments.size(), 3u);  // what is not known does not differ
 }
 
 TEST(iddata, says_what_is_wrong_with_the_samples) {

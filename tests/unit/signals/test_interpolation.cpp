@@ -13,7 +13,7 @@ namespace test_interpolation {
 
 const Vector kX{{0, 1, 3}}, kY{{5, 10, -10}};
 
-TEST(interpolation, joins_neighbours_by_straight_lines) {
+TEST(interpolation, joins_neighbors_by_straight_lines) {
     const Vector found = interpolate_linearly(kX, kY, Vector{{0, 0.5, 1, 2, 3}});
     EXPECT_EQ(found, (Vector{{5, 7.5, 10, 0, -10}}));
 }

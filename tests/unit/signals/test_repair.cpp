@@ -103,7 +103,7 @@ TEST(repair, refuses_windows_and_thresholds_that_are_none) {
     EXPECT_EQ(replace_outliers(Vector{{4.0}}).signal, (Vector{{4.0}}));
 }
 
-TEST(repair, quantisation_is_the_grid_that_samples_lie_on) {  // oracle: signals rounded by us
+TEST(repair, quantization_is_the_grid_that_samples_lie_on) {  // oracle: signals rounded by us
     const Vector x = 7 + slow_sine(3000, 0.3).array();
     for (const double step : {0.1, 0.0244140625, 1.0 / 3}) {
         const Vector coarse = (x.array() / step).round() * step;

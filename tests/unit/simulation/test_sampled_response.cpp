@@ -15,7 +15,7 @@ using namespace dynlab;
 const TransferFunction kPlant(Vector{{1.0, 3.0}}, Vector{{1.0, 0.8, 4.0}}, 0, 0.13);
 const Vector kFrequencies{{0.1, 1.0, 2.0, 10.0, 31.0}};
 
-TEST(sampled_response, equals_that_of_the_discretised_model) {  // second route: c2d by the modified z-transform
+TEST(sampled_response, equals_that_of_the_discretized_model) {  // second route: c2d by the modified z-transform
     for (const auto& [inter_sample, method] :
          {std::pair(InterSample::kZoh, Discretization::kZoh), std::pair(InterSample::kFoh, Discretization::kFoh)}) {
         const ComplexVector direct = response_between_samples(kPlant, kFrequencies, 0.1, inter_sample);

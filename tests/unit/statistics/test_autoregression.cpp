@@ -29,7 +29,7 @@ TEST(autoregression, finds_the_coefficients_of_a_known_process) {
     EXPECT_NEAR(model.variance, 1, 0.02);
 }
 
-TEST(autoregression, chooses_no_order_for_white_noise_and_enough_for_coloured) {
+TEST(autoregression, chooses_no_order_for_white_noise_and_enough_for_colored) {
     int orders = 0;
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         const Vector e = RandomStream(seed).normal(1000);
@@ -90,7 +90,7 @@ TEST(autoregression, whitens_its_process) {
     }
 }
 
-TEST(autoregression, colouring_backwards_is_the_transposed_operation) {
+TEST(autoregression, coloring_backwards_is_the_transposed_operation) {
     const std::vector<Index> lengths{40, 3, 57};
     const Vector e = autoregressive(Vector{{-1.2, 0.5}}, 100, 4);
     Autoregression model = fit_autoregression(e, lengths, 8);

@@ -93,7 +93,7 @@ TEST(robust_covariance, sums_over_outputs_that_were_fitted_together) {  // oracl
 }
 
 // Oracle: Z' R Z, R(k, l) the autocovariance of a second-order autoregression, in closed form by its impulse response.
-TEST(robust_covariance, knows_the_variance_of_sums_of_coloured_errors) {
+TEST(robust_covariance, knows_the_variance_of_sums_of_colored_errors) {
     constexpr Index kN = 1000, kRuns = 200;
     Matrix Z(kN, 2);
     for (Index k = 0; k < kN; ++k) Z.row(k) << std::sin(0.05 * static_cast<double>(k)), 1;
@@ -155,7 +155,7 @@ TEST(robust_covariance, least_squares_form_is_the_general_one_for_errors_that_we
     EXPECT_NEAR(robust, expected, 1e-10 * expected);
 }
 
-// Oracle: the scatter of 2000 least-squares fits to 30 samples, whose errors have no colour and one size.
+// Oracle: the scatter of 2000 least-squares fits to 30 samples, whose errors have no color and one size.
 TEST(robust_covariance, intervals_of_few_samples_hold_the_truth) {
     constexpr Index kRuns = 2000;
     Matrix Psi(30, 2);

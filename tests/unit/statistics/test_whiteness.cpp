@@ -42,7 +42,7 @@ TEST(whiteness, products_do_not_cross_from_one_record_to_the_next) {
                     1e-12);
 }
 
-TEST(whiteness, coloured_errors_are_rejected) {  // oracle: how the errors were made
+TEST(whiteness, colored_errors_are_rejected) {  // oracle: how the errors were made
     EXPECT_TRUE(whiteness_test({ar1(1000, 0, 3)}).white);
     EXPECT_FALSE(whiteness_test({ar1(1000, 0.3, 3)}).white);
 }

@@ -105,7 +105,7 @@ TEST(advice, saturation_is_found_with_its_sections) {  // oracle: a clipped reco
     EXPECT_FALSE(advice.discard.empty());
 }
 
-TEST(advice, a_settled_response_is_not_saturated) {  // oracle: first-order steps, exact and quantised
+TEST(advice, a_settled_response_is_not_saturated) {  // oracle: first-order steps, exact and quantized
     Vector u = Vector::Zero(400);
     u.tail(350).setOnes();
     const Vector y = lsim(TransferFunction(Vector{{1.0}}, Vector{{1.0, 1.0}}), u, 0.1);
@@ -133,14 +133,14 @@ TEST(advice, saturated_throughout_is_reported) {  // oracle: clipped at a tenth 
     EXPECT_THAT(said(advise(r.data()), "constant"), HasSubstr("stays at 5 throughout"));
 }
 
-TEST(advice, quantisation_is_reported_with_its_step) {  // oracle: rounded by us
+TEST(advice, quantization_is_reported_with_its_step) {  // oracle: rounded by us
     Record r = record(6);
     r.y = (r.y.array() / 0.1).round() * 0.1;
     const Advice advice = advise(r.data());
-    ASSERT_TRUE(advice.has("quantisation")) << codes(advice);
-    EXPECT_NEAR(advice.find("quantisation")->value, 0.1, 1e-6);
+    ASSERT_TRUE(advice.has("quantization")) << codes(advice);
+    EXPECT_NEAR(advice.find("quantization")->value, 0.1, 1e-6);
     r.y = (record(6).y.array() / 0.001).round() * 0.001;
-    EXPECT_FALSE(advise(r.data()).has("quantisation"));
+    EXPECT_FALSE(advise(r.data()).has("quantization"));
 }
 
 TEST(advice, outliers_are_reported_with_their_places) {  // oracle: the places

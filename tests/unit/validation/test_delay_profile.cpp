@@ -1,4 +1,4 @@
-// Oracle: fits with each delay held, from starts of their own and from what the fits at the neighbouring delays found.
+// Oracle: fits with each delay held, from starts of their own and from what the fits at the neighboring delays found.
 #include "numerics/validation/delay_profile.h"
 
 #include <gtest/gtest.h>

@@ -114,7 +114,7 @@ TEST(delay_search, same_numbers_for_any_number_of_threads) {  // oracle: one thr
 TEST(delay_search, stops_when_asked_to) {
     DelaySearchOptions options;
     options.cancel = [] { return true; };
-    EXPECT_TRUE(search_delay(record(kTrap, prbs(8, 5), 0.1, 15, 1), options).cancelled);
+    EXPECT_TRUE(search_delay(record(kTrap, prbs(8, 5), 0.1, 15, 1), options).canceled);
 }
 
 TEST(delay_search, refuses_what_cannot_be_searched) {

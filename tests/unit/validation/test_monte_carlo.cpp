@@ -139,7 +139,7 @@ TEST(monte_carlo, cancel_keeps_what_was_done) {
     study.progress = [&](std::size_t count) { done = count; };
     study.cancel = [&] { return done >= 10; };
     const MonteCarlo result = monte_carlo(study, {kMoments});
-    EXPECT_TRUE(result.cancelled);
+    EXPECT_TRUE(result.canceled);
     EXPECT_EQ(result.results[0].estimated, 10);
     EXPECT_EQ(result.results[0].failed, 0);
     study.cancel = [] { return true; };

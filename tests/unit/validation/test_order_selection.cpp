@@ -304,7 +304,7 @@ TEST(order_selection, failures_are_kept_and_reported) {
     options.estimation = {};
     options.cancel = [] { return true; };
     const OrderSelection stopped = select_order(data, order_grid({1, 2}, {0, 0}, {0.0}), options);
-    EXPECT_TRUE(stopped.cancelled);
+    EXPECT_TRUE(stopped.canceled);
     EXPECT_THAT(message_text(stopped.candidates.front().failure), HasSubstr("interrupted"));
     EXPECT_THROW(choose_order(stopped), InvalidArgument);
     EXPECT_THROW(select_order(data, {}), InvalidArgument);

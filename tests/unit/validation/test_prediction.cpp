@@ -144,7 +144,7 @@ TEST(prediction, impulse_response_of_the_noise) {  // oracle: long division by h
     EXPECT_FALSE(NoisyModel{}.has_noise_model());
 }
 
-// Oracle: the sum that the estimators minimise.
+// Oracle: the sum that the estimators minimize.
 TEST(prediction, errors_of_a_models_own_record_are_its_loss) {
     const IdData data =
         IdData::merge({simulated(kArmax, kArmaxTheta, 500).data(), simulated(kArmax, kArmaxTheta, 300, 2).data()});

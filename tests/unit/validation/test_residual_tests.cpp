@@ -59,7 +59,7 @@ TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the
     EXPECT_THAT(message_text(tests.verdict), HasSubstr("explains everything that the data show"));
 }
 
-TEST(residual_tests, coloured_noise_on_the_true_model_is_distinguished_from_missing_dynamics) {
+TEST(residual_tests, colored_noise_on_the_true_model_is_distinguished_from_missing_dynamics) {
     const Vector u = prbs(7, 8), y = lsim(kG, u, kTs) + 0.05 * ar1(u.size(), 0.9, 3);
     const auto colored = plain_tests(record(y, u), kG);
     EXPECT_FALSE(colored.outputs[0].whiteness.white);

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 #include "workflow/make_report.h"
 #include "workflow_run.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/message_texts.h"
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 #include "workflow/make_report.h"
 #include "workflow_run.h"
 

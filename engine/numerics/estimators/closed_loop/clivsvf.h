@@ -10,7 +10,7 @@ namespace dynlab::inline numerics {
 /// where x and w are the parts of y and u that the reference alone explains (fit/closed_loop/loop_signals.h): with the
 /// controller, the loop of the model found so far; without, the projection of u on r and the model's answer to it.
 /// Three passes, the first with the model of lssvf. Consistent for any noise that is independent of the reference,
-/// unlike lssvf and ivsvf, whose regressors or instruments know the noise through u. Standard errors hold for coloured
+/// unlike lssvf and ivsvf, whose regressors or instruments know the noise through u. Standard errors hold for colored
 /// errors, too. One input, one output, one reference, any number of experiments, regular sampling, from rest. Throws
 /// InvalidArgument for data without a reference that changes (check_loop_data), a controller that does not fit them,
 /// and equations without a unique solution. Reference: Gilson, Garnier, Young and Van den Hof in Garnier and Wang

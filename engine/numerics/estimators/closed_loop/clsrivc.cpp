@@ -41,7 +41,7 @@ Fit by_passes(const IdData& data, const TransferStructure& structure, const FitO
     bool in_loop = false;
     for (int pass = 0; pass < std::max(options.max_iterations, 1); ++pass) {
         if (options.cancel && options.cancel()) {
-            estimate.termination = Termination::kCancelled;
+            estimate.termination = Termination::kCanceled;
             break;
         }
         const LoopSignals::All clean = signals.of_model(structure.models(estimate.theta).front());
@@ -72,7 +72,7 @@ Fit by_passes(const IdData& data, const TransferStructure& structure, const FitO
     return estimate;
 }
 
-/// Of an estimate of least output error, with errors of any colour.
+/// Of an estimate of least output error, with errors of any color.
 Matrix output_covariance(const IdData& data, const TransferStructure& structure, const VectorView& theta) {
     const Index N = data.sample_count(), d = theta.size();
     const Vector A = structure.denominator(theta, 0, 0), B = structure.numerator(theta, 0, 0);
@@ -136,7 +136,7 @@ Fit clsrivc(const IdData& data, const TransferStructure& structure, const FitOpt
     const LoopSignals signals("clsrivc", data, known);
     if (route == LoopRoute::kTwoStage) return two_stage(data, structure, own, signals);
     Fit estimate = by_passes(data, structure, own, signals);
-    if (route == LoopRoute::kAuxiliary || estimate.termination == Termination::kCancelled) return estimate;
+    if (route == LoopRoute::kAuxiliary || estimate.termination == Termination::kCanceled) return estimate;
     return search_loop(std::move(estimate), data, own, signals);
 }
 

@@ -20,9 +20,9 @@ enum class LoopRoute {
 /// with x and w the parts of y and u that the reference alone explains (fit/closed_loop/loop_signals.h). Needs no
 /// controller, but becomes more exact with one. An unstable plant may be found when options.lambda is given. kIndirect:
 /// the least squares of y - x(r; theta), x simulated through the loop of model and controller, by Gauss-Newton steps
-/// from the estimate above: the tailor-made parametrisation (Van Donkelaar and Van den Hof 2000). kTwoStage: Van den
+/// from the estimate above: the tailor-made parametrization (Van Donkelaar and Van den Hof 2000). kTwoStage: Van den
 /// Hof and Schrama (1993). A stable plant; what the loop feeds back counts as noise. kDirect is consistent only where v
-/// is white and the loop has a delay; it is there for comparison. Standard errors hold for coloured errors, too; those
+/// is white and the loop has a delay; it is there for comparison. Standard errors hold for colored errors, too; those
 /// of kTwoStage take the projection as known. Of the options lambda, hold_y, max_iterations, tolerance and cancel are
 /// used; the record counts as beginning at rest. Throws InvalidArgument as clivsvf, and for kIndirect without a
 /// controller. Reference: Gilson, Garnier, Young and Van den Hof in Garnier and Wang (2008), chapter 5.

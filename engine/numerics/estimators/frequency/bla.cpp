@@ -18,12 +18,12 @@ constexpr Index kEnoughValues = 10;                           // behind every va
 constexpr Index kMinSamples = 8;
 constexpr double kSameInput = 0.999;  // correlation of two inputs, at the best shift in time
 
-/// The Fourier coefficients of one realisation at lines 1 .. L, a column for each period.
+/// The Fourier coefficients of one realization at lines 1 .. L, a column for each period.
 struct Periods {
     Eigen::MatrixXcd U, Y;
 };
 
-/// One realisation's means over the periods, and what its periods tell of noise: variances of one period.
+/// One realization's means over the periods, and what its periods tell of noise: variances of one period.
 struct Realization {
     ComplexVector U, Y;
     Vector input_noise, output_noise;
@@ -36,7 +36,7 @@ struct Cut {
     Index first, periods;
 };
 
-/// Where the whole periods of every realisation stand; `rest` becomes the samples left out of each.
+/// Where the whole periods of every realization stand; `rest` becomes the samples left out of each.
 std::vector<Cut> cuts_of(const IdData& data, const BlaOptions& options, Index& rest) {
     std::vector<Cut> cuts;
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
@@ -82,7 +82,7 @@ void look_for_transient(const Periods& periods, Realization& found) {
         share * (periods.Y.rightCols(others).colwise() - mean).squaredNorm() / static_cast<double>(others - 1);
 }
 
-Realization realisation_of(const Periods& periods) {
+Realization realization_of(const Periods& periods) {
     Realization found;
     found.U = periods.U.rowwise().mean(), found.Y = periods.Y.rowwise().mean();
     if (periods.U.cols() < 2) return found;
@@ -130,7 +130,7 @@ double shifted_correlation(const ComplexVector& a, const ComplexVector& b, Index
     return (turned.first.real() + turned.second.imag()).maxCoeff() / (a.norm() * b.norm());
 }
 
-Vector mean_over_neighbours(const Vector& values, Index reach) {
+Vector mean_over_neighbors(const Vector& values, Index reach) {
     Vector means(values.size());
     for (Index i = 0; i < values.size(); ++i) {
         const Index first = std::max<Index>(0, i - reach), last = std::min(values.size() - 1, i + reach);
@@ -151,7 +151,7 @@ class Approximation {
         periods_ = cuts.front().periods;
         for (const Cut& cut : cuts) {
             if (options.cancel && options.cancel()) break;
-            all_.push_back(realisation_of(transformed(data.experiments[cut.experiment], cut, options.period)));
+            all_.push_back(realization_of(transformed(data.experiments[cut.experiment], cut, options.period)));
             periods_ = std::min(periods_, cut.periods);
         }
         if (all_.empty()) throw InvalidArgument("bla: stopped before the first realization was processed");
@@ -187,7 +187,7 @@ class Approximation {
         return w;
     }
 
-    /// Variance that noise gives the response of one realisation.
+    /// Variance that noise gives the response of one realization.
     Vector noise_of(const Realization& one, const ComplexVector& G) const {
         const std::vector<Index>& k = lines_.excited;
         const Vector input = one.input_noise(k).cwiseProduct(G.cwiseAbs2());
@@ -201,16 +201,16 @@ class Approximation {
         result_.excited = levels(lines_.excited);
         if (!several && !periods) return;
         Vector spread = noise;
-        if (several) result_.realised = G;
+        if (several) result_.realized = G;
         if (several) spread = (G.colwise() - result_.response).rowwise().squaredNorm() / (count_ - 1);
         if (several && periods) {
             const Vector distortion = spread - noise;
             result_.excited.distortion = 2 * distortion.cwiseProduct(input_power(lines_.excited));
-            result_.distortion = mean_over_neighbours(distortion, reach()).cwiseMax(0);
+            result_.distortion = mean_over_neighbors(distortion, reach()).cwiseMax(0);
         }
-        if (periods) result_.noise_variance = mean_over_neighbours(noise, reach()) / count_;
+        if (periods) result_.noise_variance = mean_over_neighbors(noise, reach()) / count_;
         const Vector rounding = (8 * std::numeric_limits<double>::epsilon() * result_.response.cwiseAbs()).cwiseAbs2();
-        result_.variance = (mean_over_neighbours(spread, reach()) / count_)
+        result_.variance = (mean_over_neighbors(spread, reach()) / count_)
                                .cwiseMax(rounding)
                                .cwiseMax(std::numeric_limits<double>::min());
     }

@@ -104,17 +104,17 @@ std::vector<Start> starts_of(const FrequencyData& data, const TransferStructure&
     return starts;
 }
 
-bool realisations_tell(const FrequencyData& data) {
-    return data.realised.cols() > 1 && data.variance.size() > 0;
+bool realizations_tell(const FrequencyData& data) {
+    return data.realized.cols() > 1 && data.variance.size() > 0;
 }
 
 /// The covariance of theta, where `plain` takes errors as independent from frequency to frequency. Those of nonlinear
-/// distortion are uncorrelated and yet not independent: a gain that all frequencies share changes with the realisation
-/// (Schoukens and Pintelon 2010, IEEE Trans. Instrum. Meas. 59, 3159-3167). What each realisation would change of theta
+/// distortion are uncorrelated and yet not independent: a gain that all frequencies share changes with the realization
+/// (Schoukens and Pintelon 2010, IEEE Trans. Instrum. Meas. 59, 3159-3167). What each realization would change of theta
 /// tells their covariance; as far as distortion makes the variance it is believed, `plain` counting as one more
-/// realisation.
+/// realization.
 Matrix covariance_with_distortion(const FrequencyData& data, const Matrix& plain, const Matrix& changes) {
-    constexpr double kPlainRealisations = 1, kMostlyDistortion = 0.5;
+    constexpr double kPlainRealizations = 1, kMostlyDistortion = 0.5;
     const auto M = static_cast<double>(changes.cols());
     double distortion = 1;  // its share of the variance, at the frequencies that tell most
     if (data.noise_variance.size() > 0) {
@@ -122,7 +122,7 @@ Matrix covariance_with_distortion(const FrequencyData& data, const Matrix& plain
         const double noise = counts.dot(data.noise_variance.cwiseQuotient(data.variance)) / counts.sum();
         distortion -= std::min(1.0, noise);
     }
-    const double weight = std::min(1.0, distortion / kMostlyDistortion) * (M - 1) / (M - 1 + kPlainRealisations);
+    const double weight = std::min(1.0, distortion / kMostlyDistortion) * (M - 1) / (M - 1 + kPlainRealizations);
     return (1 - weight) * plain + weight / (M * (M - 1)) * changes * changes.transpose();
 }
 
@@ -150,15 +150,15 @@ class FrequencySearch {
         return end;
     }
 
-    /// What each realisation of the response would change of theta, a column each; `plain`: (J'J)^-1 of theta.
-    Matrix changes_by_realisation(const Searched& found, const Matrix& plain) const {
+    /// What each realization of the response would change of theta, a column each; `plain`: (J'J)^-1 of theta.
+    Matrix changes_by_realization(const Searched& found, const Matrix& plain) const {
         const FrequencyOutput model(data_, structure_, found.end.coefficients, range_.least, range_.largest);
         Vector output;
-        Matrix J, changes(plain.rows(), data_.realised.cols());
+        Matrix J, changes(plain.rows(), data_.realized.cols());
         model.simulate(model.parameters(found.end.coefficients, found.end.delay / model.time_unit()), output, &J);
         const Matrix slopes = solve_by_lu(model.theta_derivatives().transpose(), J.transpose()).x;
         for (Index m = 0; m < changes.cols(); ++m)
-            changes.col(m) = plain * (slopes * model.stacked(data_.realised.col(m) - data_.response));
+            changes.col(m) = plain * (slopes * model.stacked(data_.realized.col(m) - data_.response));
         return changes;
     }
 
@@ -204,7 +204,7 @@ double fit_percent_of(const FrequencyData& data, const TransferFunction& G) {
 void warn_of_misfit(Fit& fit, const FrequencyData& data, Index values) {
     constexpr double kChance = 0.001, kWorthTelling = 1.1;
     const auto degrees = static_cast<double>(2 * data.w.size() - values);
-    if (data.variance.size() == 0 || data.neighbours_share_errors || degrees < 1) return;
+    if (data.variance.size() == 0 || data.neighbors_share_errors || degrees < 1) return;
     if (fit.noise_variance[0] < kWorthTelling) return;
     if (chi_squared_upper_tail(fit.noise_variance[0] * degrees, degrees) < kChance)
         fit.warnings.push_back(
@@ -217,7 +217,7 @@ void describe(Fit& fit, const FrequencyData& data) {
     describe_models(fit);
     fit.fit_percent = Vector::Constant(1, fit_percent_of(data, fit.models.front()));
     fit.offsets = Matrix::Zero(1, 1);
-    if (data.neighbours_share_errors)
+    if (data.neighbors_share_errors)
         fit.warnings.push_back(
             Message("Neighboring values of a smoothed response share their errors. The standard errors are too small, "
                     "and narrow peaks are lowered, which looks like damping."));
@@ -246,9 +246,9 @@ Fit frequency_fit(const std::string& method, const FrequencyData& data, const Tr
     fit.structure = structure;
     fit.delay_grid = reported.delay_grid, fit.delay_loss = reported.delay_loss;
     if (data.variance.size() > 0) fit.covariance /= fit.noise_variance[0];
-    if (realisations_tell(data))
+    if (realizations_tell(data))
         fit.covariance =
-            covariance_with_distortion(data, fit.covariance, search.changes_by_realisation(found, fit.covariance));
+            covariance_with_distortion(data, fit.covariance, search.changes_by_realization(found, fit.covariance));
     warn_of_search(fit, options);
     describe(fit, data);
     warn_of_misfit(fit, data, fit.theta.size());
@@ -307,11 +307,11 @@ Fit frequency_lssvf(const FrequencyData& data, const TransferStructure& structur
         1, fit.loss * static_cast<double>(2 * data.w.size()) / static_cast<double>(2 * data.w.size() - d));
     fit.condition_number = equations.condition_number;
     fit.covariance = scaled.seconds().asDiagonal() * (terms.transpose() * terms) * scaled.seconds().asDiagonal();
-    if (realisations_tell(data)) {
-        Matrix changes(d, data.realised.cols());
+    if (realizations_tell(data)) {
+        Matrix changes(d, data.realized.cols());
         Vector errors(rows.rows());
         for (Index j = 0; j < changes.cols(); ++j) {
-            const ComplexVector own = error.cwiseProduct((data.realised.col(j) - data.response).head(error.size()));
+            const ComplexVector own = error.cwiseProduct((data.realized.col(j) - data.response).head(error.size()));
             errors << own.real(), own.imag();
             changes.col(j) = scaled.seconds().cwiseProduct(equations.inverse_gram * (rows.transpose() * errors));
         }

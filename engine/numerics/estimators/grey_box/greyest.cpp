@@ -124,7 +124,7 @@ double residual_degrees(const Fit& end, const IdData& data) {
            (static_cast<double>(end.theta.size()) - held) / static_cast<double>(data.output_count());
 }
 
-Fit minimise(const GreyOutput& criterion, const Vector& start, const FitOptions& search) {
+Fit minimize(const GreyOutput& criterion, const Vector& start, const FitOptions& search) {
     if (criterion.parameter_count() > 0) return minimize_output_error(criterion, criterion.measured(), start, search);
     Fit fit;  // everything is fixed
     fit.theta = start;
@@ -151,12 +151,12 @@ Beginning best_start(const Problem& problem, const Vector& weights) {
         const bool first = &start == &starts.front();
         if (first) criterion.trajectories(criterion.start(), false);  // tells why the model's own start is none
         if (starts.size() == 1) return {start, criterion.start(), {}};
-        const Fit trial = minimise(criterion, criterion.start(), rough);
+        const Fit trial = minimize(criterion, criterion.start(), rough);
         if (first || trial.loss < smallest) {
             smallest = std::isfinite(trial.loss) ? trial.loss : kInfinity;
             best = {criterion.parameters(trial.theta), trial.theta, trial.trace};
         }
-        if (trial.termination == Termination::kCancelled) break;
+        if (trial.termination == Termination::kCanceled) break;
     }
     return best;
 }
@@ -175,10 +175,10 @@ SearchEnd search(const Problem& problem, const Beginning& from, Vector weights) 
     std::vector<FitIteration> trace = from.trace;
     for (int pass = 0; pass < (reweighted ? kWeightings : 1); ++pass) {
         const GreyOutput criterion = problem.criterion(from.parameters, weights);
-        end = {minimise(criterion, theta, problem.search_options()), weights};
+        end = {minimize(criterion, theta, problem.search_options()), weights};
         trace.insert(trace.end(), end.fit.trace.begin(), end.fit.trace.end());
         theta = end.fit.theta;
-        if (!reweighted || end.fit.termination == Termination::kCancelled) break;
+        if (!reweighted || end.fit.termination == Termination::kCanceled) break;
         const Vector squares = squares_of_outputs(criterion, theta, problem.data);
         const Vector next =
             (squares / static_cast<double>(problem.data.sample_count())).cwiseSqrt().cwiseMax(least).cwiseInverse();
@@ -200,7 +200,7 @@ Vector grown(const Problem& problem, const Vector& start, const Vector& weights)
         const IdData part = beginning_of(problem.data, static_cast<Index>(length));
         if (part.sample_count() * part.output_count() <= 2 * theta.size()) continue;
         const Problem beginning{part, problem.model, problem.options, problem.initial};
-        theta = minimise(beginning.criterion(start, weights), theta, rough).theta;
+        theta = minimize(beginning.criterion(start, weights), theta, rough).theta;
     }
     return theta;
 }
@@ -214,7 +214,7 @@ SearchEnd or_grown(const Problem& problem, SearchEnd end, const Vector& weights)
         const Vector e = errors(end.fit);
         const double before = e.squaredNorm();
         if (before <= lost || e.head(e.size() - 1).dot(e.tail(e.size() - 1)) <= kFollows * before) break;
-        if (end.fit.theta.size() == 0 || end.fit.termination == Termination::kCancelled) break;
+        if (end.fit.theta.size() == 0 || end.fit.termination == Termination::kCanceled) break;
         try {
             SearchEnd other = search(problem, {start, grown(problem, start, weights), {}}, weights);
             const double after = errors(other.fit).squaredNorm();

@@ -48,7 +48,7 @@ struct GreyFit {
 };
 
 /// Parameters of ordinary differential equations, dx/dt = f(t, x, u; p), y_k = h(t_k, x, u; p) + e_k:
-///     minimise sum over experiments, samples and outputs of (y - simulated y)^2/variance of the output's errors
+///     minimize sum over experiments, samples and outputs of (y - simulated y)^2/variance of the output's errors
 /// by Levenberg-Marquardt within the bounds, with sensitivities by the variational equations; the variances are
 /// reestimated until they settle. Efficient for white Gaussian e, independent among outputs. Several starts are
 /// followed a little way, the best of them to the end. Where that leaves more than 0.01 % of the outputs' variation and

@@ -29,7 +29,7 @@ double effective_samples(const Vector& errors) {
 
 std::optional<Message> missed_initial_state(const IdData& data, const GreyFit& fit, const Vector& weights) {
     const auto estimated = std::count(fit.model.estimated_initial.begin(), fit.model.estimated_initial.end(), true);
-    if (estimated > 0 || fit.fit.termination == Termination::kCancelled) return std::nullopt;
+    if (estimated > 0 || fit.fit.termination == Termination::kCanceled) return std::nullopt;
     GreyModel freed = fit.model;
     freed.estimated_initial.assign(freed.state_names.size(), true);
     const GreyOutput criterion(data, freed, fit.fit.theta, fit.initial_states, weights, fit.relative_tolerance);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "numerics/error.h"
-#include "numerics/estimators/learning/cancelled.h"
+#include "numerics/estimators/learning/canceled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/decompositions.h"
 
@@ -42,7 +42,7 @@ struct Snapshots {
     Matrix now, next;
 };
 
-Snapshots neighbouring_snapshots(const IdData& data, const Scale& scale, Index d) {
+Snapshots neighboring_snapshots(const IdData& data, const Scale& scale, Index d) {
     const Index rows = d * scale.y.size() + (d - 1) * scale.u.size(), nu = scale.u.size();
     Index columns = 0, at = 0;
     for (const Experiment& record : data.experiments) columns += std::max<Index>(0, record.y.rows() - d);
@@ -80,9 +80,9 @@ Reduced reduce(const Snapshots& pairs, const DmdcOptions& options) {
     // [now; next]' = Q [R11 R12; 0 R22]: all inner products are those of the short columns of R.
     Matrix joint(pairs.now.cols(), pairs.now.rows() + rows);
     joint << pairs.now.transpose(), pairs.next.transpose();
-    check_cancelled("dmdc", options.cancel);
+    check_canceled("dmdc", options.cancel);
     const Matrix R = triangular_part(joint);
-    check_cancelled("dmdc", options.cancel);
+    check_canceled("dmdc", options.cancel);
     const Matrix now = R.leftCols(rows + nu).transpose(), next = R.rightCols(rows).transpose();
     const SingularValues of_next = jacobi_svd(next), of_now = jacobi_svd(now);
     const Index seen = distinguishable(of_next.s), r = rank > 0 ? rank : seen;
@@ -133,7 +133,7 @@ DmdcFit dmdc(const IdData& data, const DmdcOptions& options) {
     check_sampled_data("dmdc", data);
     const Scale scale{root_mean_squares(data, &Experiment::y), root_mean_squares(data, &Experiment::u)};
     const Index ny = data.output_count();
-    const Snapshots pairs = neighbouring_snapshots(data, scale, options.delays);
+    const Snapshots pairs = neighboring_snapshots(data, scale, options.delays);
     if (options.rank > pairs.next.rows())
         throw InvalidArgument("dmdc: {} is {}, but a snapshot has only {}", OptionName{"rank"}, options.rank,
                               plural(pairs.next.rows(), "{} value", "{} values"));

@@ -26,9 +26,9 @@ struct DmdcFit {
 
 /// Dynamic mode decomposition with inputs. Snapshots z(k) hold the outputs y(k), .., y(k-d+1) and the inputs u(k-1),
 /// .., u(k-d+1), each channel in units of its root mean square; z(k+1) = A z(k) + B u(k) is solved by least squares
-/// over all neighbouring snapshots with the singular value decomposition of [z; u], cut to r + nu directions, and
+/// over all neighboring snapshots with the singular value decomposition of [z; u], cut to r + nu directions, and
 /// projected on the r left singular vectors of the next snapshots: x = U' z, y(k) the first rows of U x. With d = n a
-/// noise-free linear system of order n is found exactly from one output. It minimises errors one step ahead, so noise
+/// noise-free linear system of order n is found exactly from one output. It minimizes errors one step ahead, so noise
 /// on the outputs biases it, as it does arx. Means are not taken off: detrend the data first where they have an
 /// operating point. Data: any number of outputs, inputs and experiments, regular sampling. Throws InvalidArgument for
 /// other data, a rank above the size of a snapshot or the rank of the data, and fewer snapshots than unknowns in a row

@@ -6,7 +6,7 @@
 #include "base/number_text.h"
 #include "base/reader.h"
 #include "numerics/error.h"
-#include "numerics/estimators/learning/cancelled.h"
+#include "numerics/estimators/learning/canceled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
@@ -28,7 +28,7 @@ Matrix candidates_and_output(const IdData& data, const NarxLags& lags, const Mon
         if (experiment.y.rows() <= first) continue;
         const Matrix past = lags.past_values(experiment.y.col(0), experiment.u);
         for (Index row = 0; row < past.rows(); row += kRowsAtOnce) {
-            check_cancelled("narx", cancel);
+            check_canceled("narx", cancel);
             const Index rows = std::min(kRowsAtOnce, past.rows() - row);
             Matrix block(rows, monomials.count() + 1);
             block.leftCols(monomials.count()) = monomials.values(past.middleRows(row, rows));
@@ -62,7 +62,7 @@ Choice choose_forwards(const Matrix& R, Index rows, Index most, const std::funct
     std::vector<bool> taken(static_cast<std::size_t>(M), false);
     Choice choice;
     while (static_cast<Index>(choice.terms.size()) < most) {
-        check_cancelled("narx", cancel);
+        check_canceled("narx", cancel);
         Index best = -1;
         double most_explained = 0;
         for (Index j = 0; j < M; ++j) {

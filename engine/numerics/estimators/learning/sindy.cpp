@@ -8,7 +8,7 @@
 #include "base/reader.h"
 #include "numerics/criteria/rate_equations.h"
 #include "numerics/error.h"
-#include "numerics/estimators/learning/cancelled.h"
+#include "numerics/estimators/learning/canceled.h"
 #include "numerics/fit/diagnosis.h"
 #include "numerics/linalg/least_squares.h"
 #include "numerics/linalg/triangular_factor.h"
@@ -33,7 +33,7 @@ Rotated rotated_equations(const IdData& data, const FunctionLibrary& library, co
     TriangularFactor factor(functions + states);
     Rotated rotated;
     for (std::size_t k = 0; k < data.experiments.size(); ++k) {
-        check_cancelled("sindy", options.cancel);
+        check_canceled("sindy", options.cancel);
         const RateEquations own =
             width ? weak_equations(data, k, library, *width) : derivative_equations(data, k, library, options.window);
         Matrix joint(own.B.rows(), functions + states);
@@ -255,7 +255,7 @@ SindyFit sindy(const IdData& data, const FunctionLibrary& library, const SindyOp
     Matrix Xi(functions, states);
     double squares = 0;
     for (Index i = 0; i < states; ++i) {
-        check_cancelled("sindy", options.cancel);
+        check_canceled("sindy", options.cancel);
         const Sparse sparse = thresholded(R, functions, i, options);
         Xi.col(i) = sparse.coefficients;
         squares += sparse.loss;

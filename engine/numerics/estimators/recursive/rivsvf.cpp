@@ -10,7 +10,7 @@ Fit rivsvf(const IdData& data, const TransferStructure& structure, const Recursi
     // Without forgetting the end is a batch estimate: all errors tell their color, of which the pass learns from
     // blocks.
     if (options.forgetting == 1 && options.drift.size() == 0 && data.sample_count() <= kMaxColoredSamples &&
-        fit.termination != Termination::kCancelled)
+        fit.termination != Termination::kCanceled)
         color_covariance(fit, data, {options.lambda, options.hold_y, {}}, true);
     return fit;
 }

@@ -14,7 +14,7 @@ struct LoopEquations {
 
     /// NaN where the equations cannot be solved.
     Vector solution(double* condition_number = nullptr) const;
-    /// Of the solution: its covariance with errors of any colour (statistics/robust_covariance.h).
+    /// Of the solution: its covariance with errors of any color (statistics/robust_covariance.h).
     Matrix covariance(const VectorView& theta) const;
 };
 

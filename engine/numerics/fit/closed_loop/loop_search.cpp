@@ -109,7 +109,7 @@ Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const 
     const double count = static_cast<double>(errors.size());
     for (int pass = 0; pass < options.max_iterations; ++pass) {
         if (options.cancel && options.cancel()) {
-            fit.termination = Termination::kCancelled;
+            fit.termination = Termination::kCanceled;
             break;
         }
         const Matrix psi = model.sensitivities(fit.theta);

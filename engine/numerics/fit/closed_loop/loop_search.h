@@ -14,7 +14,7 @@ Message instruments_text(const LoopSignals& signals, bool in_loop);
 
 /// The indirect route: least squares of y - x(r; theta), x simulated through the loop of model and known controller,
 /// by Gauss-Newton steps, halved until they lower the loss, from the theta of `start`. d x/d theta is that of the loop
-/// (ClosedLoop::sensitivities), which holds an unstable plant's, too. Standard errors hold for errors of any colour;
+/// (ClosedLoop::sensitivities), which holds an unstable plant's, too. Standard errors hold for errors of any color;
 /// the loss is that of the loop. Throws InvalidArgument where the loop of the first theta is unstable.
 Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const LoopSignals& signals);
 

@@ -6,7 +6,7 @@
 
 namespace dynlab::inline numerics {
 
-/// Coloured noise v = C(q^-1)/D(q^-1) e, e white: C = 1 + c_1 q^-1 + ..., D = 1 + d_1 q^-1 + ..., both with all roots
+/// Colored noise v = C(q^-1)/D(q^-1) e, e white: C = 1 + c_1 q^-1 + ..., D = 1 + d_1 q^-1 + ..., both with all roots
 /// inside the unit circle.
 struct ArmaNoise {
     Vector C, D;          ///< nc + 1 and nd + 1, the weight of the present sample (one) first

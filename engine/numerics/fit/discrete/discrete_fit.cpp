@@ -115,7 +115,7 @@ Fit fit_discrete_output(const std::string& method, const IdData& data, const Pol
     }
     const std::vector<StartCondition> rest{conditions.front()};
     const Fit plain = fit_output_error({method, record.data, rest, values, fit_one});
-    if (plain.termination == Termination::kCancelled || !other_discrete_start_promises(data, plain, options))
+    if (plain.termination == Termination::kCanceled || !other_discrete_start_promises(data, plain, options))
         return plain;
     return fit_output_error({method, record.data, conditions, values, [&](const StartCondition& condition) {
                                  return begins_at_rest(condition) ? plain : fit_one(condition);

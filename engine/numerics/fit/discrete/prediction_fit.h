@@ -8,7 +8,7 @@
 
 namespace dynlab::inline numerics {
 
-/// What armax and bj have in common: minimises the prediction error from the `starts` (values of the orders'
+/// What armax and bj have in common: minimizes the prediction error from the `starts` (values of the orders'
 /// parameters; each is followed a little way, the best to the end) by damped Gauss-Newton with exact sensitivities, and
 /// describes the result. Throws InvalidArgument, which begins with `method`,
 /// when there are no more samples than values to estimate.

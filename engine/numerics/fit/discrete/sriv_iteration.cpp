@@ -139,7 +139,7 @@ InstrumentSolution iterate_instruments(const DiscreteOutput& model, const Vector
     const double spread = std::sqrt(model.target_variation());
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
         if (cancel && cancel()) {
-            best.termination = Termination::kCancelled;
+            best.termination = Termination::kCanceled;
             return best;
         }
         const InstrumentProducts& products = here.products;

@@ -13,7 +13,7 @@ namespace dynlab::inline numerics {
 /// of the weighted rows: a new row is rotated into the array (Givens), so that nothing is ever inverted or subtracted,
 /// and theta = C^-1 c is the batch estimate to rounding at every sample, from an exactly diffuse start. Its covariance
 /// variance (C'C)^-1 = variance (Z'Phi)^-1 Z'Z (Phi'Z)^-1 for white errors is positive whatever happened before, and so
-/// is variance C^-1 T C^-T for coloured ones, T from the sums of z e over blocks of samples (product_color.h). Where
+/// is variance C^-1 T C^-T for colored ones, T from the sums of z e over blocks of samples (product_color.h). Where
 /// weights w(k) forget, both are multiplied by sum w(k)^2/sum w(k): 1/2 for a long memory (Ljung 1999, section 11.2).
 /// With z = phi, C is R and this is the square-root information filter of least squares (Bierman 1977, chapter V).
 /// Sizes: kCount parameters, or with Eigen::Dynamic as many as the constructor says.
@@ -23,8 +23,8 @@ class InstrumentArray {
     static constexpr std::size_t kMax = kCount > 0 ? kCount : 17;
     using Row = SmallRow<kMax>;
 
-    /// `block`: samples that outlast the memory of coloured errors.
-    explicit InstrumentArray(int count, double block = 1) : count_(count), colour_(block) {}
+    /// `block`: samples that outlast the memory of colored errors.
+    explicit InstrumentArray(int count, double block = 1) : count_(count), color_(block) {}
 
     /// Adds a row. The weights of all earlier rows are multiplied by `forgetting`, unless the new row has almost no
     /// information. Otherwise earlier information would be lost without a replacement.
@@ -57,7 +57,7 @@ class InstrumentArray {
             if (!known_) return;
             double error = given_y;
             for (std::size_t j = 0; j < d; ++j) error -= given_phi[j] * theta_[j];
-            colour_.add(given_z, error, d, silent ? 1 : forgetting);
+            color_.add(given_z, error, d, silent ? 1 : forgetting);
         }
     }
 
@@ -89,12 +89,12 @@ class InstrumentArray {
         const Matrix inverse = inverse_regressors();
         return inverse * inverse.transpose();
     }
-    /// Of theta: with instruments for errors of any colour; of least squares and a Kalman filter for white ones.
+    /// Of theta: with instruments for errors of any color; of least squares and a Kalman filter for white ones.
     Matrix covariance() const {
         const double scale = variance() * memory_.factor();
         if (!kInstruments || walks_) return scale * inverse_gram();
         const Matrix inverse = inverse_regressors();
-        return scale * inverse * colour_.ratio(count_) * inverse.transpose();
+        return scale * inverse * color_.ratio(count_) * inverse.transpose();
     }
 
     /// Whether white errors leave the first `count` parameters standard errors of no more than `part` of themselves.
@@ -152,7 +152,7 @@ class InstrumentArray {
     Row c_{}, theta_{};
     ErrorVariance<kInstruments> errors_;
     FadingWeights memory_;
-    ProductColor<kMax> colour_;
+    ProductColor<kMax> color_;
     bool known_ = false, walks_ = false;
 };
 

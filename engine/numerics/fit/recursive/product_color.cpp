@@ -4,7 +4,7 @@
 
 namespace dynlab::inline numerics {
 
-Matrix colour_ratio(const ProductSums& sums) {
+Matrix color_ratio(const ProductSums& sums) {
     const Index d = sums.gram.rows();
     const Matrix none = Matrix::Identity(d, d);
     if (!(sums.blocks > 0 && sums.variance > 0) || !std::isfinite(sums.variance)) return none;

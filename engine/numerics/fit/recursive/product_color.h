@@ -16,13 +16,13 @@ struct ProductSums {
 };
 
 /// T as ProductColor::ratio has it.
-Matrix colour_ratio(const ProductSums& sums);
+Matrix color_ratio(const ProductSums& sums);
 
-/// How the products z(k) e(k) of instruments and errors add up when the errors are coloured, at constant cost a sample:
+/// How the products z(k) e(k) of instruments and errors add up when the errors are colored, at constant cost a sample:
 /// within blocks of samples they are summed, and the sums' squares are compared with what white errors of the same size
 /// would give (batch means; the blocks are to outlast the errors' memory, and grow with the cube root of the record).
 /// Of the later half to three quarters of the samples, all of the same weight: the first errors are those of a theta
-/// that is hardly known, and a forgetting that leaves few blocks could not tell any colour. An estimate that forgets
+/// that is hardly known, and a forgetting that leaves few blocks could not tell any color. An estimate that forgets
 /// follows the noise, which shortens the sums of a block of L samples: by (1 - w^L)/(L (1 - w)) for white errors in the
 /// scalar case, where e is w times the change of a first-order lag; they are set against that.
 template <std::size_t kMax>
@@ -59,7 +59,7 @@ class ProductColor {
                 sums.gram(i, j) = now_.gram[row][column] + earlier_.gram[row][column];
                 sums.products(i, j) = now_.products[row][column] + earlier_.products[row][column];
             }
-        return colour_ratio(sums);
+        return color_ratio(sums);
     }
 
   private:

@@ -21,7 +21,7 @@ namespace {
 constexpr Index kSamplesBetweenQuestions = 4096;  // whether to stop
 constexpr Index kFirstSamplesPerParameter = 20;
 constexpr double kFilterMemories = 20;      // of the first batch
-constexpr double kBlockMemories = 5;        // of the blocks that tell the errors' colour
+constexpr double kBlockMemories = 5;        // of the blocks that tell the errors' color
 constexpr Index kSamplesBetweenLooks = 16;  // at how well the model is known
 constexpr double kSurest = 0.03;            // relative standard errors of coefficients that filters follow
 constexpr double kQuickest = 5;             // poles of a model that filters follow, in cut-off frequencies
@@ -318,7 +318,7 @@ Fit run_pass(AnyPass& pass, const RecursiveName& method, const IdData& data, con
             next = last + 1;
         }
         if (next <= recorded) {
-            fit.termination = Termination::kCancelled;
+            fit.termination = Termination::kCanceled;
             break;
         }
         history->t[point] = t[recorded];

@@ -111,16 +111,16 @@ void summarise(Bootstrap& study, double confidence) {
 void repeat(Bootstrap& study, const RefittedOutput& model, const Fit& base, const ErrorSource& source,
             const BootstrapOptions& options) {
     const Vector output = model.simulated(base);
-    std::atomic<bool> cancelled = false;
+    std::atomic<bool> canceled = false;
     std::atomic<int> failed = 0;
     std::mutex mutex;
     std::size_t done = 0;
     const auto run = [&](int k) {
         {
             const std::lock_guard lock(mutex);
-            if (options.cancel && !cancelled && options.cancel()) cancelled = true;
+            if (options.cancel && !canceled && options.cancel()) canceled = true;
         }
-        if (cancelled) return;
+        if (canceled) return;
         const Vector outputs = output + source.draw(options.seed + static_cast<std::uint32_t>(k));
         try {
             const Fit fit = model.fit({}, &base, &outputs);
@@ -140,7 +140,7 @@ void repeat(Bootstrap& study, const RefittedOutput& model, const Fit& base, cons
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     arena.execute([&] { tbb::parallel_for(0, options.runs, run); });
     study.failed = failed;
-    study.cancelled = cancelled;
+    study.canceled = canceled;
 }
 
 /// What was done, without its doubts.

@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 
 enum class BootstrapKind {
     kResidual,    ///< "residual": the errors that the model left, drawn with replacement
-    kParametric,  ///< "parametric": normal errors of the estimated variance, coloured where those left are
+    kParametric,  ///< "parametric": normal errors of the estimated variance, colored where those left are
 };
 
 struct BootstrapOptions {
@@ -35,7 +35,7 @@ struct Bootstrap {
     Vector low, high;      ///< of the intervals: quantiles of the values
     Index parameters = 0;  ///< of the names, the first ones
     int failed = 0;        ///< runs without a fit
-    bool cancelled = false;
+    bool canceled = false;
     std::vector<Message> warnings;  ///< whole sentences
     Message message;
 };

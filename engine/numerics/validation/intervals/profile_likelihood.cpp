@@ -30,12 +30,12 @@ class ProfileSearch {
           N_(static_cast<double>(model.measured().size())) {}
 
     const Fit& base() const { return base_; }
-    bool cancelled() const { return cancelled_; }
+    bool canceled() const { return canceled_; }
 
     HeldFit at(double value, const Fit& from) {
         HeldFit held{value, kInfinity, from};
-        if (cancelled_ || (options_.cancel && options_.cancel())) {
-            cancelled_ = true;
+        if (canceled_ || (options_.cancel && options_.cancel())) {
+            canceled_ = true;
             return held;
         }
         held.fit = model_.fit({{place_, value}}, &from);
@@ -61,7 +61,7 @@ class ProfileSearch {
 
     /// Where the rise passes the level between a fit inside the interval and one outside.
     double crossing(HeldFit inside, double outside, double least, double level) {
-        for (int i = 0; i < kBisections && !cancelled_; ++i) {
+        for (int i = 0; i < kBisections && !canceled_; ++i) {
             HeldFit middle = at((inside.value + outside) / 2, inside.fit);
             if (rise(middle.loss, least) < level)
                 inside = std::move(middle);
@@ -77,7 +77,7 @@ class ProfileSearch {
     const ProfileOptions& options_;
     Fit base_;
     double N_;
-    bool cancelled_ = false;
+    bool canceled_ = false;
 };
 
 /// Values on even steps, and with a delay of a held input the samples.
@@ -140,7 +140,7 @@ Message interval_text(const Profile& profile) {
     return Message("without limits on the grid");
 }
 
-void warn_of_colour(Profile& profile, const RefittedOutput& model, const Fit& base) {
+void warn_of_color(Profile& profile, const RefittedOutput& model, const Fit& base) {
     const Vector errors = model.measured() - model.simulated(base);
     std::vector<Vector> records;
     Index row = 0;
@@ -186,7 +186,7 @@ Profile profile_likelihood(const RefittedOutput& model, const std::string& name,
         for (const HeldFit& one : fits) least = std::min(least, one.loss);
         const bool open_below = search.rise(fits.front().loss, least) < profile.level && ends.low > lower;
         const bool open_above = search.rise(fits.back().loss, least) < profile.level && ends.high < upper;
-        if (options.range || search.cancelled() || !(open_below || open_above)) break;
+        if (options.range || search.canceled() || !(open_below || open_above)) break;
         const double width = ends.high - ends.low;
         if (open_below) ends.low = std::max(lower, ends.low - width);
         if (open_above) ends.high = std::min(upper, ends.high + width);
@@ -201,8 +201,8 @@ Profile profile_likelihood(const RefittedOutput& model, const std::string& name,
     if (search.rise(base.loss, least) > 0.01)
         profile.warnings.push_back(Message("Another value of the parameter gave a better fit than the model."));
     read_interval(profile, search, fits, least);
-    profile.cancelled = search.cancelled();
-    warn_of_colour(profile, model, base);
+    profile.canceled = search.canceled();
+    warn_of_color(profile, model, base);
     std::vector<Message> all = profile.warnings;
     all.insert(all.begin(), Message("Profile of {}: {}, {} % interval {}.", name, profile.estimate,
                                     significant(100 * options.confidence, 4), interval_text(profile)));

@@ -23,7 +23,7 @@ struct Profile {
     Vector grid, rise;                ///< N ln(S/S_min) with all other parameters fitted anew, S the sum of squares
     double level = 0;                 ///< the chi-squared quantile that bounds the interval
     std::optional<double> low, high;  ///< the interval; nothing where the grid ends inside it
-    bool cancelled = false;
+    bool canceled = false;
     std::vector<Message> warnings;  ///< whole sentences
     Message message;
 };
@@ -31,7 +31,7 @@ struct Profile {
 /// Profile likelihood of a parameter: all others, initial values and offsets are fitted anew for each value on a grid,
 /// and the interval ends where N ln(S/S_min) passes the chi-squared quantile with one degree of freedom. Nothing is
 /// assumed of the loss's shape, where standard errors take it for a parabola. A delay's loss has corners at the samples
-/// where inputs are held: these are on the grid. Each value is reached from its neighbour's solution, outwards from the
+/// where inputs are held: these are on the grid. Each value is reached from its neighbor's solution, outwards from the
 /// estimate and back, and the crossings are found by bisection. Errors count as white and normal; where they are not
 /// white a warning says so. Throws InvalidArgument as RefittedOutput, for bad options, and for a parameter that the
 /// model has not. Reference: Bates and Watts (1988), Nonlinear Regression Analysis, section 6.1; Raue et al. (2009),

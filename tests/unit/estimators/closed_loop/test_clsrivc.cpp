@@ -59,7 +59,7 @@ TEST(clsrivc, errors_do_not_go_with_the_instruments) {  // oracle: residual of t
         EXPECT_LT(std::abs(z.dot(e)), 1e-8 * z.norm() * e.norm());
 }
 
-TEST(clsrivc, the_indirect_route_lies_at_the_least_squares_of_the_loop) {  // oracle: neighbours are no better
+TEST(clsrivc, the_indirect_route_lies_at_the_least_squares_of_the_loop) {  // oracle: neighbors are no better
     const IdData data = loop_record(0.05, 2);
     const Experiment& one = data.experiments.front();
     const auto loss = [&](const Vector& theta) {

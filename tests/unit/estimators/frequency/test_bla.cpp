@@ -30,7 +30,7 @@ struct Recording {
     bool odd = false;
 };
 
-/// Realisations behind one another, each after periods that are not recorded; the nonlinearity acts on the output.
+/// Realizations behind one another, each after periods that are not recorded; the nonlinearity acts on the output.
 IdData recorded(const Recording& how) {
     RandomStream random(5);
     RandomPhaseOptions options;
@@ -101,7 +101,7 @@ TEST(bla, averages_are_those_of_their_definition) {  // second route: transforms
     EXPECT_NEAR(found.distortion[line - 1], std::max(0.0, spread - noise), 1e-9 * spread);
 }
 
-TEST(bla, experiments_are_realisations_too) {  // second route: the same record in pieces
+TEST(bla, experiments_are_realizations_too) {  // second route: the same record in pieces
     Recording how;
     how.noise = 0.1;
     const IdData joined = recorded(how);
@@ -190,7 +190,7 @@ TEST(bla, refuses_what_it_cannot_use) {
 }
 
 // Oracle: a system without memory answers each repetition alike, whatever it does to the input.
-TEST(bla, refuses_realisations_of_one_input) {
+TEST(bla, refuses_realizations_of_one_input) {
     Recording how;
     how.realizations = 1, how.periods = 12, how.cube = 0.3, how.noise = 0.02;
     const IdData repeated = recorded(how);

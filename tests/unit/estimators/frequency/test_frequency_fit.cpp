@@ -177,7 +177,7 @@ TEST(frequency_fit, stops_on_request) {
     options.cancel = [] { return true; };
     const Fit fit = frequency_fit("coe", noisy(noise_free(G, w), Vector::Constant(60, 0.1), 2),
                                   TransferStructure::single(2, 0), options);
-    EXPECT_EQ(fit.termination, Termination::kCancelled);
+    EXPECT_EQ(fit.termination, Termination::kCanceled);
 }
 
 TEST(frequency_lssvf, without_noise_is_the_system_and_its_errors_are_first_order) {

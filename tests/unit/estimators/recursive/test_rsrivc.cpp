@@ -64,7 +64,7 @@ TEST(rsrivc, can_be_stopped) {  // oracle: the termination
     options.cancel = [&] { return ++asked > 1; };
     const Vector u = prbs(10, 10);
     const IdData data(Matrix(lsim(TransferFunction(values({2}), values({1, 4, 3})), u, 0.05)), Matrix(u), 0.05);
-    EXPECT_EQ(rsrivc(data, TransferStructure::single(2, 0), options).termination, Termination::kCancelled);
+    EXPECT_EQ(rsrivc(data, TransferStructure::single(2, 0), options).termination, Termination::kCanceled);
 }
 
 }  // namespace test_rsrivc

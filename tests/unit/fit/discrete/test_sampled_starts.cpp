@@ -90,7 +90,7 @@ TEST(sampled_starts, slow_errors_are_not_theirs) {
 }
 
 // Oracle: white noise, and the same behind a filter with a pole at 0.5. Four standard deviations as above.
-TEST(sampled_starts, coloured_errors_are_distinguished_from_white_ones) {
+TEST(sampled_starts, colored_errors_are_distinguished_from_white_ones) {
     int false_alarms = 0;
     for (std::uint32_t seed = 1; seed <= 50; ++seed) {
         IdData data = slowly_sampled_record(0, 1);

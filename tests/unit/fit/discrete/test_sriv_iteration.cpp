@@ -56,7 +56,7 @@ TEST(sriv_iteration, ends_on_request) {  // oracle: the call itself
     const DiscreteOutput model(kOrders, {InitialState::kZero, false}, experiments);
     const InstrumentSolution found =
         iterate_instruments(model, model.target(), Vector{{-1.2, 0.5, 0.5, 0}}, 50, 1e-12, [] { return true; });
-    EXPECT_EQ(found.termination, Termination::kCancelled);
+    EXPECT_EQ(found.termination, Termination::kCanceled);
 }
 
 }  // namespace test_sriv_iteration

@@ -20,7 +20,7 @@ TEST(product_color, is_drawn_towards_white_errors_by_the_part_of_chance) {
     for (const double blocks : {20.0, 1e6}) {
         const double distance = 3 * (kTimes - 1) * (kTimes - 1), chance = 3 * 4 / blocks;
         const double expected = 1 + (1 - chance / distance) * (kTimes - 1);
-        EXPECT_TRUE(colour_ratio(larger_sums(blocks)).isApprox(expected * Matrix::Identity(3, 3), 1e-12)) << blocks;
+        EXPECT_TRUE(color_ratio(larger_sums(blocks)).isApprox(expected * Matrix::Identity(3, 3), 1e-12)) << blocks;
     }
 }
 
@@ -30,7 +30,7 @@ TEST(product_color, of_errors_that_say_nothing_is_that_of_white_ones) {
     no_errors.variance = 0;
     no_excitation.gram.setZero();
     for (const ProductSums& sums : {few_blocks, no_blocks, no_errors, no_excitation})
-        EXPECT_TRUE(colour_ratio(sums).isIdentity(1e-12));
+        EXPECT_TRUE(color_ratio(sums).isIdentity(1e-12));
 }
 
 }  // namespace test_product_color

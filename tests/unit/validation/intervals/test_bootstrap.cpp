@@ -18,12 +18,12 @@ using namespace dynlab;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// 2/(s + 1.5) with errors of that size, through 1/(1 - colour q^-1).
-RefittedOutput model(double noise, double colour = 0, std::uint32_t seed = 1) {
+/// 2/(s + 1.5) with errors of that size, through 1/(1 - color q^-1).
+RefittedOutput model(double noise, double color = 0, std::uint32_t seed = 1) {
     const Vector u = prbs(5, 6);
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 1.5}});
     RandomStream random(seed);
-    const ColoredNoise errors{Vector::Ones(1), Vector{{1.0, -colour}}};
+    const ColoredNoise errors{Vector::Ones(1), Vector{{1.0, -color}}};
     const Vector y = lsim(G, u, 0.1) + errors.draw(u.size(), noise, random);
     return RefittedOutput(IdData(Matrix(y), Matrix(u), 0.1), {TransferStructure::single(1, 0), {}, Vector{{1.5, 2}}});
 }
@@ -63,7 +63,7 @@ TEST(bootstrap, is_the_same_for_every_number_of_threads) {  // oracle: one threa
     EXPECT_NE(bootstrap(one, options).values, bootstrap(one, alone).values);
 }
 
-TEST(bootstrap, colours_its_errors_where_the_record_does) {  // oracle: scatter over 200 records with such errors
+TEST(bootstrap, colors_its_errors_where_the_record_does) {  // oracle: scatter over 200 records with such errors
     const int records = 200;
     Vector estimates(records);
     for (int k = 0; k < records; ++k)
@@ -99,7 +99,7 @@ TEST(bootstrap, can_be_stopped) {
     options.cancel = [&] { return ++asked > 5; };
     options.threads = 1;
     const Bootstrap found = bootstrap(model(0.1), options);
-    EXPECT_TRUE(found.cancelled);
+    EXPECT_TRUE(found.canceled);
     EXPECT_EQ(found.values.col(0).array().isFinite().count(), 5);
 }
 

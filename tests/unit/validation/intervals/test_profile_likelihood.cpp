@@ -73,7 +73,7 @@ TEST(profile_likelihood, can_be_stopped) {
     ProfileOptions options;
     int asked = 0;
     options.cancel = [&] { return ++asked > 5; };
-    EXPECT_TRUE(profile_likelihood(model, "Td", options).cancelled);
+    EXPECT_TRUE(profile_likelihood(model, "Td", options).canceled);
 }
 
 TEST(profile_likelihood, says_what_it_needs) {

@@ -1,4 +1,4 @@
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 
 #include <map>
 
@@ -25,7 +25,7 @@ const std::map<std::string_view, const char*>& names_by_member() {
 }  // namespace
 
 const std::vector<FunctionEntry>& catalog_of_functions() {
-    static const std::vector<FunctionEntry> catalogue = [] {
+    static const std::vector<FunctionEntry> catalog = [] {
         std::vector<FunctionEntry> all;
         for (FunctionEntries area : {data_functions(),        preprocess_functions(),
                                      saving_functions(),      plant_functions(),
@@ -51,7 +51,7 @@ const std::vector<FunctionEntry>& catalog_of_functions() {
             all.insert(all.end(), area.begin(), area.end());
         return all;
     }();
-    return catalogue;
+    return catalog;
 }
 
 const FunctionEntry* find_function(const std::string& name) {
@@ -72,7 +72,7 @@ std::vector<std::string> translated_options() {
 }
 
 const std::vector<TypeEntry>& catalog_of_types() {
-    static const std::vector<TypeEntry> catalogue = [] {
+    static const std::vector<TypeEntry> catalog = [] {
         std::vector<TypeEntry> all;
         for (TypeEntries types : {vector_types(), matrix_types(), complex_types(), data_types(), response_types(),
                                   model_types(), simulated_types(), idgrey_types(), greyest_types(), traced_types(),
@@ -80,7 +80,7 @@ const std::vector<TypeEntry>& catalog_of_types() {
             all.insert(all.end(), types.begin(), types.end());
         return all;
     }();
-    return catalogue;
+    return catalog;
 }
 
 const ShownCalls& shown_calls() {

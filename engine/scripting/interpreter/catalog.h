@@ -11,7 +11,7 @@ namespace dynlab::inline scripting {
 
 /// Every function that this layer gives to scripts, area by area: what help() lists, what each needs a help page for.
 const std::vector<FunctionEntry>& catalog_of_functions();
-/// The row of the catalogue; nullptr for other names.
+/// The row of the catalog; nullptr for other names.
 const FunctionEntry* find_function(const std::string& name);
 
 /// The name that scripts have for an option of numerics, MaxIter for max_iterations; in backticks what is none. For
@@ -23,7 +23,7 @@ std::vector<std::string> translated_options();
 /// Every kind of object that scripts can hold.
 const std::vector<TypeEntry>& catalog_of_types();
 
-/// The functions of the catalogue that show what they give.
+/// The functions of the catalog that show what they give.
 const ShownCalls& shown_calls();
 
 }  // namespace dynlab::inline scripting

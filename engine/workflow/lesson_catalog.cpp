@@ -1,4 +1,4 @@
-#include "workflow/lesson_catalogue.h"
+#include "workflow/lesson_catalog.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <set>
 
-#include "numerics/estimators/catalogue.h"
+#include "numerics/estimators/method_catalog.h"
 
-namespace test_catalogue {
+namespace test_method_catalog {
 
 using namespace dynlab;
 
-TEST(catalogue, every_method_has_its_files) {  // oracle: the source tree
+TEST(method_catalog, every_method_has_its_files) {  // oracle: the source tree
     const std::filesystem::path root = DYNLAB_SOURCE_DIR;
     for (const MethodEntry& method : method_catalog()) {
         EXPECT_TRUE(exists(root / "engine/numerics/estimators" / (method.file + ".h"))) << method.file;
@@ -19,8 +19,8 @@ TEST(catalogue, every_method_has_its_files) {  // oracle: the source tree
     }
 }
 
-TEST(catalogue, every_file_is_a_method_and_every_folder_a_family) {  // oracle: the source tree
-    std::set<std::string> known{"catalogue"};
+TEST(method_catalog, every_file_is_a_method_and_every_folder_a_family) {  // oracle: the source tree
+    std::set<std::string> known{"catalog"};
     for (const MethodEntry& method : method_catalog()) known.insert(method.file.substr(0, method.file.find('/')));
     const std::filesystem::path folder = std::filesystem::path(DYNLAB_SOURCE_DIR) / "engine/numerics/estimators";
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -30,7 +30,7 @@ TEST(catalogue, every_file_is_a_method_and_every_folder_a_family) {  // oracle: 
     }
 }
 
-TEST(catalogue, names_are_unique_and_found) {  // oracle: definition
+TEST(method_catalog, names_are_unique_and_found) {  // oracle: definition
     std::set<std::string> names;
     for (const MethodEntry& method : method_catalog()) {
         ASSERT_FALSE(method.lua_names.empty());
@@ -45,4 +45,4 @@ TEST(catalogue, names_are_unique_and_found) {  // oracle: definition
     EXPECT_FALSE(find_method("srivc_of_nothing").has_value());
 }
 
-}  // namespace test_catalogue
+}  // namespace test_method_catalog

@@ -1,4 +1,4 @@
-#include "numerics/estimators/catalogue.h"
+#include "numerics/estimators/method_catalog.h"
 
 #include <algorithm>
 
