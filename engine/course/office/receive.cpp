@@ -77,7 +77,7 @@ class SubmissionReceiver {
         settle_doubles();
         open_packs();
         // Traces are numbered behind the files that their senders read of.
-        std::ranges::stable_partition(candidates_, [](const Candidate& c) { return !c.silent; });
+        std::stable_partition(candidates_.begin(), candidates_.end(), [](const Candidate& c) { return !c.silent; });
         keep_all();
         write();
         outcome_.receipts = course_.folder() / "receipts" / outcome_.assignment.name;
