@@ -29,7 +29,7 @@ inline constexpr double kFrameWidth = 0.45, kGridWidth = 0.3, kReferenceWidth = 
 inline constexpr int kOpenCircle = 4, kCross = 8;
 /// Poles are cross, plus, asterisk; zeros open circle, square, triangle: a pair for each of three models.
 inline constexpr int kPoleMarkers = 3;
-/// The grey beyond the palette's own eight colors, for measured data and guiding curves.
+/// The gray beyond the palette's own eight colors, for measured data and guiding curves.
 inline constexpr int kGrayColor = 8;
 
 /// How a curve looks, by its index among its panel's curves.
@@ -40,7 +40,7 @@ struct CurveAppearance {
 };
 
 /// Colors after Okabe and Ito (2008), ordered so that neighbors differ in luminance and stay apart for color-blind
-/// readers and in grey print; dash pattern and marker change with the color, and again where the colors repeat.
+/// readers and in gray print; dash pattern and marker change with the color, and again where the colors repeat.
 CurveAppearance appearance_of(const Curve& curve, int index);
 /// Gives a curve the look of the one with this index wherever it may stand, unless its color was chosen.
 void fix_appearance(Curve& curve, int index);

@@ -31,7 +31,7 @@ Message model_label(const ModelOutput& model, Index output, const std::string& u
 }
 
 Curve model_curve(const ModelOutput& model, Index output, const Vector& t, int index, const std::string& unit) {
-    static constexpr int kColors[] = {0, 6, 3, 4, 1, 7, 5};  // apart from the grey of the data
+    static constexpr int kColors[] = {0, 6, 3, 4, 1, 7, 5};  // apart from the gray of the data
     Curve curve;
     curve.x = t;
     curve.y = model.y.col(output);

@@ -22,7 +22,7 @@ struct MotionAppearance {
 inline constexpr double kMaxPictures = 50;
 
 /// A rig at some instants, each standing where its instant lies on the axis of time, above the signals that move it;
-/// dotted lines mark the instants. What is measured is grey, behind what is simulated. Throws InvalidArgument for sizes
+/// dotted lines mark the instants. What is measured is gray, behind what is simulated. Throws InvalidArgument for sizes
 /// that do not fit, instants outside the record.
 Figure motion_plot(const PlantDrawing& plant, const MotionRecord& record, const MotionAppearance& look = {});
 

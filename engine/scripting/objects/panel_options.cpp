@@ -83,9 +83,9 @@ Arrow read_arrow(const Call& call, int index) {
             Message::verbatim(options.text("text", "")),       options.flag("both_heads", false)};
 }
 
-/// In the order of the palette of figures/style; "gray" is "grey".
+/// In the order of the palette of figures/style; "grey" is "gray".
 constexpr std::array kColorNames = {"blue", "orange", "black",   "green", "purple",
-                                    "cyan", "red",    "magenta", "grey",  "gray"};
+                                    "cyan", "red",    "magenta", "gray",  "grey"};
 constexpr std::ptrdiff_t kGrey = 8;
 
 int color_at(const Call& call, int index) {
