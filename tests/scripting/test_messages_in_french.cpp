@@ -10,7 +10,7 @@
 #include "base/reader.h"
 #include "documents/text_lines.h"
 #include "numerics/validation/advice.h"
-#include "scripting/interpreter/catalogue.h"
+#include "scripting/interpreter/catalog.h"
 #include "scripting/script_run.h"
 #include "support/advice_corpus.h"
 
