@@ -129,7 +129,7 @@ TEST(gradebook_memory, the_terminal_lists_what_the_summary_lists) {
          {"the script of \"group-1\" stopped: ", "\"group-3\" cannot be read: ",
           "\"group-2\" was late and loses 0.2 points: ", "group-2 has several submissions; the better one counts"})
         EXPECT_THAT(graded.output, HasSubstr(sentence));
-    const std::string listed = work.shell("sed -n '/needs attention/,/^# /p' out/summary.md | grep -c '^- '").output;
+    const std::string listed = work.shell("sed -n '/Needs attention/,/^# /p' out/summary.md | grep -c '^- '").output;
     EXPECT_THAT(graded.output, HasSubstr(listed.substr(0, listed.find('\n')) + " notes need attention"));
 }
 

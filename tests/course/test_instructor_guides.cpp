@@ -77,7 +77,7 @@ std::vector<PrintedCommand> printed_in(const std::string& block) {
 TEST(instructor_guide_marks, of_a_class_are_made_as_it_is_printed) {
     if (obstacle_to(Isolation::kFull))
         GTEST_SKIP() << "the guide shows marks made in boxes, which are not to be had here";
-    const std::string whole = guide("instructor"), part = whole.substr(whole.find("## Marks without a course"));
+    const std::string whole = guide("instructor"), part = whole.substr(whole.find("## Grade without a course"));
     const std::vector<PrintedCommand> commands = printed_in(blocks_in(part).at(0));
     const Workbench work;
     const std::string solution = quick_solution_of("04_estimators");

@@ -449,7 +449,7 @@ TEST(lesson_05_copy, makes_slides_with_the_points_and_no_guidance) {
     ASSERT_EQ(made.exit_code, 0) << made.error_output;
     const std::string text = text_of_pdf(bench, "mine/report.pdf");
     EXPECT_THAT(text, HasSubstr("Raw data"));
-    EXPECT_THAT(text, Not(HasSubstr("What do you see")));
+    EXPECT_THAT(text, Not(HasSubstr("What do you observe")));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\f'), 9) << "the title and eight points";
 }
 
