@@ -299,7 +299,7 @@ end
 -- Nothing is filtered.
 local kinds = {}
 function kinds.linear(records, shape, sizes)
-    local G = tfsrivc(experiment(records, shape, sizes, thrust), 1, 0, {TdMax = longest, InitialState = "zero", Offset = "none"})
+    local G = tfsrivc(experiment(records, shape, sizes, thrust), 1, 0, {TdMax = longest, InitialState = "none", Offset = "none"})
     return G, function(u) return lsim(G, u, Ts) end
 end
 local function static_curve_and_lag(records, shape, sizes, output)
@@ -356,7 +356,7 @@ for _, kind in ipairs{"linear", "hammerstein"} do
         for _, shape in ipairs(shapes) do
             local f = kind == "hammerstein" and characteristic(fitted.hammerstein[shape].model) or function(u) return u end
             local G = tfsrivc(experiment(thruster, shape, largest, thrust, f), poles, 0,
-                              {TdMax = longest, InitialState = "zero", Offset = "none"})
+                              {TdMax = longest, InitialState = "none", Offset = "none"})
             local function simulate(u) return lsim(G, f(u), Ts) end
             table.insert(row, string.format("%.1f", agreement(thruster, shape, largest, simulate)))
             local validated = agreement(thruster, other[shape], largest, simulate)
