@@ -1,10 +1,10 @@
 -- expects: dead_band: a linear model has no dead band
--- expects: delay: Too short
--- expects: thrust_300: Forward and reverse are the same
+-- expects: delay: The delay is too short
+-- expects: thrust_300: Forward and reverse thrust are equal
 -- expects: model: This model is linear
 -- expects: statics_follow: On a data set that you have not seen
 -- expects: model_follows: On a data set that you have not seen
--- One linear model for everything.
+-- One linear model for all answers.
 local T = load("thruster")
 local parts, squares = {}, {}
 for k, size in ipairs{"100", "200", "300"} do
