@@ -549,7 +549,7 @@ report.value("half_missing", 100*math.exp(-4), "%.0f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- Compared with @eq:solution-first, @eq:balance has $K = P/(100\,\dot m\,c)$ and $T = C/(\dot m\,c)$. The balance is linear in $u$. For a step from
--- 50 % to 70 %, the temperature is at a higher level, but the change has the same size and the same time constant. The balance is not linear in
+-- 50 % to 70 %, the temperature is at a higher level. The size of the change and the time constant are the same. The balance is not linear in
 -- $\dot m$, which multiplies $y$. At half the flow, $K$ and $T$ are twice as large. $K/T = P/(100\,C)$ does not change, because the slope just after
 -- the step depends only on power and heat capacity. A model is valid only at the operating point of its data.
 --

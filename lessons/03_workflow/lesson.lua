@@ -125,12 +125,12 @@ report.value("linear_td_std", delay.std, "%.3f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- The data start from rest at zero and oscillate around zero (mean `linear_mean`{.value}). You do not have to subtract a level, and `advice` reports
--- no problem. The power spectrum of the binary sequence is nearly flat from the fundamental frequency `linear_low`{.value} rad/s up to about
--- `linear_high`{.value} rad/s, where the power is reduced to one half. The output oscillates with a period of about two seconds, well inside this
--- band, so the experiment excites the relevant dynamics. The estimated delay is `linear_td`{.value}\ ±\ `linear_td_std`{.value}\ s
--- (@fig:linear_delay). It is not significantly different from zero, so the model needs no delay parameter. The line and the separate points of
--- @fig:linear_delay agree. If the delay is far from the minimum, the error has several local minima over the other parameters. `delayest` therefore
--- starts the search at each delay from the solutions of the adjacent delays, until the error no longer decreases.
+-- no problem. The power spectrum of the binary sequence is nearly flat above the fundamental frequency `linear_low`{.value} rad/s. At about
+-- `linear_high`{.value} rad/s, the power is reduced to one half. The output oscillates with a period of about two seconds, well inside this band, so
+-- the experiment excites the relevant dynamics. The estimated delay is `linear_td`{.value}\ ±\ `linear_td_std`{.value}\ s (@fig:linear_delay). It is
+-- not significantly different from zero, so the model needs no delay parameter. The line and the separate points of @fig:linear_delay agree. If the
+-- delay is far from the minimum, the error has several local minima over the other parameters. `delayest` therefore starts the search at each delay
+-- from the solutions of the adjacent delays, until the error no longer decreases.
 --
 -- ![Mean square error of a model at each delay. Line: `delayest`; separate points, for comparison: `srivc` with the delay fixed at whole samples; circle: the estimated delay.](figure:linear_delay){#fig:linear_delay}
 -- END SOLUTION
@@ -138,8 +138,7 @@ report.value("linear_td_std", delay.std, "%.3f")
 -- ## Structure
 --
 -- **Question 2.** How many poles and zeros does the system have? Use `srivcstruc` to estimate all structures with up to five poles and three zeros
--- from the first data set and to simulate them with the second data set. Which structure does each criterion select, and which structure do you
--- select?
+-- from the first data set. Specify the second data set for validation. Which structure does each criterion select, and which structure do you select?
 
 -- %% id=linear_orders
 -- BEGIN SOLUTION
@@ -283,8 +282,8 @@ report.value("agreed_validation", agreed["fit, second data set"], "%d")
 -- :::
 --
 -- @tbl:linear_agreed compares the criteria. If you choose the model with the largest validation fit, you get this structure only
--- `agreed_validation`{.value} times, because one of the larger models is nearly always slightly ahead. If you choose the simplest model that is not
--- significantly worse, you get this structure `agreed_recommended`{.value} times out of `repetitions`{.value}.
+-- `agreed_validation`{.value} times. The fit of one of the larger models is nearly always slightly higher. If you choose the simplest model that is
+-- not significantly worse, you get this structure `agreed_recommended`{.value} times out of `repetitions`{.value}.
 -- END SOLUTION
 --
 -- ## Estimation
@@ -706,11 +705,11 @@ report.value("heat3_high", fit(f_records[3], G3), "%.0f")
 -- :::
 --
 -- @tbl:heat_rounds summarizes the three rounds. The signals of different rows are prepared differently, so you cannot compare their fits directly. In
--- the third row, however, the fits to all three data sets agree, unlike in the first two rows, and the tests do not reject the model. Note that the
--- test on the second data set determined the cutoff frequency, so this data set is no longer independent evidence. The data around 7 V did not
--- influence any choice. On these data, the fit is `heat3_high`{.value} %, and the whiteness test has $p =$ `heat_high_white`{.value}. The last row
--- uses the filter, but the voltage as input. The fits to the two data sets around 4 V then agree, but the fit to the third data set is
--- `heat_filter_only`{.value} %. If you compared only the fits to the estimation data, you would choose the first model.
+-- the third row, however, the fits to all three data sets agree, and the tests do not reject the model. Note that the test on the second data set
+-- determined the cutoff frequency, so this data set is no longer independent evidence. The data around 7 V did not influence any choice. On these
+-- data, the fit is `heat3_high`{.value} %, and the whiteness test has $p =$ `heat_high_white`{.value}. The last row uses the filter, but the voltage
+-- as input. The fits to the two data sets around 4 V then agree, but the fit to the third data set is `heat_filter_only`{.value} %. If you compared
+-- only the fits to the estimation data, you would choose the first model.
 -- END SOLUTION
 --
 -- **Question 12.** With the correct input and preparation, are two poles enough? Which parameters can you trust? Compare them with
@@ -950,7 +949,7 @@ report.value("arx_weight", 100*A2.param[3]/A2.param[4], "%.0f")
 -- :::
 --
 -- The coefficient of $u(k-2)$ is `arx_weight`{.value} % of the next coefficient. With an additional sample of delay, the model is better and has the
--- same number of parameters (@tbl:dryer_arx). Three samples in the ARX model correspond to two samples in @eq:solution-dryer, because a
+-- same number of parameters (@tbl:dryer_arx). Three samples in the ARX model correspond to two samples in @eq:solution-dryer. The reason is that a
 -- zero-order-hold input affects the sampled output one sample later at the earliest. The noise of this plant seems to pass through the poles of the
 -- plant, as `arx` assumes. Therefore, unlike in the first example, the `arx` model is good: estimated from the first half, its simulation fit on the
 -- second half is `arx3_half`{.value} %. The fit of `arx3_prediction`{.value} % for one-step-ahead prediction contains little information.
@@ -1020,7 +1019,7 @@ report.value("dryer_robust", max(H2.robust_std/H2.std), "%.1f")
 --
 -- *A noise model:* `rivc` estimates two poles together with an autoregressive model of the noise, with a pole at `dryer_ar`{.value}\ ±\
 -- `dryer_ar_std`{.value}. With this noise model, the one-step-ahead prediction error is white ($p =$ `dryer_noise_white`{.value}). However, the
--- prediction error is still correlated with the input ($p$ `dryer_noise_input`{.value}), and the simulation of the second half is not better
+-- prediction error is still correlated with the input ($p$ `dryer_noise_input`{.value}). The simulation of the second half is not better
 -- (`dryer_noise_val`{.value} % compared with `dryer_val_short`{.value} %). A noise model describes the disturbance and improves predictions. It does
 -- not add missing dynamics.
 --

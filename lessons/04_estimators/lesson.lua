@@ -19,8 +19,8 @@
 -- %% [markdown]
 -- Three methods estimate a differential equation directly from samples [@garnier2008]: least squares on filtered signals (LSSVF), the same regression
 -- with instruments (IVSVF), and the refined instrumental variables of TFSRIVC [@young2011]. Which of these methods can you trust? For a real plant,
--- the answer is unknown. All data of this lesson are therefore simulated. The system is given and the computer generates the noise, so you can
--- compare the estimates with the true parameters, first for one data set and then for two hundred data sets.
+-- the answer is unknown. All data of this lesson are therefore simulated. The system is given, and the computer generates the noise. You can
+-- therefore compare the estimates with the true parameters, first for one data set and then for two hundred.
 --
 -- `dynlab demo` shows the methods in short guided tours. Run one of the tours before you start, or at any later time.
 --
@@ -77,8 +77,8 @@ report.value("band", bandwidth(Go), "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The steady-state gain is $B_o(0)/F_o(0) =$ `gain`{.value}. The two real poles at $-$`slow_corner`{.value} and $-$`fast_corner`{.value} correspond
--- to time constants of `slow_constant`{.value} s and `fast_constant`{.value} s, and corner frequencies of `slow_corner`{.value} and
+-- The steady-state gain is $B_o(0)/F_o(0) =$ `gain`{.value}. The real poles at $-$`slow_corner`{.value} and $-$`fast_corner`{.value} correspond to
+-- time constants of `slow_constant`{.value} s and `fast_constant`{.value} s, and corner frequencies of `slow_corner`{.value} and
 -- `fast_corner`{.value} rad/s. The slow pole dominates: the gain is 3 dB lower at `band`{.value} rad/s, slightly below the corner frequency of this
 -- pole. (The bandwidth is this $-3$ dB frequency. Some texts call the faster corner frequency, `fast_corner`{.value} rad/s, the bandwidth of the
 -- system.)
@@ -237,7 +237,7 @@ report.table("repetitions", rows)
 -- ## The library's LSSVF
 --
 -- **Question 6.** `lssvf(data, {na, nb, nk}, lambda)` computes the LSSVF estimate from a data object: `na` poles, `nb` coefficients of $B$, and `nk`
--- samples of delay. Apply this function to both data objects and compare the estimates with those of your own program.
+-- samples of delay. Apply this function to both data objects and compare the estimates with the results of your program.
 
 -- %% id=lssvf
 -- BEGIN SOLUTION
@@ -590,10 +590,10 @@ report.value("tf_failures", high.TFSRIVC.failed + high.TFSRIVC.not_converged, "%
 --
 -- The bias of LSSVF grows from `ls_low`{.value} % of $a_1$ to `ls_high`{.value} % (@tbl:high), by a factor of `ls_growth`{.value}. A factor of four
 -- is the natural prediction, because the bias comes from the variance of the noise. However, the noise also affects the inverse matrix. For many
--- samples, the least-squares estimate converges to $(R + \sigma^2 E)^{-1} R\,\theta$ instead of $\theta$, where $R$ and $E$ are the covariances of
--- the noise-free regressors and of their noise for $\sigma = 1$ (lesson 2). The bias is proportional to $\sigma^2$ only if $\sigma^2 E$ is small
--- compared with $R$. For more noise, the bias saturates, and it never exceeds 100 %. The means of IVSVF and TFSRIVC stay near the true values. Their
--- scatter grows with the noise, for TFSRIVC by a factor of `tf_growth`{.value}. The number of data sets for which TFSRIVC did not converge is
+-- samples, the least-squares estimate converges to $(R + \sigma^2 E)^{-1} R\,\theta$ instead of $\theta$. $R$ and $E$ are the covariances of the
+-- noise-free regressors and of their noise for $\sigma = 1$ (lesson 2). The bias is proportional to $\sigma^2$ only if $\sigma^2 E$ is small compared
+-- with $R$. For more noise, the bias saturates, and it never exceeds 100 %. The means of IVSVF and TFSRIVC stay near the true values. Their scatter
+-- grows with the noise, for TFSRIVC by a factor of `tf_growth`{.value}. The number of data sets for which TFSRIVC did not converge is
 -- `tf_failures`{.value}. @fig:scatter also shows that the errors of $\hat a_1$ and $\hat b_0$ are correlated. If the model is too fast, $\hat b_0$ is
 -- also too large, so the gain $b_0/a_2$, which the data determine well, is correct.
 -- END SOLUTION

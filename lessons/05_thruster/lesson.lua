@@ -36,7 +36,7 @@
 --
 -- | data set | experiment |
 -- |-------------|----------------|
--- | `sine_100`, `sine_200`, `sine_300` | sine chirp from 0.1 Hz to 3 Hz in 20 s with an amplitude of 100, 200 or 300 µs around 1500 µs, with rests before and after |
+-- | `sine_100`, `sine_200`, `sine_300` | sine chirp from 0.1 Hz to 3 Hz in 20 s; amplitude 100, 200 or 300 µs around 1500 µs; rests before and after |
 -- | `square_100`, `square_200`, `square_300` | square chirp: the sign of the sine chirp, with the same amplitudes |
 --
 -- Each data set contains `t` (s), `pwm` (µs) and `force` (N), sampled every 0.002 s. The pulse width is constant between samples, and 1500 µs is

@@ -111,8 +111,9 @@ report.value("left_ratio", std(left)/noise, "%.1f")
 --    \dot w + \frac{\cos\varphi}{l}\,\dot v = -\frac{g}{l}\sin\varphi - (\rho + \kappa\,|w|)\,w . $$ {#eq:crane}
 --
 -- Seven parameters are unknown: `gain` $g_u$, `viscous` $d$, `dry` $\mu$, `coupling` $c$, `length` $l$, `pivot` $\rho$, `air` $\kappa$. This $l$ is
--- longer than the length in @fig:crane. If the center of mass of the load is $l_c$ below the pivot, $m$ is the mass of the load and $J$ its moment of
--- inertia about the center of mass, then $l = l_c + J/(m\,l_c)$. This is the length of a simple pendulum with the same period.
+-- longer than the length in @fig:crane. The length is $l = l_c + J/(m\,l_c)$, where $m$ is the mass of the load and $l_c$ is the distance of its
+-- center of mass from the pivot. $J$ is the moment of inertia about the center of mass. The length $l$ is the length of a simple pendulum with the
+-- same period.
 --
 -- `idgrey(f, parameters, options)` creates a model from a function `f(t, x, u, p)` that returns the derivatives of the states. A second function
 -- returns the outputs. dynlab calls `f` once to trace its operations, and then uses a compiled form. Therefore, `f` must not branch with `if`. Use
@@ -203,8 +204,8 @@ report.value("left_on_steps", angle_left(pushes, physics), "%.1f")
 -- The four variants have the same equations, but different fixed parameters (@tbl:variants). The linear variant explains the angle about as well as
 -- the black-box model of question 1, with five parameters for both outputs. On `validation`, dry friction explains a part of the error of the
 -- position, but almost nothing of the error of the angle. The sine and the air drag explain the error of the angle. On `steps`, the trolley rests
--- between the pulses. There, dry friction explains most of the error of the position and of the angle, because a trolley that stops in a different
--- way excites the load differently. The fit of the angle rises from `steps_fit_1`{.value} % to `steps_fit_2`{.value} % with dry friction, to
+-- between the pulses. There, dry friction explains most of the error of the position and of the angle. A trolley that stops in a different way also
+-- excites the load differently. The fit of the angle rises from `steps_fit_1`{.value} % to `steps_fit_2`{.value} % with dry friction, to
 -- `steps_fit_3`{.value} % with large swings and air drag, and to `steps_fit_4`{.value} % with all terms.
 --
 -- With all terms, the error of the angle is `left_physics`{.value} mrad on `validation` and `left_on_steps`{.value} mrad on `steps`. The noise of the
@@ -292,8 +293,8 @@ report.value("wide_creep", wide.dry/deltas[2], "%.0f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=meaning #tbl:meaning}
--- Length and dry friction (± one standard error) for each width $\delta$ of the smooth step and each estimation data set (the repetitions are
--- repetitions of `estimation`). The last columns are the errors of the simulated angle (mrad) on `validation` and on `steps`.
+-- Length and dry friction (± one standard error) for each width $\delta$ and each estimation data set. The repetitions are repetitions of
+-- `estimation`. The last columns are the errors of the simulated angle (mrad) on `validation` and on `steps`.
 -- :::
 --
 -- *The width is part of the model* (@tbl:meaning). With $\delta = 5$ mm/s, the model from `estimation` simulates `validation` as accurately as
@@ -307,12 +308,12 @@ report.value("wide_creep", wide.dry/deltas[2], "%.0f")
 -- the results on data for which the term matters. `validation` cannot show the difference, because the trolley almost never stops in these data.
 --
 -- *The parameters* have units, so you can compare them with other experiments, and in this simulation with the true values. In `estimation`, the
--- trolley almost never stops. Over the four data sets, the dry friction has the mean `dry_mean`{.value} V and the scatter `dry_scatter`{.value} V,
--- although the standard errors are `dry_error`{.value} V on average. The estimate from `steps` is `steps_dry`{.value} V, because a trolley that stops
--- contains information about the friction. This estimate is still `steps_off`{.value} standard errors below the true value. The error of the length
--- is a fraction of a millimeter, which is `length_off`{.value} standard errors. A standard error describes the effect of white noise on an estimate
--- if the equations are correct. These equations are only approximately correct: static friction is larger than sliding friction, the belt is elastic,
--- and the motor has an inductance. The standard error of `dry/gain` follows from
+-- trolley almost never stops. Over the four data sets, the dry friction has the mean `dry_mean`{.value} V and the scatter `dry_scatter`{.value} V.
+-- The standard errors are `dry_error`{.value} V on average. The estimate from `steps` is `steps_dry`{.value} V, because a trolley that stops contains
+-- information about the friction. This estimate is still `steps_off`{.value} standard errors below the true value. The error of the length is a
+-- fraction of a millimeter, which is `length_off`{.value} standard errors. A standard error describes the effect of white noise on an estimate if the
+-- equations are correct. These equations are only approximately correct: static friction is larger than sliding friction, the belt is elastic, and
+-- the motor has an inductance. The standard error of `dry/gain` follows from
 -- $\operatorname{var}(\mu/g_u) \approx \left(\operatorname{var}\mu - 2r\operatorname{cov}(\mu, g_u) + r^2\operatorname{var} g_u\right)/g_u^2$ with
 -- $r = \mu/g_u$.
 -- END SOLUTION
@@ -425,7 +426,7 @@ for _, warning in ipairs(simple.report.warnings) do print(warning) end
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- The warning names $k_1$, $k_2$, $k_4$ and the initial level $h_1(0)$. If $h_1$ is measured in a unit that is $s$ times smaller, $h_1$ becomes
--- $s\,h_1$, and the parameters $k_1\sqrt{s}$, $k_2/\sqrt{s}$, $s\,k_4$ and $s\,h_1(0)$ produce the same reading. The data determine only three
+-- $s\,h_1$. The parameters $k_1\sqrt{s}$, $k_2/\sqrt{s}$, $s\,k_4$ and $s\,h_1(0)$ produce the same reading. The data determine only three
 -- combinations of these four numbers. For inches, $s = 1/2.54$, so the parameters are $k_1/\sqrt{2.54}$, $k_2\sqrt{2.54}$ and $k_4/2.54$. With this
 -- sensor, no experiment can determine all four numbers if the equations do not fix the unit of the hidden level. You can still simulate the model.
 -- Its free-run error is `simple_error`{.value} V, larger than the error of the linear model, because no parameter can compensate for the missing
@@ -502,8 +503,8 @@ report.value("sensor", tank_truth.noise_std, "%.3f")
 -- averaged over ten repetitions, for each $\beta$.
 -- :::
 --
--- The free-run error is `physics_error`{.value} V, close to the sensor noise of `sensor`{.value} V. The data now determine all parameters (@tbl:six),
--- because the height of the upper rim is known in centimeters and fixes the unit of the hidden level. However, the repetitions show a bias. Without a
+-- The free-run error is `physics_error`{.value} V, close to the sensor noise of `sensor`{.value} V. The data now determine all parameters (@tbl:six).
+-- The height of the upper rim is known in centimeters, and it fixes the unit of the hidden level. However, the repetitions show a bias. Without a
 -- bias, the mean error over `times`{.value} repetitions would be within about ± 2 × `mean_scatter`{.value} standard errors. With $\beta = 5$, the
 -- fraction $q$ is `gentle_q`{.value} standard errors too low on average. The real level stays almost at the rim, but in this model, the water rises
 -- above the rim and flows off later. With $\beta = 50$, the bias of $q$ is `steep_q`{.value} standard errors. The free-run error does not show the

@@ -147,7 +147,7 @@ local function cells(name, p)
             string.format("%.2f", p[3]/p[2])}
 end
 local true_p = vector{truth.G.den[2], truth.G.den[3], truth.G.num[#truth.G.num]}
-report.table("direct", {{"method, data",  "$a_1$", "$a_2$", "$b_0$", "gain"},
+report.table("direct", {{"method, data", "$a_1$", "$a_2$", "$b_0$", "gain"},
     cells("truth", true_p),
     cells("LSSVF, open loop", routes.open_loop.lssvf.param), cells("LSSVF, closed loop", routes.tracking.lssvf.param),
     cells("SRIVC, open loop", routes.open_loop.srivc.param), cells("SRIVC, closed loop", routes.tracking.srivc.param)})
@@ -766,7 +766,7 @@ report.value("smallest_true_a", min(1/within(after, scale.time_constant)), "%.3f
 --
 -- **Question 11.** Which forgetting factor is best? Use $f =$ 0.98, 0.99, 0.995, 0.998, 0.999 and 1. Then use the functions `rlssvf`, `rivsvf` and
 -- `rsrivc` [@young2011], which store the history of the estimates and of their standard errors in `G.history`. How long does each method need to
--- track the change after the cleaning? Determine when the gain is within 5 % of the true gain for the first time after the cleaning, and when it is
+-- track the change after the cleaning? Determine when the gain enters the band of ±5 % around the true gain after the cleaning, and when it is
 -- outside this band for the last time.
 
 -- %% id=forgetting
@@ -849,8 +849,8 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- BEGIN SOLUTION
 -- ::: {.table name=forgetting #tbl:forgetting}
 -- Forgetting factors and methods. Before the cleaning: the root mean square errors of $K$ (K/%) and $T$ (s), and the mean error of $T$ (s). Later,
--- from ten minutes after the cleaning on: the mean error of $T$ (s). Last columns: the time (s) after the cleaning at which the gain is within 5 % of
--- the true gain for the first time, and outside this band for the last time.
+-- from ten minutes after the cleaning on: the mean error of $T$ (s). Last columns: the times (s) after the cleaning at which the gain enters the band
+-- of ±5 % around the true gain and is outside for the last time.
 -- :::
 --
 -- No factor is best for all purposes (@tbl:forgetting). With a short memory, the estimate tracks changes quickly, but has a large scatter. With a
@@ -865,15 +865,15 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- within the band after `own1000_first`{.value} s only because the true gain decreases to the average. RLSSVF enters the band after
 -- `rls_first`{.value} s, and is outside for the last time after `rls_last`{.value} s.
 --
--- As an alternative, a random-walk model of the parameters (`drift`, here a variance of $10^{-6}$ per sample for each parameter) specifies how much
--- they can change from one sample to the next. With this option, the gain of RIVSVF is within the band after `walk_first`{.value} s. It leaves the
--- band repeatedly up to the end of the data, `end_of_record`{.value} s after the cleaning. The disadvantage is the scatter: the error of the gain
--- before the cleaning is `walk_K`{.value}, compared with `riv_K`{.value} for $f = 0.99$. In RSRIVC, the filter and the instruments are updated with
--- the estimate. With $f = 0.99$, its time constant is as accurate as with the other methods (the gain is outside the band for the last time after
--- `rsriv990_last`{.value} s). With 0.995 and 0.998, the time constant is `rsriv995_late`{.value} s and `rsriv998_late`{.value} s too small from ten
+-- As an alternative, use a random-walk model of the parameters (`drift`, here $10^{-6}$). It specifies the variance of the change of each parameter
+-- from one sample to the next. With this option, the gain of RIVSVF is within the band after `walk_first`{.value} s. It leaves the band repeatedly up
+-- to the end of the data, `end_of_record`{.value} s after the cleaning. The disadvantage is the scatter: the error of the gain before the cleaning is
+-- `walk_K`{.value}, compared with `riv_K`{.value} for $f = 0.99$. In RSRIVC, the filter and the instruments are updated with the estimate. With
+-- $f = 0.99$, its time constant is as accurate as with the other methods. The gain is outside the band for the last time after
+-- `rsriv990_last`{.value} s. With 0.995 and 0.998, the time constant is `rsriv995_late`{.value} s and `rsriv998_late`{.value} s too small from ten
 -- minutes after the cleaning on. The cause is the jump: with 0.995, the time constant decreases to `rsriv_least`{.value} s. The filter $1/F$ is then
--- much too fast, and signals from this filter remain in the memory. This does not happen for all data. Of `rsriv_times`{.value} repetitions, the
--- later error of the time constant exceeds 5 s in `rsriv_stuck990`{.value} with 0.99, in `rsriv_stuck995`{.value} with 0.995, and in
+-- much too fast, and signals from this filter remain in the memory. This does not happen for all data. The later error of the time constant exceeds 5
+-- s in `rsriv_stuck990`{.value} of `rsriv_times`{.value} repetitions with 0.99, in `rsriv_stuck995`{.value} with 0.995, and in
 -- `rsriv_stuck998`{.value} with 0.998. The other results are for one data set. For other data, the ranking of methods with similar results can
 -- change.
 -- END SOLUTION
