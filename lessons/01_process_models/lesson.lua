@@ -127,7 +127,7 @@ report.value("T_raw", last_outside/3, "%.0f")
 
 -- %% id=exchanger_test
 -- BEGIN SOLUTION
--- response of a model at rest with the input u0, shifted to the level of the measurement
+-- response of a model at rest with the input u0, at the level of the data
 local function simulated(G, data, u0)
     local y = lsim(G, data.u - u0, data.Ts)
     return y + mean(data.y - y)

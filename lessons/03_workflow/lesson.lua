@@ -105,7 +105,7 @@ for samples = 0, 12 do
     table.insert(held, mean(left^2))
 end
 delay_figure:add(at, held, {label = "srivc, fixed delay", style = "points"})
-report.figure("linear_delay", delay_figure:set{height = 5.5}, "Error for each delay")
+report.figure("linear_delay", delay_figure:set{height = 5.5}, "Error by delay")
 -- END SOLUTION
 
 -- %% id=linear_look_report echo=false
@@ -541,7 +541,7 @@ report.value("heat_high_gain", dcgain(tfsrivc(start(high), 2, 0, {TdMax = 20, In
 
 -- %% id=heat_second
 -- BEGIN SOLUTION
-local function watts(data)            -- the power is proportional to the squared voltage
+local function watts(data)            -- the power is proportional to u^2
     return iddata(data.y, 100*(data.u/10)^2, 1,
                   {InputName = "heater", InputUnit = "W",
                    OutputName = "air", OutputUnit = "°C"})

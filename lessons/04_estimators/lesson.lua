@@ -547,7 +547,7 @@ guess("growth of the bias of a1", 4)
 -- %% id=more_noise
 -- BEGIN SOLUTION
 local high = study(0.4, methods)
--- one panel for each method, with the true value and the ellipse of the Cramér–Rao bound
+-- one panel for each method, with the true value and the 95 % ellipse
 local C, phi = high.TFSRIVC.cramer_rao, linspace(0, 2*math.pi, 91)
 local va, cab, vb = C:at(1, 1), C:at(1, 3), C:at(3, 3)
 local r = math.sqrt(-2*math.log(0.05))    -- contains 95 %

@@ -237,8 +237,8 @@ end
 
 local function root(F) return F/sqrt(abs(F) + 1e-9) end
 local function squared(s) return s*abs(s) end
--- Outside the dead band, the width is a quadratic function of the root of the thrust: the motor torque is linear in the speed, and the torque of the
--- water is quadratic. The dead band ends where the root is zero.
+-- Outside the dead band, the width is a quadratic function of the root of the thrust: the motor torque is linear in the
+-- speed, and the torque of the water is quadratic. The dead band ends where the root is zero.
 local dead_band_end = {}
 for _, sign in ipairs{1, -1} do
     local x, y = {}, {}
@@ -298,8 +298,8 @@ local function characteristic(H)
     return function(u) return interp1(H.report.breakpoints, H.report.levels, u, {outside = "hold"}) end
 end
 
--- Each function estimates one lag and a delay from the data of one shape, without filtering. It returns the model and a function that simulates the
--- thrust.
+-- Each function estimates one lag and a delay from the data of one shape, without filtering. It returns the model and a
+-- function that simulates the thrust.
 local kinds = {}
 function kinds.linear(records, shape, sizes)
     local G = tfsrivc(experiment(records, shape, sizes, thrust), 1, 0, {TdMax = longest, InitialState = "none", Offset = "none"})

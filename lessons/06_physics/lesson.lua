@@ -125,7 +125,7 @@ report.value("left_ratio", std(left)/noise, "%.1f")
 
 -- %% id=equations
 -- BEGIN SOLUTION
-local narrow = 0.0005  -- m/s: at lower speeds, the dry friction acts like viscous friction
+local narrow = 0.0005  -- m/s: below, dry friction acts like viscous friction
 local function equations(wide, delta)
     return function(t, x, u, p)
         local v, phi, w = x[2], x[3], x[4]
@@ -360,8 +360,9 @@ local function error_on(data, G)
     local percent = fit(data, G)
     return volts(percent, data.ny == 1 and data.y or data.y:col(1))
 end
--- Estimates every candidate from the first two thirds of the estimation data, chooses by the free-run error on the last third (a later candidate must
--- be 1 % better), and estimates the chosen model again from all estimation data.
+-- Estimates every candidate from the first two thirds of the estimation data,
+-- chooses by the free-run error on the last third (a later candidate must be
+-- 1 % better), and estimates the chosen model again from all estimation data.
 local fitting, choosing = estimation:split(2/3)
 local function choose(candidates, estimate)
     local best, least

@@ -766,8 +766,8 @@ report.value("smallest_true_a", min(1/within(after, scale.time_constant)), "%.3f
 --
 -- **Question 11.** Which forgetting factor is best? Use $f =$ 0.98, 0.99, 0.995, 0.998, 0.999 and 1. Then use the functions `rlssvf`, `rivsvf` and
 -- `rsrivc` [@young2011], which store the history of the estimates and of their standard errors in `G.history`. How long does each method need to
--- track the change after the cleaning? Determine when the gain enters the band of ±5 % around the true gain after the cleaning, and when it is
--- outside this band for the last time.
+-- track the change after the cleaning? Determine when the gain first enters the band of ±5 % around the true gain after the cleaning. When is it
+-- outside this band for the last time?
 
 -- %% id=forgetting
 -- BEGIN SOLUTION
@@ -849,8 +849,8 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- BEGIN SOLUTION
 -- ::: {.table name=forgetting #tbl:forgetting}
 -- Forgetting factors and methods. Before the cleaning: the root mean square errors of $K$ (K/%) and $T$ (s), and the mean error of $T$ (s). Later,
--- from ten minutes after the cleaning on: the mean error of $T$ (s). Last columns: the times (s) after the cleaning at which the gain enters the band
--- of ±5 % around the true gain and is outside for the last time.
+-- from ten minutes after the cleaning on: the mean error of $T$ (s). Last columns: the times (s) after the cleaning at which the gain first enters
+-- the ±5 % band, and is outside for the last time.
 -- :::
 --
 -- No factor is best for all purposes (@tbl:forgetting). With a short memory, the estimate tracks changes quickly, but has a large scatter. With a
@@ -872,10 +872,9 @@ report.value("end_of_record", #heater.t - cleaning - 1, "%d")
 -- $f = 0.99$, its time constant is as accurate as with the other methods. The gain is outside the band for the last time after
 -- `rsriv990_last`{.value} s. With 0.995 and 0.998, the time constant is `rsriv995_late`{.value} s and `rsriv998_late`{.value} s too small from ten
 -- minutes after the cleaning on. The cause is the jump: with 0.995, the time constant decreases to `rsriv_least`{.value} s. The filter $1/F$ is then
--- much too fast, and signals from this filter remain in the memory. This does not happen for all data. The later error of the time constant exceeds 5
--- s in `rsriv_stuck990`{.value} of `rsriv_times`{.value} repetitions with 0.99, in `rsriv_stuck995`{.value} with 0.995, and in
--- `rsriv_stuck998`{.value} with 0.998. The other results are for one data set. For other data, the ranking of methods with similar results can
--- change.
+-- much too fast, and signals from this filter remain in the memory. This does not happen for all data. Of `rsriv_times`{.value} repetitions, the
+-- later error of the time constant exceeds 5 s in `rsriv_stuck990`{.value} (0.99), `rsriv_stuck995`{.value} (0.995) and `rsriv_stuck998`{.value}
+-- (0.998). The other results are for one data set. For other data, the ranking of methods with similar results can change.
 -- END SOLUTION
 --
 -- # What you have learned
