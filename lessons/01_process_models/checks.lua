@@ -4,7 +4,6 @@
 -- ruler, so the tolerances allow for readings by eye. Noise of 1 % of the exchanger's step moves the time of entry into the
 -- 5 % band by T/5, which is 7 % of T_r. The maximum of the overshoot is flat; one sample is 4 % of the time of the maximum.
 
-
 local function record(name)
     local r = load(name)
     return r, iddata(r.y, r.u, r.t[2] - r.t[1])

@@ -165,8 +165,8 @@ report.value("fit_read", fit(data, reading), "%.1f")
 -- ## Estimation by optimization
 --
 -- **Question 4.** Estimate the parameters of your model from all samples with `procsrivc`, which minimizes the sum of squared differences between the
--- measured and the simulated output. Compare the estimates with your readings. The process is at rest before the step, so set `InitialState =
--- "steady"`.
+-- measured and the simulated output. Compare the estimates with your readings. The process is at rest before the step, so set
+-- `InitialState = "steady"`.
 
 -- %% id=exchanger_estimate
 -- BEGIN SOLUTION

@@ -1,5 +1,6 @@
--- The checks of lesson 2. `a` contains the answers, `b` the answers of a run on four samples of another first-order system. A least-squares solution
--- is unique, so the tolerances are small; 0.1 % allows gradient descent to stop slightly early.
+-- The checks of lesson 2. `a` contains the answers, `b` the answers of a run on four samples of another first-order system.
+--
+-- A least-squares solution is unique, so the tolerances are small; 0.1 % allows gradient descent to stop slightly early.
 
 local games = load("winning_times")
 local N = #games.year - 1

@@ -751,6 +751,7 @@ report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
 --
 -- After the deadline of the first version, you receive the anonymous report of another group, and write a review of one to two pages. Your names
 -- appear neither in your report nor in your review. `dynlab new review my-review` creates the form with five questions:
+--
 -- 1. Are the data and their collection described clearly enough for a reader to repeat the experiments?
 -- 2. Does the report describe the solution of every step of the workflow?
 -- 3. Do the conclusions follow from data, experiments and results? Do you agree with them, and which changes do you propose?

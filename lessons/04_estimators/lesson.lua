@@ -144,9 +144,9 @@ print(string.format("signal-to-noise ratio: %.1f dB", snr))
 -- ## Your own estimator
 --
 -- **Question 4.** Write your own LSSVF. `svf(x, 2, lambda, {Ts = Ts})` returns a matrix `X` with the columns $p^2 x_f$, $p\,x_f$ and $x_f$
--- (`X:col(1)` is the first). `solve(Phi, Y)` returns the least-squares solution. Between the samples, the input is constant (zero-order hold, `hold =
--- "zoh"`). Assume that the measured output is piecewise linear (first-order hold, `hold = "foh"`), which is the default of `svf`. Set $\lambda = 3$
--- rad/s and apply your estimator to the data without noise.
+-- (`X:col(1)` is the first). `solve(Phi, Y)` returns the least-squares solution. Between the samples, the input is constant (zero-order hold,
+-- `hold = "zoh"`). Assume that the measured output is piecewise linear (first-order hold, `hold = "foh"`), which is the default of `svf`. Set
+-- $\lambda = 3$ rad/s and apply your estimator to the data without noise.
 
 -- %% id=own_lssvf
 -- BEGIN SOLUTION
@@ -264,6 +264,7 @@ report.value("agreement", math.max(largest_relative(own0, Glssvf0.param), larges
 -- # Instruments
 --
 -- ## IVSVF
+--
 -- To remove the bias, keep the regression of question 3, but solve it in another way. Instead of $\Phi^T Y = \Phi^T\Phi\,\theta$, solve
 --
 -- $$ Z^T Y = Z^T\Phi\,\theta , $$ {#eq:iv}
@@ -850,10 +851,10 @@ end
 -- ## The same study in the workbench
 --
 -- `dynlab app` opens an empty session in the workbench in the browser (@fig:workbench). Under **Known system**, press **Start study**. The study
--- contains the system of @eq:system, an input, noise, and SRIVC. Drag **noise**: the cloud and the ellipse grow together. Add `lssvf = {{2, 1, 0},
--- 3}` to the list of **estimators** and drag **noise** again: the cloud of LSSVF moves away from the true value. The table below the figure compares
--- the scatter with the Cramér–Rao bound. The script `session.lua` contains your steps. With `dynlab app crane`, you can identify the crane in the
--- same way.
+-- contains the system of @eq:system, an input, noise, and SRIVC. Drag **noise**: the cloud and the ellipse grow together. Add
+-- `lssvf = {{2, 1, 0}, 3}` to the list of **estimators** and drag **noise** again: the cloud of LSSVF moves away from the true value. The table below
+-- the figure compares the scatter with the Cramér–Rao bound. The script `session.lua` contains your steps. With `dynlab app crane`, you can identify
+-- the crane in the same way.
 --
 -- ![A study of the known system in the workbench: controls, the cloud of estimates with the ellipse, and the script](workbench.png){#fig:workbench}
 

@@ -28,9 +28,10 @@
 --
 -- Work in this script, cell by cell, and write your text in `report.md`. dynlab creates the slides from this file: at most twelve slides, for a talk
 -- of ten minutes and five minutes of questions. The file contains the eight required points of a presentation, with notes on the content of each
--- point. Submit the slides as a PDF together with this script: `dynlab pack` creates one zip file with both. The exercise is based on an exercise
--- with a real T200 thruster: MathWorks Student Competitions Team, *MATLAB and Simulink Robotics Arena: From Data to Model*, MATLAB Central File
--- Exchange 65919. A [video](https://www.youtube.com/watch?v=RU_LOtrEOBo) shows one of the tests, starting at 17:25.
+-- point. Submit the slides as a PDF together with this script: `dynlab pack` creates one zip file with both.
+--
+-- The exercise is based on an exercise with a real T200 thruster: MathWorks Student Competitions Team, *MATLAB and Simulink Robotics Arena: From Data
+-- to Model*, MATLAB Central File Exchange 65919. A [video](https://www.youtube.com/watch?v=RU_LOtrEOBo) shows one of the tests, starting at 17:25.
 --
 -- # The data
 --
@@ -478,8 +479,8 @@ end
 
 -- %% [markdown]
 -- **Question 8.** Validate in both directions: models from the sine chirps on the square chirps, and models from the square chirps on the sine
--- chirps. At which times and amplitudes does each model fail? `motion` animates the thruster and the model side by side (on the page of `dynlab
--- preview analysis.lua`, not on the slides).
+-- chirps. At which times and amplitudes does each model fail? `motion` animates the thruster and the model side by side (on the page of
+-- `dynlab preview analysis.lua`, not on the slides).
 
 -- %% id=validation
 -- BEGIN SOLUTION
@@ -602,10 +603,11 @@ report.value("gain_200_sine", math.abs(gain_in_column("sine", 4)), "%.1f")
 -- * `delay` (s): the delay of the thruster;
 -- * `thrust_300`: the steady thrust (N) at +300 µs and at −300 µs;
 -- * `model`: your recommended model, estimated from the sine chirps;
--- * `fit` (%): the fit of this model to the thrust of all square chirps together, with both signals filtered below 8 Hz. The model is a table with
---   four fields. The vectors `width` (µs from neutral, increasing) and `level` are the breakpoints of the piecewise linear static curve. `G` is the
---   linear model after the static curve. `root` is true if the output is the signed square root of the thrust. Grading also runs your script on data
---   of another thruster, with hidden square chirps. The checks look for the figures `curve` and `validation`.
+-- * `fit` (%): the fit of this model to the thrust of all square chirps together, with both signals filtered below 8 Hz.
+--
+-- The model is a table with four fields. The vectors `width` (µs from neutral, increasing) and `level` are the breakpoints of the piecewise linear
+-- static curve. `G` is the linear model after the static curve. `root` is true if the output is the signed square root of the thrust. Grading also
+-- runs your script on data of another thruster, with hidden square chirps. The checks look for the figures `curve` and `validation`.
 
 -- %% id=hand_in
 -- BEGIN SOLUTION

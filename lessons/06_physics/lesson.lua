@@ -201,6 +201,7 @@ report.value("left_on_steps", angle_left(pushes, physics), "%.1f")
 -- ::: {.table name=variants #tbl:variants}
 -- Physical models with and without nonlinear terms: the number of parameters, and the fits and the error of the angle on `validation` and on `steps`
 -- :::
+--
 -- The four variants have the same equations, but different fixed parameters (@tbl:variants). The linear variant explains the angle about as well as
 -- the black-box model of question 1, with five parameters for both outputs. On `validation`, dry friction explains a part of the error of the
 -- position, but almost nothing of the error of the angle. The sine and the air drag explain the error of the angle. On `steps`, the trolley rests
@@ -518,9 +519,9 @@ report.value("sensor", tank_truth.noise_std, "%.3f")
 --
 -- ## Learning without equations
 --
--- **Question 8.** A polynomial NARX model predicts $y_k$ from past readings and voltages and their products [@billings2013]: `narx(data, {na, nb,
--- nk}, {degree =, terms =})` selects one term at a time. Try several lags and degrees, and choose a model as in question 5. How large are its
--- one-step-ahead prediction error and its free-run error?
+-- **Question 8.** A polynomial NARX model predicts $y_k$ from past readings and voltages and their products [@billings2013]:
+-- `narx(data, {na, nb, nk}, {degree =, terms =})` selects one term at a time. Try several lags and degrees, and choose a model as in question 5. How
+-- large are its one-step-ahead prediction error and its free-run error?
 
 -- %% id=narx
 -- BEGIN SOLUTION
