@@ -24,7 +24,8 @@ local ct, dt = continuous(samples.y, samples.ydot), discrete(samples.y, samples.
 local ct_noisy = continuous(samples.y_noisy, samples.ydot_noisy)
 local dt_noisy = discrete(samples.y_noisy, samples.u)
 
--- Expected least-squares estimate for 400 noisy samples of prbs(7, 4): the noise adds its energy to one diagonal element of Phi'Phi.
+-- Expected least-squares estimate for 400 noisy samples of prbs(7, 4): the noise adds its energy to one diagonal element of
+-- Phi'Phi.
 local u_long, sigma = prbs(7, 4):range(1, 400), 0.3
 local function biased(a1, b1)
     local x = lsim(tf({b1}, {1, a1}, {Ts = 1}), u_long, 1)
@@ -143,7 +144,8 @@ check { id = "noisy", points = 2, about = "Both models from the noisy samples",
     },
     hint = "Repeat the regressions with y_noisy and ydot_noisy." }
 
--- The standard error of the mean of a thousand estimates is 3 % of their standard deviation; a tolerance of 50 % allows fewer runs.
+-- The standard error of the mean of a thousand estimates is 3 % of their standard deviation; a tolerance of 50 % allows
+-- fewer runs.
 check { id = "monte_carlo", points = 2, about = "A thousand estimates: least squares is biased",
     test = function(a)
         if #a.monte_carlo ~= 2 then return numbers(a.monte_carlo, 2, "mean and standard deviation") end

@@ -3,7 +3,8 @@
 -- expects: paris: The interval is too narrow
 -- expects: monte_carlo: The mean equals the true value
 -- expects: follows_study: On a data set that you have not seen
--- The years are not centered, the interval uses the standard error of the line, and the regressors of the study contain no noise.
+-- The years are not centered, the interval uses the standard error of the line, and the regressors of the study contain no
+-- noise.
 local games, four = load("winning_times"), load("step_response")
 local last = #games.year - 1
 local when, took = games.year:range(1, last), games.time:range(1, last)

@@ -1,6 +1,6 @@
--- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign `e` and `inside`, which
--- specifies whether the answer must stay within the tolerance of checks.lua or exceed it. `scaled(near, far)` and `shifted(near, far)` use the first
--- amount inside the tolerance and the second amount outside.
+-- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign
+-- `e` and `inside`, which specifies whether the answer must stay within the tolerance of checks.lua or exceed it.
+-- `scaled(near, far)` and `shifted(near, far)` use the first amount inside the tolerance and the second amount outside.
 move.discarded = shifted(vector{-0.05, 0.05}, vector{-6, 6})
 move.rest_angle = shifted(5e-4, 5e-3)
 move.G_position = scaled(0.003, 0.3)

@@ -34,7 +34,8 @@ check { id = "linear_orders", points = 1, about = "Simulated system: the numbers
     },
     hint = "Choose the simplest structure that the second data set cannot distinguish from larger structures." }
 
--- With 20 % noise and 1000 samples, estimates are within 2.3 % of the true output (25 systems); models with two poles differ by 26 %.
+-- With 20 % noise and 1000 samples, estimates are within 2.3 % of the true output (25 systems); models with two poles differ
+-- by 26 %.
 check { id = "linear_model", points = 2, about = "Simulated system: the model",
     test = function(a)
         local G = a.G_linear
@@ -101,7 +102,8 @@ local function facts(G)
     local lags = -1/p.re
     return vector{dcgain(G), max(lags), sum(lags) - max(lags) + G.IODelay}
 end
--- On sixty plants, the errors of the lags were at most 5 % and of the gain at most 4 %; other cutoff frequencies double the errors.
+-- On sixty plants, the errors of the lags were at most 5 % and of the gain at most 4 %; other cutoff frequencies double the
+-- errors.
 local function close(found, gain, slow, rest)
     if not found then return judge("The model is not stable.") end
     return all_of(near(found[1], gain, {rel = 0.06, half = 0.12}), near(found[2], slow, {rel = 0.08, half = 0.16}),

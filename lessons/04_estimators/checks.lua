@@ -1,12 +1,12 @@
--- The checks of lesson 4. `a` contains the answers, `b` the answers of a run with different noise. The tolerance 5e-4 of the comparisons with the
--- library allows for answers that are rounded to four digits.
+-- The checks of lesson 4. `a` contains the answers, `b` the answers of a run with different noise. The tolerance 5e-4 of the
+-- comparisons with the library allows for answers that are rounded to four digits.
 
 local truth = vector{4, 3, 2}  -- a1, a2, b0 of the system of the lesson
 local input = prbs(4, 100)
 local clean = iddata(lsim(tf({2}, {1, 4, 3}), input, 0.01), input, 0.01)
 
--- Cramér-Rao bound for this experiment. Over 200 runs, the scatter of an efficient method is within 20 % of the bound; the scatter of LSSVF, which is
--- biased, is 25 % below the bound.
+-- Cramér-Rao bound for this experiment. Over 200 runs, the scatter of an efficient method is within 20 % of the bound; the
+-- scatter of LSSVF, which is biased, is 25 % below the bound.
 local bound = montecarlo{system = tf({2}, {1, 4, 3}), input = input, Ts = 0.01, sigma = 0.2, runs = 2, seed = 1,
                          estimators = {tfsrivc = {2, 0, {TdMax = 0}}}}.tfsrivc.cramer_rao_std
 

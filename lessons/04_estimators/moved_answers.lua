@@ -1,6 +1,7 @@
--- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign `e` and `inside`, which
--- specifies whether the answer must stay within the tolerance of checks.lua or exceed it. `scaled(near, far)` and `shifted(near, far)` use the first
--- amount inside the tolerance and the second amount outside. untouched: record
+-- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign
+-- `e` and `inside`, which specifies whether the answer must stay within the tolerance of checks.lua or exceed it.
+-- `scaled(near, far)` and `shifted(near, far)` use the first amount inside the tolerance and the second amount outside.
+-- untouched: record
 local record
 local function estimated(method, near, far)  -- estimates a model from other data, because a model typed in by hand is not an estimate
     return function()

@@ -1,6 +1,6 @@
--- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign `e` and `inside`, which
--- specifies whether the answer must stay within the tolerance of checks.lua or exceed it. `scaled(near, far)` and `shifted(near, far)` use the first
--- amount inside the tolerance and the second amount outside.
+-- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign
+-- `e` and `inside`, which specifies whether the answer must stay within the tolerance of checks.lua or exceed it.
+-- `scaled(near, far)` and `shifted(near, far)` use the first amount inside the tolerance and the second amount outside.
 move.crane = scaled(0.003, 0.1)
 move.crane_fit = function(fit) return fit + (inside and 0.3*e or -4) end
 move.tanks = scaled(0.01, 0.5)

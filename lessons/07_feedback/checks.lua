@@ -50,8 +50,8 @@ check { id = "own_instruments", points = 3, about = "Instruments from the refere
     },
     hint = "Use solve(Z:t()*Phi, Z:t()*Y) with the last three columns of svf(r, 4, 10, ...) as Z." }
 
--- The gain of the direct method is 20 % too small; the scatter of the unbiased methods is about 8 %. CLSRIVC has the largest scatter: for one drive
--- in several hundred, the error of a1 exceeds 60 %, but not two standard errors.
+-- The gain of the direct method is 20 % too small; the scatter of the unbiased methods is about 8 %. CLSRIVC has the largest
+-- scatter: for one drive in several hundred, the error of a1 exceeds 60 %, but not two standard errors.
 local function cured(G, facts)
     return all_of(near(dcgain(G), dcgain(facts), {rel = 0.45, half = 0.6}), near(G.den[2]/G.den[1], facts.den[2], {rel = 0.75, half = 0.95}))
 end

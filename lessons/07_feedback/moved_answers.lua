@@ -1,6 +1,6 @@
--- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign `e` and `inside`, which
--- specifies whether the answer must stay within the tolerance of checks.lua or exceed it. `scaled(near, far)` and `shifted(near, far)` use the first
--- amount inside the tolerance and the second amount outside.
+-- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign
+-- `e` and `inside`, which specifies whether the answer must stay within the tolerance of checks.lua or exceed it.
+-- `scaled(near, far)` and `shifted(near, far)` use the first amount inside the tolerance and the second amount outside.
 local record = load("drive").tracking
 -- Estimates a model from other data, because a model typed in by hand is not an estimate.
 local function estimated(method, near, far)
