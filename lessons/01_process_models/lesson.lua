@@ -17,8 +17,8 @@
 -- %% [markdown]
 -- A step is the simplest experiment you can run on a process: move the input from one level to another, wait, and measure. The shape of the response
 -- suggests a model. A ruler and a pencil are enough to read its parameters. This lesson models two processes, a heat exchanger and a mechanical
--- suspension. You first read the parameters from the figure by hand. Then you estimate them from all samples by optimization, and find out what you
--- gain. At the end, the lesson adds a dead time, repeats the experiment two hundred times, and moves to another operating point.
+-- suspension. You first read the parameters from the figure by hand. Then you estimate them from all samples by optimization, and compare the
+-- accuracy of both methods. At the end, the lesson adds a dead time, repeats the experiment two hundred times, and moves to another operating point.
 --
 -- Both data sets are simulated, with the noise and the rounding of real sensors. You can therefore repeat the experiment, and look up the true
 -- parameters at the end.
@@ -60,8 +60,9 @@ report.figure("exchanger_paper", paper:rule(10, 0.2), "The response on graph pap
 -- **Question 1.** Propose a form of transfer function $G(s)$ for the heat exchanger and explain your choice.
 --
 -- BEGIN SOLUTION
--- The temperature leaves its initial value at once and with its steepest slope. Then it approaches a new level without overshoot and without an
--- inflection point (@fig:exchanger_record). A first-order system responds to a step in this way, and no dead time is visible:
+-- The temperature changes immediately after the step, and its slope is steepest at the start. Then the temperature approaches a new level without
+-- overshoot and without an inflection point (@fig:exchanger_record). A first-order system responds to a step in this way, and no dead time is
+-- visible:
 --
 -- $$ G(s) = \frac{K}{1 + T s} . $$ {#eq:solution-first}
 --
@@ -77,7 +78,7 @@ report.figure("exchanger_paper", paper:rule(10, 0.2), "The response on graph pap
 --
 -- and the 5 % settling time $T_r$ gives $T = T_r/3$, because $e^{-3} \approx 0.05$. $T_r$ is the time *from the step* until the response stays within
 -- 5 % of its total change around the final value. Because of the noise, single samples leave the 5 % band long after the response has settled.
--- Therefore, first draw a smooth curve through the noise. `step_first_order` does the same with a moving average.
+-- Therefore, first draw a smooth curve through the samples. `step_first_order` smooths the response with a moving average.
 --
 -- ![The response of the heat exchanger, sample by sample, on graph paper: small squares are 10 s wide and 0.2 °C high, large ones 50 s and 1 °C. The valve moves at 60 s.](figure:exchanger_paper){#fig:exchanger_paper}
 
@@ -101,7 +102,7 @@ report.value("K_read", reading.K, "%.3f")
 report.value("T_read", reading.T, "%.0f")
 report.value("Tr_read", 3*reading.T, "%.0f")
 report.value("instant_read", 60 + 3*reading.T, "%.0f")
--- the last sample outside the band, without smoothing
+-- time of the last sample outside the band, without smoothing
 local final = mean(data.y:range(251, 301))
 local first = mean(data.y:range(1, 30))
 local last_outside
@@ -118,20 +119,20 @@ report.value("T_raw", last_outside/3, "%.0f")
 --
 -- @fig:exchanger_construction shows the construction. The levels before the step and at the end are averages, because single samples are noisy. The
 -- result is $K =$ `K_read`{.value}\ °C/% and, from $T_r =$ `Tr_read`{.value}\ s (at `instant_read`{.value}\ s of the measurement), $T =$
--- `T_read`{.value}\ s. Without smoothing, the last sample outside the band comes `Tr_raw`{.value}\ s after the step, which would give $T =$
+-- `T_read`{.value}\ s. Without smoothing, the last sample outside the band is `Tr_raw`{.value}\ s after the step, which would give $T =$
 -- `T_raw`{.value}\ s.
 -- END SOLUTION
 --
--- **Question 3.** Compute the response of your model to the recorded input and compare it with the measured one (`test_your_model`).
+-- **Question 3.** Compute the response of your model to the recorded input and compare it with the measured response (`test_your_model`).
 
 -- %% id=exchanger_test
 -- BEGIN SOLUTION
--- the response of a model that was at rest with the input u0, at the measured level
+-- response of a model at rest with the input u0, at the level of the data
 local function simulated(G, data, u0)
     local y = lsim(G, data.u - u0, data.Ts)
     return y + mean(data.y - y)
 end
--- every fifth sample as a dot, the model as a line, and the error below
+-- plots every fifth sample as a dot and the model as a line, and the error below
 local function test_figure(G, data, u0, label)
     local t, y = data.t, simulated(G, data, u0)
     local some, span = linspace(t[1], t[#t], #t//5 + 1), {t[1], t[#t]}
@@ -157,14 +158,15 @@ report.value("fit_read", fit(data, reading), "%.1f")
 -- ![Above: the measured temperature (dots, every fifth sample) and the simulated response of the model read off the figure (line). Below: the error, measured minus simulated, in °C.](figure:exchanger_test){#fig:exchanger_test}
 --
 -- The simulated response follows the measurement (@fig:exchanger_test) with a fit of `fit_read`{.value} %. The fit is
--- $100\,(1 - \lVert y - \hat y\rVert / \lVert y - \bar y\rVert)$, with the simulated output $\hat y$ and the mean $\bar y$ of the measured one: 100 % would be perfect, and a
--- constant output reaches 0 %. The error looks like noise.
+-- $100\,(1 - \lVert y - \hat y\rVert / \lVert y - \bar y\rVert)$, where $\hat y$ is the simulated output and $\bar y$ is the mean of the measured
+-- output. A fit of 100 % means perfect agreement, and the constant output $\bar y$ has a fit of 0 %. The error looks like noise.
 -- END SOLUTION
 --
 -- ## Estimation by optimization
 --
 -- **Question 4.** Estimate the parameters of your model from all samples with `procsrivc`, which minimizes the sum of squared differences between the
--- measured and the simulated output. Compare them with your reading. The process is at rest before the step, so set `InitialState = "steady"`.
+-- measured and the simulated output. Compare the estimates with your readings. The process is at rest before the step, so set
+-- `InitialState = "steady"`.
 
 -- %% id=exchanger_estimate
 -- BEGIN SOLUTION
@@ -194,12 +196,13 @@ report.value("K_any_ratio", G1_free.std[1]/G1.std[1], "%.1f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=exchanger #tbl:exchanger}
--- The heat exchanger: parameters by both methods (± one standard error, which only the estimate has).
+-- The heat exchanger: parameters by both methods (± one standard error, available only for the estimate).
 -- :::
 --
 -- The time constants of @tbl:exchanger differ by `T_apart`{.value} s, which is `T_apart_errors`{.value} standard errors of the estimate. The
 -- difference is due to the reading, which uses only two levels and one instant. One experiment does not show the error of a reading. Section "How
--- exact is a reading?" finds it by repetition. The estimate uses all samples, and its standard errors show which digits are significant.
+-- accurate is a reading?" determines this error from repeated experiments. The estimate uses all samples, and its standard errors show which digits
+-- are significant.
 --
 -- Do not estimate known quantities. With `InitialState = "estimate"`, the method would also estimate the initial temperature. The standard error of
 -- $K$ would then be `K_any_std`{.value} instead of `K_std`{.value}, `K_any_ratio`{.value} times as large. The reason is that a slow return from a
@@ -207,13 +210,13 @@ report.value("K_any_ratio", G1_free.std[1]/G1.std[1], "%.1f")
 -- END SOLUTION
 
 -- %% [markdown]
--- ## The same without typing
+-- ## The same steps in the workbench
 --
 -- `dynlab app heat_exchanger` opens the data in a workbench in the browser (@fig:workbench). Under **Read by hand**, press **First order**. The
--- response of a model appears over the measured response. Drag its two marked points: the formulas below the figure show the current numbers. Then
+-- response of a model appears over the measured response. Drag the two marked points; the formulas below the figure show the current values. Then
 -- select `procsrivc` as **Method** and press **New model**. Select one pole, `P1`, remove the delay `D`, and under **Options** select `steady` for
--- `InitialState`. Each click writes or changes a line of the script next to the figures, `heat_exchanger_session.lua`. `dynlab run` and
--- `dynlab report` accept this script.
+-- `InitialState`. Each click adds or changes a line of the script `heat_exchanger_session.lua`, which is displayed next to the figures. You can run
+-- the script with `dynlab run` or `dynlab report`.
 --
 -- ![The workbench after these clicks: the controls, the figures, and the resulting script](workbench.png){#fig:workbench}
 
@@ -226,7 +229,7 @@ report.value("K_any_ratio", G1_free.std[1]/G1.std[1], "%.1f")
 -- voltage at time zero, and the output is the position of the mass (@fig:suspension, @fig:suspension_record).
 --
 -- ::: {.drawing name=suspension}
--- The suspension: the voltage $u$ makes the actuator push, and the position $y$ of the mass is measured {#fig:suspension}
+-- The suspension: the voltage $u$ drives the actuator, and a sensor measures the position $y$ of the mass {#fig:suspension}
 -- :::
 
 -- %% id=suspension_data
@@ -235,7 +238,7 @@ local Ts2 = suspension.t[2] - suspension.t[1]
 local data2 = iddata(suspension.y, suspension.u, Ts2,
                      {InputName = "voltage", InputUnit = "V",
                       OutputName = "position", OutputUnit = "mm"})
--- the data begin with the step; also draw the rest before it
+-- the data begin at the step; also plot the levels before the step
 local before = vector{-0.2, 0}
 local position = plot(data2.t, data2.y, before, zeros(2),
                       {color = 0, ylabel = "position (mm)"})
@@ -253,7 +256,7 @@ local paper2 = plot(data2.t, data2.y,
                      xlabel = "time (s)", ylabel = "position (mm)"})
 report.figure("suspension_paper", paper2:rule(0.02, 0.2), "The suspension on graph paper")
 
--- any second-order system with a damping ratio of 0.2, in normalized units
+-- a second-order system with a damping ratio of 0.2, in normalized units
 local wave = range(0, 0.05, 20)
 local height = lsim(tf({1}, {1, 0.4, 1}), ones(#wave), 0.05)
 local peak, at = max(height)
@@ -274,8 +277,8 @@ report.figure("second_order", figure{
 -- **Question 5.** Propose a form of transfer function and explain your choice.
 --
 -- BEGIN SOLUTION
--- The response starts with zero slope, overshoots its final value and oscillates around it with decreasing amplitude: a second-order system
--- with a pair of complex poles,
+-- The response starts with zero slope, overshoots its final value and oscillates around it with decreasing amplitude. A second-order system with a
+-- pair of complex poles responds in this way:
 --
 -- $$ G(s) = \frac{K\,\omega_0^2}{s^2 + 2 z \omega_0 s + \omega_0^2}, \qquad 0 < z < 1 . $$ {#eq:solution-second}
 -- END SOLUTION
@@ -321,7 +324,7 @@ report.value("w2", reading2.w0, "%.2f")
 -- $\omega_0 =$ `w2`{.value}\ rad/s.
 -- END SOLUTION
 --
--- **Question 7.** Compare the response of your model with the measured one.
+-- **Question 7.** Compare the response of your model with the measured response.
 
 -- %% id=suspension_test
 -- BEGIN SOLUTION
@@ -336,8 +339,8 @@ report.figure("suspension_test", test_figure(reading2, data2, 0, "position (mm)"
 -- The simulated response follows every oscillation (@fig:suspension_test). The error is little more than the noise of the sensor.
 -- END SOLUTION
 --
--- **Question 8.** Estimate the parameters from all the samples and compare. (In the workbench, `dynlab app suspension`, use **Second order** to read
--- by hand, and `P2` with `U` to estimate an under-damped pair.)
+-- **Question 8.** Estimate the parameters from all samples and compare them with your readings. (In the workbench, `dynlab app suspension`, use
+-- **Second order** to read by hand, and `P2` with `U` to estimate an under-damped pair.)
 
 -- %% id=suspension_estimate
 -- BEGIN SOLUTION
@@ -366,18 +369,19 @@ report.table("suspension", {
 -- The suspension: parameters by both methods (± one standard error).
 -- :::
 --
--- The methods agree within the error of the reading (@tbl:suspension). The reading uses a single point, the top of the first overshoot. The response
--- is flat there, so its instant is hard to see. The estimate uses the whole response.
+-- The methods agree within the error of the reading (@tbl:suspension). The reading uses a single point, the maximum of the first overshoot. The
+-- response is flat there, so the time of the maximum is hard to determine. The estimate uses the whole response.
 -- END SOLUTION
 --
 -- # A dead time
 --
--- **Question 9.** Suppose that the thermometer of the heat exchanger is further down the pipe, so that the water needs 20 s to reach it. Simulate
--- these data and read them with `step_delayed`. It uses the times $t_1$ and $t_2$ from the step until 28.3 % and 63.2 % of the change. For
+-- **Question 9.** Suppose that the thermometer of the heat exchanger is farther down the pipe, so that the water needs 20 s to reach it. Simulate
+-- these data and read the parameters with `step_delayed`. This function uses the times $t_1$ and $t_2$ from the step until the response has covered
+-- 28.3 % and 63.2 % of its change. For
 --
 -- $$ G(s) = \frac{K\,e^{-Ds}}{1 + Ts} , \qquad T = \tfrac{3}{2}\,(t_2 - t_1), \qquad D = t_2 - T . $$ {#eq:delayed}
 --
--- Where do these formulas come from? What happens if the model has no dead time?
+-- Derive these formulas. What happens if the model has no dead time?
 
 -- %% id=dead_time
 -- BEGIN SOLUTION
@@ -421,29 +425,30 @@ report.value("T_extra", 20/3, "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- A first-order response has risen to $1 - e^{-1/3} = 28.3$ % after $T/3$ and to $1 - e^{-1} = 63.2$ % after $T$. The dead time is added to both:
--- $t_1 = D + T/3$ and $t_2 = D + T$, and @eq:delayed solves these two equations.
+-- A first-order response has risen to $1 - e^{-1/3} = 28.3$ % after $T/3$ and to $1 - e^{-1} = 63.2$ % after $T$. The dead time delays both times, so
+-- $t_1 = D + T/3$ and $t_2 = D + T$. @eq:delayed is the solution of these two equations.
 --
 -- ::: {.table name=dead_time #tbl:dead_time}
 -- The data with a dead time of 20 s: models with and without a dead time.
 -- :::
 --
--- ![The beginning of the response with a dead time (dots), and the estimated models with (full) and without (dashed) a dead time. Without it the model starts too early and rises too slowly.](figure:dead_time){#fig:dead_time}
+-- ![The beginning of the response with a dead time (dots), and the estimated models with (solid) and without (dashed) a dead time. Without a dead time, the model starts too early and rises too slowly.](figure:dead_time){#fig:dead_time}
 --
 -- A model without a dead time compensates with a larger time constant (@tbl:dead_time, @fig:dead_time). The settling time becomes $3T + D$, so the
--- reading grows by $D/3$, here `T_extra`{.value} s. The estimate grows too. Its standard error gives no warning, because it is valid only for the
--- right structure. Could the first data set contain a hidden dead time? The estimate is `Td_none`{.value}\ ±\ `Td_none_std`{.value}\ s, which is not
--- significantly different from zero.
+-- reading of $T$ grows by $D/3$, here `T_extra`{.value} s. The estimate grows, too. Its standard error does not indicate this bias, because it is
+-- valid only if the model structure is correct. Could the first data set contain a hidden dead time? The estimated dead time is `Td_none`{.value}\ ±\
+-- `Td_none_std`{.value}\ s, which is not significantly different from zero.
 -- END SOLUTION
 --
--- # How exact is a reading?
+-- # How accurate is a reading?
 --
--- **Question 10.** `rig("heat_exchanger", {seed = k})` repeats the experiment with other noise, on the heat exchanger shared by the whole class. If
--- your group has its own data, `SOURCE.md` next to the data gives the number of your unit. Pass it as the option `specimen`. Read and estimate two
--- hundred data sets. How large is the error of the reading? Are the standard errors of the estimate right? Look up the truth now with `rig_truth`.
+-- **Question 10.** `rig("heat_exchanger", {seed = k})` repeats the experiment with different noise, on the heat exchanger shared by the whole class.
+-- If your group has its own data, the file `SOURCE.md` next to the data contains the number of your unit. Pass this number as the option `specimen`.
+-- Read and estimate the time constant of two hundred data sets. How large is the error of the reading? Are the standard errors of the estimate
+-- correct? Now look up the true values with `rig_truth`.
 --
--- First, enter a prediction: how many times wider is the scatter of the readings than the scatter of the estimates? `outcome` prints your prediction
--- next to the result.
+-- First, enter a prediction: how many times larger is the standard deviation of the readings than the standard deviation of the estimates? `outcome`
+-- prints your prediction next to the result.
 
 -- %% id=noise_guess
 -- BEGIN SOLUTION
@@ -490,13 +495,14 @@ report.value("sharper", std(T_reading)/std(T_estimate), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![The time constants of two hundred repeated experiments, read off the figure (above) and estimated (below); dashed: the truth. Both axes are equal.](figure:noise_study){#fig:noise_study}
+-- ![The time constants of two hundred repeated experiments, read off the figure (above) and estimated (below). The dashed line is the true value. Both time axes have the same limits.](figure:noise_study){#fig:noise_study}
 --
 -- The true time constant is `true_T`{.value}\ s. The readings have the mean `reading_mean`{.value}\ s and the standard deviation
 -- `reading_std`{.value}\ s (@fig:noise_study). The estimates have the mean `estimate_mean`{.value}\ ±\ `estimate_mean_std`{.value}\ s and the
--- standard deviation `estimate_std`{.value}\ s. This agrees with their reported standard errors (`reported`{.value}\ s on average). So the reading is
--- `sharper`{.value} times less exact. It is also too short by `reading_off`{.value}\ s on average, because noise and smoothing let the response enter
--- the band early. Its difference from the estimate in @tbl:exchanger is within this error: both methods agree.
+-- standard deviation `estimate_std`{.value}\ s. This agrees with their reported standard errors (`reported`{.value}\ s on average). The standard
+-- deviation of the readings is `sharper`{.value} times as large. The readings are also too short by `reading_off`{.value}\ s on average, because
+-- noise and smoothing make the response enter the band early. The difference between reading and estimate in @tbl:exchanger is within this error, so
+-- both methods agree.
 -- END SOLUTION
 
 -- %% [markdown]
@@ -508,13 +514,13 @@ report.value("sharper", std(T_reading)/std(T_estimate), "%.0f")
 --
 -- where $C$ is the heat capacity of the vessel and $P$ is the power of the open valve. The water has the flow $\dot m$ (kg/s), the specific heat $c$
 -- and the inlet temperature $y_\text{in}$. How do $K$, $T$ and $K/T$ change if the same step goes from 50 % to 70 %? How do they change if the flow
--- is halved? Simulate the second case until four of its time constants after the step, and read the response. Why is the reading too small now, and
--- the estimate is not?
+-- is halved? Simulate the second case until four time constants after the step, and read the response. Why is the reading now too small, while the
+-- estimate is not?
 
 -- %% id=half_flow
 -- BEGIN SOLUTION
 local K, T = 2*G1.Kp, 2*G1.Tp1    -- at half the flow
-local opened = find(gt(change, 0))[1]    -- the first sample of the step
+local opened = find(gt(change, 0))[1]    -- first sample after the step
 local N = opened + math.ceil(4*T/Ts)
 local longer = step_signal(N, opened, {0, change[#change]})
 local entering = mean(exchanger.y:range(1, 30)) - G1.Kp*u0
@@ -531,8 +537,8 @@ local G1_half = procsrivc(data_half, "P1", steady)
 local function of_flow(name, K, T) return {name, string.format("%.2f", K), string.format("%.0f", T), string.format("%.4f", K/T)} end
 report.table("half_flow", {
     {"flow", "$K$ (°C/%)", "$T$ (s)", "$K/T$ (°C/(% s))"},
-    of_flow("as recorded, estimated", G1.Kp, G1.Tp1),
-    of_flow("half, by the balance", K, T),
+    of_flow("original, estimated", G1.Kp, G1.Tp1),
+    of_flow("half, from the heat balance", K, T),
     of_flow("half, read off the figure", read_half.K, read_half.T),
     of_flow("half, estimated", G1_half.Kp, G1_half.Tp1),
 })
@@ -542,25 +548,25 @@ report.value("half_missing", 100*math.exp(-4), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Compared with @eq:solution-first, @eq:balance has $K = P/(100\,\dot m\,c)$ and $T = C/(\dot m\,c)$. The balance is linear in $u$: from 50 % to 70
--- %, the temperature is on a higher level, but it changes by the same amount and as fast. The balance is not linear in $\dot m$, which multiplies
--- $y$. At half the flow, $K$ and $T$ are doubled. $K/T = P/(100\,C)$ does not change, because the slope just after the step depends only on power and
--- heat capacity. A model is valid for the operating point of its data.
+-- Compared with @eq:solution-first, @eq:balance has $K = P/(100\,\dot m\,c)$ and $T = C/(\dot m\,c)$. The balance is linear in $u$. For a step from
+-- 50 % to 70 %, the temperature is at a higher level. The size of the change and the time constant are the same. The balance is not linear in
+-- $\dot m$, which multiplies $y$. At half the flow, $K$ and $T$ are twice as large. $K/T = P/(100\,C)$ does not change, because the slope just after
+-- the step depends only on power and heat capacity. A model is valid only at the operating point of its data.
 --
 -- ::: {.table name=half_flow #tbl:half_flow}
--- The heat exchanger with the original flow and with half of it.
+-- The heat exchanger with the original flow and with half the flow.
 -- :::
 --
--- Four time constants are `half_span`{.value} s now, and `half_missing`{.value} % of the change are missing when the data end. The reading takes the
--- last samples as the final level, so its gain and its time constant are too small (@tbl:half_flow). The estimate needs no final level, because the
--- curvature of the response shows where it is going.
+-- Four time constants are now `half_span`{.value} s. When the data end, the response still lacks `half_missing`{.value} % of its change. The reading
+-- uses the last samples as the final level, so its gain and time constant are too small (@tbl:half_flow). The estimate does not need the final level,
+-- because the curvature of the response determines it.
 -- END SOLUTION
 
 -- %% [markdown]
 -- # Try it: parameters by hand
 --
 -- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`), you can change the two models below. Drag the marked points,
--- or move the sliders under the cells. Which parameter moves which part of the curve? How close to the measurement do you come by eye?
+-- or move the sliders under the cells. Which parameter moves which part of the curve? How well can you fit the measurement by eye?
 
 -- %% id=first_order_by_hand
 do
@@ -593,10 +599,11 @@ do
 end
 
 -- %% [markdown]
--- ![The heat exchanger (dots) and a first-order model (line) with the $K$ and $T$ of the cell above: the final level moves with $K$, the point where 63 % of the change is reached with $T$ and $K$.](figure:first_by_hand){#fig:first_by_hand}
+-- ![The heat exchanger (dots) and a first-order model (line) with the $K$ and $T$ of the cell above: the final level moves with $K$, the point of 63 % of the change moves with $T$ and $K$.](figure:first_by_hand){#fig:first_by_hand}
 --
--- In @fig:first_by_hand the gain stretches the curve upwards and the time constant sideways. In @fig:second_by_hand, the first peak, as a share of
--- the final level, depends only on the damping ratio. Its instant depends on the natural frequency and, a little, on the damping.
+-- In @fig:first_by_hand, the gain stretches the curve vertically, and the time constant stretches it horizontally. In @fig:second_by_hand, the height
+-- of the first peak relative to the final level depends only on the damping ratio. The time of the first peak depends on the natural frequency and,
+-- slightly, on the damping ratio.
 
 -- %% id=second_order_by_hand
 do
@@ -636,20 +643,20 @@ end
 -- # What you have learned
 --
 -- BEGIN SOLUTION
--- * The shape decides the structure. Steepest at the start and no overshoot: first order. Horizontal start and overshoot: second order with complex
---   poles. No change at first: a dead time.
--- * Operating points are not part of a transfer function: subtract the levels before the step, or let the method estimate them. Give known facts,
---   such as a start at rest, to the method instead of estimating them.
--- * Reading a figure gives good values in a minute and start values for everything else. Optimization uses all samples, is more exact, and reports
---   its accuracy, provided that the structure is right.
+-- * The shape decides the structure. Steepest slope at the start and no overshoot: first order. Zero slope at the start and overshoot: second order
+--   with complex poles. No change at first: a dead time.
+-- * Operating points are not part of a transfer function: subtract the levels before the step, or let the method estimate them. Specify known facts,
+--   such as a start at rest, instead of estimating them.
+-- * Reading a figure takes a minute and provides initial values for other methods. Optimization uses all samples, is more accurate, and returns
+--   standard errors, which are valid if the model structure is correct.
 -- * Trust a model only after comparing its simulated output with the measured one. Repeating the experiment shows how far you can trust a number.
 -- END SOLUTION
 --
 -- # What you submit
 --
 -- ::: {.note}
--- If this lesson is graded, submit results with `answer(name, value)`. `dynlab check` lists missing answers. You may type in the numbers that you
--- read off the figures:
+-- If this lesson is graded, submit results with `answer(name, value)`. `dynlab check` lists missing answers. You can type in the values that you read
+-- off the figures:
 --
 -- * `settling_time`: $T_r$ in seconds after the step;
 -- * `exchanger_reading`: the vector $K$, $T$;

@@ -1,4 +1,5 @@
--- Readings by eye, and estimates by other methods: working points taken off by hand, transfer functions without their process form.
+-- Readings by eye, and estimates by other methods: operating points subtracted by hand, transfer functions instead of
+-- process models.
 local h, s = load("heat_exchanger"), load("suspension")
 local quiet = 0
 while h.u[quiet + 1] == h.u[1] do quiet = quiet + 1 end

@@ -2,7 +2,7 @@
 -- expects: overshoot: in percent
 -- expects: suspension_reading: You used D1 in percent in the formula
 -- expects: figures: no figure "suspension_test"
--- The settling time stands for the time constant, the overshoot is taken in percent, and one comparison is missing.
+-- The settling time is used as the time constant, the overshoot is in percent, and one comparison is missing.
 local h, s = load("heat_exchanger"), load("suspension")
 local heat, spring = iddata(h.y, h.u, h.t[2] - h.t[1]), iddata(s.y, s.u, s.t[2] - s.t[1])
 local change = mean(h.y:range(250, #h.y)) - mean(h.y:range(1, 30))

@@ -3,7 +3,7 @@
 -- expects: exchanger_follows: On a data set that you have not seen
 -- expects: suspension_model: wrong sign
 -- expects: suspension_follows: On a data set that you have not seen
--- iddata takes the output first; here the input stands there. The suspension's output is turned upside down.
+-- The input is the first argument of iddata, where the output belongs. The output of the suspension has the wrong sign.
 local h, s = load("heat_exchanger"), load("suspension")
 local heat, spring = iddata(h.y, h.u, h.t[2] - h.t[1]), iddata(s.y, s.u, s.t[2] - s.t[1])
 local by_eye, swing = step_first_order(heat), step_second_order(spring)

@@ -2,7 +2,7 @@
 -- expects: exchanger_reading: counted in samples
 -- expects: exchanger_model: counted in samples
 -- expects: exchanger_follows: On a data set that you have not seen
--- The heat exchanger's record is taken as if it had one sample per second.
+-- The data of the heat exchanger are used as if they had one sample per second.
 local h, s = load("heat_exchanger"), load("suspension")
 local heat = iddata(h.y, h.u, 1)
 local spring = iddata(s.y, s.u, s.t[2] - s.t[1])

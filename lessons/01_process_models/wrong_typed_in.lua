@@ -1,6 +1,6 @@
 -- expects: exchanger_follows: The model does not change with the data
 -- expects: suspension_follows: The model does not change with the data
--- Right models, copied from somebody else's sheet.
+-- Correct models, copied from another group.
 local h, s = load("heat_exchanger"), load("suspension")
 local G1, G2 = tf({0.5015}, {76.24, 1}), tf({1666.7}, {1, 5, 166.67})
 report.figure("exchanger_test", test_your_model(G1, iddata(h.y, h.u, 2)), "Heat exchanger")

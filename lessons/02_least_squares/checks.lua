@@ -1,6 +1,6 @@
--- The checks of lesson 2. `a` holds the answers, `b` those of a run on four samples of another first-order system.
+-- The checks of lesson 2. `a` contains the answers, `b` the answers of a run on four samples of another first-order system.
 --
--- A least-squares solution is one point, so tolerances are small; 0.1 % lets a gradient descent stop a little early.
+-- A least-squares solution is unique, so the tolerances are small; 0.1 % allows gradient descent to stop slightly early.
 
 local games = load("winning_times")
 local N = #games.year - 1
@@ -24,7 +24,8 @@ local ct, dt = continuous(samples.y, samples.ydot), discrete(samples.y, samples.
 local ct_noisy = continuous(samples.y_noisy, samples.ydot_noisy)
 local dt_noisy = discrete(samples.y_noisy, samples.u)
 
--- Where least squares goes with noise on 400 samples of prbs(7, 4): the noise adds its energy to one diagonal element of Phi'Phi.
+-- Expected least-squares estimate for 400 noisy samples of prbs(7, 4): the noise adds its energy to one diagonal element of
+-- Phi'Phi.
 local u_long, sigma = prbs(7, 4):range(1, 400), 0.3
 local function biased(a1, b1)
     local x = lsim(tf({b1}, {1, a1}, {Ts = 1}), u_long, 1)
@@ -60,13 +61,13 @@ check { id = "line", points = 2, about = "The straight line up to 2020",
         {when = function(a) return alike(a.line, vector{middle, slope}, 1e-3) end,
          say = "The order is slope, time at the mean year."},
         {when = function(a) return alike(a.line, vector{slope, middle - slope*center}, 1e-3) end,
-         say = "The second number is the time in the year 0; give the time at the mean year."},
+         say = "The second number is the time in the year 0; answer with the time at the mean year."},
         {when = function(a) return near(a.line[1], 10*slope, {rel = 1e-2}) end,
-         say = "The slope is per decade; give seconds per year."},
+         say = "The slope is per decade; use seconds per year."},
         {when = function(a) return alike(a.line, vector{-slope, middle}, 1e-3) end,
-         say = "The slope has the wrong sign: the times fall."},
+         say = "The slope has the wrong sign: the times decrease."},
     },
-    hint = "Least squares on the Games from 1896 to 2020, the years measured from their mean." }
+    hint = "Use least squares with the Games from 1896 to 2020. Subtract the mean from the years." }
 
 check { id = "rmse", points = 1, about = "The root mean square of the residuals",
     test = function(a) return near(a.rmse, rmse, {rel = 1e-3}) end,
@@ -74,47 +75,47 @@ check { id = "rmse", points = 1, about = "The root mean square of the residuals"
         {when = function(a) return near(a.rmse, rmse*math.sqrt(N/(N - 2)), {rel = 1e-3}) end,
          say = "You divided by N - 2, which estimates the noise; the RMSE divides by N."},
         {when = function(a) return near(a.rmse, rmse^2, {rel = 1e-3}) end,
-         say = "This is the mean square: the root is missing."},
+         say = "This is the mean square: the square root is missing."},
         {when = function(a) return near(a.rmse, rmse*math.sqrt(N), {rel = 1e-3}) end,
-         say = "This is the norm of the residuals: the mean is missing."},
+         say = "This is the norm of the residuals: divide it by the square root of N."},
         {when = function(a) return near(a.rmse, mean(abs(residuals)), {rel = 1e-3}) end,
-         say = "This is the mean of the residuals' sizes, not the root of their mean square."},
+         say = "This is the mean absolute residual, not the root mean square."},
     },
     hint = "The square root of the mean of the squared residuals of the line up to 2020." }
 
 check { id = "paris", points = 2, about = "The forecast for 2024 and its interval",
-    -- Half the points when the interval is within a tenth, as with 1.96 instead of Student's factor.
+    -- Half the points if the interval is within 10 %, for example with 1.96 instead of Student's factor.
     test = function(a)
-        if #a.paris ~= 3 then return numbers(a.paris, 3, "the forecast, the lower and the upper end") end
+        if #a.paris ~= 3 then return numbers(a.paris, 3, "the forecast, the lower and the upper limit") end
         return all_of(near(a.paris[1], paris.value, {abs = 0.002, half = 0.01}),
                       near(a.paris[3] - a.paris[2], 2*half_width, {rel = 0.01, half = 0.1}),
                       near((a.paris[3] + a.paris[2])/2, paris.value, {abs = 0.005, half = 0.01}))
     end,
     mistakes = {
-        -- The forecast lies between the ends, so that it is the middle one of three numbers that stand in another order.
+        -- The forecast is between the limits, so it is the median of three numbers in another order.
         {when = function(a)
              local ascending = sort(a.paris)
              local others = math.abs(ascending[2] - paris.value) < 0.01 and a.paris[1] ~= ascending[2]
              return others or a.paris[2] > a.paris[3]
          end,
-         say = "The order is forecast, lower end, upper end."},
+         say = "The order is forecast, lower limit, upper limit."},
         {when = function(a) return (a.paris[3] - a.paris[2])/2 < 0.7*half_width end,
          say = "The interval is too narrow: it must allow for one new race, not only for the uncertainty of the line."},
         {when = function(a) return near(a.paris[1], games.time[N + 1], {abs = 1e-6}) end,
          say = "This is the actual result of Paris, not the forecast of the line."},
     },
-    hint = "forecast(line, 2024, 0.95) with the line that polyfit_report fits to the Games up to 2020." }
+    hint = "Use forecast(line, 2024, 0.95) with the line that polyfit_report fits to the Games up to 2020." }
 
 check { id = "continuous", points = 2, about = "The continuous-time model from the exact samples",
     test = function(a) return each(a.ct, ct, 1e-3, "a and b") end,
     mistakes = {
         {when = function(a) return alike(a.ct, vector{-ct[1], ct[2]}, 1e-3) end,
-         say = "a has the wrong sign: the regressor of the output has a minus."},
+         say = "a has the wrong sign: the regressor is -y, not y."},
         {when = function(a) return alike(a.ct, vector{ct[2], ct[1]}, 1e-3) end, say = "The order is a, b."},
         {when = function(a) return alike(a.ct, ct_noisy, 1e-3) end,
          say = "These are the estimates from the noisy samples."},
         {when = function(a) return alike(a.ct, vector{1/ct[1], ct[2]/ct[1]}, 1e-3) end,
-         say = "These are time constant and gain; give a and b of b/(s + a)."},
+         say = "These are the time constant and the gain; answer with a and b of b/(s + a)."},
     },
     hint = "The columns of Phi are -y and u; the derivative is on the left-hand side." }
 
@@ -122,14 +123,14 @@ check { id = "discrete", points = 2, about = "The discrete-time model from the e
     test = function(a) return each(a.dt, dt, 1e-3, "a1 and b1") end,
     mistakes = {
         {when = function(a) return alike(a.dt, vector{-dt[1], dt[2]}, 1e-3) end,
-         say = "a1 has the wrong sign: the regressor of the output has a minus."},
+         say = "a1 has the wrong sign: the regressor is -y, not y."},
         {when = function(a) return alike(a.dt, vector{dt[2], dt[1]}, 1e-3) end, say = "The order is a1, b1."},
         {when = function(a) return alike(a.dt, dt_noisy, 1e-3) end,
          say = "These are the estimates from the noisy samples."},
         {when = function(a) return alike(a.dt, ct, 1e-3) end,
          say = "These are the parameters of the continuous-time model."},
     },
-    hint = "Regress each sample on the previous sample and input: three equations." }
+    hint = "Regress each sample on the previous output and input. This results in three equations." }
 
 check { id = "noisy", points = 2, about = "Both models from the noisy samples",
     test = function(a)
@@ -141,9 +142,10 @@ check { id = "noisy", points = 2, about = "Both models from the noisy samples",
         {when = function(a) return alike(a.ct_noisy, ct, 1e-3) or alike(a.dt_noisy, dt, 1e-3) end,
          say = "These are the estimates from the exact samples."},
     },
-    hint = "The same regressions with y_noisy and ydot_noisy." }
+    hint = "Repeat the regressions with y_noisy and ydot_noisy." }
 
--- The mean of a thousand estimates scatters by a thirtieth of their standard deviation; half of it leaves room for fewer runs.
+-- The standard error of the mean of a thousand estimates is 3 % of their standard deviation; a tolerance of 50 % allows
+-- fewer runs.
 check { id = "monte_carlo", points = 2, about = "A thousand estimates: least squares is biased",
     test = function(a)
         if #a.monte_carlo ~= 2 then return numbers(a.monte_carlo, 2, "mean and standard deviation") end
@@ -152,22 +154,22 @@ check { id = "monte_carlo", points = 2, about = "A thousand estimates: least squ
     end,
     mistakes = {
         {when = function(a) return near(a.monte_carlo[1], dt[1], {abs = scatter}) end,
-         say = "The mean equals the truth: either the noise is missing, or it is the same on both sides of the regression."},
+         say = "The mean equals the true value: add noise to the output, and use the noisy output on both sides of the regression."},
         {when = function(a) return near(a.monte_carlo[2], scatter/math.sqrt(1000), {rel = 0.4}) end,
-         say = "This is the standard error of the mean; give the scatter of single estimates."},
+         say = "This is the standard error of the mean; answer with the standard deviation of the estimates."},
     },
-    hint = "Simulate, add noise to the output, estimate as in question 6, a thousand times; then mean and std." }
+    hint = "Repeat a thousand times: simulate, add noise to the output, and estimate as in question 6. Then compute mean and std." }
 
 check { id = "figures", points = 1, about = "Figures of the residuals, the forecast and the histogram",
     test = function() return all_of(has_figure("residuals"), has_figure("forecast"), has_figure("monte_carlo")) end,
-    hint = "report.figure(\"residuals\", fig, \"...\") and the same for forecast and monte_carlo." }
+    hint = "report.figure(\"residuals\", fig, \"...\"); name the other two figures forecast and monte_carlo." }
 
 local typed = {
     {when = function(a, b) return near(a.ct, b.ct, {rel = 1e-9}) end,
      say = "The parameters do not change with the samples: compute them; do not type them in."},
 }
 
-check { id = "follows_samples", points = 4, rerun = "step_response", about = "Another system: both models follow its samples",
+check { id = "follows_samples", points = 4, rerun = "step_response", about = "Another system: your script estimates both models from its samples",
     test = function(a, b)
         local fact = truth(b)
         return all_of(differs(a.ct, b.ct), differs(a.dt, b.dt), each(b.ct, vector{-fact.a, fact.b}, 1e-3, "a and b"),
@@ -176,7 +178,7 @@ check { id = "follows_samples", points = 4, rerun = "step_response", about = "An
     mistakes = typed,
     hint = "Compute ct and dt, including the sampling time, from the data that load(\"step_response\") returns." }
 
-check { id = "follows_study", points = 2, rerun = "step_response", about = "Another system: the study repeats its experiment",
+check { id = "follows_study", points = 2, rerun = "step_response", about = "Another system: the study uses the estimated model",
     test = function(a, b)
         local fact = truth(b)
         return all_of(differs(a.monte_carlo, b.monte_carlo),

@@ -19,9 +19,9 @@
 -- %% [markdown]
 -- Least squares is the workhorse of this course. The estimators of later lessons either minimize a sum of squares, or start from the least-squares
 -- solution and correct it. This lesson uses least squares twice. The first model is *static*: a straight line through the men's 100 m winning times
--- of the Olympic Games. You also find out how far you can trust such a line. The second model is *dynamic*: the step response of a first-order
--- system, known at only four instants. It shows why the rest of the course exists: noise in the regressors makes plain least squares systematically
--- wrong. The winning times are real. The step response is simulated, so its true parameters are known.
+-- of the Olympic Games. You also determine how far you can trust such a line. The second model is *dynamic*: the step response of a first-order
+-- system, known at only four sampling instants. This model shows why the course needs other estimators: noise in the regressors makes the
+-- least-squares estimate biased. The winning times are real. The step response is simulated, so its true parameters are known.
 --
 -- To review the normal equations and gradient descent, see Guillaume Saint-Cirgue's [page on simple linear regression](https://machinelearnia.com/regression-lineaire-simple/) (in French, with a video of ten minutes).
 --
@@ -29,8 +29,8 @@
 --
 -- ## The data
 --
--- The data are the year of the Games, the winner's official time in seconds, and how it was measured: by hand until 1964, electronically since. The
--- Games of 1916, 1940 and 1944 were not held because of the two world wars. First load the data and look at them, before you compute anything.
+-- The data are the year of the Games, the winner's official time in seconds, and the timing method: by hand until 1964, electronically since then.
+-- The Games of 1916, 1940 and 1944 were not held because of the two world wars. Load and plot the data before you compute anything.
 
 -- %% id=times
 local games = load("winning_times")
@@ -45,9 +45,10 @@ report.figure("times", plot(year, time, {style = "points", height = 6,
 -- **Question 1.** Describe what you see in @fig:times. Where does a straight line look reasonable, and where not?
 --
 -- BEGIN SOLUTION
--- The times fall (@fig:times), fast at first and then slowly. The first value, 12.0 s in 1896, is far above all others: one race, a handful of
--- runners, a stopwatch. From 1900 on, the fall is almost steady, about a tenth of a second in nine years. It cannot continue forever, because a line
--- eventually reaches zero. Within the range of the data, the line is a fair description and a usable short-term forecast, no more.
+-- The times decrease (@fig:times), quickly at first and then slowly. The first value, 12.0 s in 1896, is far above all others: one race, a handful of
+-- runners, a stopwatch. From 1900 on, the decrease is almost steady, about a tenth of a second in nine years. This trend cannot continue forever,
+-- because the line eventually reaches zero. A line is a fair description within the range of the data, and it is usable for short-term forecasts
+-- only.
 -- END SOLUTION
 --
 -- ## The model
@@ -57,17 +58,17 @@ report.figure("times", plot(year, time, {style = "points", height = 6,
 -- $$ \text{time} = a \cdot \text{year} + b , $$ {#eq:line}
 --
 -- and set the 2024 result aside: we fit the line to the Games up to 2020 and then use it to forecast 2024. With $N$ Games, the model becomes the
--- overdetermined system $y = \Phi\theta + e$, one row per Games,
+-- overdetermined system $y = \Phi\theta + e$ with one row per Games,
 --
 -- $$ y = \begin{pmatrix} y_1 \\ \vdots \\ y_N \end{pmatrix}, \qquad
 --    \Phi = \begin{pmatrix} x_1 & 1 \\ \vdots & \vdots \\ x_N & 1 \end{pmatrix}, \qquad
 --    \theta = \begin{pmatrix} a \\ b \end{pmatrix}. $$ {#eq:regression}
 --
--- Years near 2000 make the two columns of $\Phi$ almost parallel. Measuring the year from the mean year $m$, $x_i = \text{year}_i - m$, does not
--- change $a$. It turns $b$ into the time at the mean year, and makes the columns orthogonal.
+-- With calendar years, the two columns of $\Phi$ are almost parallel. If you subtract the mean year $m$, $x_i = \text{year}_i - m$, the columns are
+-- orthogonal. The slope $a$ does not change, and $b$ becomes the time at the mean year.
 
 -- %% id=regression
-local N = #year - 1                       -- 2024 is kept for the test
+local N = #year - 1                       -- 2024 is reserved for the test
 local y = time:range(1, N)
 local years = year:range(1, N)
 local center = mean(years)
@@ -81,8 +82,8 @@ print(string.format("condition number: %.3g raw, %.3g centered",
 -- %% [markdown]
 -- ## Three methods, one answer
 --
--- **Question 2.** The least-squares estimate minimizes $J(\theta) = \lVert y - \Phi\theta \rVert^2$. Compute it in three ways: by the normal
--- equations $\Phi^T\Phi\,\theta = \Phi^T y$, by an orthogonal (QR) factorization of $\Phi$, and by gradient descent. Do they agree?
+-- **Question 2.** The least-squares estimate minimizes $J(\theta) = \lVert y - \Phi\theta \rVert^2$. Compute the estimate in three ways: from the
+-- normal equations $\Phi^T\Phi\,\theta = \Phi^T y$, with an orthogonal (QR) factorization of $\Phi$, and by gradient descent. Do the results agree?
 
 -- %% id=three_roads
 -- BEGIN SOLUTION
@@ -90,7 +91,7 @@ local theta_normal = solve(Phi:t()*Phi, Phi:t()*y)
 local fit = lsq(Phi, y)                   -- QR
 local descent = gradient_descent(Phi, y, {MaxIter = 100000})
 
--- the same descent with x divided by its spread
+-- gradient descent with x divided by its standard deviation
 local spread = sqrt(mean(x^2))
 local scaled = gradient_descent(matrix{x/spread, ones(N)}, y)
 local theta_scaled = vector{scaled.theta[1]/spread, scaled.theta[2]}
@@ -102,7 +103,7 @@ local theta_scaled = vector{scaled.theta[1]/spread, scaled.theta[2]}
 -- STARTER: --   report.value("gain", K, "%.2f")          is shown by  `gain`{.value}
 -- STARTER: --   report.figure("name", fig, "caption")    by  ![caption](figure:name){#fig:name}  on a line of its own, and @fig:name refers to it
 -- STARTER: --   report.table("name", {{"head"}, {"cell"}})  by  ::: {.table name=name #tbl:name}  then a line with the caption, then  :::
--- "2·10⁻¹²" as a formula
+-- formats a number such as 2·10⁻¹² as a formula
 local function power_of_ten(x)
     if x == 0 then return "0" end
     local exponent = math.floor(math.log(x, 10))
@@ -132,15 +133,16 @@ report.value("steps_scaled", scaled.iterations, "%d")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=roads #tbl:roads}
--- The same line by three methods. The last column but one is the largest relative difference of $a$ or $b$ from the QR values.
+-- The same line by three methods. The fourth column is the largest relative difference of $a$ or $b$ from the QR values.
 -- :::
 --
--- All methods of @tbl:roads give the same line. The normal equations and QR need one step. Gradient descent starts from zero and walks downhill. With
--- the original years, it needs `steps`{.value} steps, because the valley is `condition`{.value} times steeper across than along. If $x$ is divided by
--- its spread, the valley is round, and `steps_scaled`{.value} steps are enough. For two parameters, gradient descent is slow. For models with
--- millions of parameters, however, no computer can store the matrix $\Phi^T\Phi$. Only methods that use gradients remain (stochastic gradient
--- descent, conjugate gradients, L-BFGS), and scaling matters just as much. The line falls by `a_decade`{.value} s per decade: $\hat a =$ `a`{.value}
--- s/year with a standard error of `a_std`{.value} s/year, and $\hat b =$ `b`{.value} s in the mean year `center`{.value}.
+-- All methods of @tbl:roads return the same line. The normal equations and QR need one step. Gradient descent starts from zero and follows the
+-- negative gradient. Without scaling, it needs `steps`{.value} steps, because the curvature of $J$ is `condition`{.value} times larger in one
+-- direction than in the other. If $x$ is divided by its standard deviation, the curvature is the same in all directions, and `steps_scaled`{.value}
+-- steps are enough. For two parameters, gradient descent is slow. For models with millions of parameters, however, no computer can store the matrix
+-- $\Phi^T\Phi$. Only gradient-based methods are then feasible (stochastic gradient descent, conjugate gradients, L-BFGS), and scaling is equally
+-- important. The line decreases by `a_decade`{.value} s per decade: $\hat a =$ `a`{.value} s/year with a standard error of `a_std`{.value} s/year,
+-- and $\hat b =$ `b`{.value} s in the mean year `center`{.value}.
 -- END SOLUTION
 --
 -- ## Residuals
@@ -149,7 +151,7 @@ report.value("steps_scaled", scaled.iterations, "%d")
 --
 -- $$ \text{RMSE} = \sqrt{\frac{1}{N} \sum_{i=1}^{N} \varepsilon_i^2} \; . $$ {#eq:rmse}
 --
--- Do they look like the residuals of a good model?
+-- Do the residuals look like those of a good model?
 
 -- %% id=residuals
 -- BEGIN SOLUTION
@@ -157,7 +159,7 @@ local residuals = y - Phi*fit.theta
 local rmse = sqrt(mean(residuals^2))
 report.figure("residuals", plot(years, residuals, {style = "stems", height = 5,
               y_range = {-0.4, 1.1}, xlabel = "year", ylabel = "residual (s)"}),
-              "What the straight line leaves unexplained")
+              "Residuals of the straight line")
 -- END SOLUTION
 
 -- %% id=residuals_report echo=false
@@ -172,22 +174,22 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 -- BEGIN SOLUTION
 -- ![Residuals of the straight line: measured minus fitted time. Neighboring residuals tend to have the same sign, and 1896 is an outlier.](figure:residuals){#fig:residuals}
 --
--- The RMSE is `rmse`{.value} s. @fig:residuals shows that this one number conceals two different effects. The residual of the Games of 1896 is
--- `first_residual`{.value} s. Without them, the RMSE over the others is `rmse_later`{.value} s. The signs are not random either: residuals below zero
--- cluster in the 1930s and 1960s. The last two are above zero, because the line now falls faster than the times. A good model has residuals without
--- any pattern, so a straight line is a first approximation and not the truth.
+-- The RMSE is `rmse`{.value} s. @fig:residuals shows two effects that this single number hides. First, the residual of the Games of 1896 is
+-- `first_residual`{.value} s. Over all other Games, the RMSE is `rmse_later`{.value} s. Second, the signs are not random: negative residuals cluster
+-- in the 1930s and 1960s. The last two residuals are positive, because the line now decreases faster than the times. The residuals of a good model
+-- have no pattern, so the straight line is only a first approximation.
 -- END SOLUTION
 --
 -- ## A forecast for Paris 2024
 --
--- **Question 4.** Use the line to forecast the winning time of 2024, $x_0$ years after the mean year, and give a 95 % prediction interval,
+-- **Question 4.** Use the line to forecast the winning time of 2024, $x_0$ years after the mean year, and compute a 95 % prediction interval,
 --
 -- $$ \hat a x_0 + \hat b \;\pm\; t_{0.975,\,N-2}\; s\,\sqrt{1 + \frac{1}{N} + \frac{x_0^2}{\sum_i x_i^2}} \; , \qquad
 --    s^2 = \frac{1}{N-2}\sum_{i=1}^{N} \varepsilon_i^2 , $$ {#eq:interval}
 --
--- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution, `tinv(0.975, N - 2)`. Compare it with the actual result.
+-- where $t_{0.975,\,N-2}$ is the quantile of Student's distribution, `tinv(0.975, N - 2)`. Compare the forecast with the actual result.
 --
--- First, enter a prediction: how far from the forecast are the ends of that interval? `outcome` prints your prediction next to the result.
+-- First, enter a prediction: how far from the forecast are the limits of this interval? `outcome` prints your prediction next to the result.
 
 -- %% id=forecast_guess
 -- BEGIN SOLUTION
@@ -222,13 +224,13 @@ report.value("miss", actual - paris.value, "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![The fitted line with its 95 % confidence band (inner) and 95 % prediction band (outer), the forecast for 2024 and the actual time. The prediction band is wide enough for single races. The confidence band is for the line only.](figure:forecast){#fig:forecast}
+-- ![The fitted line with its 95 % confidence band (inner) and 95 % prediction band (outer), the forecast for 2024 and the actual time. The prediction band applies to single races. The confidence band applies to the line only.](figure:forecast){#fig:forecast}
 --
--- The forecast from the `N_games`{.value} Games to 2020 is `paris`{.value} s, with a 95 % prediction interval from `paris_low`{.value} to
+-- The forecast from the `N_games`{.value} Games up to 2020 is `paris`{.value} s, with a 95 % prediction interval from `paris_low`{.value} to
 -- `paris_high`{.value} s (@fig:forecast). Noah Lyles won in `actual`{.value} s, `miss`{.value} s slower than the forecast but well inside the
--- interval. The interval is wide for two reasons. It must include the scatter of one new race (the 1 in @eq:interval), not only the uncertainty of
--- the line. And the early, scattered Games increase the estimated noise. The interval also depends on assumptions that the residuals have already put
--- in doubt.
+-- interval. The interval is wide for two reasons. First, it must include the scatter of one new race (the 1 in @eq:interval), not only the
+-- uncertainty of the line. Second, the scattered times of the early Games increase the estimated noise. The interval also depends on assumptions that
+-- the residuals contradict.
 -- END SOLUTION
 
 -- %% [markdown]
@@ -236,8 +238,8 @@ report.value("miss", actual - paris.value, "%.2f")
 --
 -- ## The data
 --
--- The second data set is the simulated response of a first-order system at rest to a unit step. It has four samples (@fig:samples), with the time
--- derivative. Both signals are given twice: exact, and with white noise of standard deviation 0.05.
+-- The second data set is the simulated response of a first-order system at rest to a unit step. It contains four samples of the output (@fig:samples)
+-- and of its time derivative. Each signal is available without noise, and with white noise of standard deviation 0.05.
 
 -- %% id=step
 local record = load("step_response")
@@ -250,7 +252,7 @@ local four = plot(t, record.y, "output", t, record.y_noisy, "noisy output",
 report.figure("samples", four, "Four samples of a step response")
 
 -- %% [markdown]
--- ![The four samples of the output, exact and noisy, and the input. Nothing is known between the samples.](figure:samples){#fig:samples}
+-- ![The four samples of the output, exact and noisy, and the input. The data contain no values between the samples.](figure:samples){#fig:samples}
 --
 -- ## A continuous-time model
 --
@@ -283,11 +285,11 @@ report.value("ct_miss", max(abs(step(Gc, t) - record.y)), "%.0e")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Step response of the continuous-time model (line) and the four samples (points), through which it passes](figure:ct_fit){#fig:ct}
+-- ![Step response of the continuous-time model (line) and the four samples (points). The response passes through all samples](figure:ct_fit){#fig:ct}
 --
--- $\Phi$ has the columns $-y$ and $u$, and $\dot y$ is on the left-hand side. Least squares gives $\hat a =$ `a_ct`{.value} and $\hat b =$
--- `b_ct`{.value}. The model's step response passes through the four samples (@fig:ct): the largest distance is `ct_miss`{.value}, which is the
--- rounding of the stored data.
+-- $\Phi$ has the columns $-y$ and $u$, and $\dot y$ is on the left-hand side. The least-squares estimates are $\hat a =$ `a_ct`{.value} and
+-- $\hat b =$ `b_ct`{.value}. The model's step response passes through the four samples (@fig:ct): the largest error is `ct_miss`{.value}, which is
+-- due to the rounding of the stored data.
 -- END SOLUTION
 --
 -- ## A discrete-time model
@@ -328,21 +330,21 @@ report.value("dt_miss", max(abs(simulated - record.y)), "%.0e")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Three equations remain for two unknowns, because each equation needs the previous sample. The estimates $\hat a_1 =$ `a1_dt`{.value} and
--- $\hat b_1 =$ `b1_dt`{.value} again reproduce the samples in simulation (@fig:dt, largest distance `dt_miss`{.value}). For an input that is constant
+-- There are three equations for two unknowns, because each equation needs the previous sample. The estimates $\hat a_1 =$ `a1_dt`{.value} and
+-- $\hat b_1 =$ `b1_dt`{.value} again reproduce the samples in simulation (@fig:dt, largest error `dt_miss`{.value}). For an input that is constant
 -- between the samples, both models describe the same system,
 --
 -- $$ a_1 = -e^{-aT_s} , \qquad b_1 = \frac{b}{a}\left(1 - e^{-aT_s}\right) , $$ {#eq:solution-sampled}
 --
--- which is `a1_from_ct`{.value} and `b1_from_ct`{.value} for the continuous-time estimates. The continuous-time parameters are easier to interpret:
--- $1/a$ is the time constant for any sampling time.
+-- which is `a1_from_ct`{.value} and `b1_from_ct`{.value} for the continuous-time estimates. The continuous-time parameters are easier to interpret,
+-- because $1/a$ is the time constant and does not depend on the sampling time.
 --
--- ![The simulated output of the discrete-time model, held between the samples, the samples, and the response of the continuous-time model. Both models agree at the samples. Only the second model describes the response between the samples.](figure:dt_fit){#fig:dt}
+-- ![The simulated output of the discrete-time model (stairs), the samples (points), and the response of the continuous-time model. Both models agree at the samples. Only the continuous-time model describes the response between the samples.](figure:dt_fit){#fig:dt}
 -- END SOLUTION
 --
--- ## The same with noise
+-- ## Estimation from noisy signals
 --
--- **Question 7.** Repeat both fits with the noisy signals. How far are the estimates from the ones above?
+-- **Question 7.** Repeat both fits with the noisy signals. How much do the estimates differ from the estimates without noise?
 
 -- %% id=noisy
 -- BEGIN SOLUTION
@@ -371,19 +373,19 @@ report.table("noisy", {
 -- Estimates from the exact and from the noisy samples.
 -- :::
 --
--- Noise on four samples changes every parameter (@tbl:noisy), the discrete-time ones by several percent. Is this bad luck in one experiment, or is
--- least squares wrong on average?
+-- Noise on four samples changes every parameter (@tbl:noisy). The discrete-time parameters change by several percent. Is this a random error of one
+-- experiment, or is the least-squares estimate biased?
 -- END SOLUTION
 --
--- **Question 8.** One noisy experiment cannot distinguish bad luck from a method that is wrong on average. Repeat it many times. First use the same
--- four samples, five thousand times with new noise. Then simulate longer data of the same system with the model of question 6: 400 samples with the
--- input `prbs(7, 4)` and white noise of standard deviation 0.3 on the output. Repeat the discrete-time fit a thousand times. Where is the mean of the
--- estimates of $a_1$, compared with the truth and with the scatter of the single estimates? How do both depend on the noise $\sigma$ and on the
--- number of samples $N$?
+-- **Question 8.** One noisy experiment cannot distinguish a random error from a bias. Repeat the experiment many times. First use the same four
+-- samples, five thousand times with new noise. Then simulate longer data of the same system with the model of question 6: 400 samples with the input
+-- `prbs(7, 4)` and white noise of standard deviation 0.3 on the output. Repeat the discrete-time fit a thousand times. Compare the bias, which is the
+-- mean of the estimates of $a_1$ minus the true value, with the scatter (standard deviation) of the estimates. How do bias and scatter depend on the
+-- noise standard deviation $\sigma$ and on the number of samples $N$?
 
 -- %% id=monte_carlo
 -- BEGIN SOLUTION
--- the four samples again, with fresh noise
+-- the four samples with new noise in each run
 local few_runs, few_ct, few_dt = 5000, {}, {}
 for run = 1, few_runs do
     local yn, dn = record.y + 0.05*randn(4), record.ydot + 0.05*randn(4)
@@ -392,7 +394,7 @@ for run = 1, few_runs do
 end
 few_ct, few_dt = vector(few_ct), vector(few_dt)
 
--- estimates of a1 from longer data, and the value to which they tend
+-- returns estimates of a1 from longer data, and their limit for many samples
 local function study(runs, samples, sigma)
     local u_long = prbs(11, 4):range(1, samples)
     if samples == 400 then u_long = prbs(7, 4):range(1, samples) end
@@ -433,7 +435,7 @@ for name, found in pairs{few_ct = few_ct, few_dt = few_dt} do
 end
 report.value("few_dt_share", 100*abs(mean(few_dt) - dt[1])/std(few_dt), "%.0f")
 report.value("few_dt_luck", abs(noisy_dt[1] - dt[1])/std(few_dt), "%.1f")
-local law = {{"noise $\\sigma$", "samples $N$", "mean of $\\hat a_1$", "bias", "bias expected", "scatter"}}
+local law = {{"noise $\\sigma$", "samples $N$", "mean of $\\hat a_1$", "bias", "expected bias", "scatter"}}
 for _, case in ipairs{{0.1, 400}, {0.3, 400}, {0.1, 1600}, {0.3, 1600}, {0.3, 6400}} do
     local found, value = study(300, case[2], case[1])
     table.insert(law, {string.format("%.1f", case[1]), string.format("%d", case[2]),
@@ -446,34 +448,33 @@ report.table("law", law)
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- *Four samples:* over `few_runs`{.value} repetitions, the discrete-time estimates of $a_1$ have the mean `few_dt`{.value}\ ±\ `few_dt_error`{.value}
--- (± its standard error) and the scatter `few_dt_std`{.value}. The truth is `mc_truth`{.value}. For $a$ in continuous time, the mean is
--- `few_ct`{.value}\ ±\ `few_ct_error`{.value} and the scatter is `few_ct_std`{.value}. There is almost no bias here (for $a_1$,
--- `few_dt_share`{.value} % of the scatter). The errors in @tbl:noisy are therefore bad luck, and not even much of it: the error of $\hat a_1$ is
+-- (± the standard error of the mean) and the scatter `few_dt_std`{.value}. The true value is `mc_truth`{.value}. For $a$ of the continuous-time
+-- model, the mean is `few_ct`{.value}\ ±\ `few_ct_error`{.value} and the scatter is `few_ct_std`{.value}. The bias is small (for $a_1$,
+-- `few_dt_share`{.value} % of the scatter). The errors in @tbl:noisy are therefore random errors of a usual size: the error of $\hat a_1$ is
 -- `few_dt_luck`{.value} times the scatter.
 --
--- ![A thousand least-squares estimates of $a_1$, each from 400 samples with $\sigma = 0.3$; dashed: the true value, and the mean of the estimates. Almost no estimate reaches the truth.](figure:monte_carlo){#fig:mc}
+-- ![A thousand least-squares estimates of $a_1$, each from 400 samples with $\sigma = 0.3$; dashed: the true value, and the mean of the estimates. Almost no estimate reaches the true value.](figure:monte_carlo){#fig:mc}
 --
--- *Long data with more noise:* the mean of `runs`{.value} estimates, each from `samples`{.value} samples, is `mc_mean`{.value}. The truth is
--- `mc_truth`{.value} (@fig:mc). The scatter of the single estimates is only `mc_std`{.value}, so the mean misses the truth by `mc_ratio`{.value}
--- times their scatter. That is not bad luck: the estimate is *biased*. The cause is the regression itself. The noisy output also appears in $\Phi$,
--- so $\Phi$ and the equation error are correlated. White noise on the output adds $\sigma^2$ to the element $y^2$ of $\Phi^T\Phi/N$. If $R$ is this
--- matrix for the exact signals, the estimates tend to
+-- *Long data with more noise:* the mean of `runs`{.value} estimates, each from `samples`{.value} samples, is `mc_mean`{.value}. The true value is
+-- `mc_truth`{.value} (@fig:mc). The scatter of the estimates is only `mc_std`{.value}, so the difference is `mc_ratio`{.value} times the scatter. The
+-- estimate is *biased*. The cause is that the noisy output also appears in $\Phi$, so $\Phi$ and the equation error are correlated. White noise on
+-- the output adds $\sigma^2$ to the first diagonal element of $\Phi^T\Phi/N$. If $R$ is this matrix for the exact signals, the estimates converge to
 --
 -- $$ \hat\theta \;\to\; (R + \sigma^2 E)^{-1} R\,\theta , \qquad E = \begin{pmatrix} 1 & 0 \\ 0 & 0 \end{pmatrix} , $$ {#eq:solution-limit}
 --
 -- which is `mc_limit`{.value} for $a_1$ here.
 --
 -- ::: {.table name=law #tbl:law}
--- Mean, bias and scatter of $\hat a_1$ over 300 data sets each, and the bias from @eq:solution-limit.
+-- Mean, bias and scatter of $\hat a_1$ over 300 data sets per row, and the expected bias from @eq:solution-limit.
 -- :::
 --
--- @tbl:law shows how both depend on the experiment. The scatter is proportional to $\sigma/\sqrt N$ if the noise is small. The bias grows with
--- $\sigma^2$ and does not depend on $N$. With little noise and four samples, the scatter hides the bias. With much noise and long data, only the bias
--- remains, and more data only make the wrong answer more certain.
+-- @tbl:law shows how bias and scatter depend on the experiment. The scatter is proportional to $\sigma/\sqrt N$ if the noise is small. The bias grows
+-- with $\sigma^2$ and does not depend on $N$. With little noise and four samples, the scatter hides the bias. With much noise and many samples, the
+-- bias dominates. More data then reduce the scatter, but not the bias.
 -- END SOLUTION
 
 -- %% [markdown]
--- # Try it: bias against scatter
+-- # Try it: bias and scatter
 --
 -- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`), use the sliders under the next cell. They change the noise
 -- $\sigma$, the number of samples $N$ and the sampling time $T_s$ of a hundred data sets of the system $1/(s + 1)$. Which slider changes the bias of
@@ -495,7 +496,7 @@ do
     end
     local bias = mean(found) - a1
     local bars = histogram(found - a1, {truth = 0,
-                           xlabel = "estimate less true a_{1}"})
+                           xlabel = "estimate minus true a_{1}"})
     bars:vline(bias, "mean")
     bars:set{x_range = {-0.2, 0.8}, height = 5, title =
              string.format("bias %.3f, scatter %.3f", bias, std(found))}
@@ -505,20 +506,21 @@ end
 -- %% [markdown]
 -- ![The errors of a hundred least-squares estimates of $a_1$ for the $\sigma$, $N$ and $T_s$ of the cell above; dashed: zero, and their mean](figure:bias_by_hand){#fig:bias_by_hand}
 --
--- In @fig:bias_by_hand, more samples make the histogram narrower and do not change its mean. More noise changes both. Faster sampling makes
--- successive values of the output more alike.
+-- In @fig:bias_by_hand, more samples make the histogram narrower and do not change its mean. More noise changes the width and the mean. With faster
+-- sampling, successive values of the output are more alike.
 
 -- %% [markdown]
 -- # What you have learned
 --
 -- BEGIN SOLUTION
--- * To fit a model that is linear in its parameters, solve one linear system. The normal equations, QR and gradient descent lead to the same
---   solution. Centered and scaled regressors keep the problem well conditioned.
--- * A forecast without an interval says little. The interval is right only if the model and its assumptions are right, and the residuals test them.
--- * The same formula fits a dynamic model when its signals form the columns of $\Phi$. In continuous time you need the time derivative, and in
---   discrete time the past output.
--- * Noise on the regressors biases simple least squares, in proportion to $\sigma^2$. The scatter falls with $1/\sqrt N$, and the bias does not. More
---   data do not help, but instrumental variables and output-error methods do (lesson 4). Repetitions show whether an error is bias or bad luck.
+-- * To fit a model that is linear in its parameters, solve one linear system. The normal equations, QR and gradient descent return the same solution.
+--   Centered and scaled regressors keep the problem well conditioned.
+-- * A forecast needs a prediction interval. The interval is valid only if the model and its assumptions are correct. Test them with the residuals.
+-- * The same formula fits a dynamic model when its signals form the columns of $\Phi$. A continuous-time model needs the time derivative, and a
+--   discrete-time model needs the past output.
+-- * Noise in the regressors makes the least-squares estimate biased, in proportion to $\sigma^2$. The scatter decreases with $1/\sqrt N$, but the
+--   bias does not decrease. More data do not remove the bias, but instrumental variables and output-error methods do (lesson 4). Repetitions show
+--   whether an error is random or a bias.
 -- END SOLUTION
 --
 -- # What you submit
@@ -526,10 +528,10 @@ end
 -- ::: {.note}
 -- If this lesson is graded, submit results with `answer(name, value)`:
 --
--- * `line`: the slope and the time at the mean year; `rmse`: of its residuals;
--- * `paris`: the forecast for 2024 and the lower and upper end of its 95 % prediction interval;
--- * `ct` ($a$, $b$) and `dt` ($a_1$, $b_1$) from the exact samples, `ct_noisy` and `dt_noisy` from the noisy ones;
--- * `monte_carlo`: mean and standard deviation of your thousand estimates of $a_1$.
+-- * `line`: the slope and the time at the mean year; `rmse`: the RMSE of the residuals of this line;
+-- * `paris`: the forecast for 2024 and the lower and upper limits of its 95 % prediction interval;
+-- * `ct` ($a$, $b$) and `dt` ($a_1$, $b_1$) from the exact samples; `ct_noisy` and `dt_noisy` from the noisy samples;
+-- * `monte_carlo`: the mean and the standard deviation of your thousand estimates of $a_1$.
 --
 -- Grading also runs your script on four samples of another system. The checks look for the figures `residuals`, `forecast` and `monte_carlo`.
 -- :::

@@ -1,4 +1,4 @@
--- Gradient descent instead of QR, normal equations instead of lsq, a study that is vectorised in another way.
+-- Gradient descent instead of QR, normal equations instead of lsq, and a study that is vectorized in another way.
 local games, four = load("winning_times"), load("step_response")
 local n = #games.year - 1
 local years, times = games.year:range(1, n), games.time:range(1, n)

@@ -1,9 +1,10 @@
 -- expects: line: the time in the year 0
 -- expects: rmse: You divided by N - 2, which estimates the noise
 -- expects: paris: The interval is too narrow
--- expects: monte_carlo: The mean equals the truth
+-- expects: monte_carlo: The mean equals the true value
 -- expects: follows_study: On a data set that you have not seen
--- Years as they are, the standard error of the line for the interval, and a study in which the noise is left out of the regressors.
+-- The years are not centered, the interval uses the standard error of the line, and the regressors of the study contain no
+-- noise.
 local games, four = load("winning_times"), load("step_response")
 local last = #games.year - 1
 local when, took = games.year:range(1, last), games.time:range(1, last)

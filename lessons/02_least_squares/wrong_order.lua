@@ -1,10 +1,10 @@
 -- expects: line: The order is slope, time at the mean year
--- expects: paris: The order is forecast, lower end, upper end
+-- expects: paris: The order is forecast, lower limit, upper limit
 -- expects: continuous: The order is a, b
 -- expects: discrete: The order is a1, b1
 -- expects: noisy: exact samples
 -- expects: follows_samples: On a data set that you have not seen
--- The columns of Phi and the three numbers of the forecast stand in another order, and the exact samples are taken twice.
+-- The columns of Phi and the three numbers of the forecast are in another order, and the exact samples are used twice.
 local games, four = load("winning_times"), load("step_response")
 local last = #games.year - 1
 local when, took = games.year:range(1, last), games.time:range(1, last)

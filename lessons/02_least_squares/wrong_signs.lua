@@ -2,7 +2,7 @@
 -- expects: discrete: a1 has the wrong sign
 -- expects: noisy: the largest allowed error
 -- expects: follows_samples: On a data set that you have not seen
--- The output stands in the regressors without its minus, so that a and a1 come out with the other sign.
+-- The regressor is y instead of -y, so a and a1 have the opposite sign.
 local games, four = load("winning_times"), load("step_response")
 local last = #games.year - 1
 local when, took = games.year:range(1, last), games.time:range(1, last)

@@ -1,6 +1,6 @@
 -- expects: follows_samples: The parameters do not change with the samples
 -- expects: follows_study: The answer is the same for another data set
--- All the right numbers, none of them computed.
+-- All numbers are correct, but none is computed.
 local games = load("winning_times")
 local picture = plot(games.year, games.time)
 report.figure("residuals", picture, "Residuals")

@@ -1,7 +1,7 @@
 -- expects: line: The fit includes 2024
 -- expects: rmse: the largest allowed error
 -- expects: paris: This is the actual result of Paris, not the forecast of the line
--- The line is fitted to all Games, that of 2024 included, and then "foretells" 2024.
+-- The line is fitted to all Games, including 2024, and then used to "forecast" 2024.
 local games, four = load("winning_times"), load("step_response")
 local n = #games.year
 local x = games.year - mean(games.year)

@@ -15,17 +15,17 @@
 -- ---
 
 -- %% [markdown]
--- A motor pulls a trolley along a rail, and a pendulum hangs from the trolley. One voltage moves both, so the model has two outputs: the position of
--- the trolley and the angle of the load (@fig:crane). You get five data sets. In one of them, no linear model can describe part of the motion. The
--- crane is *simulated*: a program solves its equations, with noise. Find a model, assess its quality, and describe your work so that a reader can
--- repeat it.
+-- A motor pulls a trolley along a rail, and a pendulum hangs from the trolley. One voltage moves the trolley and the load, so the model has two
+-- outputs: the position of the trolley and the angle of the load (@fig:crane). You get five data sets. In one of them, no linear model can describe
+-- part of the motion. The crane is *simulated*: a program solves its equations of motion and adds noise. Identify a model, assess its quality, and
+-- describe your work so that a reader can repeat it.
 --
 -- ::: {.drawing name=crane}
 -- The crane: the motor's voltage $u$, the position $x$ of the trolley and the angle $\theta$ of the rod, all positive as drawn {#fig:crane}
 -- :::
 --
--- Work in this script, cell by cell, and write your text in `report.md`. It has the required sections of a report, with notes on the content of each.
--- You submit the report: at most six pages, seven with the appendix.
+-- Work in this script, cell by cell, and write your text in `report.md`. This file contains the required sections of a report, with notes on the
+-- content of each section. You submit the report: at most six pages, seven with the appendix.
 --
 -- # The data
 --
@@ -34,9 +34,9 @@
 -- | `estimation`, `validation` | rest, then a pseudo-random binary voltage of ±2 V, with a different sequence in each data set |
 -- | `steps` | rest, then pulses of ±2 V and ±4 V with pauses between them |
 -- | `free_swing` | motor at 0 V, the load released by hand |
--- | `limits` | pseudo-random voltage, then manual motion to both ends of the rail, then pseudo-random again |
+-- | `limits` | pseudo-random binary voltage, then manual motion to both ends of the rail, then pseudo-random binary voltage again |
 --
--- Each has `t` (s), `u` (V), `x` (m) and `theta` (rad), every 0.02 s. The voltage is constant between two samples.
+-- Each data set contains `t` (s), `u` (V), `x` (m) and `theta` (rad), sampled every 0.02 s. The voltage is constant between two samples.
 
 -- %% id=records
 local crane = load("crane")
@@ -74,11 +74,11 @@ end
 
 local purposes = {
     {"estimation", say("PRBS, ±2 V", "SBPA, ±2 V"), say("structure and parameters", "structure et paramètres")},
-    {"validation", say("PRBS, ±2 V, other bits", "SBPA, ±2 V, autres bits"), "validation"},
+    {"validation", say("PRBS, ±2 V, other sequence", "SBPA, ±2 V, autres bits"), "validation"},
     {"steps", say("pulses of ±2 V and ±4 V", "impulsions de ±2 V et ±4 V"), say("effect of friction", "ce que coûte le frottement")},
-    {"free_swing", say("0 V, load released by hand", "0 V, charge lâchée à la main"), say("the load alone", "la charge seule")},
+    {"free_swing", say("0 V, load released by hand", "0 V, charge lâchée à la main"), say("pendulum only", "la charge seule")},
     {"limits", say("PRBS, ±12 V manually, PRBS", "SBPA, ±12 V à la main, SBPA"),
-     say("to discard in part", "à écarter en partie")}}
+     say("saturation; discard in part", "à écarter en partie")}}
 local experiments = {{say("data set", "enregistrement"), say("input", "entrée"), say("duration (s)", "durée (s)"),
                       say("used for", "utilité")}}
 for k, row in ipairs(purposes) do
@@ -88,7 +88,7 @@ end
 report.table("experiments", experiments)
 
 report.figure("raw", figure{rows = 3, height = 6.4, panels = panels(crane.estimation)},
-              say("The measured estimation data: the position drifts, like the integral of the voltage, and the load swings at its natural frequency.",
+              say("The measured estimation data. The position drifts like the integral of the voltage, and the load swings at its natural frequency.",
                   "L'enregistrement d'estimation tel que mesuré : la position dérive comme l'intégrale de la tension ; la charge oscille à sa pulsation propre."))
 -- END SOLUTION
 
@@ -100,7 +100,7 @@ report.figure("raw", figure{rows = 3, height = 6.4, panels = panels(crane.estima
 
 -- %% id=preparation
 -- BEGIN SOLUTION
-local rest = 50  -- samples before the input moves
+local rest = 50  -- samples before the input changes
 local function smallest_step(v)
     local smallest = math.huge
     for _, d in ipairs(abs(diff(v)):table()) do
@@ -129,9 +129,9 @@ report.value("discard_from", limits.t[first], "%.1f")
 report.value("discard_to", limits.t[last], "%.1f")
 
 local advised = advice(iddata(matrix{limits.x, limits.theta}, limits.u, Ts, signals)).discard
-if #told > 0 then
-    report.value("advised_from", limits.t[told[1][1]], "%.1f")
-    report.value("advised_to", limits.t[told[#told][2]], "%.1f")
+if #advised > 0 then
+    report.value("advised_from", limits.t[advised[1][1]], "%.1f")
+    report.value("advised_to", limits.t[advised[#advised][2]], "%.1f")
 else  -- on some cranes, this part is too short for advice to detect
     report.value("advised_from", "–")
     report.value("advised_to", "–")
@@ -144,13 +144,13 @@ end
 limit_panels[2].references[3] = {y = 0.5}
 limit_panels[2].references[4] = {y = -0.5}
 report.figure("limits", figure{rows = 3, height = 6.4, panels = limit_panels},
-              say("The data `limits`. Between the vertical lines, the commanded voltage exceeds ±10 V and the trolley meets the buffers at ±0.5 m (horizontal lines).",
+              say("The data `limits`. Between the vertical lines, the commanded voltage exceeds ±10 V and the trolley reaches the buffers at ±0.5 m (horizontal lines).",
                   "L'enregistrement `limits`. Entre les traits verticaux, on commande plus de ±10 V et le chariot rencontre les butées à ±0,5 m (traits horizontaux)."))
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 4.** Which element in the path from voltage to position cannot be fully identified from a finite data set? Write the equations of the crane from physics. Which
--- poles and zeros do position and angle have in common?
+-- **Question 4.** Which element in the path from voltage to position cannot be fully identified from a finite data set? Derive the equations of
+-- motion of the crane. Which poles and zeros do the transfer functions of position and angle have in common?
 --
 -- **Question 5.** Compare structures for each output on estimation and validation data (`srivcstruc`).
 
@@ -205,9 +205,9 @@ report.value("delay_fit", fit(direct(against, against.theta), delayed), "%.2f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 6.** Estimate the model that you chose. Do the two outputs, estimated separately, agree on the dynamics they share? What is the joint
--- estimate (`CommonDenominator`)? You cannot add millimeters and milliradians. By what factor do you scale the errors of each output
--- (`OutputWeights`)?
+-- **Question 6.** Estimate the model that you chose. If you estimate the two outputs separately, do the models agree on the common dynamics? Compare
+-- them with the joint estimate (`CommonDenominator`). You cannot add millimeters and milliradians. By what factor do you scale the errors of each
+-- output (`OutputWeights`)?
 
 -- %% id=estimate
 -- BEGIN SOLUTION
@@ -229,7 +229,7 @@ local function recommended(joint)
     local p = joint.param
     local F = {1, p[1], p[2], p[3]}
     local frequency, damping = damp(tf({1}, F))
-    local swing = damping[1] < 1 and 1 or 3  -- damp sorts by frequency; the motor's pole is real
+    local swing = damping[1] < 1 and 1 or 3  -- damp sorts by frequency; the pole of the motor is real
     return {F = F, x = tf({p[4], p[5], p[6]}, F), theta = tf({p[7], 0}, F), swing = frequency[swing],
             damping = damping[swing], motor = frequency[4 - swing], pendulum = math.sqrt(p[6]/p[4])}
 end
@@ -278,7 +278,7 @@ report.value("passes", position.report.iterations, "%d")
 
 -- %% [markdown]
 -- **Question 7.** What else did you try, and why did you reject it? Compare the simulation of an ARX model. Also estimate your model from `limits`:
--- first from all of it, then without the part that you discarded. How does it change?
+-- first from all of it, then without the part that you discarded. How does the model change?
 
 -- %% id=discarded
 -- BEGIN SOLUTION
@@ -303,8 +303,8 @@ report.table("sources", {
 
 -- %% [markdown]
 -- **Question 8.** Validate your model: compare the simulated outputs with the validation data, and test the residuals. How well does the model
--- describe the pulses of `steps`, and what does the free swing show about the pendulum? `motion` shows crane and model side by side in motion (on the
--- page of `dynlab preview analysis.lua`, not in the report).
+-- describe the pulses of `steps`, and what does the free swing show about the pendulum? `motion` animates the crane and the model side by side (on
+-- the page of `dynlab preview analysis.lua`, not in the report).
 
 -- %% id=validation
 -- BEGIN SOLUTION
@@ -346,7 +346,7 @@ local function against_model(record, height, with_differences)
 end
 local validation_figure, x_error, theta_error = against_model(against, 8.8, true)
 report.figure("validation", validation_figure,
-              say("The validation data: measured and simulated from the voltage alone, and the difference. The error of the angle is largest where the load swings furthest.",
+              say("The validation data: measured outputs, outputs simulated from the voltage only, and the errors. The error of the angle is largest when the swing of the load is largest.",
                   "L'enregistrement de validation, qui n'a pas servi à l'estimation : mesuré, simulé à partir de la seule tension, et l'écart. C'est aux grands angles que l'erreur de l'angle est la plus forte."))
 report.value("x_error", 1e3*std(x_error), "%.1f")
 report.value("theta_error", 1e3*std(theta_error), "%.1f")
@@ -380,7 +380,7 @@ end
 local steps = crane.steps
 local steps_figure, steps_x_error, steps_theta_error = against_model(steps, 4.7)
 report.figure("steps", steps_figure,
-              say("The data `steps`: after pulses of ±2 V and ±4 V, friction holds the trolley at rest. In the simulation, the load sets it in motion.",
+              say("The data `steps`: after pulses of ±2 V and ±4 V, friction holds the trolley at rest. In the simulation, the load moves the trolley.",
                   "L'enregistrement `steps` : après des impulsions de ±2 V et ±4 V, le frottement tient le chariot ; le chariot simulé, lui, est entraîné par sa charge."))
 report.value("steps_fit_x", fit(integrated(steps, steps.x), model.x, resting), "%.1f")
 report.value("steps_fit_theta", fit(direct(steps, steps.theta), model.theta, resting), "%.1f")
@@ -397,7 +397,7 @@ for k = 2, #steps.t do
         speed[volts_applied] = (speed[volts_applied] or 0) + v/2
     end
 end
-local free_gain = (speed[4] - speed[2])/2          -- of a trolley without dry friction, m/s per volt
+local free_gain = (speed[4] - speed[2])/2          -- trolley without dry friction, m/s per volt
 local dry_voltage = 2 - speed[2]/free_gain         -- voltage lost to dry friction
 report.value("speed2", 1e3*speed[2]/2, "%.1f")
 report.value("speed4", 1e3*speed[4]/4, "%.1f")
@@ -430,9 +430,9 @@ report.value("free_moved", 1e3*(max(swing.x) - min(swing.x)), "%.1f")
 
 -- %% [markdown]
 -- **Question 9.** One data set is one realization. You can run the simulated crane again: `rig("crane", {seed = 2})` repeats all five experiments
--- with a different binary sequence and different noise. First, enter a prediction (`guess`, `outcome`): which fit of the angle is typical? Then repeat your
--- whole procedure forty times. How large is the scatter of fit, parameters and frequency? Do the standard errors show this scatter? How close is your
--- model to the best linear model of this structure?
+-- with a different binary sequence and different noise. First, enter a prediction (`guess`, `outcome`): which fit do you expect for the angle? Then
+-- repeat your whole procedure forty times. How large is the scatter of the fit, the parameters and the frequency? Do the standard errors agree with
+-- this scatter? How close is your model to the best linear model of this structure?
 
 -- %% id=repetition_guess
 -- BEGIN SOLUTION
@@ -493,10 +493,10 @@ local function add(text, list, format)
 end
 add(say("position: recommended model, fit (%)", "position : modèle recommandé, adéquation (%)"), study.x, "%.2f")
 add(say("position: best single linear model (%)", "position : meilleur modèle linéaire unique (%)"), study.best_x, "%.2f")
-add(say("position: fitted to the same data (%)", "position : ajusté à l'enregistrement même (%)"), study.own_x, "%.2f")
+add(say("position: estimated from the same data (%)", "position : ajusté à l'enregistrement même (%)"), study.own_x, "%.2f")
 add(say("angle: recommended model, fit (%)", "angle : modèle recommandé, adéquation (%)"), study.theta, "%.2f")
 add(say("angle: best single linear model (%)", "angle : meilleur modèle linéaire unique (%)"), study.best_theta, "%.2f")
-add(say("angle: fitted to the same data (%)", "angle : ajusté à l'enregistrement même (%)"), study.own_theta, "%.2f")
+add(say("angle: estimated from the same data (%)", "angle : ajusté à l'enregistrement même (%)"), study.own_theta, "%.2f")
 add(say("swing frequency, from the poles (rad/s)", "oscillation, pôles du modèle (rad/s)"), study.swing, "%.3f")
 add(say("pendulum frequency, from the zeros of the position (rad/s)", "pendule, zéros de la position (rad/s)"), study.pendulum, "%.3f")
 report.table("repetition", repeated_rows)
@@ -512,7 +512,7 @@ report.value("gap_x", mean(vector(study.best_x)) - mean(vector(study.x)), "%.1f"
 report.value("gap_theta", mean(vector(study.best_theta)) - mean(vector(study.theta)), "%.1f")
 report.value("own_gap_theta", mean(vector(study.own_theta)) - mean(vector(study.theta)), "%.1f")
 
--- The simulator's frequencies for small swings without dry friction, from its parameters (data/crane/SOURCE.md): the pendulum with the
+-- Frequencies of the simulated crane for small swings without dry friction, from its parameters (data/crane/SOURCE.md): the pendulum with the
 -- trolley fixed (zeros) and with the trolley moving (poles).
 local constant = 0.05*5/0.02                               -- motor and gear: V s/m, and N/A
 local mass, viscous = 1 + 0.23 + 2e-5*(5/0.02)^2, constant^2/5 + 2 + 3
@@ -528,8 +528,8 @@ report.value("pendulum_error", largest_error(study.pendulum, truth.natural_frequ
 
 -- %% [markdown]
 -- **Question 10.** Which nonlinearity remains? Simulate the equations of question 4 with dry friction, with $\sin\theta$ instead of $\theta$ (and air
--- drag), and with both. Estimate their parameters like those of the linear model, by the smallest simulation error. Which nonlinearity explains the
--- position, which explains the angle, and what remains at the end?
+-- drag), and with both. Estimate the parameters by minimizing the simulation error, as for the linear model. Which nonlinearity explains the
+-- position, which explains the angle, and which errors remain?
 
 -- %% id=nonlinear
 -- BEGIN SOLUTION
@@ -585,7 +585,7 @@ local function left_over(p, wide, record)
     return record.x - record.x[1] - x, record.theta - mean(record.theta:range(1, rest)) - theta
 end
 
--- Gauss-Newton search from the values `p`: the derivative of the errors by differences, then a linear regression.
+-- Gauss-Newton search from the values `p`: finite differences of the errors, then a linear regression.
 local function grey_box(p, names, wide)
     local function errors()
         local x, theta = left_over(p, wide, from)
@@ -658,7 +658,7 @@ report.value("grey_length", physical.length, "%.3f")
 
 -- %% [markdown]
 -- **Question 11 (appendix).** Propose a controller that moves the trolley quickly to a given position with little swing of the load. Draw a block
--- diagram, design the controller from your model (`lqr`, `place`), and simulate its closed loop with the nonlinear crane (`drive_crane`).
+-- diagram, design the controller from your model (`lqr`, `place`), and simulate the closed loop with the nonlinear crane (`drive_crane`).
 
 -- %% id=control
 -- BEGIN SOLUTION
@@ -676,7 +676,7 @@ local K, loop_poles = lqr(A, B, C:t()*weight*C, {{1/large.u^2}})
 -- The observer by duality: disturbances (friction) act at the input, and the residuals give the measurement noise.
 local L = lqr(A:t(), C:t(), B*B:t()*0.5^2 + 1e-9*eye(4), {{(1e-3)^2, 0}, {0, (5e-3)^2}}):t()
 
--- Observer and feedback, exact between the samples: d/dt z = (A - L C) z + [B L] [u; x; theta].
+-- Observer and feedback, discretized exactly: d/dt z = (A - L C) z + [B L] [u; x; theta].
 local LC = A - L*C
 local inputs = matrix{{1, L[{1, 1}], L[{1, 2}]}, {0, L[{2, 1}], L[{2, 2}]}, {0, L[{3, 1}], L[{3, 2}]}, {0, L[{4, 1}], L[{4, 2}]}}
 local observer = c2d(ss(LC, inputs, eye(4), zeros(4, 3)), Ts)
@@ -742,7 +742,7 @@ end
 report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
     compared(meters, "x", {references = {{y = goal}}}), compared(radians, "theta", {legend = "none"}),
     compared(volts, "u", {legend = "none", xlabel = seconds})}},
-    say("The nonlinear crane on its way to 0.3 m: state feedback brings the load to rest with the trolley. With proportional control, it continues to swing.",
+    say("The nonlinear crane moves to 0.3 m. With state feedback, the load comes to rest together with the trolley. With proportional control, the load continues to swing.",
         "La grue non linéaire en route vers 0,3 m : le retour d'état arrête la charge avec le chariot ; sous commande proportionnelle elle oscille encore."))
 -- END SOLUTION
 
@@ -752,25 +752,25 @@ report.figure("closed_loop", figure{rows = 3, height = 8.4, panels = {
 -- After the deadline of the first version, you receive the anonymous report of another group, and write a review of one to two pages. Your names
 -- appear neither in your report nor in your review. `dynlab new review my-review` creates the form with five questions:
 --
--- 1. Are data and data collection described clearly enough for a reader to repeat the experiments?
--- 2. Is the solution of every step of the workflow described?
+-- 1. Are the data and their collection described clearly enough for a reader to repeat the experiments?
+-- 2. Does the report describe the solution of every step of the workflow?
 -- 3. Do the conclusions follow from data, experiments and results? Do you agree with them, and which changes do you propose?
 -- 4. What is the greatest strength of the content?
--- 5. How can clarity, readability and technical accuracy be improved?
+-- 5. How can the authors improve clarity, readability and technical accuracy?
 --
--- Write your answers as a discussion: give reasons, and propose other methods. Criticize constructively, keep a friendly tone, say exactly what to
--- improve, and avoid hurtful remarks. Vague or harsh comments are ignored. Your instructor sets three deadlines: the first version of the report, the
--- review, and the final version, which takes the reviews into account.
+-- Write your answers as a discussion: give reasons, and propose other methods. Criticize constructively, keep a friendly tone, specify exactly which
+-- changes you propose, and avoid hurtful remarks. Vague or harsh comments are ignored. Your instructor sets three deadlines: the first version of the
+-- report, the review, and the final version, which takes the reviews into account.
 --
 -- # What you submit in addition to the report
 --
--- People read the report. If the script is graded too, submit results with `answer(name, value)`:
+-- Readers assess the report. If the script is graded, too, submit results with `answer(name, value)`:
 --
 -- * `discarded`: the start and end times (s) of the part of `limits` that no linear model can describe;
--- * `rest_angle`: the reading of the potentiometer (rad) while the load is at rest;
+-- * `rest_angle`: the reading of the potentiometer (rad) when the load is at rest;
 -- * `G_position` and `G_angle`: your recommended models from voltage to position, including the integrator, and from voltage to angle;
--- * `fits`: the fits (%) of their simulated position and angle to the validation data;
--- * `free_swing`: the frequency (rad/s) of the load while the motor is off.
+-- * `fits`: the fits (%) of the simulated position and angle to the validation data;
+-- * `free_swing`: the swing frequency (rad/s) of the load while the motor is off.
 --
 -- Grading also runs your script on data of another crane, and compares the resulting models with hidden experiments. The checks look for the figures
 -- `raw` and `validation`.

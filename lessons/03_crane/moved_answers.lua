@@ -1,10 +1,10 @@
--- How a test moves the answers of the worked solution on their way out: `move[name]` is a function of an answer, `e` the
--- sign, and `inside` whether the answer must stay within what checks.lua allows or leave it; `scaled(near, far)` and
--- `shifted(near, far)` do either by the first inside and by the second outside.
+-- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign
+-- `e` and `inside`, which specifies whether the answer must stay within the tolerance of checks.lua or exceed it.
+-- `scaled(near, far)` and `shifted(near, far)` use the first amount inside the tolerance and the second amount outside.
 move.discarded = shifted(vector{-0.05, 0.05}, vector{-6, 6})
 move.rest_angle = shifted(5e-4, 5e-3)
 move.G_position = scaled(0.003, 0.3)
-move.G_angle = function(G)  -- another gain and another time scale
+move.G_angle = function(G)  -- changes the gain and the time scale
     local c = inside and 1 + 0.0005*e or 1 + 0.2*e
     local function stretched(polynomial)
         local all = {}

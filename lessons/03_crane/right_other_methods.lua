@@ -1,10 +1,10 @@
--- Each output for itself, the integrator by the option Integration, the free swing by the distance of its zeros in both directions.
+-- Separate estimates of the outputs, the integrator with the option Integration, and the free swing from all zero crossings.
 local c = load("crane")
-local still = {InitialState = "zero", Offset = "none"}
+local still = {InitialState = "none", Offset = "none"}
 local function off(r, y) return iddata(y - mean(y:range(1, 50)), r.u, 0.02) end
 local e, v, l = c.estimation, c.validation, c.limits
 local Gx = tfsrivc(off(e, e.x), 3, 2, {TdMax = 0, Integration = true})
-local Gt = tfcoe(off(e, e.theta), 3, 1, {TdMax = 0, InitialState = "zero", Offset = "none"})
+local Gt = tfcoe(off(e, e.theta), 3, 1, {TdMax = 0, InitialState = "none", Offset = "none"})
 answer("G_position", Gx)
 answer("G_angle", Gt)
 answer("fits", vector{fit(off(v, v.x), Gx, still), fit(off(v, v.theta), Gt, still)})

@@ -2,15 +2,15 @@
 -- expects: fits: the largest allowed error
 -- expects: crane_follows: On a data set that you have not seen
 -- expects: discarded: After the last saturated voltage, the trolley is still at a buffer while voltage is applied
--- The position's model is left without its integrator, and only the saturated voltage is discarded.
+-- The model of the position has no integrator, and only the part with saturated voltage is discarded.
 local c = load("crane")
 local e, v, l, s = c.estimation, c.validation, c.limits, c.free_swing
 local function drive(r) return 0.02*(cumsum(r.u) - r.u) end
 local function place(r) return detrend(iddata(r.x, drive(r), 0.02, {InterSample = "foh"}), "start", {samples = 50}) end
 local function tilt(r) return detrend(iddata(r.theta, r.u, 0.02), "start", {samples = 50}) end
-local calm = {InitialState = "zero", Offset = "none"}
-local F_x = tfsrivc(place(e), 3, 2, {TdMax = 0, InitialState = "zero", Offset = "none"})
-local F_t = tfsrivc(tilt(e), 3, 1, {TdMax = 0, InitialState = "zero", Offset = "none"})
+local calm = {InitialState = "none", Offset = "none"}
+local F_x = tfsrivc(place(e), 3, 2, {TdMax = 0, InitialState = "none", Offset = "none"})
+local F_t = tfsrivc(tilt(e), 3, 1, {TdMax = 0, InitialState = "none", Offset = "none"})
 answer("G_position", F_x)
 answer("G_angle", F_t)
 answer("fits", vector{fit(place(v), F_x, calm), fit(tilt(v), F_t, calm)})

@@ -2,16 +2,16 @@
 -- expects: angle_model: The sign is wrong
 -- expects: crane_follows: On a data set that you have not seen
 -- expects: discarded: You discarded more than necessary
--- The position is estimated on the validation record, the angle counted backwards, and nearly all of limits thrown away.
+-- The position is estimated from the validation data, the angle has the wrong sign, and nearly all of limits is discarded.
 local c = load("crane")
-local start = {InitialState = "zero", Offset = "none"}
+local start = {InitialState = "none", Offset = "none"}
 local v = c.validation
 local function voltage_to(y, r) return detrend(iddata(y, r.u, 0.02), "start", {samples = 50}) end
 local both = matrix{v.x, v.theta}
 local known = detrend(iddata(both, 0.02*(cumsum(v.u) - v.u), 0.02, {InterSample = "foh"}), "start", {samples = 50})
-local p = tfsrivc(known, 3, 2, {TdMax = 0, CommonDenominator = true, InitialState = "zero", Offset = "none"}).param
+local p = tfsrivc(known, 3, 2, {TdMax = 0, CommonDenominator = true, InitialState = "none", Offset = "none"}).param
 local Gx = tf({p[4], p[5], p[6]}, {1, p[1], p[2], p[3], 0})
-local Gt = tfsrivc(voltage_to(-c.estimation.theta, c.estimation), 3, 1, {TdMax = 0, InitialState = "zero", Offset = "none"})
+local Gt = tfsrivc(voltage_to(-c.estimation.theta, c.estimation), 3, 1, {TdMax = 0, InitialState = "none", Offset = "none"})
 answer("G_position", Gx)
 answer("G_angle", Gt)
 answer("fits", vector{fit(voltage_to(v.x, v), Gx, start), fit(voltage_to(v.theta, v), Gt, start)})

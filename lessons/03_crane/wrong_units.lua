@@ -2,9 +2,9 @@
 -- expects: rest_angle: in degrees
 -- expects: free_swing: in Hz
 -- expects: swing_follows: On a data set that you have not seen
--- Samples, degrees and hertz where seconds, radians and rad/s are wanted.
+-- The answers are in samples, degrees and hertz instead of seconds, radians and rad/s.
 local c = load("crane")
-local from_rest = {InitialState = "zero", Offset = "none", TdMax = 0}
+local from_rest = {InitialState = "none", Offset = "none", TdMax = 0}
 local function prepared(r, y, u, between)
     return detrend(iddata(y, u or r.u, 0.02, {InterSample = between or "zoh"}), "start", {samples = 50})
 end
@@ -15,7 +15,7 @@ report.figure("raw", plot(e.t, e.theta), "Angle")
 report.figure("validation", compare(prepared(v, v.theta), Gt), "Angle of the validation record")
 answer("G_position", Gx)
 answer("G_angle", Gt)
-local still = {InitialState = "zero", Offset = "none"}
+local still = {InitialState = "none", Offset = "none"}
 answer("fits", vector{fit(prepared(v, v.x), Gx, still), fit(prepared(v, v.theta), Gt, still)})
 
 local l, from, to = c.limits, nil, nil

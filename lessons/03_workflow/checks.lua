@@ -1,4 +1,4 @@
--- The checks of lesson 3.1. `a` holds the answers, `b` those of a run on records of another linear system or another rig.
+-- The checks of lesson 3.1. `a` contains the answers, `b` the answers of a run on data of another linear system or plant.
 
 local function judge(message) return {share = 0, message = message} end
 
@@ -13,28 +13,29 @@ local function true_orders(a)
 end
 local from_first, from_second = srivc(est, {2, 3, 0}), srivc(val, {2, 3, 0})
 
--- How far two models are apart on an input: the size of the difference of their outputs, in parts of the swing of the first.
+-- Returns the RMS difference between the outputs of two models, relative to the standard deviation of the first output.
 local function apart(reference, G, u)
     local y, other = lsim(reference, u, Ts), lsim(G, u, Ts)
     return sqrt(mean((other - y)^2))/std(y)
 end
-local function fit_to(data, G) return fit(data, G, {InitialState = "zero", Offset = "none"}) end
+local function fit_to(data, G) return fit(data, G, {InitialState = "none", Offset = "none"}) end
 
-check { id = "linear_orders", points = 1, about = "Simulated system: how many poles and zeros",
+check { id = "linear_orders", points = 1, about = "Simulated system: the numbers of poles and zeros",
     test = function(a) return near(a.linear_orders, true_orders(a), {abs = 0, half = 1}) end,
     mistakes = {
         {when = function(a) return a.linear_orders[1] == true_orders(a)[1] and a.linear_orders[2] == true_orders(a)[2] + 1 end,
-         say = "The second number is the number of zeros, one less than the number of coefficients of B; another zero has no effect."},
+         say = "The second number is the number of zeros, one less than the number of coefficients of B; an additional zero has no effect."},
         {when = function(a) return near(a.linear_orders, vector{true_orders(a)[2], true_orders(a)[1]}, {abs = 0}) end,
          say = "The order is poles, zeros."},
         {when = function(a) return a.linear_orders[1] < true_orders(a)[1] end,
-         say = "Too simple: on the second data set, a larger model is clearly better."},
+         say = "The model has too few poles: on the second data set, a larger model is clearly better."},
         {when = function(a) return a.linear_orders[1] > true_orders(a)[1] end,
-         say = "Too many: the second data set cannot distinguish this model from a simpler one."},
+         say = "The model has too many poles: the second data set cannot distinguish it from a simpler model."},
     },
-    hint = "The simplest structure that the second data set cannot distinguish from larger ones." }
+    hint = "Choose the simplest structure that the second data set cannot distinguish from larger structures." }
 
--- With noise of a fifth of the swing and 1000 samples, estimates stay within 2.3 % of the true output (25 systems); two poles miss it by 26 %.
+-- With 20 % noise and 1000 samples, estimates are within 2.3 % of the true output (25 systems); models with two poles differ
+-- by 26 %.
 check { id = "linear_model", points = 2, about = "Simulated system: the model",
     test = function(a)
         local G = a.G_linear
@@ -45,15 +46,15 @@ check { id = "linear_model", points = 2, about = "Simulated system: the model",
     end,
     mistakes = {
         {when = function(a) return a.G_linear.Ts > 0 end,
-         say = "The model must be in continuous time. arx gives a difference equation, which is biased here."},
+         say = "The model must be a continuous-time model. arx estimates a difference equation, which is biased for these data."},
         {when = function(a) return dcgain(a.G_linear) < 0 end, say = "The gain has the wrong sign."},
         {when = function(a) return near(dcgain(a.G_linear), dcgain(from_first), {rel = 0.1}).share == 1 and
                                    sum(damp(a.G_linear)) < 0.2*sum(damp(from_first)) end,
-         say = "Time is counted in samples: give the data their sampling time."},
+         say = "Time is counted in samples: specify the sampling time of the data."},
         {when = function(a) return #pole(a.G_linear) < 3 end,
          say = "The model has too few poles: the second data set requires three."},
     },
-    hint = "srivc(est, {2, 3, 0}) on the first data set." }
+    hint = "Use srivc(est, {2, 3, 0}) with the first data set." }
 
 check { id = "linear_fit", points = 2, about = "Simulated system: the fit of the model",
     test = function(a) return near(a.linear_fit, fit_to(val, a.G_linear), {abs = 0.3}) end,
@@ -61,7 +62,7 @@ check { id = "linear_fit", points = 2, about = "Simulated system: the fit of the
         {when = function(a) return near(a.linear_fit, fit_to(est, a.G_linear), {abs = 0.1}) end,
          say = "This is the fit to the data from which the model was estimated."},
         {when = function(a) return near(a.linear_fit, arx(est, {3, 3, 1}).report.prediction_fit_percent, {abs = 0.3}) end,
-         say = "This is the fit of the one-step prediction; give the fit of the simulated output."},
+         say = "This is the fit of the one-step-ahead prediction; answer with the fit of the simulated output."},
         {when = function(a) return near(a.linear_fit, fit_to(val, a.G_linear)/100, {rel = 0.02}) end,
          say = "The result must be in percent."},
         {when = function(a) return near(a.linear_fit, 100*(1 - (1 - fit_to(val, a.G_linear)/100)^2), {abs = 0.3}) end,
@@ -69,7 +70,7 @@ check { id = "linear_fit", points = 2, about = "Simulated system: the fit of the
     },
     hint = "fit(val, G) simulates the second data set with the model." }
 
--- The true system itself loses only the noise; 3 points below it a model of the right structure has never been.
+-- The true system has the best possible fit; models with the correct structure were never 3 points below it.
 check { id = "linear_follows", points = 5, rerun = "linear_system",
     about = "Another linear system: your model simulates hidden data",
     test = function(a, b)
@@ -82,26 +83,27 @@ check { id = "linear_follows", points = 5, rerun = "linear_system",
         {when = function(a, b) return near(dcgain(a.G_linear), dcgain(b.G_linear), {rel = 1e-9}) end,
          say = "The model does not change with the data: estimate it; do not type it in."},
         {when = function(_, b) return b.G_linear.Ts > 0 end,
-         say = "A difference equation from arx predicts well and simulates badly: its noise model is wrong here."},
+         say = "A difference equation from arx predicts well, but simulates poorly: its noise model is wrong for these data."},
     },
     hint = "Compute everything in G_linear from the data that load(\"linear_system\") returns." }
 
--- The rig ------------------------------------------------------------------------------------------------------------
+-- The heat-transfer plant --------------------------------------------------------------------------------------------
 
 local heat = load("heat_transfer")
-local function power(y, u) return iddata(y, u^2, 1) end  -- 100 W at 10 V: as many watts as volts squared
+local function power(y, u) return iddata(y, u^2, 1) end  -- 100 W at 10 V: the power in W equals the squared voltage in V
 local function without_drift(data) return idfilt(detrend(data, "start"), {0.015, math.huge}, {order = 2}) end
 local low = power(heat.y, heat.u)
-local wanted = procsrivc(without_drift(low), "P2D", {TdMax = 20, InitialState = "zero", Offset = "none"})
+local wanted = procsrivc(without_drift(low), "P2D", {TdMax = 20, InitialState = "none", Offset = "none"})
 
--- What a record says well of the rig: gain, slow lag, and the sum of the delay and the short lags.
+-- Quantities that a data set determines well: gain, slow lag, and the sum of the delay and the short lags.
 local function facts(G)
     local p = pole(G)
     if max(p.re) >= 0 then return nil end
     local lags = -1/p.re
     return vector{dcgain(G), max(lags), sum(lags) - max(lags) + G.IODelay}
 end
--- The lags estimated on sixty rigs were wrong by at most 5 %, the gain by at most 4 %; other edges of the filter cost as much again.
+-- On sixty plants, the errors of the lags were at most 5 % and of the gain at most 4 %; other cutoff frequencies double the
+-- errors.
 local function close(found, gain, slow, rest)
     if not found then return judge("The model is not stable.") end
     return all_of(near(found[1], gain, {rel = 0.06, half = 0.12}), near(found[2], slow, {rel = 0.08, half = 0.16}),
@@ -110,13 +112,13 @@ end
 
 local wrong_input = {
     {when = function(a) return a.G_heat.Ts > 0 end,
-     say = "The model must be in continuous time, but it is in discrete time."},
+     say = "The model must be a continuous-time model, but it is a discrete-time model."},
     {when = function(a) return dcgain(a.G_heat) < 0 end, say = "The gain has the wrong sign."},
     {when = function(a) return near(dcgain(a.G_heat), 8*wanted.Kp, {rel = 0.25}) end,
-     say = "The gain is in degrees per volt: the input is the voltage, and such a gain is not valid around 7 V."},
+     say = "The gain is in °C/V: the input is the voltage, so the gain is not valid around 7 V."},
     {when = function(a) return near(dcgain(a.G_heat), 100*wanted.Kp, {rel = 0.15}) end,
-     say = "The input is the fraction of full power; the gain per watt is a hundredth of this."},
-    {when = function(a) return a.G_heat.IODelay == 0 end, say = "The model has no delay; the temperature responds some seconds late."},
+     say = "The input is the fraction of full power; divide the gain by 100 to get the gain per watt."},
+    {when = function(a) return a.G_heat.IODelay == 0 end, say = "The model has no delay, but the temperature responds after some seconds."},
 }
 
 check { id = "heat_model", points = 3, about = "Heat-transfer plant: gain and lags of the final model",
@@ -125,7 +127,7 @@ check { id = "heat_model", points = 3, about = "Heat-transfer plant: gain and la
         return close(facts(a.G_heat), ref[1], ref[2], ref[3])
     end,
     mistakes = wrong_input,
-    hint = "Power as the input, both signals without levels and drift, two lags and a delay." }
+    hint = "Use the power as input, remove levels and drift from both signals, and estimate two lags and a delay." }
 
 check { id = "heat_follows", points = 5, rerun = "heat_transfer",
     about = "Another heat-transfer plant: the model from 4 V is valid around 7 V, on hidden data",
@@ -141,7 +143,7 @@ check { id = "heat_follows", points = 5, rerun = "heat_transfer",
         {when = function(a, b) return near(dcgain(a.G_heat), dcgain(b.G_heat), {rel = 1e-9}) end,
          say = "The model does not change with the data: estimate it; do not type it in."},
         {when = function(_, b) return dcgain(b.G_heat) > 2 end,
-         say = "The gain of this model is far too large: is its input the power in watts?"},
+         say = "The gain of this model is far too large: use the power in watts as input."},
     },
     hint = "Prepare and estimate from the data that load(\"heat_transfer\") returns, and compare the model with the data around 7 V." }
 
@@ -153,7 +155,7 @@ first, second = first:remove_mean(), second:remove_mean()
 local from_second_half = srivc(second, {1, 2, 2}, {InitialState = "none", Offset = "none"})
 
 check { id = "dryer_model", points = 2, about = "Hair dryer: the model on the validation half",
-    -- Two poles reach 91.8 %, one pole 84.9 %, an arx model of second order 91.3 %; 0 without a delay.
+    -- Fits: two poles 91.8 %, one pole 84.9 %, a second-order arx model 91.3 %, without a delay 0 %.
     test = function(a)
         if near(fit(first, a.G_dryer), fit(first, from_second_half), {abs = 1e-4}).share == 1 then
             return judge("This model was estimated from the second half, which is reserved for validation.")
@@ -163,13 +165,13 @@ check { id = "dryer_model", points = 2, about = "Hair dryer: the model on the va
     mistakes = {
         {when = function(a) return dcgain(a.G_dryer) < 0 end, say = "The gain has the wrong sign."},
         {when = function(a) return a.G_dryer.IODelay == 0 and a.G_dryer.Ts == 0 end,
-         say = "The model has no delay; the output responds two samples late."},
+         say = "The model has no delay, but the output responds two samples late."},
         {when = function(a) return a.G_dryer.IODelay >= 1 end,
          say = "The delay is counted in samples; use seconds."},
         {when = function(a) return #pole(a.G_dryer) == 1 end,
          say = "With one pole, the delay compensates for a missing lag; the second half of the data contradicts this model."},
     },
-    hint = "srivc(first, {1, 2, 2}): two poles and two samples of delay, after you subtract both means." }
+    hint = "Subtract both means, and use srivc(first, {1, 2, 2}): two poles and two samples of delay." }
 
 check { id = "dryer_fit", points = 2, about = "Hair dryer: the fit of the model",
     test = function(a) return near(a.dryer_fit, fit(second, a.G_dryer), {abs = 0.3}) end,
@@ -177,10 +179,10 @@ check { id = "dryer_fit", points = 2, about = "Hair dryer: the fit of the model"
         {when = function(a) return near(a.dryer_fit, fit(first, a.G_dryer), {abs = 0.1}) end,
          say = "This is the fit to the half from which the model was estimated."},
         {when = function(a) return a.dryer_fit > fit(second, a.G_dryer) + 1.5 end,
-         say = "No model simulates the second half so well: this looks like the fit of the one-step prediction."},
+         say = "No linear model simulates the second half so well: this looks like the fit of the one-step-ahead prediction."},
     },
-    hint = "fit(second, G): the simulated output on the second half." }
+    hint = "fit(second, G) compares the simulated output with the second half." }
 
 check { id = "figures", points = 1, about = "Figures of the residuals and the comparisons",
     test = function() return all_of(has_figure("linear_resid"), has_figure("heat_high"), has_figure("dryer_compare")) end,
-    hint = "report.figure(\"linear_resid\", resid(val, G), \"...\") and the others by their names." }
+    hint = "report.figure(\"linear_resid\", resid(val, G), \"...\"); name the other two figures heat_high and dryer_compare." }

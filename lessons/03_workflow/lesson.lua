@@ -16,22 +16,22 @@
 -- ---
 
 -- %% [markdown]
--- Estimating parameters is the short part of identification: one line of code. The long part is everything around it: which experiment, which part of
--- the data, which structure, and above all, can you believe the result? If you cannot, go back and change something. This is not a failure of the
--- work but the work itself [@ljung1999, chapter 17].
+-- Parameter estimation is the short part of identification: it takes one line of code. The other steps take longer. You choose the experiment, the
+-- part of the data and the structure, and decide whether you can trust the result. If you cannot trust it, go back to an earlier step. Such
+-- iterations are a normal part of identification [@ljung1999, chapter 17].
 --
--- This lesson goes around the loop of @fig:workflow three times. @tbl:workflow lists the question that each step answers. The first process is a
--- simulated linear system. The second is a simulated heat-transfer plant, for which the obvious model fails twice. The third is a real hair dryer.
--- You can look up the truth of the two simulated processes at the end. The truth of the dryer is unknown. First watch Brian Douglas's video [*Linear
--- System Identification, Part 2*](https://www.youtube.com/watch?v=qC_C04SEV1E) (18 minutes). It goes around the same loop, with a simulated linear
--- system and with a heat exchanger.
+-- This lesson runs through the loop of @fig:workflow three times. @tbl:workflow lists the question that each step answers. The first process is a
+-- simulated linear system. The second is a simulated heat-transfer plant, for which the obvious model fails twice. The third is a real hair dryer. At
+-- the end, you can look up the true parameters of the two simulated processes. The true system of the dryer is unknown. First watch Brian Douglas's
+-- video [*Linear System Identification, Part 2*](https://www.youtube.com/watch?v=qC_C04SEV1E) (18 minutes). The video shows the same loop for a
+-- simulated linear system and for a heat exchanger.
 --
 -- The work is planned for two sessions of three hours:
 --
 -- | session | questions, with minutes | aim |
 -- |--------------|-------------------------|------------------------|
--- | A structure that you can believe | 1 (15), 2 (30), 3 (20), 4 (20), 5 (30), 6 (20), 7 (15), 8 (15), 9 (15) | choose an order, validate, and use a failed validation to find what to change |
--- | What remains in the residuals | 10 (20), 11 (30), 12 (30), 13 (15), 14 (25), 15 (20), 16 (40) | find and remove a drift, assess parameters, and reach a conclusion without knowing the truth |
+-- | A structure that you can trust | 1 (15), 2 (30), 3 (20), 4 (20), 5 (30), 6 (20), 7 (15), 8 (15), 9 (15) | choose an order, validate the model, and use a failed validation to find the step to change |
+-- | What remains in the residuals | 10 (20), 11 (30), 12 (30), 13 (15), 14 (25), 15 (20), 16 (40) | detect and remove a drift, assess parameters, and draw a conclusion without knowing the true system |
 --
 -- ::: block-diagram
 -- - experiment = block 1 1: experiment
@@ -45,38 +45,39 @@
 -- - b3 = branch 3 2
 -- - b4 = branch 4 2
 -- - experiment -> data -> preparation -> structure -> estimation -> validation
--- - validation |- b4: not believed
+-- - validation |- b4: not trusted
 -- - b4 -> b3 -> b2 -> b1
 -- - b4 -> structure
 -- - b3 -> preparation
 -- - b2 -> data
 -- - b1 -> experiment
 --
--- The identification loop: a model that you do not believe sends you back to the step that caused the problem. {#fig:workflow}
+-- The identification loop: if you do not trust the model, go back to the step that caused the problem. {#fig:workflow}
 -- :::
 
 -- %% id=workflow echo=false
 report.table("workflow", {
     {"step", "question", "tools", "go back if"},
-    {"experiment", "Does the input move the process at all frequencies of interest?", "prbs, multisine", "the data cannot answer a question"},
-    {"data", "Rest, offset, drift, noise, dead time, faults?", "idplot, advice, delayest", "you see something unexpected"},
-    {"preparation", "What remains without levels and drift?", "detrend, idfilt, split", "the model spends parameters on a level"},
-    {"structure", "How many poles and zeros, which delay?", "srivcstruc, selcstruc", "two structures explain the data equally well"},
+    {"experiment", "Does the input excite the process at all frequencies of interest?", "prbs, multisine", "the data cannot answer a question"},
+    {"data", "Are there offsets, drift, noise, dead time or faults?", "idplot, advice, delayest", "you see something unexpected"},
+    {"preparation", "What remains without levels and drift?", "detrend, idfilt, split", "parameters of the model describe a level"},
+    {"structure", "How many poles and zeros, and which delay?", "srivcstruc, selcstruc", "two structures explain the data equally well"},
     {"estimation", "Which parameters, and how certain are they?", "srivc, tfsrivc, arx", "standard errors are as large as the values"},
-    {"validation", "Does the model describe new data?", "compare, resid, step, bode", "it does not"},
+    {"validation", "Does the model describe new data?", "compare, resid, step, bode", "the model does not describe new data"},
 })
 
 -- %% [markdown]
 -- ::: {.table name=workflow #tbl:workflow}
--- The identification loop: every step has a question, its tools, and a reason to go back to an earlier step.
+-- The identification loop: the question of each step, the tools, and the reason to go back to an earlier step.
 -- :::
 --
 -- # A simulated system
 --
 -- ## Experiment and data
 --
--- The first data set (@fig:linear_record) comes from a simulated system, sampled every 0.05 s from rest, with white noise on the output. The input is
--- a pseudo-random binary sequence of 127 bits of 0.4 s. A second data set with another sequence is reserved for validation.
+-- The first data set (@fig:linear_record) comes from a simulated system, which starts at rest. The sampling time is 0.05 s, and the output contains
+-- white noise. The input is a pseudo-random binary sequence of 127 bits, each 0.4 s long. A second data set with another sequence is reserved for
+-- validation.
 
 -- %% id=linear_data
 local record = load("linear_system")
@@ -84,19 +85,19 @@ local Ts = record.t[2] - record.t[1]
 local names = {InputName = "u", OutputName = "y"}
 local est = iddata(record.y, record.u, Ts, names)
 local val = iddata(record.y_val, record.u_val, Ts, names)
-report.figure("linear_record", idplot(est):set{height = 6}, "The first record")
+report.figure("linear_record", idplot(est):set{height = 6}, "The first data set")
 
 -- %% [markdown]
 -- ![The first data set: output (above) and binary input (below)](figure:linear_record){#fig:linear_record}
 --
--- **Question 1.** Look at the data before you estimate, and run `advice`. Is there an offset or a drift? Over which frequencies does the input excite
--- the system? Is there a dead time (`delayest`)?
+-- **Question 1.** Plot the data before you estimate, and run `advice`. Is there an offset or a drift? At which frequencies does the input excite the
+-- system? Is there a dead time (`delayest`)?
 
 -- %% id=linear_look
 -- BEGIN SOLUTION
 advice(est)
 local Td, delay_figure, delay = delayest(est)
--- for comparison: models with three poles and a zero and a fixed delay
+-- for comparison: models with three poles, one zero and a fixed delay
 local at, held = {}, {}
 for samples = 0, 12 do
     local left = est.y - lsim(srivc(est, {2, 3, samples}), est.u, Ts)
@@ -123,21 +124,21 @@ report.value("linear_td_std", delay.std, "%.3f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The data start from rest at zero and oscillate around zero (mean `linear_mean`{.value}). Nothing has to be subtracted, and `advice` reports no
--- problem. A binary sequence has about the same power from its fundamental, `linear_low`{.value} rad/s, to about `linear_high`{.value} rad/s, where
--- its power has fallen to one half. The output oscillates with a period of about two seconds, well inside this band, so the experiment excites the
--- relevant dynamics. The estimated delay is `linear_td`{.value}\ ±\ `linear_td_std`{.value}\ s (@fig:linear_delay). It is not significantly different
--- from zero, so the model needs no delay parameter. The line and the separate points of @fig:linear_delay agree. Far from the minimum, the error of a
--- model with a wrong delay has several local minima over the other parameters. `delayest` follows the solutions of adjacent delays from both sides
--- until none gets lower.
+-- The data start from rest at zero and oscillate around zero (mean `linear_mean`{.value}). You do not have to subtract a level, and `advice` reports
+-- no problem. The power spectrum of the binary sequence is nearly flat above the fundamental frequency `linear_low`{.value} rad/s. At about
+-- `linear_high`{.value} rad/s, the power is reduced to one half. The output oscillates with a period of about two seconds, well inside this band, so
+-- the experiment excites the relevant dynamics. The estimated delay is `linear_td`{.value}\ ±\ `linear_td_std`{.value}\ s (@fig:linear_delay). It is
+-- not significantly different from zero, so the model needs no delay parameter. The line and the separate points of @fig:linear_delay agree. If the
+-- delay is far from the minimum, the error has several local minima over the other parameters. `delayest` therefore starts the search at each delay
+-- from the solutions of the adjacent delays, until the error no longer decreases.
 --
 -- ![Mean square error of a model at each delay. Line: `delayest`; separate points, for comparison: `srivc` with the delay fixed at whole samples; circle: the estimated delay.](figure:linear_delay){#fig:linear_delay}
 -- END SOLUTION
 --
 -- ## Structure
 --
--- **Question 2.** How many poles and zeros? Let `srivcstruc` estimate all structures up to five poles and three zeros from the first data set and
--- simulate them on the second. Which structure does each criterion choose, and which do you choose?
+-- **Question 2.** How many poles and zeros does the system have? Use `srivcstruc` to estimate all structures with up to five poles and three zeros
+-- from the first data set. Specify the second data set for validation. Which structure does each criterion select, and which structure do you select?
 
 -- %% id=linear_orders
 -- BEGIN SOLUTION
@@ -158,7 +159,7 @@ local function objections(row)
     if not row.converged then table.insert(list, "not converged") end
     return table.concat(list, ", ")
 end
--- a row for every structure; where delays are estimated, delay_format writes them
+-- one row per structure; delay_format is the format of estimated delays
 local function orders_table(V, delay_format)
     local third = delay_format and "delay (s)" or "$R_T^2$"
     local rows = {{"poles", "zeros", third, "YIC", "BIC", "fit (%)", "validation (%)", "objections"}}
@@ -170,7 +171,7 @@ local function orders_table(V, delay_format)
     end
     return rows
 end
--- the row that one criterion alone would choose; sign 1 where large is good, -1 where small is
+-- the row that a single criterion selects; the sign is 1 if large values are better, and -1 if small values are better
 local function choice(V, key, sign)
     local best
     for _, row in ipairs(V.rows) do
@@ -205,38 +206,40 @@ report.value("linear_yic_fit", choice(V, "yic", -1).validation_fit, "%.1f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=linear_orders #tbl:linear_orders}
--- All structures, with the fit to the first data set and to the second (validation). Large $R_T^2$ and fits are good, and small YIC and BIC are good.
--- A parameter is undetermined if its standard error is larger than its value.
+-- All structures, with the fit to the first data set and to the second data set (validation). Large values of $R_T^2$ and fit are better, and small
+-- values of YIC and BIC are better. A parameter is undetermined if its standard error is larger than its absolute value.
 -- :::
 --
 -- The measures are:
 --
 -- * The *fit* is $100\,(1 - \lVert y - \hat y\rVert/\lVert y - \bar y\rVert)$ % for the simulated output $\hat y$.
--- * $R_T^2 = 1 - \sigma_\varepsilon^2/\sigma_y^2$ is the explained share of the variance.
--- * BIC is $\ln V + d \ln(N)/N$ for the mean square $V$ of the errors, $d$ parameters and $N$ samples. AIC is the same with 2 instead of $\ln N$.
+-- * $R_T^2 = 1 - \sigma_\varepsilon^2/\sigma_y^2$ is the fraction of the variance that the model explains, where $\sigma_\varepsilon^2$ and
+--   $\sigma_y^2$ are the variances of the residuals and of the output.
+-- * BIC is $\ln V + d \ln(N)/N$ for the mean square $V$ of the errors, $d$ parameters and $N$ samples. AIC has the factor 2 instead of $\ln N$.
 -- * YIC (Young's information criterion [@young2011]) is
 --   $\ln(\sigma_\varepsilon^2/\sigma_y^2) + \ln\bigl(\tfrac1d\sum_i \hat\sigma_i^2/\hat\theta_i^2\bigr)$. It grows with the relative variance of the
 --   parameters.
 --
--- Read @tbl:linear_orders from simple to complicated, and look at the gain of each step. From one pole to two, and on to three poles and a zero, each
--- new parameter increases the fit to the validation data. After that, nothing is gained. The best model on the second data set, with
--- `linear_largest_poles`{.value} poles and `linear_largest_zeros`{.value} zeros, is ahead by `linear_largest_gain`{.value} points. Its parameters are
--- undetermined or cancel each other. The criteria do not agree:
+-- Read @tbl:linear_orders from simple to complex structures, and compare the fits. From one pole to two poles, and then to three poles and one zero,
+-- each new parameter increases the fit to the validation data. More parameters do not increase it noticeably. The best model on the second data set,
+-- with `linear_largest_poles`{.value} poles and `linear_largest_zeros`{.value} zeros, is better by `linear_largest_gain`{.value} points. Its
+-- parameters are undetermined, or a zero cancels a pole. The criteria select different structures:
 --
--- * The fit to the estimation data almost never falls with another parameter. It chooses `linear_fit_poles`{.value} poles and
+-- * The fit to the estimation data almost never decreases with an additional parameter. It selects `linear_fit_poles`{.value} poles and
 --   `linear_fit_zeros`{.value} zeros.
--- * AIC has a low price for a parameter. It chooses `linear_aic_poles`{.value} poles and `linear_aic_zeros`{.value}, but the next best structure is
---   only `linear_aic_gap`{.value} behind.
--- * BIC has a price that grows with the length of the data. It clearly stops at `linear_bic_poles`{.value} poles and `linear_bic_zeros`{.value} zero.
--- * YIC weighs the remaining error against the uncertainty of the parameters. It stops at `linear_yic_poles`{.value} poles, although this model
---   reaches only `linear_yic_fit`{.value} % on the second data set. YIC is for choosing among models that already have a good $R_T^2$.
+-- * AIC has a small penalty per parameter. It selects `linear_aic_poles`{.value} poles and `linear_aic_zeros`{.value}, but the AIC of the next best
+--   structure is only `linear_aic_gap`{.value} larger.
+-- * The BIC penalty grows with the logarithm of the number of samples. BIC clearly selects `linear_bic_poles`{.value} poles and
+--   `linear_bic_zeros`{.value} zero.
+-- * YIC combines the remaining error with the uncertainty of the parameters. It selects `linear_yic_poles`{.value} poles, although this model reaches
+--   only `linear_yic_fit`{.value} % on the second data set. Use YIC to choose among models that already have a high $R_T^2$.
 --
 -- The choice is `linear_poles`{.value} poles and `linear_zeros`{.value} zero: the simplest model that the second data set cannot distinguish from
--- more complicated ones.
+-- more complex models.
 -- END SOLUTION
 --
--- **Question 3.** Was this luck? `rig("linear_system", {seed = k})` repeats both experiments with other noise. Count how often each
--- criterion chooses the same structure as you did.
+-- **Question 3.** Does the choice depend on the noise? `rig("linear_system", {seed = k})` repeats both experiments with different noise. Count how
+-- often each criterion selects your structure.
 
 -- %% id=linear_repeat
 -- BEGIN SOLUTION
@@ -260,7 +263,7 @@ end
 -- %% id=linear_repeat_report echo=false
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
-local agreed_rows = {{"criterion", "same choice"},
+local agreed_rows = {{"criterion", "same structure"},
                      {"selcstruc's recommendation", string.format("%d of %d", agreed.recommended, repetitions)}}
 for _, c in ipairs(criteria) do
     table.insert(agreed_rows, {c[1] .. " alone", string.format("%d of %d", agreed[c[1]], repetitions)})
@@ -275,17 +278,17 @@ report.value("agreed_validation", agreed["fit, second data set"], "%d")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=linear_agreed #tbl:linear_agreed}
--- Three poles and one zero, chosen from up to four poles and two zeros.
+-- How often each criterion selects three poles and one zero, among structures with up to four poles and two zeros.
 -- :::
 --
--- @tbl:linear_agreed ranks the criteria. If the largest validation fit decides, you get this structure only `agreed_validation`{.value} times,
--- because one of the larger models is nearly always slightly ahead. If you choose the simplest model that is not clearly worse, you get this
--- structure `agreed_recommended`{.value} times out of `repetitions`{.value}.
+-- @tbl:linear_agreed compares the criteria. If you choose the model with the largest validation fit, you get this structure only
+-- `agreed_validation`{.value} times. The fit of one of the larger models is nearly always slightly higher. If you choose the simplest model that is
+-- not significantly worse, you get this structure `agreed_recommended`{.value} times out of `repetitions`{.value}.
 -- END SOLUTION
 --
 -- ## Estimation
 --
--- **Question 4.** Estimate the model of your structure by `srivc`, and for comparison the difference equation of the same order by `arx`. How well
+-- **Question 4.** Estimate the model of your structure with `srivc`. For comparison, estimate an ARX model of the same order with `arx`. How well
 -- does each model simulate the second data set, and how well does it predict the next sample?
 
 -- %% id=linear_estimate
@@ -310,18 +313,18 @@ report.value("arx_long_val", fit(val, arx(est, {long_order, long_order, 1})), "%
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The SRIVC model simulates the second data set with a fit of `linear_val`{.value} %, as well as the first (`linear_fit`{.value} %). The residuals
--- have a standard deviation of `linear_noise`{.value}. The `arx` model predicts the next sample with `arx_predict`{.value} % and simulates with
--- `arx_val`{.value} %. The order is right, but the assumption about the noise is wrong: `arx` assumes that the noise passes through the poles of the
--- system. Here it is added at the output. With `arx_long_order`{.value} poles, the bias shrinks and the simulation reaches `arx_long_val`{.value} %.
--- This is still less than a model of three poles with the right assumption. Check which fit a program reports: predicting one step ahead is easy, and
--- it hides this difference.
+-- The SRIVC model simulates the second data set with a fit of `linear_val`{.value} %, close to the fit to the first data set (`linear_fit`{.value}
+-- %). The residuals have a standard deviation of `linear_noise`{.value}. The fit of the `arx` model is `arx_predict`{.value} % for one-step-ahead
+-- prediction and `arx_val`{.value} % for simulation. The order is correct, but the noise model is not: `arx` assumes that the noise passes through
+-- the poles of the system. In this system, white noise is added to the output. With `arx_long_order`{.value} poles, the bias is smaller, and the fit
+-- of the simulation is `arx_long_val`{.value} %. This fit is still lower than the fit of a model with three poles and the correct noise model. Check
+-- which fit a program reports: one-step-ahead prediction is easy, and it hides this difference.
 -- END SOLUTION
 --
 -- ## Validation
 --
--- **Question 5.** Validate your model and a simpler one: the output on the second data set (`compare`), the residuals (`resid`), and the uncertainty
--- of the step and frequency responses (`step`, `bode`).
+-- **Question 5.** Validate your model and a simpler model. Inspect the simulated output on the second data set (`compare`), the residuals (`resid`),
+-- and the uncertainty of the step and frequency responses (`step`, `bode`).
 
 -- %% id=linear_compare
 -- BEGIN SOLUTION
@@ -331,7 +334,7 @@ local shown = compare(val:range(1, 400), G, simpler,
 report.figure("linear_compare", shown:set{height = 6, x_range = {0, 20}},
               "Second data set")
 local residuals = resid(val, G)
-report.figure("linear_resid", residuals, "Residuals on the second record")
+report.figure("linear_resid", residuals, "Residuals on the second data set")
 -- END SOLUTION
 
 -- %% id=linear_tests echo=false
@@ -347,7 +350,7 @@ local function tested(name, data, model)
     local output = test.outputs[1]
     return {name, string.format("%.2f", fit(data, model)), p_text(output.p_value), p_text(output.inputs[1].p_value)}, output
 end
-local ladder = {{"structure", "fit (%)", "$p$ (error white)", "$p$ (free of the input)"}}
+local ladder = {{"structure", "fit (%)", "$p$ (whiteness)", "$p$ (independence)"}}
 for _, orders in ipairs{{1, 1}, {1, 2}, {2, 2}, {1, 3}, {2, 3}, {2, 4}} do
     local cells, output = tested(structure(orders[2], orders[1] - 1), val, srivc(est, {orders[1], orders[2], 0}))
     table.insert(ladder, cells)
@@ -361,24 +364,26 @@ report.value("alarms", alarms, "%d")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![First 20 s of the second data set, and the simulated outputs of two models. The fits in the legend are for these 20 s. The simpler model rounds off the fast part of the response.](figure:linear_compare){#fig:linear_compare}
+-- ![First 20 s of the second data set, and the simulated outputs of two models. The fits in the legend are for these 20 s. The simpler model smooths the fast part of the response.](figure:linear_compare){#fig:linear_compare}
 --
 -- ::: {.table name=linear_ladder #tbl:linear_ladder}
--- The tests on the whole second data set. $p$ is the probability of such residuals if the error were white (Ljung–Box test on 25 autocorrelations),
--- and if it were independent of the input.
+-- The residual tests on the whole second data set: $p$-values of the whiteness test (Ljung–Box test with 25 autocorrelations) and of the test for
+-- independence from the input.
 -- :::
 --
--- ![Residuals of the model with three poles and a zero on the second data set: autocorrelation (above) and cross-correlation with the input (below). Shaded: the 99 % bounds. By chance, one lag in a hundred is outside them.](figure:linear_resid){#fig:linear_resid}
+-- ![Residuals of the model with three poles and a zero on the second data set: autocorrelation (above) and cross-correlation with the input (below). Shaded: the 99 % bounds. For a correct model, one lag in a hundred is outside these bounds by chance.](figure:linear_resid){#fig:linear_resid}
 --
--- In @fig:linear_compare, the simpler model follows the oscillation and rounds off the rest. The tests are more sensitive than the eye
--- (@tbl:linear_ladder): for all simpler models, they find the input in the residuals. With three poles and a zero, the error is white, but the second
--- test still raises an alarm, $p =$ `linear_alarm`{.value} (@fig:linear_resid). Should we go back and add a pole? Another pole does not remove the
--- alarm, and on the first data set the same test gives $p =$ `linear_own`{.value}. The `repetitions`{.value} repetitions of question 3 include our
--- data as the first repetition. The number of alarms among them is `alarms`{.value}. A test at the 99 % level is wrong once in a hundred times even
--- for the true system. One alarm is a reason to look, not yet a reason to change the model.
+-- In @fig:linear_compare, the simpler model follows the oscillation, but smooths the faster parts of the response. The tests are more sensitive than
+-- the plot (@tbl:linear_ladder): for all simpler models, they detect a correlation of the residuals with the input. With three poles and one zero,
+-- the residuals are white, but the independence test still rejects the model, $p =$ `linear_alarm`{.value} (@fig:linear_resid). Should you go back
+-- and add a pole? An additional pole does not change this result, and on the first data set, the same test has $p =$ `linear_own`{.value}. The
+-- `repetitions`{.value} repetitions of question 3 include these data as the first repetition. The number of rejections among them is
+-- `alarms`{.value}. A test at the 99 % level rejects even the true system once in a hundred times. One rejection is a reason to inspect the
+-- residuals, not yet a reason to change the model.
 -- END SOLUTION
 --
--- **Question 6.** For this system the truth is known: `rig_truth("linear_system").G`. Do your estimates agree with it within their standard errors?
+-- **Question 6.** For this system, the true model is known: `rig_truth("linear_system").G`. Do your estimates agree with the true parameters within
+-- the standard errors?
 
 -- %% id=linear_truth
 -- BEGIN SOLUTION
@@ -420,17 +425,17 @@ report.value("linear_true_val", fit(val, truth), "%.1f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=linear_truth #tbl:linear_truth}
--- The estimate (± one standard error) and the truth.
+-- The estimates (± one standard error) and the true values.
 -- :::
 --
--- ![Step response of the estimate minus that of the truth (line), and the 99 % band in which this difference should stay (shaded). The step response itself rises to 2.](figure:linear_step){#fig:linear_step}
+-- ![Difference between the step responses of the estimate and of the true system (line), with the 99 % band of the estimate (shaded). The step response rises to 2.](figure:linear_step){#fig:linear_step}
 --
--- ![Frequency responses of the estimate, with its 99 % band, and of the truth. Marked in the upper panel: the frequency at which the power of the input has fallen to one half, and the Nyquist frequency.](figure:linear_bode){#fig:linear_bode}
+-- ![Frequency responses of the estimate, with its 99 % band, and of the true system. The vertical lines mark the frequency at which the power of the input is reduced to one half, and the Nyquist frequency.](figure:linear_bode){#fig:linear_bode}
 --
--- They do (@tbl:linear_truth): the largest error is `linear_worst`{.value} standard errors, which is not unusual for one of five parameters. The
--- truth is in the bands of @fig:linear_step and @fig:linear_bode. Far above `linear_high`{.value} rad/s, the input excites the system very little.
--- There, no data support the curve and its narrow band: they follow from the structure alone. The true system itself reaches no more than
--- `linear_true_val`{.value} % on the second data set. The rest is noise. The loop ends here.
+-- The estimates agree with the true parameters (@tbl:linear_truth). The largest error is `linear_worst`{.value} standard errors, which is not unusual
+-- for one of five parameters. The true responses are within the bands of @fig:linear_step and @fig:linear_bode. Far above `linear_high`{.value}
+-- rad/s, the input has little power. In this range, the curve and its narrow band follow from the structure and not from the data. On the second data
+-- set, even the true system has a fit of only `linear_true_val`{.value} %. The remaining error is noise. The loop ends here.
 -- END SOLUTION
 
 -- %% [markdown]
@@ -439,12 +444,13 @@ report.value("linear_true_val", fit(val, truth), "%.1f")
 -- ## Experiment and data
 --
 -- ::: {.drawing name=heat_rig}
--- The heat-transfer plant: a fan blows air over a heater with the voltage $u$; the temperature $y$ is measured at the end of the tube {#fig:heat_rig}
+-- The heat-transfer plant: a fan blows air over a heater with the voltage $u$, and a sensor measures the temperature $y$ at the end of the tube
+-- {#fig:heat_rig}
 -- :::
 --
 -- In this simulated plant (@fig:heat_rig), a fan blows air over an electric heater and through a tube. The input is the voltage of the heater, and
--- the output is the temperature at the end of the tube, one sample per second. There are two data sets around 4 V, for estimation and validation, and
--- one around 7 V (@fig:heat_record). Each begins with a minute of rest. A binary sequence of ±1 V follows, with bits of 15 s.
+-- the output is the temperature at the end of the tube. The sampling time is 1 s. There are two data sets around 4 V, for estimation and validation,
+-- and one around 7 V (@fig:heat_record). Each data set begins with a minute of rest, followed by a binary sequence of ±1 V with bits of 15 s.
 
 -- %% id=heat_data
 local heat = load("heat_transfer")
@@ -461,7 +467,7 @@ report.figure("heat_record", two_records:set{height = 7, legend = "direct"},
 -- %% [markdown]
 -- ![Two of the three data sets: temperature (above) and heater voltage (below)](figure:heat_record){#fig:heat_record}
 --
--- **Question 7.** What do you see, and what does `advice` report? How do you prepare the data?
+-- **Question 7.** Describe the data. Which problems does `advice` report? How do you prepare the data?
 
 -- %% id=heat_advice
 -- BEGIN SOLUTION
@@ -470,22 +476,23 @@ advice(low)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The process is slow (@fig:heat_record): the temperature never settles within one bit, and its long lag smooths the sequence. The experiment is
--- therefore rich enough, and much shorter bits would be wasted. The process starts at rest at an operating point, and a transfer function describes
--- only changes. Subtract the level of the first minute from both signals (`detrend(data, "start")`). The mean is less suitable, because the data
--- begin away from it. (`advice` also gives a temperature at zero voltage and calls it an extrapolation: no sample is near it.) The temperature reacts
--- some seconds late. It is rounded to 0.1 °C. `advice` warns about the rounding, but according to its numbers, the noise is far larger. It also finds
--- that the temperature drifts by some tenths of a degree relative to the response to the heater. Finally, the same ±1 V has a larger effect on the
--- temperature around 7 V than around 4 V. This is unexpected, and no single data set can show it.
+-- The process is slow (@fig:heat_record): the temperature never settles within one bit, so the experiment contains enough information about the slow
+-- dynamics. Much shorter bits would have little effect on the temperature. The process starts at rest at an operating point, and a transfer function
+-- describes only changes around this point. Subtract the level of the first minute from both signals (`detrend(data, "start")`). Do not subtract the
+-- mean, because the data do not begin at the mean. (`advice` also reports a temperature at zero voltage. This value is an extrapolation, because no
+-- sample is near zero voltage.) The temperature responds after some seconds of delay. The temperature is rounded to 0.1 °C. `advice` warns about the
+-- rounding, but its numbers show that the noise is far larger. `advice` also reports that the temperature drifts by some tenths of a degree relative
+-- to the response to the heater. Finally, a change of ±1 V has a larger effect on the temperature around 7 V than around 4 V. This is unexpected, and
+-- a single data set cannot show it.
 -- END SOLUTION
 --
--- ## First round: voltage in, temperature out
+-- ## First round: from voltage to temperature
 --
--- **Question 8.** Estimate a model with two poles and a delay from the first data set. Because 60 noisy samples do not determine the level, also
--- estimate a constant (`Offset = "estimate"`). The process starts at rest (`InitialState = "none"`). How well does the model describe the two other
--- data sets?
+-- **Question 8.** Estimate a model with two poles and a delay from the first data set. Because 60 noisy samples do not determine the level
+-- accurately, also estimate a constant offset (`Offset = "estimate"`). The process starts at rest (`InitialState = "none"`). How well does the model
+-- describe the two other data sets?
 --
--- First, enter a prediction: with which fit will the model simulate the data around 7 V? `outcome` prints your prediction next to the result.
+-- First, enter a prediction: which fit will the model have on the data around 7 V? `outcome` prints your prediction next to the result.
 
 -- %% id=heat_guess
 -- BEGIN SOLUTION
@@ -505,8 +512,8 @@ outcome("fit about 7 V", fit(start(high), G1))
 -- %% id=heat_first_report echo=false
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
-local rounds = {{"round, input", "subtracted", "4 V", "4 V again", "7 V", "$p$ (white)", "$p$ (input)"}}
--- fits to the three prepared data sets and the residual tests on the second
+local rounds = {{"round, input", "subtracted", "4 V", "4 V again", "7 V", "$p$ (whiteness)", "$p$ (independence)"}}
+-- fits to the three prepared data sets, and the residual tests on the second data set
 local function add_round(name, preparation, model, records)
     local cells = tested(name, records[2], model)
     table.insert(rounds, {name, preparation, string.format("%.1f", fit(records[1], model)),
@@ -522,19 +529,19 @@ report.value("heat_high_gain", dcgain(tfsrivc(start(high), 2, 0, {TdMax = 20, In
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- On its estimation data, the model reaches `heat1_low`{.value} %, and you may be tempted to stop here. On the second data set it reaches
--- `heat1_val`{.value} %, and around 7 V only `heat1_high`{.value} %. The model fails, and the failure shows where to look. A model of the same form,
--- fitted around 7 V, has a gain of `heat_high_gain`{.value} °C/V instead of `heat1_gain`{.value} °C/V. No further pole or zero can fix a gain that
--- depends on the operating point. *Back to the step "data".*
+-- On the estimation data, the fit is `heat1_low`{.value} %, and you may be tempted to stop here. On the second data set, the fit is
+-- `heat1_val`{.value} %, and around 7 V, it is only `heat1_high`{.value} %. The validation fails, and it shows the cause. A model with the same
+-- structure, estimated around 7 V, has a gain of `heat_high_gain`{.value} °C/V instead of `heat1_gain`{.value} °C/V. An additional pole or zero
+-- cannot describe a gain that depends on the operating point. *Back to the step "data".*
 -- END SOLUTION
 --
--- ## Second round: think of the physics
+-- ## Second round: use the physics
 --
--- **Question 9.** What heats the air? The heater gives 100 W at 10 V. Choose a better input and repeat the estimation.
+-- **Question 9.** Which physical quantity heats the air? The power of the heater is 100 W at 10 V. Choose a better input and repeat the estimation.
 
 -- %% id=heat_second
 -- BEGIN SOLUTION
-local function watts(data)            -- power goes with the square of the voltage
+local function watts(data)            -- the power is proportional to u^2
     return iddata(data.y, 100*(data.u/10)^2, 1,
                   {InputName = "heater", InputUnit = "W",
                    OutputName = "air", OutputUnit = "°C"})
@@ -553,7 +560,7 @@ local both = plot(t, measured, "measured",
                   t, simulated(G2, watts(high)), "from the power",
                   {height = 5.5, color = {8, 1, 2}, dash = {0, 2, 0},
                    xlabel = "time (s)", ylabel = "change (°C)"})
-report.figure("heat_high", both, "Two models on the record about 7 V")
+report.figure("heat_high", both, "Two models on the data around 7 V")
 -- END SOLUTION
 
 -- %% id=heat_second_report echo=false
@@ -568,15 +575,15 @@ report.value("heat2_high", fit(w_records[3], G2), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Two models, both estimated around 4 V, on the data around 7 V: measured temperature (gray), model from the voltage (dotted) and from the power (black). Both simulated curves are shifted to the mean of the measured curve, to compare only the shape. Therefore the curve from the voltage does not begin at zero.](figure:heat_high){#fig:heat_high}
+-- ![Two models, both estimated around 4 V, on the data around 7 V: measured temperature (gray), model from the voltage (dotted) and from the power (black). Both simulated curves are shifted to the mean of the measured curve, so that you can compare the shapes. The curve from the voltage therefore does not begin at zero.](figure:heat_high){#fig:heat_high}
 --
--- A resistor turns $u^2/R$ into heat, so the power is the natural input, and this knowledge costs no parameter. The model estimated around 4 V now
--- reaches `heat2_high`{.value} % around 7 V (@fig:heat_high). But on the estimation data, the fit has fallen to `heat2_low`{.value} %, and on the
--- second data set it is `heat2_val`{.value} %. These data contain another effect.
+-- The power of a resistor is $u^2/R$, so the power is the natural input. This prior knowledge does not need an additional parameter. The fit of the
+-- model estimated around 4 V is now `heat2_high`{.value} % around 7 V (@fig:heat_high). However, the fit has decreased to `heat2_low`{.value} % on
+-- the estimation data, and it is `heat2_val`{.value} % on the second data set. The data contain another effect.
 -- END SOLUTION
 --
 -- ::: note
--- The second session begins here: *what remains in the residuals*. Run your script (`dynlab run -i analysis.lua`) and look at the fits of both models
+-- The second session begins here: *what remains in the residuals*. Run your script (`dynlab run -i analysis.lua`) and compare the fits of both models
 -- on all three data sets before you continue.
 -- :::
 --
@@ -607,7 +614,7 @@ for _, data in ipairs{low, low_val, high} do
     size = math.max(size, (max(abs(left_over(data)))))
 end
 report.value("heat_drift", size, "%.1f")
--- correlation of the waves with what the input does
+-- correlation of the waves with the simulated response to the input
 for name, data in pairs{val = low_val, high = high} do
     local e, response = left_over(data), smooth(lsim(G2, start(watts(data)).u, 1))
     local r = mean((e - mean(e))*(response - mean(response)))/(std(e)*std(response))
@@ -619,17 +626,18 @@ end
 -- BEGIN SOLUTION
 -- ![Measured temperature minus simulated output of the second model, smoothed by a low-pass filter without phase shift, for all three data sets](figure:heat_drift){#fig:heat_drift}
 --
--- They show slow waves of up to `heat_drift`{.value} °C, different in each data set (@fig:heat_drift). Does the input cause them? The difference
--- proves nothing, because the inputs also differ. The correlation of the waves with the simulated response is `heat_corr_val`{.value} in the second
--- data set and `heat_corr_high`{.value} in the third. (In the first, least squares has removed it.) But with only one or two waves, chance easily
--- gives a correlation of one half, so these data cannot decide. The decisive experiment applies the same bits twice: effects of the input would
--- repeat. The likely cause is the air in the room, which warms and cools. Here the description of the simulated plant confirms it (an inlet
--- temperature that drifts by ±0.4 °C). Neither a constant nor a straight line describes such waves. *Back to the step "preparation".*
+-- The residuals show slow waves of up to `heat_drift`{.value} °C, which differ between the data sets (@fig:heat_drift). Does the input cause these
+-- waves? The differences do not answer this question, because the inputs also differ. The correlation of the waves with the simulated response is
+-- `heat_corr_val`{.value} in the second data set and `heat_corr_high`{.value} in the third data set. (In the first data set, the estimation has
+-- removed this correlation.) With only one or two waves, however, a correlation of one half can occur by chance, so these data do not answer the
+-- question. In a decisive experiment, you would apply the same input twice: effects of the input would repeat. The likely cause is the changing
+-- temperature of the air in the room. The description of the simulated plant confirms this (an inlet temperature that drifts by ±0.4 °C). Neither a
+-- constant nor a linear trend describes such waves. *Back to the step "preparation".*
 -- END SOLUTION
 --
 -- ## Third round: remove the drift
 --
--- **Question 11.** Remove the slow waves with a high-pass filter. Why must both signals pass through the same filter? Which edge frequency do you
+-- **Question 11.** Remove the slow waves with a high-pass filter. Why must you apply the same filter to both signals? Which cutoff frequency do you
 -- choose?
 
 -- %% id=heat_third
@@ -639,7 +647,7 @@ local function prepared(data, edge)
 end
 local function second_order(edge)
     return procsrivc(prepared(watts(low), edge), "P2D",
-                     {TdMax = 20, InitialState = "zero", Offset = "none"})
+                     {TdMax = 20, InitialState = "none", Offset = "none"})
 end
 local edge = 0.015                    -- rad/s
 local G3 = second_order(edge)
@@ -649,7 +657,7 @@ present(G3)
 -- %% id=heat_third_report echo=false
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
-local edges = {{"edge (rad/s)", "gain (°C/W)", "slow lag (s)", "fast lag (s)", "delay (s)", "$p$ (error white)"}}
+local edges = {{"cutoff (rad/s)", "gain (°C/W)", "slow lag (s)", "fast lag (s)", "delay (s)", "$p$ (whiteness)"}}
 local function errors(G) return G.report.white and G.std or G.robust_std end
 local function spread(G, i, format)
     return string.format(format .. " ± " .. format, G.param[i], errors(G)[i])
@@ -678,34 +686,34 @@ report.value("heat3_high", fit(f_records[3], G3), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- A filter on both signals does not change the relation between them: if $y = Gu$, then $Ly = G\,Lu$. A filter on the output alone would become a
--- part of the model.
+-- A filter on both signals does not change the relation between them: if $y = Gu$, then $Ly = G\,Lu$. If you filter only the output, the filter
+-- becomes a part of the model.
 --
 -- ::: {.table name=heat_edges #tbl:heat_edges}
--- Estimates with four edge frequencies of the filter (± one standard error, robust if the residuals are not white). The last column is the test for
--- whiteness on the second data set.
+-- Estimates for four cutoff frequencies of the filter (± one standard error, robust if the residuals are not white). The last column is the $p$-value
+-- of the whiteness test on the second data set.
 -- :::
 --
--- If the edge frequency is too low, drift remains. If it is too high, the filter removes the information about the slow lag and the gain, and their
--- errors grow (@tbl:heat_edges). At `edge`{.value} rad/s, close to the corner frequency of the slow lag, the residuals on the second data set are
--- white for the first time, $p =$ `heat_second_white`{.value}. (`present` reports on the first data set, from which the model was estimated. There, a
--- trace of the drift remains, $p =$ `heat_first_white`{.value}, so use the robust standard errors.)
+-- If the cutoff frequency is too low, drift remains. If the cutoff frequency is too high, the filter removes the information about the slow lag and
+-- the gain, and their standard errors grow (@tbl:heat_edges). At `edge`{.value} rad/s, close to the corner frequency of the slow lag, the residuals
+-- on the second data set are white for the first time, $p =$ `heat_second_white`{.value}. (`present` reports the test on the first data set, from
+-- which the model was estimated. Some drift remains in these data, $p =$ `heat_first_white`{.value}, so use the robust standard errors.)
 --
 -- ::: {.table name=heat_rounds #tbl:heat_rounds}
--- The three rounds: fit (%) on the three prepared data sets. The last columns are for the second data set: the probabilities $p$ of such residuals if
--- the error were white, and if it were independent of the input.
+-- The three rounds: fit (%) on the three prepared data sets. The last columns are the $p$-values of the whiteness test and of the independence test
+-- on the second data set.
 -- :::
 --
--- @tbl:heat_rounds summarizes the three rounds. Different rows have differently prepared signals, so you cannot subtract their fits. But in the third
--- row all three data sets agree, unlike in the first two, and the tests do not reject the model. Note, however, that the test on the second data set
--- determined the edge frequency, so this data set is no longer independent evidence. The data around 7 V did not influence any choice: there the fit
--- is `heat3_high`{.value} %, and the test for whiteness gives $p =$ `heat_high_white`{.value}. The last row shows the filter without the physics. It
--- makes the two data sets around 4 V agree, and the fit to the third is `heat_filter_only`{.value} %. The first column of fits alone would favor the
--- first model.
+-- @tbl:heat_rounds summarizes the three rounds. The signals of different rows are prepared differently, so you cannot compare their fits directly. In
+-- the third row, however, the fits to all three data sets agree, and the tests do not reject the model. Note that the test on the second data set
+-- determined the cutoff frequency, so this data set is no longer independent evidence. The data around 7 V did not influence any choice. On these
+-- data, the fit is `heat3_high`{.value} %, and the whiteness test has $p =$ `heat_high_white`{.value}. The last row uses the filter, but the voltage
+-- as input. The fits to the two data sets around 4 V then agree, but the fit to the third data set is `heat_filter_only`{.value} %. If you compared
+-- only the fits to the estimation data, you would choose the first model.
 -- END SOLUTION
 --
--- **Question 12.** With the right input and preparation: are two poles enough? Which parameters can you believe? Compare with
--- `rig_truth("heat_transfer")`, which has a dead time and three lags.
+-- **Question 12.** With the correct input and preparation, are two poles enough? Which parameters can you trust? Compare them with
+-- `rig_truth("heat_transfer")`. The true system has a dead time and three lags.
 
 -- %% id=heat_orders
 -- BEGIN SOLUTION
@@ -715,7 +723,7 @@ local W = srivcstruc(clean, {poles = {1, 4}, zeros = {0, 1}, TdMax = 20,
                              validate = prepared(watts(low_val), edge)})
 print(W.recommendation)
 local G3c = procsrivc(clean, "P3D",
-                      {TdMax = 20, InitialState = "zero", Offset = "none"})
+                      {TdMax = 20, InitialState = "none", Offset = "none"})
 -- END SOLUTION
 
 -- %% id=heat_orders_report echo=false
@@ -754,19 +762,20 @@ report.value("heat_poles", W.best.poles, "%d")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=heat_orders #tbl:heat_orders}
--- Structures for the prepared data; columns as in @tbl:linear_orders.
+-- Structures for the prepared data. @tbl:linear_orders explains the columns.
 -- :::
 --
 -- ::: {.table name=heat_truth #tbl:heat_truth}
--- The truth and models with two and three lags (± one standard error): gain, slow lag, short lags, delay; last, the sum of the delay and the short lags.
+-- The true values, and the models with two and three lags (± one standard error): gain, slow lag, short lags, delay, and the sum of the delay and the
+-- short lags.
 -- :::
 --
--- These data support `heat_poles`{.value} poles (@tbl:heat_orders): a third one does not change the fit, and its errors are as large as the lags
--- (@tbl:heat_truth). Gain and slow lag agree with the truth. The delay does not: its estimate is `heat_td`{.value}\ ±\ `heat_td_std`{.value}\ s, and
--- the true dead time is `heat_td_ratio`{.value} standard errors smaller. The arithmetic is right. But a standard error is valid only *if the
--- structure is right*. Here a third, short lag is missing, and the delay compensates for it. The data determine the sum of the delay and the short
--- lags well: `heat_small`{.value}\ ±\ `heat_small_std`{.value}\ s. For a controller, use the model with two poles. To find the true dead time, you
--- need a faster experiment.
+-- These data support `heat_poles`{.value} poles (@tbl:heat_orders): a third pole does not change the fit, and the standard errors of the lags are
+-- then as large as the lags (@tbl:heat_truth). Gain and slow lag agree with the true values. The delay does not agree: its estimate is
+-- `heat_td`{.value}\ ±\ `heat_td_std`{.value}\ s, and the true dead time is `heat_td_ratio`{.value} standard errors smaller. The computation is
+-- correct, but a standard error is valid only *if the structure is correct*. The model lacks a third, short lag, and the delay compensates for this
+-- lag. The data determine the sum of the delay and the short lags well: `heat_small`{.value}\ ±\ `heat_small_std`{.value}\ s. For a controller, use
+-- the model with two poles. To determine the true dead time, you need a faster experiment.
 -- END SOLUTION
 
 -- %% [markdown]
@@ -774,8 +783,8 @@ report.value("heat_poles", W.best.poles, "%d")
 --
 -- ## Experiment and data
 --
--- The third process is real. The heating of a hair dryer was switched at random between two voltages, and a thermocouple measured the air at the
--- outlet. There are 1000 samples, one every 0.08 s (@fig:dryer_record). The truth is unknown, and there is no second experiment.
+-- The third process is real. The heating of a hair dryer was switched at random between two voltages, and a thermocouple measured the temperature of
+-- the air at the outlet. There are 1000 samples, one every 0.08 s (@fig:dryer_record). The true system is unknown, and there is no second experiment.
 
 -- %% id=dryer_data
 local dryer = load("hairdryer")
@@ -788,9 +797,9 @@ report.figure("dryer_record", idplot(raw:range(1, 251)):set{height = 6.5},
 -- %% [markdown]
 -- ![The first 20 s of the hair dryer data: voltage of the thermocouple (above) and of the heating (below)](figure:dryer_record){#fig:dryer_record}
 --
--- **Question 13.** Prepare the data: one half for estimation, one for validation, both without their means. Is there a dead time? (By default, the
--- estimators choose the initial state and the offset. Here every model starts from rest without an offset, `from_rest`, so that only the structures
--- differ.)
+-- **Question 13.** Prepare the data: use one half for estimation and one half for validation, and subtract the mean of each half. Is there a dead
+-- time? (By default, the estimators select the treatment of the initial state and the offset. In this section, every model starts from rest without
+-- an offset, `from_rest`, so that only the structures differ.)
 
 -- %% id=dryer_prepare
 -- BEGIN SOLUTION
@@ -814,16 +823,16 @@ report.value("dryer_td_samples", D.samples, "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Both signals oscillate around an operating point (means `dryer_u`{.value} V and `dryer_y`{.value} V). As `advice` also reports, there is no rest at
--- the beginning, so subtract the means. The slight drift is far smaller than the effect of the input. The output responds late, by
+-- Both signals oscillate around an operating point (means `dryer_u`{.value} V and `dryer_y`{.value} V). As `advice` also reports, the process does
+-- not start at rest, so subtract the means. The slight drift is far smaller than the effect of the input. The output responds late, by
 -- `dryer_td`{.value}\ ±\ `dryer_td_std`{.value}\ s, which is `dryer_td_samples`{.value} samples (@fig:dryer_delay).
 --
--- ![Mean square error of a model at each delay, with all other parameters estimated again. The minimum is flat from 0.1 to 0.2 s; marked: the estimate.](figure:dryer_delay){#fig:dryer_delay}
+-- ![Mean square error of a model at each delay, with all other parameters estimated again. The minimum is flat from 0.1 to 0.2 s. The circle marks the estimate.](figure:dryer_delay){#fig:dryer_delay}
 -- END SOLUTION
 --
 -- ## Structure and estimation
 --
--- **Question 14.** Which structure? Estimate the delay for each structure. What happens to the delay if the model has too few poles?
+-- **Question 14.** Which structure do you choose? Estimate the delay for each structure. How does the delay change if the model has too few poles?
 
 -- %% id=dryer_orders
 -- BEGIN SOLUTION
@@ -880,27 +889,26 @@ report.value("dryer_gain", dcgain(H2), "%.3f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=dryer_orders #tbl:dryer_orders}
--- Structures for the hair dryer, each with its own delay; columns as in @tbl:linear_orders, validation on the second half.
+-- Structures for the hair dryer, each with an estimated delay. @tbl:linear_orders explains the columns. The validation data are the second half.
 -- :::
 --
 -- With one pole, the estimated delay is `dryer_one_td`{.value} s: a longer delay compensates for a missing lag. YIC alone would choose this model,
--- but the second half of the data contradicts it. With `dryer_poles`{.value} poles, the delay is `dryer_two_td`{.value} s, two samples. You can fix
--- it there, which saves a parameter. With two poles, a zero gains nothing. BIC would prefer three poles and a zero (`dryer_bic_31`{.value} compared
--- with `dryer_bic_20`{.value}). But one of these poles is at `dryer_drift_pole`{.value} rad/s, with the zero next to it at `dryer_drift_zero`{.value}
--- rad/s. A time constant of `dryer_drift_time`{.value} s describes the slow drift of these data and not the dryer. On the second half, the fit is
--- lower: `dryer_val_31`{.value} compared with `dryer_val_20`{.value} %. The model
+-- but the second half of the data contradicts it. With `dryer_poles`{.value} poles, the delay is `dryer_two_td`{.value} s, which is two samples. If
+-- you fix the delay at this value, the model has one parameter less. With two poles, a zero does not improve the fit. BIC would prefer three poles
+-- and a zero (`dryer_bic_31`{.value} compared with `dryer_bic_20`{.value}). However, one of these poles is at `dryer_drift_pole`{.value} rad/s, close
+-- to the zero at `dryer_drift_zero`{.value} rad/s. A time constant of `dryer_drift_time`{.value} s describes the slow drift of these data and not the
+-- dryer. On the second half, the fit is lower: `dryer_val_31`{.value} % compared with `dryer_val_20`{.value} %. The model
 --
 -- $$ G(s) = \frac{b_0}{s^2 + a_1 s + a_2}\,e^{-2T_s s} $$ {#eq:solution-dryer}
 --
--- with $a_1 =$ `dryer_a1`{.value}\ ±\ `dryer_a1_std`{.value}, $a_2 =$ `dryer_a2`{.value}\ ±\ `dryer_a2_std`{.value} and $b_0 =$
--- `dryer_b0`{.value}\ ±\ `dryer_b0_std`{.value} (robust standard errors) has a gain of `dryer_gain`{.value} and lags of `dryer_slow`{.value} s and
--- `dryer_fast`{.value} s. It fits the first half with `dryer_fit`{.value} % ($R_T^2 =$ `dryer_rt2`{.value}) and the second with `dryer_val`{.value}
--- %. The model with one pole and three samples of delay, $a_1 =$ `dryer1_a1`{.value} and $b_0 =$ `dryer1_b0`{.value}, reaches `dryer1_fit`{.value} %
--- and `dryer1_val`{.value} %.
+-- with $a_1 =$ `dryer_a1`{.value}\ ±\ `dryer_a1_std`{.value}, $a_2 =$ `dryer_a2`{.value}\ ±\ `dryer_a2_std`{.value} and $b_0 =$ `dryer_b0`{.value}\
+-- ±\ `dryer_b0_std`{.value} (robust standard errors) has a gain of `dryer_gain`{.value} and lags of `dryer_slow`{.value} s and `dryer_fast`{.value}
+-- s. The fit is `dryer_fit`{.value} % on the first half ($R_T^2 =$ `dryer_rt2`{.value}) and `dryer_val`{.value} % on the second half. The fits of the
+-- model with one pole and three samples of delay, $a_1 =$ `dryer1_a1`{.value} and $b_0 =$ `dryer1_b0`{.value}, are `dryer1_fit`{.value} % and
+-- `dryer1_val`{.value} %.
 -- END SOLUTION
 --
--- **Question 15.** Compare with difference equations found by `arx`, with delays of two and of three samples. What does the coefficient of $u(k-2)$
--- show?
+-- **Question 15.** Compare your model with ARX models (`arx`) with delays of two and three samples. What does the coefficient of $u(k-2)$ show?
 
 -- %% id=dryer_arx
 -- BEGIN SOLUTION
@@ -918,12 +926,12 @@ report.table("dryer_arx", {
     {"", "delay of 2 samples", "delay of 3 samples"},
     {"$a_1$", coefficient(A2, 1, "%.3f"), coefficient(A3, 1, "%.3f")},
     {"$a_2$", coefficient(A2, 2, "%.3f"), coefficient(A3, 2, "%.3f")},
-    {"factor of $u(k-2)$", coefficient(A2, 3, "%.4f"), "none"},
-    {"factor of $u(k-3)$", coefficient(A2, 4, "%.4f"), coefficient(A3, 3, "%.4f")},
-    {"factor of $u(k-4)$", "none", coefficient(A3, 4, "%.4f")},
-    {"fit predicting one step (%)", string.format("%.1f", A2.report.prediction_fit_percent),
+    {"coefficient of $u(k-2)$", coefficient(A2, 3, "%.4f"), "none"},
+    {"coefficient of $u(k-3)$", coefficient(A2, 4, "%.4f"), coefficient(A3, 3, "%.4f")},
+    {"coefficient of $u(k-4)$", "none", coefficient(A3, 4, "%.4f")},
+    {"fit, one-step-ahead prediction (%)", string.format("%.1f", A2.report.prediction_fit_percent),
      string.format("%.1f", A3.report.prediction_fit_percent)},
-    {"fit simulating (%)", string.format("%.1f", A2.report.fit_percent), string.format("%.1f", A3.report.fit_percent)},
+    {"fit, simulation (%)", string.format("%.1f", A2.report.fit_percent), string.format("%.1f", A3.report.fit_percent)},
 })
 for name, G in pairs{arx2 = A2, arx3 = A3} do
     for i = 1, 4 do report.value(name .. "_" .. i, G.param[i], "%.4f") end
@@ -937,19 +945,20 @@ report.value("arx_weight", 100*A2.param[3]/A2.param[4], "%.0f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=dryer_arx #tbl:dryer_arx}
--- Two difference equations from all 1000 samples, with plain standard errors, and their fits.
+-- Two ARX models from all 1000 samples, with standard errors (not robust), and their fits.
 -- :::
 --
--- The coefficient of $u(k-2)$ is `arx_weight`{.value} % of the next one. Another sample of delay makes the model better with the same number of
--- parameters (@tbl:dryer_arx). Three samples here are the same delay as two in @eq:solution-dryer, because a held input affects a sampled output one
--- sample later at the earliest. The noise of this plant seems to pass through the air too, as `arx` assumes. Therefore, unlike in the first example,
--- the `arx` model is good: estimated from the first half, it simulates the second with `arx3_half`{.value} %. The `arx3_prediction`{.value} % for
--- one-step prediction says little.
+-- The coefficient of $u(k-2)$ is `arx_weight`{.value} % of the next coefficient. With an additional sample of delay, the model is better and has the
+-- same number of parameters (@tbl:dryer_arx). Three samples in the ARX model correspond to two samples in @eq:solution-dryer. The reason is that a
+-- zero-order-hold input affects the sampled output one sample later at the earliest. The noise of this plant seems to pass through the poles of the
+-- plant, as `arx` assumes. Therefore, unlike in the first example, the `arx` model is good: estimated from the first half, its simulation fit on the
+-- second half is `arx3_half`{.value} %. The fit of `arx3_prediction`{.value} % for one-step-ahead prediction contains little information.
 -- END SOLUTION
 --
 -- ## Validation and conclusion
 --
--- **Question 16.** Validate. Is a third pole worth its parameter? State which model you recommend and what it does not explain.
+-- **Question 16.** Validate your models. Does a third pole justify its additional parameter? State which model you recommend and which effects it
+-- does not explain.
 
 -- %% id=dryer_validate
 -- BEGIN SOLUTION
@@ -962,7 +971,7 @@ local dryer_residuals = resid(second, H2)
 report.figure("dryer_resid", dryer_residuals, "Residuals, two poles")
 local steps = step(H2, H3, {labels = {"2 poles", "3 poles"}})
 report.figure("dryer_step", steps:set{height = 5, x_range = {0, 1}}, "Step")
--- two poles again, with an autoregressive model of the noise (a CBJ structure)
+-- two poles with an autoregressive noise model (a CBJ structure)
 local HN = rivc(first, {1, 0, 1, 2, 2}, from_rest)
 local _, noise_test = resid(second, HN, {prediction = true, quiet = true})
 -- END SOLUTION
@@ -970,7 +979,7 @@ local _, noise_test = resid(second, HN, {prediction = true, quiet = true})
 -- %% id=dryer_validate_report echo=false
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
-local verdict = {{"model", "fit, second half (%)", "$p$ (error white)", "$p$ (free of the input)"}}
+local verdict = {{"model", "fit, second half (%)", "$p$ (whiteness)", "$p$ (independence)"}}
 for _, entry in ipairs{{"1 pole, 3 samples", H1}, {"2 poles, 2 samples", H2}, {"3 poles, free delay", H3}} do
     local cells = tested(entry[1], second, entry[2])
     table.insert(verdict, cells)
@@ -992,57 +1001,59 @@ report.value("dryer_robust", max(H2.robust_std/H2.std), "%.1f")
 -- ![First 20 s of the second half, and the simulated outputs of two models. The fits in the legend are for these 20 s.](figure:dryer_compare){#fig:dryer_compare}
 --
 -- ::: {.table name=dryer_verdict #tbl:dryer_verdict}
--- Fits on the second half, and the probabilities $p$ of such residuals if the error were white and if it were independent of the input.
+-- Fits on the second half, and the $p$-values of the whiteness test and of the test for independence from the input.
 -- :::
 --
 -- ![Residuals of the model with two poles on the second half: autocorrelation (above) and cross-correlation with the input (below); shaded: the 99 % bounds](figure:dryer_resid){#fig:dryer_resid}
 --
 -- ![Step responses of the models with two and with three poles, with 99 % bands. They differ only in the first tenths of a second.](figure:dryer_step){#fig:dryer_step}
 --
--- *Evidence for two poles:* the fit to validation data is good, every parameter is well determined, and an independent `arx` confirms the delay of
--- whole samples. A third pole adds `dryer_three_more`{.value} points, and its delay is `dryer_three_td`{.value} s. The step responses are almost
--- identical (@fig:dryer_step).
+-- *Evidence for two poles:* the fit to validation data is good, every parameter is well determined, and an independent `arx` estimate confirms the
+-- delay in samples. A third pole increases the fit by `dryer_three_more`{.value} points, and the delay is then `dryer_three_td`{.value} s. The step
+-- responses are almost identical (@fig:dryer_step).
 --
--- *Evidence against two poles:* the residuals are far from white, and on the second half the input still explains a small part of them
--- (@tbl:dryer_verdict, @fig:dryer_resid). With three poles, this part is smaller but not zero: $p =$ `dryer_three_p`{.value}. A test at the 99 %
--- level does not reject the model, and a test at the 95 % level does. The disturbances are colored, so the plain standard errors are too small, by
--- factors up to `dryer_robust`{.value}. `present` therefore prints robust standard errors.
+-- *Evidence against two poles:* the residuals are far from white, and on the second half, the residuals are still slightly correlated with the input
+-- (@tbl:dryer_verdict, @fig:dryer_resid). With three poles, the correlation is smaller, $p =$ `dryer_three_p`{.value}. A test at the 99 % level does
+-- not reject this model, but a test at the 95 % level does. The disturbances are colored, so the standard errors that assume white noise are too
+-- small, by factors of up to `dryer_robust`{.value}. `present` therefore prints robust standard errors.
 --
--- *A noise model:* `rivc` estimates two poles together with an autoregressive model of the noise, with a pole at
--- `dryer_ar`{.value}\ ±\ `dryer_ar_std`{.value}. It makes the one-step prediction error white ($p =$ `dryer_noise_white`{.value}). But the input is
--- still visible in this error ($p$ `dryer_noise_input`{.value}), and the simulation of the second half is no better (`dryer_noise_val`{.value}
--- compared with `dryer_val_short`{.value} %). A noise model describes the disturbance. It does not add missing dynamics. It is useful for prediction.
+-- *A noise model:* `rivc` estimates two poles together with an autoregressive model of the noise, with a pole at `dryer_ar`{.value}\ ±\
+-- `dryer_ar_std`{.value}. With this noise model, the one-step-ahead prediction error is white ($p =$ `dryer_noise_white`{.value}). However, the
+-- prediction error is still correlated with the input ($p$ `dryer_noise_input`{.value}). The simulation of the second half is not better
+-- (`dryer_noise_val`{.value} % compared with `dryer_val_short`{.value} %). A noise model describes the disturbance and improves predictions. It does
+-- not add missing dynamics.
 --
--- *Conclusion:* use two poles and `dryer_two_td`{.value} s for simulation and for controller design. To learn more about the first tenths of a
--- second, three poles are the hypothesis, and the next step is an experiment with faster switching and sampling. A fit alone would have hidden this
--- question.
+-- *Conclusion:* use two poles and a delay of `dryer_two_td`{.value} s for simulation and for controller design. The first tenths of a second may
+-- require three poles. To test this hypothesis, do an experiment with faster switching and sampling. The fit alone does not reveal this question.
 -- END SOLUTION
 
 -- %% [markdown]
 -- # What you have learned
 --
 -- BEGIN SOLUTION
--- * Look before you estimate: levels, drift, dead time, and anything unexpected. The plot and the formula for the heat of a resistor, not a search
---   over orders, explained the heat-transfer plant.
--- * Go from simple to complicated, and stop at the simplest model that validation data cannot distinguish from larger ones. No single criterion is
---   right: the fit never stops, AIC stops late, and YIC stops early. Standard errors and canceling zeros reveal too many parameters.
+-- * Inspect the data before you estimate: levels, drift, dead time, and anything unexpected. The plots and the formula for the power of a resistor
+--   explained the heat-transfer plant, not a search over orders.
+-- * Go from simple to complex models, and stop at the simplest model that validation data cannot distinguish from larger models. No single criterion
+--   is always correct: the fit to the estimation data prefers the largest model, AIC tends to large models, and YIC tends to small models. Large
+--   standard errors and zeros that cancel poles indicate too many parameters.
 -- * A good fit to the estimation data is not a validation. Data that influenced a choice are no longer independent. The first model of the
 --   heat-transfer plant had the best fit and the wrong gain.
--- * Validation shows the step to go back to. A gain that depends on the operating point: data. Slow waves in the residuals: preparation. An input
---   that is still visible in the residuals: structure. One alarm among many tests may be chance. Repeat the test before you believe it.
--- * Standard errors are valid only for the right structure and noise. A missing lag changes the delay by many standard errors.
--- * The result is a recommendation with its limits, not the largest number in a table.
+-- * Validation shows the step to go back to. If the gain depends on the operating point, go back to the data. If the residuals contain slow waves, go
+--   back to the preparation. If the residuals are correlated with the input, go back to the structure. One rejection among many tests can occur by
+--   chance, so repeat the test.
+-- * Standard errors are valid only if the structure and the noise model are correct. A missing lag changes the delay by many standard errors.
+-- * The result is a recommendation with its limitations, not the largest number in a table.
 -- END SOLUTION
 --
 -- # What you submit
 --
 -- ::: {.note}
--- If this lesson is graded, submit a model and its quality for each round of the loop, with `answer(name, value)`:
+-- If this lesson is graded, submit a model and its fit for each round of the loop, with `answer(name, value)`:
 --
 -- * `linear_orders`: the numbers of poles and zeros that you chose;
--- * `G_linear`: the model from the first data set, and `linear_fit`: the fit in percent of its simulated output to the second;
--- * `G_heat`: your final model of the heat-transfer plant, from the heater's power in W to °C;
--- * `G_dryer`: the model from the first half, and `dryer_fit`: the fit of its simulated output to the second half.
+-- * `G_linear`: the model from the first data set, and `linear_fit`: the fit (%) of its simulated output to the second data set;
+-- * `G_heat`: your final model of the heat-transfer plant, from the heater power in W to the temperature in °C;
+-- * `G_dryer`: the model from the first half, and `dryer_fit`: the fit (%) of its simulated output to the second half.
 --
 -- Grading also runs your script on data of another system and of another heat-transfer plant. The checks look for the figures `linear_resid`,
 -- `heat_high` and `dryer_compare`.

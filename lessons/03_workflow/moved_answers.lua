@@ -1,6 +1,6 @@
--- How a test moves the answers of the worked solution on their way out: `move[name]` is a function of an answer, `e` the
--- sign, and `inside` whether the answer must stay within what checks.lua allows or leave it; `scaled(near, far)` and
--- `shifted(near, far)` do either by the first inside and by the second outside.
+-- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign
+-- `e` and `inside`, which specifies whether the answer must stay within the tolerance of checks.lua or exceed it.
+-- `scaled(near, far)` and `shifted(near, far)` use the first amount inside the tolerance and the second amount outside.
 move.linear_orders = shifted(0, 1)
 move.G_linear = scaled(0.01, 0.15)
 move.linear_fit = shifted(0.1, 4)

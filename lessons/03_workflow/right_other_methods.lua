@@ -1,4 +1,5 @@
--- Output error in discrete time and converted, another edge of the high-pass filter, a difference equation for the dryer.
+-- Discrete-time output error converted to continuous time, another cutoff frequency of the high-pass filter, and an ARX
+-- model of the dryer.
 local L = load("linear_system")
 local learn, check = iddata(L.y, L.u, 0.05), iddata(L.y_val, L.u_val, 0.05)
 local G = tfcoe(learn, 3, 1, {TdMax = 0})

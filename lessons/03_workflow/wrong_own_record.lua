@@ -3,7 +3,7 @@
 -- expects: heat_follows: far too large
 -- expects: dryer_model: The model has no delay
 -- expects: dryer_fit: This is the fit to the half from which the model was estimated
--- Fits to the models' own records, the power without its unit, the delay left out.
+-- Fits to the estimation data, a power without unit, and no delay.
 local L = load("linear_system")
 local one, two = iddata(L.y, L.u, 0.05), iddata(L.y_val, L.u_val, 0.05)
 local G = srivc(one, {2, 3, 0})
@@ -14,7 +14,7 @@ report.figure("linear_resid", resid(two, G), "Residuals")
 
 local H = load("heat_transfer")
 local function prepared(y, u) return idfilt(detrend(iddata(y, (u/10)^2, 1), "start"), {0.015, math.huge}, {order = 2}) end
-local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "zero", Offset = "none"})
+local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "none", Offset = "none"})
 answer("G_heat", rig)
 report.figure("heat_high", test_your_model(rig, prepared(H.y_high, H.u_high)), "About 7 V")
 

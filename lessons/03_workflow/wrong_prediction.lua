@@ -1,8 +1,8 @@
--- expects: linear_model: arx gives a difference equation
--- expects: linear_fit: This is the fit of the one-step prediction
--- expects: linear_follows: predicts well and simulates badly
--- expects: dryer_fit: No model simulates the second half so well
--- Difference equations, praised for predicting one step ahead.
+-- expects: linear_model: arx estimates a difference equation
+-- expects: linear_fit: This is the fit of the one-step-ahead prediction
+-- expects: linear_follows: predicts well, but simulates poorly
+-- expects: dryer_fit: No linear model simulates the second half so well
+-- ARX models, assessed by their one-step-ahead prediction.
 local L = load("linear_system")
 local one, two = iddata(L.y, L.u, 0.05), iddata(L.y_val, L.u_val, 0.05)
 local G = arx(one, {3, 3, 1})
@@ -13,7 +13,7 @@ report.figure("linear_resid", resid(two, G), "Residuals")
 
 local H = load("heat_transfer")
 local function prepared(y, u) return idfilt(detrend(iddata(y, 100*(u/10)^2, 1), "start"), {0.015, math.huge}, {order = 2}) end
-local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "zero", Offset = "none"})
+local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "none", Offset = "none"})
 answer("G_heat", rig)
 report.figure("heat_high", test_your_model(rig, prepared(H.y_high, H.u_high)), "About 7 V")
 

@@ -1,6 +1,6 @@
 -- expects: linear_follows: The model does not change with the data
 -- expects: heat_follows: The model does not change with the data
--- Models written down from the lecture instead of being estimated.
+-- Models copied from the lecture instead of estimated.
 local L = load("linear_system")
 local two = iddata(L.y_val, L.u_val, 0.05)
 local G = tf({5.625, 22.5}, {1, 3.05, 11.25, 11.25})

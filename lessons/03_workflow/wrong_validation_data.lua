@@ -1,6 +1,6 @@
 -- expects: linear_model: This model was estimated from the second data set, which is reserved for validation
 -- expects: dryer_model: This model was estimated from the second half, which is reserved for validation
--- The models are estimated on the very records that were to validate them.
+-- The models are estimated from the validation data.
 local L = load("linear_system")
 local learn = iddata(L.y_val, L.u_val, L.t[2])
 local G = srivc(learn, {2, 3, 0})
@@ -11,7 +11,7 @@ report.figure("linear_resid", resid(learn, G), "Residuals")
 
 local H = load("heat_transfer")
 local function prepared(y, u) return idfilt(detrend(iddata(y, u^2, 1), "start"), {0.015, math.huge}, {order = 2}) end
-local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "zero", Offset = "none"})
+local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "none", Offset = "none"})
 answer("G_heat", rig)
 report.figure("heat_high", test_your_model(rig, prepared(H.y_high, H.u_high)), "About 7 V")
 

@@ -1,6 +1,6 @@
--- expects: heat_model: The gain is in degrees per volt
+-- expects: heat_model: The gain is in °C/V
 -- expects: heat_follows: far too large
--- The rig's model goes from the voltage to the temperature.
+-- The input of the plant model is the voltage instead of the power.
 local L = load("linear_system")
 local one, two = iddata(L.y, L.u, 0.05), iddata(L.y_val, L.u_val, 0.05)
 local G = srivc(one, {2, 3, 0})
@@ -11,7 +11,7 @@ report.figure("linear_resid", resid(two, G), "Residuals")
 
 local H = load("heat_transfer")
 local function prepared(y, u) return idfilt(detrend(iddata(y, u, 1), "start"), {0.015, math.huge}, {order = 2}) end
-local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "zero", Offset = "none"})
+local rig = procsrivc(prepared(H.y, H.u), "P2D", {TdMax = 20, InitialState = "none", Offset = "none"})
 answer("G_heat", rig)
 report.figure("heat_high", test_your_model(rig, prepared(H.y_high, H.u_high)), "About 7 V")
 

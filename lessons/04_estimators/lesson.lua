@@ -18,39 +18,38 @@
 
 -- %% [markdown]
 -- Three methods estimate a differential equation directly from samples [@garnier2008]: least squares on filtered signals (LSSVF), the same regression
--- with instruments (IVSVF), and the refined instrumental variables of TFSRIVC [@young2011]. Which of them can you believe? For a real plant, the
--- answer is unknown. All data of this lesson are therefore simulated. The system is given and the computer generates the noise, so you can compare
--- every estimate with the truth, once and then two hundred times.
+-- with instruments (IVSVF), and the refined instrumental variables of TFSRIVC [@young2011]. Which of these methods can you trust? For a real plant,
+-- the answer is unknown. All data of this lesson are therefore simulated. The system is given, and the computer generates the noise. You can
+-- therefore compare the estimates with the true parameters, first for one data set and then for two hundred.
 --
--- `dynlab demo` shows the methods in short guided tours. Run one before you start, or when you want to see more.
+-- `dynlab demo` shows the methods in short guided tours. Run one of the tours before you start, or at any later time.
 --
 -- The work is planned for two sessions of three hours:
 --
 -- | session | questions, with minutes | aim |
 -- |--------------|-------------------------|------------------------|
--- | Regressions and their bias | 1 (5), 2 (15), 3 (20), 4 (35), 5 (20), 6 (15), 7 (25), 8 (25), 9 (20) | write an estimator, see its bias, remove it by instruments, and understand the effect of the filter |
--- | Which method, and how certain | 10 (25), 11 (35), 12 (25), 13 (20), 14 (25), 15 (30), 16 (20) | compare methods over many data sets with the best possible method, and with discrete time |
+-- | Regressions and their bias | 1 (5), 2 (15), 3 (20), 4 (35), 5 (20), 6 (15), 7 (25), 8 (25), 9 (20) | write an estimator, detect its bias, remove the bias with instruments, and understand the effect of the filter |
+-- | Which method, and how certain | 10 (25), 11 (35), 12 (25), 13 (20), 14 (25), 15 (30), 16 (20) | compare methods over many data sets with the Cramér–Rao bound and with discrete-time methods |
 --
 -- # The system and its data
 --
 -- ## The true system
 --
--- The input $u$ drives a second-order system. Its output $x$ is sampled every $T_s$ seconds and measured with an error,
+-- The input $u$ drives a second-order system. The output $x$ is sampled every $T_s$ seconds and measured with additive noise,
 --
 -- $$ x(t) = \frac{B_o(p)}{F_o(p)}\,u(t), \qquad y(t_k) = x(t_k) + e(t_k), $$ {#eq:system}
 --
--- with $B_o(p) = 2$ and $F_o(p) = p^2 + 4p + 3$, where $p$ means $\mathrm{d}/\mathrm{d}t$ and the $e(t_k)$ are independent, Gaussian, of mean zero
--- and standard deviation $\sigma$.
+-- with $B_o(p) = 2$ and $F_o(p) = p^2 + 4p + 3$, where $p$ is the derivative operator $\mathrm{d}/\mathrm{d}t$. The noise $e(t_k)$ is white and
+-- Gaussian, with zero mean and standard deviation $\sigma$.
 --
 -- **Question 1.** Which model structure does @eq:system have: CARX, COE or CBJ? (CARX: $A\,y = B\,u + e$; COE: $y = \frac{B}{F}\,u + e$; CBJ: $y = \frac{B}{F}\,u + \frac{C}{D}\,e$.)
 --
 -- BEGIN SOLUTION
--- COE, a continuous-time output-error structure. The disturbance is added to the output. It passes neither through $1/F_o$, as in CARX, nor through a
--- separate noise model, as in CBJ.
+-- The structure is COE, a continuous-time output-error structure. The disturbance is added to the output. It does not pass through $1/F_o$, as in
+-- CARX, or through a separate noise model, as in CBJ.
 -- END SOLUTION
 --
--- **Question 2.** What are the system's main features: steady-state gain, poles, time constants with their corner frequencies, and
--- bandwidth?
+-- **Question 2.** Determine the main properties of the system: steady-state gain, poles, time constants, corner frequencies and bandwidth.
 
 -- %% id=system
 local s = tf("s")
@@ -78,23 +77,24 @@ report.value("band", bandwidth(Go), "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The steady-state gain is $B_o(0)/F_o(0) =$ `gain`{.value}. Two real poles at $-$`slow_corner`{.value} and $-$`fast_corner`{.value} give time
--- constants of `slow_constant`{.value} s and `fast_constant`{.value} s, and corner frequencies of `slow_corner`{.value} and `fast_corner`{.value}
--- rad/s. The slow pole dominates: the gain has already fallen by 3 dB at `band`{.value} rad/s, a little below its corner frequency. (Bandwidth here
--- means this $-3$ dB frequency. Some texts call the faster corner frequency, `fast_corner`{.value} rad/s, the band of the system.)
+-- The steady-state gain is $B_o(0)/F_o(0) =$ `gain`{.value}. The real poles at $-$`slow_corner`{.value} and $-$`fast_corner`{.value} correspond to
+-- time constants of `slow_constant`{.value} s and `fast_constant`{.value} s, and corner frequencies of `slow_corner`{.value} and
+-- `fast_corner`{.value} rad/s. The slow pole dominates: the gain is 3 dB lower at `band`{.value} rad/s, slightly below the corner frequency of this
+-- pole. (The bandwidth is this $-3$ dB frequency. Some texts call the faster corner frequency, `fast_corner`{.value} rad/s, the bandwidth of the
+-- system.)
 -- END SOLUTION
 --
 -- ## The data
 --
--- The input is a pseudo-random binary sequence that may change once per second. The data have one period of it, with $\sigma = 0.2$, in two data
--- objects: without noise and with noise.
+-- The input is a pseudo-random binary sequence that may change once per second. The data contain one period of this sequence. There are two data
+-- objects: one without noise, and one with noise of $\sigma = 0.2$.
 
 -- %% id=record
 local Ts, N = 0.01, 1500
 local sigma = 0.2
 local u = prbs(4, 100)
 local x = lsim(Go, u, Ts)                 -- the noise-free output
-local y = x + sigma*randn(N)              -- the measured one
+local y = x + sigma*randn(N)              -- the measured output
 local signals = {InputName = "input u", OutputName = "output y"}
 local data0, data = iddata(x, u, Ts, signals), iddata(y, u, Ts, signals)
 report.figure("record", idplot(data, {labels = {"measured"}})
@@ -104,23 +104,24 @@ local snr = 20*math.log(std(x)/sigma, 10)
 print(string.format("signal-to-noise ratio: %.1f dB", snr))
 
 -- %% [markdown]
--- ![The data. Above: the measured output (thin) and the noise-free output (thick), which a real experiment does not show. Below: the input.](figure:record){#fig:record}
+-- ![The data. Above: the measured output (thin) and the noise-free output (thick), which is not available in a real experiment. Below: the input.](figure:record){#fig:record}
 --
--- These data are poor on purpose (@fig:record). Between two samples, the output changes much less than the noise. The signal-to-noise ratio of 5 dB
--- is typical of poor industrial data. We assume that the orders are known, two poles and no zero, and come back to this assumption at the end.
+-- The quality of these data is low on purpose (@fig:record). Between two samples, the output changes much less than the noise. The signal-to-noise
+-- ratio of 5 dB is typical of noisy industrial data. Assume that the orders are known: two poles and no zero. Question 16 tests this assumption.
 --
 -- # Least squares on filtered signals, by hand
 --
 -- ## The regression
 --
--- Take the CARX model $A(p)\,y(t) = B(p)\,u(t) + e(t)$ with $A(p) = p^2 + a_1 p + a_2$ and $B(p) = b_0$. Its derivatives are not measured, and
--- differentiating noisy samples is hopeless. Therefore, first pass every signal through the same filter,
+-- Take the CARX model $A(p)\,y(t) = B(p)\,u(t) + e(t)$ with $A(p) = p^2 + a_1 p + a_2$ and $B(p) = b_0$. The derivatives are not measured, and
+-- numerical differentiation would amplify the noise. Therefore, first pass every signal through the same filter,
 --
 -- $$ y_f(t) = \frac{1}{E(p)}\,y(t), \qquad u_f(t) = \frac{1}{E(p)}\,u(t), \qquad E(p) = (p + \lambda)^2 , $$ {#eq:filter}
 --
--- The state of this filter contains $y_f$, $p\,y_f$ and $p^2 y_f$ without any differentiation, so it is called the *state-variable filter*.
+-- where $\lambda$ is the cutoff frequency. The state of this filter contains $y_f$, $p\,y_f$ and $p^2 y_f$ without any differentiation, so it is
+-- called the *state-variable filter*.
 --
--- **Question 3.** Write the model for the $N$ samples as a linear regression in matrix form, with the sizes of the matrices. What is its
+-- **Question 3.** Write the model for the $N$ samples as a linear regression in matrix form, and state the sizes of the matrices. What is the
 -- least-squares solution?
 --
 -- BEGIN SOLUTION
@@ -128,7 +129,7 @@ print(string.format("signal-to-noise ratio: %.1f dB", snr))
 --
 -- $$ p^2 y_f(t_k) = -a_1\,p\,y_f(t_k) - a_2\,y_f(t_k) + b_0\,u_f(t_k) + \varepsilon(t_k) , $$ {#eq:solution-sample}
 --
--- and for $k = 1, \dots, N$ they become $Y = \Phi\theta + \varepsilon$ with
+-- and the equations for $k = 1, \dots, N$ are $Y = \Phi\theta + \varepsilon$ with
 --
 -- $$ Y = \begin{pmatrix} p^2 y_f(t_1) \\ \vdots \\ p^2 y_f(t_N) \end{pmatrix}, \quad
 --    \Phi = \begin{pmatrix} -p\,y_f(t_1) & -y_f(t_1) & u_f(t_1) \\ \vdots & \vdots & \vdots \\
@@ -136,16 +137,16 @@ print(string.format("signal-to-noise ratio: %.1f dB", snr))
 --    \theta = \begin{pmatrix} a_1 \\ a_2 \\ b_0 \end{pmatrix} , $$ {#eq:solution-matrices}
 --
 -- where $Y$ and $\varepsilon$ are columns of $N$ values, $\Phi$ has $N$ rows and 3 columns, and $\theta$ has 3 values. The sum of squares
--- $\lVert Y - \Phi\theta \rVert^2$ is smallest for $\hat\theta = (\Phi^T\Phi)^{-1}\Phi^T Y$. A program computes it by an orthogonal factorization of
--- $\Phi$, without forming an inverse.
+-- $\lVert Y - \Phi\theta \rVert^2$ is smallest for $\hat\theta = (\Phi^T\Phi)^{-1}\Phi^T Y$. A program computes this solution with an orthogonal
+-- factorization of $\Phi$, without an inverse.
 -- END SOLUTION
 --
 -- ## Your own estimator
 --
 -- **Question 4.** Write your own LSSVF. `svf(x, 2, lambda, {Ts = Ts})` returns a matrix `X` with the columns $p^2 x_f$, $p\,x_f$ and $x_f$
--- (`X:col(1)` is the first). `solve(Phi, Y)` returns the least-squares solution. Between the samples, the input is constant, `hold = "zoh"`. The
--- measured output is taken as piecewise linear, `hold = "foh"`, which is the default of `svf`. Set $\lambda = 3$ rad/s and try it on the data without
--- noise.
+-- (`X:col(1)` is the first). `solve(Phi, Y)` returns the least-squares solution. Between the samples, the input is constant (zero-order hold,
+-- `hold = "zoh"`). Assume that the measured output is piecewise linear (first-order hold, `hold = "foh"`), which is the default of `svf`. Set
+-- $\lambda = 3$ rad/s and apply your estimator to the data without noise.
 
 -- %% id=own_lssvf
 -- BEGIN SOLUTION
@@ -159,7 +160,7 @@ local function own_lssvf(y, u, lambda)
     return solve(Phi, Y)
 end
 -- STARTER: local function own_lssvf(y, u, lambda)
--- STARTER:     return zeros(3)                   -- to be replaced by a1, a2, b0
+-- STARTER:     return zeros(3)                   -- replace by a1, a2, b0
 -- STARTER: end
 -- END SOLUTION
 local lambda = 3
@@ -185,13 +186,13 @@ report.value("fine_ratio", largest_relative(own0, truth)/largest_relative(fine.p
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The estimates are right within `own0_miss`{.value} %. The remaining error is not a programming error but the price of sampling: the filter
+-- The estimates are accurate to `own0_miss`{.value} %. The remaining error is not a programming error, but an interpolation error: the filter
 -- interpolates the output linearly between the samples, and the true output is curved. With half the sampling time, the error is `fine_ratio`{.value}
 -- times smaller, as expected for an error proportional to $T_s^2$.
 -- END SOLUTION
 --
--- **Question 5.** Now use the data with noise. Are the estimates still close to the truth? Repeat with other noise: are the errors random, or do they
--- always have the same sign? (`dynlab run analysis.lua --seed random` runs everything with other noise.)
+-- **Question 5.** Now use the data with noise. Are the estimates still close to the true parameters? Repeat the estimation with different noise. Are
+-- the errors random, or do they always have the same sign? (`dynlab run analysis.lua --seed random` runs the script with different noise.)
 
 -- %% id=own_noisy
 -- BEGIN SOLUTION
@@ -208,7 +209,7 @@ end
 local function cells(name, theta)
     return {name, string.format("%.3f", theta[1]), string.format("%.3f", theta[2]), string.format("%.3f", theta[3])}
 end
-local rows = {{"record", "$a_1$", "$a_2$", "$b_0$"}, cells("truth", truth), cells("this record", own)}
+local rows = {{"data set", "$a_1$", "$a_2$", "$b_0$"}, cells("truth", truth), cells("these data", own)}
 for repetition, theta in ipairs(others) do
     table.insert(rows, cells(string.format("repetition %d", repetition), theta))
 end
@@ -218,23 +219,25 @@ report.table("repetitions", rows)
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=repetitions #tbl:repetitions}
--- Your own LSSVF, $\lambda = 3$ rad/s: estimates from the data with noise and from five repetitions with other noise. All are below the truth.
+-- Your own LSSVF, $\lambda = 3$ rad/s: estimates from the data with noise and from five repetitions with different noise. All estimates are below the
+-- true values.
 -- :::
 --
--- They are not (@tbl:repetitions), and the errors are systematic. By chance, some estimates would be above the truth and some below. But all three
--- parameters are too small, in every repetition. Least squares is *biased* here. The noise of $y$ appears on both sides of @eq:solution-sample. For
--- the true parameters the remaining equation error is
+-- The estimates are not close to the true parameters, and the errors are systematic (@tbl:repetitions). Random errors would have both signs, but all
+-- three parameters are too small in every repetition. The least-squares estimate is *biased*. The noise of $y$ appears on both sides of
+-- @eq:solution-sample. For the true parameters, the equation error is
 --
 -- $$ \varepsilon(t) = \frac{A(p)}{E(p)}\,e(t) , $$ {#eq:solution-color}
 --
--- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same $e$ with another filter. Regressors and error are correlated, as in the long noisy
--- data at the end of lesson 2. Longer data would not help: the bias depends on the variance of the noise, not on the number of samples.
+-- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same $e$ with another filter. The regressors and the equation error are correlated, as in
+-- the long noisy data at the end of lesson 2. More samples would not help: the bias depends on the variance of the noise, not on the number of
+-- samples.
 -- END SOLUTION
 --
 -- ## The library's LSSVF
 --
--- **Question 6.** `lssvf(data, {na, nb, nk}, lambda)` does the same for a data object: `na` poles, `nb` coefficients of $B$, `nk` samples of delay.
--- Apply it to both data objects and compare it with your own program.
+-- **Question 6.** `lssvf(data, {na, nb, nk}, lambda)` computes the LSSVF estimate from a data object: `na` poles, `nb` coefficients of $B$, and `nk`
+-- samples of delay. Apply this function to both data objects and compare the estimates with the results of your program.
 
 -- %% id=lssvf
 -- BEGIN SOLUTION
@@ -253,8 +256,8 @@ report.value("agreement", math.max(largest_relative(own0, Glssvf0.param), larges
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- Both programs give the same numbers: the largest relative difference, `agreement`{.value}, is rounding. The library is only faster, because it
--- computes the necessary sums of products while it filters, and never stores $\Phi$.
+-- Both programs return the same estimates: the largest relative difference, `agreement`{.value}, is a rounding error. The library is faster, because
+-- it computes the required sums of products during filtering and does not store $\Phi$.
 -- END SOLUTION
 
 -- %% [markdown]
@@ -262,14 +265,14 @@ report.value("agreement", math.max(largest_relative(own0, Glssvf0.param), larges
 --
 -- ## IVSVF
 --
--- The solution is to keep the regression of question 3 and to solve it in another way. Instead of $\Phi^T Y = \Phi^T\Phi\,\theta$, solve
+-- To remove the bias, keep the regression of question 3, but solve it in another way. Instead of $\Phi^T Y = \Phi^T\Phi\,\theta$, solve
 --
 -- $$ Z^T Y = Z^T\Phi\,\theta , $$ {#eq:iv}
 --
--- where the *instruments* $Z$ resemble $\Phi$ but are independent of the noise. IVSVF computes them in two steps. First, LSSVF estimates a model.
--- Then IVSVF simulates this model with the input $u$, and the simulated output replaces $y$ in the regressors.
+-- where the *instruments* $Z$ are correlated with $\Phi$ but independent of the noise. IVSVF computes them in two steps. First, LSSVF estimates a
+-- model. Then IVSVF simulates this model with the input $u$, and the simulated output replaces $y$ in the regressors.
 --
--- **Question 7.** Estimate the model by `ivsvf` and compare it with LSSVF. As a bonus, write it yourself: add three lines to your own LSSVF.
+-- **Question 7.** Estimate the model with `ivsvf` and compare it with LSSVF. As a bonus, write your own IVSVF: add three lines to your own LSSVF.
 
 -- %% id=ivsvf
 -- BEGIN SOLUTION
@@ -292,18 +295,18 @@ report.value("iv_miss", 100*largest_relative(Givsvf.param, truth), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The worst parameter of LSSVF misses the truth by `ls_miss`{.value} %, and the worst of IVSVF by `iv_miss`{.value} %. The instruments come from a
--- biased model, but this does not matter. They need not be right: they must be independent of the noise and resemble the regressors. The three lines
--- agree with the library (`iv_agreement`{.value} relative difference).
+-- The largest parameter error is `ls_miss`{.value} % for LSSVF and `iv_miss`{.value} % for IVSVF. The model that generates the instruments is biased,
+-- but this is not a problem. The instruments must only be independent of the noise and correlated with the regressors. The estimates of the three
+-- lines agree with the library (`iv_agreement`{.value} relative difference).
 -- END SOLUTION
 --
 -- ## The choice of λ
 --
--- Both methods need a number from the user, the cut-off frequency $\lambda$ of the filter. The usual choice is a little above the bandwidth of the
--- system, which is unknown for a real plant.
+-- For both methods, you must choose the cutoff frequency $\lambda$ of the filter. The usual choice is slightly above the bandwidth of the system,
+-- which is unknown for a real plant.
 --
--- **Question 8.** How sensitive is IVSVF to this choice? Compare $\lambda = 0.3$, 3 and 30 rad/s. One data set says little. `montecarlo` repeats the
--- experiment with new noise as often as you like (`dynlab help montecarlo`).
+-- **Question 8.** How sensitive is IVSVF to this choice? Compare $\lambda = 0.3$, 3 and 30 rad/s. One data set is not enough for an answer.
+-- `montecarlo` repeats the experiment with new noise as often as you specify (`dynlab help montecarlo`).
 
 -- %% id=lambda
 -- BEGIN SOLUTION
@@ -314,7 +317,7 @@ end
 local filters = study(sigma, {{"ivsvf", {2, 1, 0}, 30, label = "λ = 30"},
                               {"ivsvf", {2, 1, 0}, 3, label = "λ = 3"},
                               {"ivsvf", {2, 1, 0}, 0.3, label = "λ = 0.3"}})
--- the same picture twice: all estimates, and the middle enlarged
+-- two panels: all estimates, and an enlarged view of the center
 local function within(x, y, legend)
     local picture = filters:scatter("a1", "a2")
     return picture:set{x_range = x, y_range = y, legend = legend, title = ""}
@@ -330,7 +333,7 @@ report.figure("lambda", both:set{height = 11}, "IVSVF with three filters")
 local function mean_and_std(result, i)
     return (string.format("%.3f (%.3f)", result.mean[i], result.std[i]):gsub("^%-", "−"))
 end
-local lambda_rows = {{"$\\lambda$ (rad/s)", "$a_1$", "$a_2$", "$b_0$", "largest $a_1$", "reported, $a_1$"},
+local lambda_rows = {{"$\\lambda$ (rad/s)", "$a_1$", "$a_2$", "$b_0$", "largest $a_1$", "std. error, $a_1$"},
                      {"truth", true_cell(1), true_cell(2), true_cell(3), "", ""}}
 for _, value in ipairs{"0.3", "3", "30"} do
     local result = filters["λ = " .. value]
@@ -362,17 +365,17 @@ report.value("many_runs", near_best.runs, "%d")
 -- that the method reported.
 -- :::
 --
--- ![IVSVF with three filters, 200 estimates each: $\hat a_2$ over $\hat a_1$. Above: all estimates. Below: the center enlarged, with the true value (4, 3) and the ellipse that contains 95 % of the estimates of the best possible unbiased method. Only $\lambda = 3$ stays close to it.](figure:lambda){#fig:lambda}
+-- ![IVSVF with three filters, 200 estimates each: $\hat a_2$ over $\hat a_1$. Above: all estimates. Below: the center enlarged, with the true value (4, 3) and the ellipse that contains 95 % of the estimates of the best possible unbiased method. Only the estimates for $\lambda = 3$ are close to the ellipse.](figure:lambda){#fig:lambda}
 --
--- IVSVF is very sensitive (@tbl:lambda, @fig:lambda). Over `runs`{.value} data sets, the scatter of $\hat a_1$ is `low_ratio`{.value} times larger
--- with $\lambda = 0.3$ and `high_ratio`{.value} times larger with $\lambda = 30$ than with $\lambda = 3$. Some data sets give nonsense. Also note the
--- means: `low_mean`{.value}\ ±\ `low_mean_error`{.value} and `high_mean`{.value}\ ±\ `high_mean_error`{.value} (± the standard error of a mean of
--- `runs`{.value}) are significantly above 4. Instrumental variables are *consistent*: they converge to the truth as the number of samples grows. With
--- a finite number of noisy samples, they are not exactly unbiased.
+-- IVSVF is very sensitive to $\lambda$ (@tbl:lambda, @fig:lambda). Over `runs`{.value} data sets, the scatter of $\hat a_1$ is `low_ratio`{.value}
+-- times larger with $\lambda = 0.3$ and `high_ratio`{.value} times larger with $\lambda = 30$ than with $\lambda = 3$. For some data sets, the
+-- estimates are useless. Also note the means: `low_mean`{.value}\ ±\ `low_mean_error`{.value} and `high_mean`{.value}\ ±\ `high_mean_error`{.value}
+-- (± the standard error of the mean of `runs`{.value} estimates) are significantly above 4. Instrumental-variable estimates are *consistent*: they
+-- converge to the true parameters as the number of samples grows. With a finite number of noisy samples, they are not exactly unbiased.
 -- END SOLUTION
 --
--- **Question 9.** Why? Put the true parameters into the regression: how does the filter color the remaining noise, and which filter is the best one?
--- (`freqresp(G, w).abs` returns the magnitude of a transfer function.)
+-- **Question 9.** Explain this sensitivity. Insert the true parameters into the regression: how does the filter color the equation error, and which
+-- filter is optimal? (`freqresp(G, w).abs` returns the magnitude of a transfer function.)
 
 -- %% id=color
 -- BEGIN SOLUTION
@@ -390,15 +393,15 @@ report.figure("color", weights, "How the filter colors the equation error")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![How the filter colors the equation error: the magnitude $|A/E|$, which multiplies white measurement noise, for three values of $\lambda$ (solid: 3 rad/s) and for the best filter, $E = A$, which keeps it white](figure:color){#fig:color}
+-- ![How the filter colors the equation error: the magnitude $|A/E|$, which multiplies white measurement noise, for three values of $\lambda$ (solid: 3 rad/s) and for the optimal filter, $E = A$, for which the equation error is white](figure:color){#fig:color}
 --
--- The regression gives all samples of $\varepsilon$ the same weight, which is optimal if they are white. By @eq:solution-color, $\varepsilon$ is the
--- white noise $e$ filtered by $A/E$ (@fig:color). With $\lambda = 0.3$, the slow part of the noise is much larger than the rest. The filter's memory
--- is so long that the data contain little more than its transient. With $\lambda = 30$, nearly all of the noise is at frequencies where the system no
--- longer responds, and it hides the information about the slow pole. Of the three, $\lambda = 3$ is closest to a constant magnitude. The magnitude is
--- constant for $E = A$: the best filter is $1/A$, with the denominator of the system. Among the filters $(p+\lambda)^2$, the one nearest to
--- $A = p^2 + 4p + 3$ has $\lambda = \sqrt 3 \approx 1.7$, where the constant terms agree. Over `many_runs`{.value} data sets, its scatter in
--- $\hat a_1$ is `root_std`{.value}, and the scatter for $\lambda = 3$ is `three_std`{.value}. $A$ is unknown, but you can approach it in steps.
+-- The regression weights all samples of $\varepsilon$ equally, which is optimal if $\varepsilon$ is white. By @eq:solution-color, $\varepsilon$ is
+-- the white noise $e$ filtered by $A/E$ (@fig:color). With $\lambda = 0.3$, the low-frequency part of the noise dominates. The response of the filter
+-- is so slow that the data contain little more than its transient. With $\lambda = 30$, nearly all of the noise is at frequencies where the system no
+-- longer responds, and it hides the information about the slow pole. Of the three values, $\lambda = 3$ is closest to a constant magnitude. The
+-- magnitude is constant for $E = A$: the optimal filter is $1/A$, with the denominator of the system. Among the filters $(p+\lambda)^2$, the one
+-- nearest to $A = p^2 + 4p + 3$ has $\lambda = \sqrt 3 \approx 1.7$, where the constant terms agree. Over `many_runs`{.value} data sets, the scatter
+-- of $\hat a_1$ is `root_std`{.value} for this filter and `three_std`{.value} for $\lambda = 3$. $A$ is unknown, but an iteration can approximate it.
 -- END SOLUTION
 --
 -- # Refined instrumental variables
@@ -407,30 +410,30 @@ report.figure("color", weights, "How the filter colors the equation error")
 --
 -- $$ y(t_k) = \frac{B(p)}{F(p)}\,u(t_k) + e(t_k) $$ {#eq:coe}
 --
--- iteratively. It filters with $1/F$ of the current model, computes instruments with the same model, and solves @eq:iv. It repeats this with the new
--- model until the parameters converge. There is no $\lambda$ to choose.
+-- iteratively. In each iteration, TFSRIVC filters the signals with $1/F$ of the current model, computes instruments with this model, and solves
+-- @eq:iv for a new model. The iterations end when the parameters converge. You do not have to choose $\lambda$.
 --
 -- ::: note
 -- The second session begins here: *which method, and how certain*. Run your script (`dynlab run -i analysis.lua`). You will compare the models of the
--- first session with the new one.
+-- first session with the model of TFSRIVC.
 -- :::
 --
--- **Question 10.** Estimate the model by `tfsrivc(data, np, nz, {TdMax = 0})`, where `np` and `nz` are the numbers of poles and zeros. The largest
--- delay is zero, so the method does not search for a delay. `present` shows the parameters with their standard errors: compare `present(Gtf)` with
--- `present(Go)`. Compare all methods with the truth.
+-- **Question 10.** Estimate the model with `tfsrivc(data, np, nz, {TdMax = 0})`, where `np` and `nz` are the numbers of poles and zeros. `TdMax` is
+-- the largest delay; with 0, the method does not search for a delay. `present` displays the parameters with their standard errors: compare
+-- `present(Gtf)` with `present(Go)`. Compare the estimates of all methods with the true parameters.
 
 -- %% id=tfsrivc
 -- BEGIN SOLUTION
 local Gtf = tfsrivc(data, 2, 0, {TdMax = 0})
 present(Gtf)
-present(Go)  -- the truth in the same form, without errors
+present(Go)  -- the true system, without standard errors
 
 local function miss(G) return lsim(G, u, Ts) - x end
 local misses = plot(data.t, miss(Glssvf), "LSSVF", data.t, miss(Givsvf), "IVSVF",
                     data.t, miss(Gtf), "TFSRIVC",
                     {height = 5.5, xlabel = "time (s)", ylabel = "output − x",
                      dash = {1, 2, 0}})
-report.figure("errors", misses, "Simulated outputs less the noise-free output")
+report.figure("errors", misses, "Simulated outputs minus the noise-free output")
 -- END SOLUTION
 
 -- %% id=tfsrivc_report echo=false
@@ -455,23 +458,22 @@ report.value("possible_fit", fit(data, Go), "%.1f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=methods #tbl:methods}
--- The three methods (± one reported standard error). The fits compare the simulated output with the measured output $y$ and with the noise-free
--- output $x$.
+-- The three methods (± one standard error). The fits compare the simulated output with the measured output $y$ and with the noise-free output $x$.
 -- :::
 --
--- ![Simulated outputs of the three models minus the noise-free output $x$; a perfect model would give zero. The peak of $x$ is about 0.7.](figure:errors){#fig:errors}
+-- ![Simulated outputs of the three models minus the noise-free output $x$; for a perfect model, the difference is zero. The peak of $x$ is about 0.7.](figure:errors){#fig:errors}
 --
--- TFSRIVC needed `iterations`{.value} iterations. Note two things in @tbl:methods. A fit near `possible_fit`{.value} % does not mean a bad model: the
--- true system itself reaches no more, because the rest is noise. And the fits to the measured output are similar for all three models, although their
--- parameters are not. The noise-free output, which only a simulation has, shows the difference (@fig:errors). For one data set, chance decides which
--- of the two instrumental-variable methods is closer to the truth.
+-- TFSRIVC needed `iterations`{.value} iterations. Note two facts in @tbl:methods. First, a fit near `possible_fit`{.value} % does not indicate a bad
+-- model: the true system has the same fit, because the remaining error is noise. Second, the fits to the measured output are similar for all three
+-- models, although the parameters differ. The noise-free output, which is available only in a simulation, shows the difference (@fig:errors). For a
+-- single data set, chance determines which of the two instrumental-variable methods is closer to the true parameters.
 -- END SOLUTION
 --
 -- # Two hundred data sets
 --
--- **Question 11.** One data set can make a method look good by chance. Repeat the experiment 200 times with $\sigma = 0.2$ for the three methods,
--- with $\lambda = 3$ for the methods that need it. Which methods are biased? Which method has the smallest scatter? Are the reported standard errors
--- right?
+-- **Question 11.** With a single data set, a method can look good by chance. Repeat the experiment 200 times with $\sigma = 0.2$ for the three
+-- methods. Use $\lambda = 3$ for LSSVF and IVSVF. Which methods are biased? Which method has the smallest scatter? Are the reported standard errors
+-- correct?
 
 -- %% id=monte_carlo
 -- BEGIN SOLUTION
@@ -479,7 +481,7 @@ local methods = {{"lssvf", {2, 1, 0}, 3, label = "LSSVF"},
                  {"ivsvf", {2, 1, 0}, 3, label = "IVSVF"},
                  {"tfsrivc", 2, 0, {TdMax = 0}, label = "TFSRIVC"}}
 local low = study(0.2, methods)
-report.figure("histograms", low:histograms(), "200 records with σ = 0.2")
+report.figure("histograms", low:histograms(), "200 data sets with σ = 0.2")
 -- END SOLUTION
 
 -- %% id=monte_carlo_report echo=false
@@ -489,7 +491,7 @@ local function study_rows(study)
     local function with_bound(i)
         return string.format("%g (%.3f)", truth[i], study.TFSRIVC.cramer_rao_std[i])
     end
-    local list = {{"method", "$a_1$", "$a_2$", "$b_0$", "reported, $a_1$"},
+    local list = {{"method", "$a_1$", "$a_2$", "$b_0$", "std. error, $a_1$"},
                   {"truth, bound", with_bound(1), with_bound(2), with_bound(3), ""}}
     for _, name in ipairs{"LSSVF", "IVSVF", "TFSRIVC"} do
         local result = study[name]
@@ -506,7 +508,7 @@ report.value("tf_over", low.TFSRIVC.reported_std[1]/low.TFSRIVC.std[1], "%.2f")
 report.value("tf_bound", low.TFSRIVC.std[1]/low.TFSRIVC.cramer_rao_std[1], "%.2f")
 report.value("iv_more", 100*(low.IVSVF.std[1]/low.TFSRIVC.std[1] - 1), "%.0f")
 report.value("std_error", 100/math.sqrt(2*(low.runs - 1)), "%.0f")
--- both methods use the same data, so the ratio of their scatters is more certain than each of them
+-- both methods use the same data, so the ratio of the standard deviations is more accurate than each standard deviation
 local iv, tf_ = low.IVSVF.theta:col(1), low.TFSRIVC.theta:col(1)
 local correlation = mean((iv - mean(iv))*(tf_ - mean(tf_)))/(std(iv)*std(tf_))
 report.value("iv_more_error", 100*math.sqrt((1 - math.min(correlation, 1)^2)/(low.runs - 1)), "%.0f")
@@ -515,24 +517,25 @@ report.value("iv_more_error", 100*math.sqrt((1 - math.min(correlation, 1)^2)/(lo
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=low #tbl:low}
--- $\sigma = 0.2$: mean over 200 data sets and, in parentheses, the standard deviation. First row: the truth and the Cramér–Rao bound, which is the
--- smallest possible standard deviation of an unbiased method. Last column: the mean of the standard errors that the method reported for $a_1$.
+-- $\sigma = 0.2$: mean over 200 data sets and, in parentheses, the standard deviation. The first row contains the true values and the Cramér–Rao
+-- bound, which is the smallest possible standard deviation of an unbiased method. The last column is the mean of the standard errors that the method
+-- reported for $a_1$.
 -- :::
 --
--- ![The estimates from 200 data sets with $\sigma = 0.2$, one row for each method and one column for each parameter; dashed: the truth. The histograms of LSSVF are narrow and miss the truth.](figure:histograms){#fig:histograms}
+-- ![The estimates from 200 data sets with $\sigma = 0.2$, one row for each method and one column for each parameter; dashed: the true values. The histograms of LSSVF are narrow, but do not contain the true values.](figure:histograms){#fig:histograms}
 --
--- * LSSVF has a small scatter around a wrong value: on average it misses $a_1$ by `ls_bias`{.value} times its scatter. A narrow histogram alone is no
---   merit.
--- * IVSVF is centered on the truth. Its scatter is `iv_more`{.value}\ ±\ `iv_more_error`{.value} % above that of TFSRIVC, because its filter is not
---   quite the best.
--- * TFSRIVC is also centered on the truth, and its scatter is `tf_bound`{.value} times the Cramér–Rao bound. A standard deviation from 200 runs is
---   itself uncertain by `std_error`{.value} %. Within this uncertainty, no method can extract more from these data.
--- * You can trust the errors that IVSVF and TFSRIVC report: on average they are `iv_over`{.value} and `tf_over`{.value} times the true scatter. The
---   errors of LSSVF are `ls_over`{.value} times the true scatter, because their formula assumes a white equation error. @fig:color shows that the
---   error is not white. Above all, standard errors do not include the bias.
+-- * LSSVF has a small scatter around a wrong value: the bias of $\hat a_1$ is `ls_bias`{.value} times the scatter. A narrow histogram alone does not
+--   indicate a good method.
+-- * The estimates of IVSVF are centered on the true values. Their scatter is `iv_more`{.value}\ ±\ `iv_more_error`{.value} % larger than the scatter
+--   of TFSRIVC, because the filter is not exactly optimal.
+-- * The estimates of TFSRIVC are also centered on the true values, and their scatter is `tf_bound`{.value} times the Cramér–Rao bound. The
+--   uncertainty of a standard deviation from 200 runs is `std_error`{.value} %. Within this uncertainty, no unbiased method can be more accurate.
+-- * The standard errors of IVSVF and TFSRIVC are reliable: on average, they are `iv_over`{.value} and `tf_over`{.value} times the scatter. The
+--   standard errors of LSSVF are `ls_over`{.value} times the scatter, because their formula assumes a white equation error. @fig:color shows that the
+--   equation error is not white. In addition, standard errors never include the bias.
 -- END SOLUTION
 --
--- **Question 12.** Double the noise to $\sigma = 0.4$. What happens to the three methods?
+-- **Question 12.** Double the noise to $\sigma = 0.4$. How do the estimates of the three methods change?
 --
 -- First, enter a prediction: by what factor does the bias of LSSVF grow? `outcome` prints your prediction next to the result.
 
@@ -545,10 +548,10 @@ guess("growth of the bias of a1", 4)
 -- %% id=more_noise
 -- BEGIN SOLUTION
 local high = study(0.4, methods)
--- one panel for each method, with the true value and the ellipse of the bound
+-- one panel for each method, with the true value and the 95 % ellipse
 local C, phi = high.TFSRIVC.cramer_rao, linspace(0, 2*math.pi, 91)
 local va, cab, vb = C:at(1, 1), C:at(1, 3), C:at(3, 3)
-local r = math.sqrt(-2*math.log(0.05))    -- holds 95 %
+local r = math.sqrt(-2*math.log(0.05))    -- contains 95 %
 local ellipse_a = 4 + r*math.sqrt(va)*cos(phi)
 local ellipse_b = 2 + r*(cab/math.sqrt(va)*cos(phi)
                          + math.sqrt(vb - cab^2/va)*sin(phi))
@@ -560,7 +563,7 @@ local function cloud(name)
                  xlabel = "a_{1}", ylabel = "b_{0}"}):mark(4, 2, "truth")
 end
 local panels = subplot(1, 3, {cloud("LSSVF"), cloud("IVSVF"), cloud("TFSRIVC")})
-report.figure("scatter", panels:set{height = 6}, "200 records with σ = 0.4")
+report.figure("scatter", panels:set{height = 6}, "200 data sets with σ = 0.4")
 outcome("growth of the bias of a1", high.LSSVF.bias[1]/low.LSSVF.bias[1])
 -- END SOLUTION
 
@@ -581,29 +584,29 @@ report.value("tf_failures", high.TFSRIVC.failed + high.TFSRIVC.not_converged, "%
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=high #tbl:high}
--- $\sigma = 0.4$: mean and standard deviation, with the columns of @tbl:low.
+-- $\sigma = 0.4$: mean and standard deviation. @tbl:low explains the columns.
 -- :::
 --
--- ![$\hat b_0$ over $\hat a_1$ from 200 data sets with $\sigma = 0.4$, one panel for each method; marked: the true value. The ellipse would contain 95 % of the estimates of the best unbiased method. The cloud of LSSVF misses it.](figure:scatter){#fig:scatter}
+-- ![$\hat b_0$ over $\hat a_1$ from 200 data sets with $\sigma = 0.4$, one panel for each method; marked: the true value. The ellipse would contain 95 % of the estimates of the best unbiased method. The cloud of LSSVF is outside the ellipse.](figure:scatter){#fig:scatter}
 --
 -- The bias of LSSVF grows from `ls_low`{.value} % of $a_1$ to `ls_high`{.value} % (@tbl:high), by a factor of `ls_growth`{.value}. A factor of four
--- is the natural prediction, because the bias comes from the variance of the noise. But the noise is also in the denominator. For many samples, the
--- least-squares estimate tends to $(R + \sigma^2 E)^{-1} R\,\theta$ instead of $\theta$. Here $R$ and $E$ are the covariances of the noise-free
--- regressors and of their noise for $\sigma = 1$ (lesson 2). The bias is proportional to $\sigma^2$ only while $\sigma^2 E$ is small compared with
--- $R$. Then it saturates, and it never exceeds 100 %. IVSVF and TFSRIVC stay near the truth. Their scatter grows with the noise, for TFSRIVC by a
--- factor of `tf_growth`{.value}. The number of data sets for which its iterations did not converge is `tf_failures`{.value}. @fig:scatter also shows
--- that the errors of $\hat a_1$ and $\hat b_0$ are correlated. A model that is too fast gets too large a $b_0$, so the gain $b_0/a_2$, which the data
--- determine well, is right.
+-- is the natural prediction, because the bias comes from the variance of the noise. However, the noise also affects the inverse matrix. For many
+-- samples, the least-squares estimate converges to $(R + \sigma^2 E)^{-1} R\,\theta$ instead of $\theta$. $R$ and $E$ are the covariances of the
+-- noise-free regressors and of their noise for $\sigma = 1$ (lesson 2). The bias is proportional to $\sigma^2$ only if $\sigma^2 E$ is small compared
+-- with $R$. For more noise, the bias saturates, and it never exceeds 100 %. The means of IVSVF and TFSRIVC stay near the true values. Their scatter
+-- grows with the noise, for TFSRIVC by a factor of `tf_growth`{.value}. The number of data sets for which TFSRIVC did not converge is
+-- `tf_failures`{.value}. @fig:scatter also shows that the errors of $\hat a_1$ and $\hat b_0$ are correlated. If the model is too fast, $\hat b_0$ is
+-- also too large, so the gain $b_0/a_2$, which the data determine well, is correct.
 -- END SOLUTION
 --
--- **Question 13.** LSSVF must assume how the measured output behaves between its samples: piecewise linear (`hold_y = "foh"`, as in your program) or
--- constant (`hold_y = "zoh"`). Does its bias depend on this assumption?
+-- **Question 13.** LSSVF needs an assumption about the measured output between the samples: piecewise linear (`hold_y = "foh"`, as in your program)
+-- or constant (`hold_y = "zoh"`). Does its bias depend on this assumption?
 
 -- %% id=hold
 -- BEGIN SOLUTION
 local holds = study(sigma, {
-    {"lssvf", {2, 1, 0}, 3, {hold_y = "foh"}, label = "straight lines"},
-    {"lssvf", {2, 1, 0}, 3, {hold_y = "zoh"}, label = "held"},
+    {"lssvf", {2, 1, 0}, 3, {hold_y = "foh"}, label = "piecewise linear"},
+    {"lssvf", {2, 1, 0}, 3, {hold_y = "zoh"}, label = "constant"},
 })
 local held0 = lssvf(data0, {2, 1, 0}, 3, {hold_y = "zoh"})
 -- END SOLUTION
@@ -616,35 +619,37 @@ for _, name in ipairs(holds.labels) do
     local result = holds[name]
     table.insert(hold_rows, {name, mean_and_std(result, 1), mean_and_std(result, 2), mean_and_std(result, 3)})
 end
-table.insert(hold_rows, cells("held, without noise", held0.param))
+table.insert(hold_rows, cells("constant, without noise", held0.param))
 report.table("holds", hold_rows)
 -- END SOLUTION
 
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=holds #tbl:holds}
--- LSSVF with two assumptions about the output between its samples, $\sigma = 0.2$: mean over 200 data sets and, in parentheses, the standard
+-- LSSVF with two assumptions about the output between the samples, $\sigma = 0.2$: mean over 200 data sets and, in parentheses, the standard
 -- deviation.
 -- :::
 --
--- It does, and even its sign changes (@tbl:holds). White noise exists only at the samples. The filtered noise depends on the assumption about the
--- noise between them. A constant output between samples is wrong even without noise, because it lags half a sample behind. This part of the error is
--- small here. Two programs can therefore disagree about LSSVF on the same noisy data, and both can be right. TFSRIVC does not depend on the
--- assumption. Its iterations end where the error of the simulated output is smallest, and this error does not contain $y$ between the samples.
+-- The bias depends on this assumption; even its sign changes (@tbl:holds). White noise is defined only at the sampling instants, so the filtered
+-- noise depends on the assumption about the noise between the samples. A zero-order hold of the output causes an error even without noise, because it
+-- delays the output by half a sample. This part of the error is small for these data. Two correct LSSVF programs can therefore return different
+-- estimates from the same noisy data. TFSRIVC does not depend on this assumption. It minimizes the error of the simulated output, which does not
+-- contain $y$ between the samples.
 -- END SOLUTION
 --
 -- # Why not discrete time?
 --
--- A computer works with samples, so why not estimate a difference equation, as most programs do, and convert it afterwards? For an input that is
--- constant between the samples, sampling the true system gives
+-- Why not estimate a difference equation from the samples, as most programs do, and convert it to continuous time? For an input that is constant
+-- between the samples, the sampled true system is
 --
 -- $$ x(t_k) + \alpha_1 x(t_{k-1}) + \alpha_2 x(t_{k-2}) = \beta_1 u(t_{k-1}) + \beta_2 u(t_{k-2}) , $$ {#eq:sampled}
 --
--- and `c2d` and `d2c` convert between the two forms.
+-- and `c2d` and `d2c` convert between continuous and discrete time.
 --
--- **Question 14.** Estimate the difference equation by `arx(data, {2, 2, 1})`: two poles, two coefficients of the input and one sample of delay, as
--- in @eq:sampled. Use the noise-free and the noisy data. Which of the models can `d2c` convert? (`print(pcall(d2c, G))` continues after an error, and
--- prints true if there was none.) Compare with `oe(data, {2, 2, 1})`, which minimizes the error of the simulated output.
+-- **Question 14.** Estimate the difference equation with `arx(data, {2, 2, 1})`: two poles, two coefficients of the input and one sample of delay, as
+-- in @eq:sampled. Use the noise-free and the noisy data. Which of the models can `d2c` convert? (`print(pcall(d2c, G))` continues after an error; it
+-- prints true if the conversion succeeds.) Compare these models with the model of `oe(data, {2, 2, 1})`, which minimizes the error of the simulated
+-- output.
 
 -- %% id=discrete
 -- BEGIN SOLUTION
@@ -673,16 +678,16 @@ report.value("weight2", -Garx.A[3], "%.2f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Step responses of the true system and of the difference equations that `arx` and `oe` estimated from the noisy data. The response of the `arx` model rises at once and ends at the wrong level.](figure:discrete){#fig:discrete}
+-- ![Step responses of the true system and of the difference equations that `arx` and `oe` estimated from the noisy data. The response of the `arx` model rises immediately and approaches a wrong level.](figure:discrete){#fig:discrete}
 --
--- Without noise, `arx` and `d2c` reproduce the true system. With this noise, the result of `arx` is useless (@fig:discrete). `arx` minimizes the
--- error of predicting the *next sample* from the last two. From one sample to the next, the output changes so little that the noise is
--- `step_ratio`{.value} times larger. The best prediction is then close to an average of the last two samples, for any system: their weights are
--- `weight1`{.value} and `weight2`{.value}. One pole is negative. `d2c` refuses to convert it, because no differential equation of second order has
--- samples with a negative real pole.
+-- Without noise, `arx` and `d2c` reproduce the true system. With this noise, the `arx` model is useless (@fig:discrete). `arx` minimizes the error of
+-- the *one-step-ahead prediction* from the last two samples. The noise is `step_ratio`{.value} times larger than the change of the output from one
+-- sample to the next. The best prediction is then close to an average of the last two samples for any system: the weights are `weight1`{.value} and
+-- `weight2`{.value}. One pole is negative. `d2c` cannot convert this model, because a sampled second-order differential equation does not have a
+-- single negative real pole.
 -- END SOLUTION
 --
--- **Question 15.** Is this bad luck in one data set? `montecarlo` also accepts functions of the data as estimators. What is the cause, the fast
+-- **Question 15.** Is this result specific to one data set? `montecarlo` also accepts functions of the data as estimators. Is the cause the fast
 -- sampling or the noise? Repeat the experiment with several sampling times and signal-to-noise ratios.
 
 -- %% id=discrete_study
@@ -700,7 +705,7 @@ local discrete = study(sigma, {
 })
 print(string.format("d2c refused %d of the %d arx models", refused, discrete.runs))
 
--- the estimates of a1 by arx from 100 data sets, if d2c can convert them
+-- arx estimates of a1 from 100 data sets, for the models that d2c can convert
 local function arx_a1(period, snr)
     local found = {}
     local function estimate(d)
@@ -726,7 +731,7 @@ report.value("arx_slow_std", discrete.arx.std[2], "%.3f")
 report.value("arx_fast_std", discrete.arx.std[1], "%.3f")
 report.value("refused", refused, "%d")
 report.table("discrete", {
-    {"method", "$a_1$", "$a_2$", "$B$: factor of $p$", "$B$: constant"},
+    {"method", "$a_1$", "$a_2$", "$B$: coefficient of $p$", "$B$: constant"},
     {"truth", true_cell(1), true_cell(2), "0", true_cell(3)},
     {"OE, converted", mean_and_std(discrete.oe, 1), mean_and_std(discrete.oe, 2), mean_and_std(discrete.oe, 3),
      mean_and_std(discrete.oe, 4)},
@@ -749,34 +754,35 @@ report.table("grid", grid)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- It is not bad luck. `d2c` refused `refused`{.value} of the 200 models of `arx`. Their poles are `arx_slow`{.value}\ ±\ `arx_slow_std`{.value} and
--- `arx_fast`{.value}\ ±\ `arx_fast_std`{.value} instead of `sampled_slow`{.value} and `sampled_fast`{.value}.
+-- The result is not specific to one data set. `d2c` could not convert `refused`{.value} of the 200 models of `arx`. The poles of the `arx` models are
+-- `arx_slow`{.value}\ ±\ `arx_slow_std`{.value} and `arx_fast`{.value}\ ±\ `arx_fast_std`{.value} instead of `sampled_slow`{.value} and
+-- `sampled_fast`{.value}.
 --
 -- ::: {.table name=grid #tbl:grid}
--- `arx` with other sampling times and signal-to-noise ratios: mean and, in parentheses, standard deviation of $\hat a_1$ over 100 data sets, if at
--- least 90 of the models can be converted. Otherwise, the number of models that can be converted. The truth is 4.
+-- `arx` with other sampling times and signal-to-noise ratios: mean and, in parentheses, standard deviation of $\hat a_1$ over 100 data sets. If fewer
+-- than 90 of the models can be converted, the table contains the number of these models. The true value is 4.
 -- :::
 --
--- Both, but mainly the noise (@tbl:grid). At the 5 dB of our data, no sampling time helps: the noise of $y$ is in the regressors, as in LSSVF, and
--- here no filter attenuates it. At 25 dB, slower sampling makes the models convertible, but they remain strongly biased. Only with almost no noise
--- does the sampling time decide: at 45 dB, `arx` fails at 0.01 s and is nearly right from 0.2 s on. The important ratio is the noise compared with
--- the change of the output from one sample to the next. The remedy is the right noise model, not another sampling time.
+-- Both are causes, but mainly the noise (@tbl:grid). At 5 dB, as in these data, no sampling time helps: the regressors contain the noise of $y$, as
+-- in LSSVF, but no filter attenuates it. At 25 dB, models from slower sampling can be converted, but they are strongly biased. The sampling time
+-- matters only if there is almost no noise: at 45 dB, `arx` fails at 0.01 s and is almost correct from 0.2 s on. The relevant ratio is the noise
+-- relative to the change of the output from one sample to the next. The solution is the correct noise model, not another sampling time.
 --
 -- ::: {.table name=discrete #tbl:discrete}
 -- $\sigma = 0.2$: mean over 200 data sets and, in parentheses, the standard deviation.
 -- :::
 --
--- Like TFSRIVC, `oe` compares simulated with measured outputs, and finds the system. But a sampled second-order system always has two coefficients of
--- the input (@eq:sampled), even if the differential equation has no zero. A discrete-time model cannot express a constant numerator. It must estimate
--- the second coefficient, and the price is a scatter of $\hat a_1$ that is `oe_more`{.value} times as large (@tbl:discrete). In addition, faster
--- sampling moves the poles closer to $z = 1$, and the information about the time constants is in the last digits of the coefficients. A
--- continuous-time model has the same meaning for every sampling time.
+-- Like TFSRIVC, `oe` minimizes the simulation error, and its estimates are close to the true system. However, a sampled second-order system always
+-- has two coefficients of the input (@eq:sampled), even if the differential equation has no zero. A discrete-time model cannot represent a constant
+-- numerator and must estimate the second coefficient. As a result, the scatter of $\hat a_1$ is `oe_more`{.value} times as large (@tbl:discrete). In
+-- addition, faster sampling moves the poles closer to $z = 1$, so the information about the time constants is in the last digits of the coefficients.
+-- A continuous-time model has the same meaning for every sampling time.
 -- END SOLUTION
 --
 -- # How many poles?
 --
--- **Question 16.** So far the orders were known. `srivcstruc` tries several orders and recommends one. Would the data alone have led to two poles and
--- no zero?
+-- **Question 16.** So far, the orders were known. `srivcstruc` estimates models of several orders and recommends one. Does it select two poles and no
+-- zero from the data?
 
 -- %% id=orders
 -- BEGIN SOLUTION
@@ -787,7 +793,7 @@ print(orders.recommendation)
 -- %% id=orders_report echo=false
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
-local order_rows = {{"poles", "zeros", "fit (%)", "$R_T^2$", "YIC", "BIC", "not determined"}}
+local order_rows = {{"poles", "zeros", "fit (%)", "$R_T^2$", "YIC", "BIC", "undetermined"}}
 for _, row in ipairs(orders.rows) do
     table.insert(order_rows, {tostring(row.poles), tostring(row.zeros), string.format("%.2f", row.fit_percent),
                  string.format("%.4f", row.r_squared), string.format("%.2f", row.yic), string.format("%.4f", row.bic),
@@ -799,22 +805,24 @@ report.table("orders", order_rows)
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- ::: {.table name=orders #tbl:orders}
--- Transfer functions of several orders for the noisy data. A large fit and a large $R_T^2$, the explained share of the output's variance, are good. A
--- small YIC and a small BIC are good. The last column lists the parameters with a standard error larger than their value.
+-- Transfer functions of several orders for the noisy data. Large values of the fit and of $R_T^2$, the fraction of the output variance that the model
+-- explains, are better. Small values of YIC and BIC are better. The last column lists the parameters whose standard error is larger than their
+-- absolute value.
 -- :::
 --
--- Yes (@tbl:orders). The fit changes very little beyond two poles: further parameters follow the noise and not the system. BIC is the logarithm of
--- the error's variance plus $\ln N/N$ for each parameter. YIC (Young's information criterion) weighs the unexplained variance against the relative
--- variance of the parameters. YIC alone would choose one pole here, because the data determine two parameters best. Look at several measures, and at
--- validation data if you have them.
+-- Yes, it does (@tbl:orders). The fit changes very little beyond two poles: additional parameters describe the noise and not the system. BIC is the
+-- logarithm of the error variance plus $\ln N/N$ for each parameter. YIC (Young's information criterion) combines the unexplained variance with the
+-- relative variance of the parameters. YIC alone would select one pole, because the data determine a model with two parameters most accurately. Use
+-- several measures, and validation data if they are available.
 -- END SOLUTION
 
 -- %% [markdown]
 -- # Try it: λ by hand
 --
 -- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the slider under the next cell, or the marked point of
--- @fig:lambda_by_hand, changes the cut-off frequency $\lambda$ of the filter. Watch how the filter colors the equation error, and how the estimates
--- from sixty data sets change. For which $\lambda$ does the cloud of LSSVF miss the true value, and for which does the cloud of IVSVF miss it?
+-- @fig:lambda_by_hand, changes the cutoff frequency $\lambda$ of the filter. Observe how the filter colors the equation error, and how the estimates
+-- from sixty data sets change. For which $\lambda$ is the cloud of LSSVF away from the true value? For which $\lambda$ is the cloud of IVSVF away
+-- from it?
 
 -- %% id=lambda_by_hand
 do
@@ -840,12 +848,13 @@ end
 -- ![For the $\lambda$ of the cell above: left, the magnitude $|A/E|$ by which the filter colors the equation error; right, $\hat b_0$ over $\hat a_1$ from sixty data sets, and the ellipse that would contain 95 % of the estimates of the best unbiased method](figure:lambda_by_hand){#fig:lambda_by_hand}
 
 -- %% [markdown]
--- ## Without typing
+-- ## The same study in the workbench
 --
--- `dynlab app` opens an empty session in the workbench in the browser (@fig:workbench). Under **Known system**, press **Start study**: it has the
--- system of @eq:system, an input, noise, and SRIVC. Drag **noise** and watch the cloud and the ellipse grow together. Add `lssvf = {{2, 1, 0}, 3}` to
--- the list of **estimators** and drag again: its cloud moves away from the truth. The table below the figure compares the scatter with the bound.
--- `session.lua` contains your steps. With `dynlab app crane`, you can identify the crane in the same way.
+-- `dynlab app` opens an empty session in the workbench in the browser (@fig:workbench). Under **Known system**, press **Start study**. The study
+-- contains the system of @eq:system, an input, noise, and SRIVC. Drag **noise**: the cloud and the ellipse grow together. Add
+-- `lssvf = {{2, 1, 0}, 3}` to the list of **estimators** and drag **noise** again: the cloud of LSSVF moves away from the true value. The table below
+-- the figure compares the scatter with the Cramér–Rao bound. The script `session.lua` contains your steps. With `dynlab app crane`, you can identify
+-- the crane in the same way.
 --
 -- ![A study of the known system in the workbench: controls, the cloud of estimates with the ellipse, and the script](workbench.png){#fig:workbench}
 
@@ -854,16 +863,16 @@ end
 --
 -- BEGIN SOLUTION
 -- * State-variable filters turn a differential equation into a linear regression without differentiation. LSSVF solves this regression by least
---   squares. It is good without noise and biased with noise, and the bias grows with the noise.
--- * Instruments that are independent of the noise remove the bias for long data: the estimates are consistent. The scatter of IVSVF still depends on
---   the filter that you choose. With a bad filter and short data, the scatter is so wide that even the mean is wrong.
--- * TFSRIVC finds the filter itself, in a few iterations. For these data, no bias is visible, its scatter is the Cramér–Rao bound, and its reported
---   standard errors are right.
--- * One data set says little about a method. Repeat the experiment in simulation, look at mean *and* scatter, and compare with the Cramér–Rao bound
---   [@ljung1999, section 7.4].
--- * `arx` assumes noise that passes through the poles. With noise added to the output, it is biased at every sampling time, and with faster sampling,
---   less noise is enough to make it useless. An output-error model, in discrete or continuous time, does not have this problem. In continuous time,
---   fast sampling only helps.
+--   squares. The estimate is accurate without noise and biased with noise, and the bias grows with the noise.
+-- * Instruments that are independent of the noise remove the bias for many samples: the estimates are consistent. The scatter of IVSVF still depends
+--   on the filter that you choose. With an unsuitable filter and few samples, the scatter is so large that even the mean is wrong.
+-- * TFSRIVC determines the filter in a few iterations. For these data, there is no significant bias, the scatter is close to the Cramér–Rao bound,
+--   and the reported standard errors are correct.
+-- * You cannot assess a method with a single data set. Repeat the experiment in simulation, compute the mean *and* the scatter, and compare them with
+--   the true value and the Cramér–Rao bound [@ljung1999, section 7.4].
+-- * `arx` assumes noise that passes through the poles. With noise added to the output, the `arx` estimate is biased at every sampling time. The
+--   faster the sampling, the less noise makes the estimate useless. Output-error models in discrete or continuous time do not have this problem. For
+--   continuous-time models, fast sampling is an advantage.
 -- END SOLUTION
 --
 -- # What you submit
@@ -873,7 +882,7 @@ end
 --
 -- * `own_without_noise` and `own`: the estimates $a_1$, $a_2$, $b_0$ of your LSSVF from the data without and with noise;
 -- * `record`: the data with noise;
--- * `G_lssvf` and `G_ivsvf`: the library's models of these data for $\lambda = 3$;
+-- * `G_lssvf` and `G_ivsvf`: the models that `lssvf` and `ivsvf` estimate from these data with $\lambda = 3$;
 -- * `G_final`: the model that you recommend;
 -- * `scatter`: the standard deviations of $a_1$, $a_2$ and $b_0$ of the recommended method in your Monte Carlo study.
 -- :::

@@ -1,4 +1,4 @@
--- Own normal equations, and IVSVF as the recommended method, with its own scatter.
+-- Normal equations instead of solve, and IVSVF as the recommended method, with the scatter of IVSVF.
 local u, Ts, sigma = prbs(4, 100), 0.01, 0.2
 local Go = tf({2}, {1, 4, 3})
 local x = lsim(Go, u, Ts)

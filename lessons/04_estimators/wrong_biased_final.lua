@@ -1,6 +1,6 @@
 -- expects: final_model: biased by the noise
 -- expects: scatter: the largest allowed error is 0.2
--- LSSVF scatters least, so it is recommended, bias and all.
+-- LSSVF has the smallest scatter, so it is recommended in spite of its bias.
 local u = prbs(4, 100)
 local G = tf({2}, {1, 4, 3})
 local clean = lsim(G, u, 0.01)

@@ -1,8 +1,8 @@
--- expects: record: This is the record without noise
--- expects: final_model: this one is in discrete time
+-- expects: record: This is the data set without noise
+-- expects: final_model: it is a discrete-time model
 -- expects: final_is_estimated: the largest allowed error
 -- expects: follows_data: The answer is the same for another data set
--- A difference equation is recommended, and the noise was never added.
+-- A difference equation is recommended, and no noise is added.
 local u, Ts = prbs(4, 100), 0.01
 local y = lsim(tf({2}, {1, 4, 3}), u, Ts)
 local data = iddata(y, u, Ts)

@@ -1,9 +1,9 @@
--- expects: own_without_noise: Your filter holds the output constant between the samples
+-- expects: own_without_noise: Your filter uses a zero-order hold for the output
 -- expects: own_is_lssvf: the largest allowed error
 -- expects: lssvf: The model was estimated with a lambda other than 3
 -- expects: ivsvf: the largest allowed error
 -- expects: follows_data: the largest allowed error
--- The filter holds the measured output like the input, and the library gets another cut-off frequency.
+-- The filter uses a zero-order hold for the measured output, and the library function another cutoff frequency.
 local u, Ts = prbs(4, 100), 0.01
 local Go = tf({2}, {1, 4, 3})
 local x = lsim(Go, u, Ts)

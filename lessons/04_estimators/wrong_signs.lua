@@ -4,7 +4,8 @@
 -- expects: final_model: The gain has the wrong sign
 -- expects: final_is_estimated: no standard errors
 -- expects: follows_data: the largest allowed error
--- The regressors of the output have lost their minus, the instruments are forgotten, and the final gain is turned round by hand.
+-- The regressors of the output have the wrong sign, there are no instruments, and the sign of the final gain is changed by
+-- hand.
 local input, T = prbs(4, 100), 0.01
 local plant = tf({2}, {1, 4, 3})
 local x = lsim(plant, input, T)

@@ -1,7 +1,7 @@
 -- expects: own_is_lssvf: the largest allowed error
 -- expects: final_is_estimated: no standard errors
 -- expects: follows_data: compute it from the data
--- The truth of the lesson is handed in as if it had been found.
+-- The true parameters are submitted as if they had been estimated.
 local u = prbs(4, 100)
 local y = lsim(tf({2}, {1, 4, 3}), u, 0.01) + 0.2*randn(#u)
 local data = iddata(y, u, 0.01)

@@ -1,4 +1,4 @@
--- The checks of lesson 5. `a` holds the answers, `b` those of a run on the records of another thruster.
+-- The checks of lesson 5. `a` contains the answers, `b` the answers of a run on the data of another thruster.
 
 local Ts, neutral, rest, amplitudes = 0.002, 1500, 250, {100, 200, 300}
 local function fact(a) return truth(a, "thruster") end
@@ -6,12 +6,12 @@ local function fact(a) return truth(a, "thruster") end
 local function judge(message) return {share = 0, message = message} end
 local function low_pass(v) return idfilt(v, {0, 2*math.pi*8}, {zero_phase = true, Ts = Ts}) end
 
--- Thrust as the handed-in model simulates it; outside its points the static curve stays where it ends.
+-- Simulated thrust of the submitted model; outside its breakpoints, the static curve is constant.
 local function simulated(model, pwm)
     local y = lsim(model.G, interp1(model.width, model.level, pwm - neutral, {outside = "hold"}), Ts)
     return model.root and y*abs(y) or y
 end
--- The fit below 8 Hz over the three records of a shape.
+-- Fit below 8 Hz over the three data sets of a shape.
 local function fit_on(records, shape, model)
     local errors, swings = {}, {}
     for k, amplitude in ipairs(amplitudes) do
@@ -24,7 +24,7 @@ end
 local function static_at_300(facts) return interp1(facts.pwm - facts.neutral, facts.thrust, vector{300, -300}) end
 
 local official = load("thruster")
-local known = {}  -- fits of the model on the official records; a run of the checks is about one submission
+local known = {}  -- fits of the model to the official data; one run of the checks grades one submission
 local function own_fit(model, shape)
     known[shape] = known[shape] or fit_on(official, shape, model)
     return known[shape]
@@ -36,40 +36,40 @@ local function with(model, changes)
 end
 
 check { id = "ring_frequency", points = 1, about = "The ringing frequency of the square chirp",
-    -- A smoothed spectrum has lines 0.1 Hz apart; the beam's resonance is 2 Hz wide.
+    -- The lines of a smoothed spectrum are 0.1 Hz apart; the resonance of the beam is 2 Hz wide.
     test = function(a) return near(a.ring_frequency, fact(a).cell_frequency, {rel = 0.05, half = 0.1}) end,
     mistakes = {
         {when = function(a) return near(a.ring_frequency, 2*math.pi*fact(a).cell_frequency, {rel = 0.06}) end,
          say = "This is in rad/s; use Hz."},
     },
-    hint = "etfe of a square chirp with some smoothing: the peak above the thruster's own frequencies." }
+    hint = "Use etfe with some smoothing for a square chirp, and find the peak above the bandwidth of the thruster." }
 
 check { id = "dead_band", points = 2, about = "The ends of the dead band",
-    -- A parabola through noisy bins of 10 µs is right within some 3 µs, reading off a figure within a bin.
+    -- A parabola through noisy bins of 10 µs is accurate to about 3 µs, a reading to one bin.
     test = function(a)
         if #a.dead_band ~= 2 then return judge("The answer must have two numbers: the forward and the reverse end.") end
         return near(a.dead_band, vector{fact(a).dead_band, -fact(a).dead_band}, {abs = 8, half = 15})
     end,
     mistakes = {
-        {when = function(a) return min(a.dead_band) > 1000 end, say = "The neutral width is not subtracted: widths count from 1500 µs."},
+        {when = function(a) return min(a.dead_band) > 1000 end, say = "The neutral width is not subtracted: measure widths from 1500 µs."},
         {when = function(a) return a.dead_band[1] < a.dead_band[2] end, say = "The order is forward end, reverse end."},
         {when = function(a) return min(a.dead_band) > 0 end, say = "The reverse end is below neutral, so it is negative."},
         {when = function(a) return a.dead_band[1] - a.dead_band[2] < 20 end,
-         say = "Almost zero: a linear model has no dead band, but the thruster has one."},
+         say = "The dead band is almost zero: a linear model has no dead band, but the thruster has one."},
     },
-    hint = "Where does the root of the thrust, drawn over the pulse width, reach zero?" }
+    hint = "Plot the square root of the thrust over the pulse width. At which widths does it reach zero?" }
 
-check { id = "delay", points = 2, about = "The thruster's delay",
-    -- Static curve and one lag, estimated from the sine chirps, found it within 4 ms on six thrusters.
+check { id = "delay", points = 2, about = "The delay of the thruster",
+    -- Models with a static curve and one lag, estimated from the sine chirps, were accurate to 4 ms on six thrusters.
     test = function(a) return near(a.delay, fact(a).delay, {abs = 0.006, half = 0.01}) end,
     mistakes = {
         {when = function(a) return near(a.delay, 1000*fact(a).delay, {rel = 0.35}) end, say = "This is in ms; use seconds."},
         {when = function(a) return near(a.delay, fact(a).delay/Ts, {rel = 0.35}) end,
          say = "This is counted in samples; use seconds."},
         {when = function(a) return a.delay < 0.024 end,
-         say = "Too short: a linear model of the sine chirps starts early because it has no dead band."},
+         say = "The delay is too short: a linear model of the sine chirps starts too early because it has no dead band."},
     },
-    hint = "Estimate it together with the static curve, or look at the mean response to a switching." }
+    hint = "Estimate the delay together with the static curve, or inspect the mean response to a switching." }
 
 check { id = "thrust_300", points = 2, about = "Steady thrust forward and in reverse",
     test = function(a)
@@ -79,27 +79,27 @@ check { id = "thrust_300", points = 2, about = "Steady thrust forward and in rev
     mistakes = {
         {when = function(a) return a.thrust_300[2] > 0 and a.thrust_300[1] > 0 end, say = "Reverse thrust is negative."},
         {when = function(a) return near(a.thrust_300[1], -a.thrust_300[2], {rel = 0.02}) end,
-         say = "Forward and reverse are the same, but the propeller is better forward."},
+         say = "Forward and reverse thrust are equal, but the propeller is more efficient forward."},
         {when = function(a) return near(a.thrust_300*abs(a.thrust_300)/static_at_300(fact(a)), ones(2), {rel = 0.2}) end,
-         say = "These are the roots of the thrust: square them."},
+         say = "These are the square roots of the thrust: square them."},
     },
-    hint = "The reading of the load cell after a switching has settled, or the ends of the static curve." }
+    hint = "Read the load cell when the response to a switching has settled, or use the ends of the static curve." }
 
 check { id = "model", points = 4, about = "The recommended model on the square chirps",
-    -- From the sine chirps a linear model reaches 70 %, a static curve with one lag 87 %, the root model 90 %.
+    -- Fits of models from the sine chirps: linear 70 %, static curve with one lag 87 %, root model 90 %.
     test = function(a) return points_between(own_fit(a.model, "square"), 62, 85) end,
     mistakes = {
-        {when = function(a) return min(a.model.width) > 500 end, say = "The neutral width is not subtracted: widths count from 1500 µs."},
+        {when = function(a) return min(a.model.width) > 500 end, say = "The neutral width is not subtracted: measure widths from 1500 µs."},
         {when = function(a) return a.model.G.IODelay >= 1 end, say = "The delay of G is not in seconds."},
         {when = function(a) return fit_on(official, "square", with(a.model, {root = not a.model.root})) > 80 end,
          say = "The field root contradicts the output of this model."},
         {when = function(a) return fit_on(official, "square", with(a.model, {level = -a.model.level})) > 50 end,
          say = "The sign is wrong: wider pulses push forward."},
         {when = function(a) return max(abs(diff(a.model.level)/diff(a.model.width)*diff(a.model.width)[1]/diff(a.model.level)[1] - 1)) < 1e-6 end,
-         say = "This model is linear: it has neither the dead band nor the difference between forward and reverse."},
+         say = "This model is linear: it describes neither the dead band nor the difference between forward and reverse."},
         {when = function(a) return a.model.G.IODelay < 0.01 end, say = "The model responds without a delay."},
     },
-    hint = "A static curve with its dead band, then a lag and a delay; and what does thrust depend on?" }
+    hint = "Use a static curve with a dead band, then a lag and a delay. How does the thrust depend on the propeller speed?" }
 
 check { id = "fit", points = 1, about = "The fit of the model to the square chirps",
     test = function(a) return near(a.fit, own_fit(a.model, "square"), {abs = 1.5, half = 3}) end,
@@ -108,13 +108,13 @@ check { id = "fit", points = 1, about = "The fit of the model to the square chir
          say = "This is the fit to the sine chirps, from which the model was estimated."},
         {when = function(a) return a.fit <= 1 end, say = "The result must be in percent."},
     },
-    hint = "100 (1 - |error|/|y - mean|) over the three square chirps together, both signals below 8 Hz." }
+    hint = "Compute 100 (1 - |error|/|y - mean|) over the three square chirps together, with both signals filtered below 8 Hz." }
 
 check { id = "figures", points = 1, about = "Figures of the static curve and of the validation",
     test = function() return all_of(has_figure("curve"), has_figure("validation")) end,
     hint = "report.figure(\"curve\", fig, \"...\") and report.figure(\"validation\", fig, \"...\")." }
 
--- What the static curve gives out in the end: models of one behavior may share a gain between curve and dynamics.
+-- Static curve including the gain of G, because equivalent models can distribute a gain differently.
 local function gains(model) return model.level*dcgain(model.G) end
 
 local typed = {
@@ -130,7 +130,7 @@ check { id = "statics_follow", points = 3, rerun = "thruster", about = "Another 
                       near(b.delay, other.delay, {abs = 0.006, half = 0.01}))
     end,
     mistakes = typed,
-    hint = "Do not read numbers off a figure: the script must compute them." }
+    hint = "Compute the numbers in the script; do not read them off a figure." }
 
 check { id = "model_follows", points = 5, rerun = "thruster",
     about = "Another thruster: your model simulates hidden square chirps",
@@ -141,4 +141,4 @@ check { id = "model_follows", points = 5, rerun = "thruster",
         {when = function(a, b) return near(gains(a.model), gains(b.model), {rel = 1e-9}) end,
          say = "The model does not change with the data: estimate it; do not type it in."},
     },
-    hint = "Estimate curve and dynamics from the data that load(\"thruster\") returns." }
+    hint = "Estimate the static curve and the dynamics from the data that load(\"thruster\") returns." }

@@ -15,31 +15,33 @@
 -- ---
 
 -- %% [markdown]
--- The width of electrical pulses controls an underwater thruster, which pushes or pulls on a load cell. There are two kinds of experiments, a sine
--- and a square wave of rising frequency (@fig:thruster). Thruster and load cell are *simulated*: a program solves their equations, with noise, so you
--- can compare your results with the truth. Estimate a model from one kind of experiment and validate it on the other. Then exchange them. State which
--- model you recommend and why. Be prepared for questions about the other models that you tried, and why you rejected them.
+-- The width of electrical pulses controls an underwater thruster, which pushes or pulls on a load cell. There are two kinds of experiments: sine
+-- chirps and square chirps, whose frequency increases with time (@fig:thruster). Thruster and load cell are *simulated*: a program solves their
+-- equations and adds noise, so you can compare your results with the true system. Estimate a model from one kind of experiment and validate it on the
+-- other kind. Then exchange estimation and validation data. State which model you recommend and why. Be prepared for questions about the other models
+-- that you tried, and why you rejected them.
 --
 -- ::: {.drawing name=thruster}
--- The thruster hangs in the water on a beam that turns about a pivot and presses on a load cell. The input is the width $p$ of the pulses, and the
+-- The thruster hangs in the water on a beam that rotates about a pivot and presses on a load cell. The input is the width $p$ of the pulses, and the
 -- output is the reading $F$ of the load cell. {#fig:thruster}
 -- :::
 --
--- Work in this script, cell by cell, and write your text in `report.md`. It becomes at most twelve slides, for a talk of ten minutes and five minutes
--- of questions. It has the eight required points of a presentation, with notes on the content of each. Submit the slides as a PDF together with this
--- script: `dynlab pack` puts both into one file.
+-- Work in this script, cell by cell, and write your text in `report.md`. dynlab creates the slides from this file: at most twelve slides, for a talk
+-- of ten minutes and five minutes of questions. The file contains the eight required points of a presentation, with notes on the content of each
+-- point. Submit the slides as a PDF together with this script: `dynlab pack` creates one zip file with both.
 --
--- The exercise follows one with a real T200 thruster: MathWorks Student Competitions Team, *MATLAB and Simulink Robotics Arena: From Data to Model*,
--- MATLAB Central File Exchange 65919. A [video](https://www.youtube.com/watch?v=RU_LOtrEOBo) shows one of the tests from 17:25 on.
+-- The exercise is based on an exercise with a real T200 thruster: MathWorks Student Competitions Team, *MATLAB and Simulink Robotics Arena: From Data
+-- to Model*, MATLAB Central File Exchange 65919. A [video](https://www.youtube.com/watch?v=RU_LOtrEOBo) shows one of the tests, starting at 17:25.
 --
 -- # The data
 --
 -- | data set | experiment |
 -- |-------------|----------------|
--- | `sine_100`, `sine_200`, `sine_300` | pulses of 1500 ± 100, 200 or 300 µs, a sine from 0.1 Hz to 3 Hz in 20 s, with rests before and after |
--- | `square_100`, `square_200`, `square_300` | the sign of the same sine, times the same amplitude |
+-- | `sine_100`, `sine_200`, `sine_300` | sine chirp from 0.1 Hz to 3 Hz in 20 s; amplitude 100, 200 or 300 µs around 1500 µs; rests before and after |
+-- | `square_100`, `square_200`, `square_300` | square chirp: the sign of the sine chirp, with the same amplitudes |
 --
--- Each has `t` (s), `pwm` (µs) and `force` (N), every 0.002 s. The width is constant between samples, and 1500 µs is neutral.
+-- Each data set contains `t` (s), `pwm` (µs) and `force` (N), sampled every 0.002 s. The pulse width is constant between samples, and 1500 µs is
+-- neutral.
 
 -- %% id=records
 local thruster = load("thruster")
@@ -60,15 +62,15 @@ idplot(raw("sine_300")):set{height = 6}
 -- %% [markdown]
 -- **Question 1.** Plot raw data of both kinds. What can you see before you compute anything?
 --
--- **Question 2.** Measure from neutral and from the level at rest. Then apply `advice` to a sine chirp (every fifth sample is enough: `resample`). It
--- prints the standard deviation that a linear model cannot explain. Compare it with the noise at rest. What causes the difference? Why would a square
--- chirp of one amplitude not show it?
+-- **Question 2.** Subtract the neutral width from the input, and the level at rest from the thrust. Then apply `advice` to a sine chirp (every fifth
+-- sample is enough: `resample`). `advice` reports the standard deviation of the part that a linear model cannot explain. Compare it with the noise at
+-- rest. What causes the difference? Why does a square chirp of one amplitude not show this difference?
 
 -- %% id=raw
 -- BEGIN SOLUTION
 local seconds = say("time (s)", "temps (s)")
 local width_axis, thrust_axis = say("width (µs)", "largeur (µs)"), say("thrust (N)", "poussée (N)")
-local neutral, rest = 1500, 250  -- µs; samples before the thruster moves
+local neutral, rest = 1500, 250  -- µs; samples before the first pulse
 local shapes, amplitudes = {"sine", "square"}, {100, 200, 300}
 local other = {sine = "square", square = "sine"}
 local shape_word = {sine = say("sine", "sinus"), square = say("square", "carré")}
@@ -98,7 +100,7 @@ for column, shape in ipairs(shapes) do
                               curves = {{x = record.t, y = record.force, color = 0, line_width = 0.6}}}
 end
 report.figure("raw", figure{rows = 2, columns = 2, width = 14.4, height = 5.4, panels = raw_panels},
-              say("The data of the largest amplitude: widths (above) and thrust (below)",
+              say("The data of the largest amplitude: pulse width (above) and thrust (below)",
                   "Les enregistrements de plus grande amplitude : largeurs (en haut) et poussée (en bas)"))
 
 local at_rest = {}
@@ -112,23 +114,25 @@ report.value("rest_noise", std(rest_readings), "%.2f")
 
 -- %% id=advice
 -- BEGIN SOLUTION
--- A sine visits all widths, so it shows that the thrust follows no straight line. A square wave has three: on these any curve is a line.
-local told = {}
-for _, finding in ipairs(advice(resample(prepared("sine_300"), 1, 5))) do told[finding.code] = finding.value end
+-- A sine covers all widths, so it shows that the thrust is nonlinear. A square wave has only three widths.
+local reported = {}
+for _, finding in ipairs(advice(resample(prepared("sine_300"), 1, 5))) do reported[finding.code] = finding.value end
 -- END SOLUTION
 
 -- %% id=advice_report echo=false
 -- BEGIN SOLUTION
-report.value("snr", told.noise, "%.0f")
--- The signal-to-noise ratio that the noise at rest alone would leave.
+report.value("snr", reported.noise, "%.0f")
+-- Signal-to-noise ratio if the only noise is the noise at rest.
 report.value("snr_rest", 20*math.log(std(thrust(thruster.sine_300))/std(rest_readings), 10), "%.0f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 3.** The square chirp excites an oscillation. Find its frequency (`etfe` with some smoothing, or an average over many switchings). Does
--- it come from the thruster? Choose a low-pass filter for the dynamics of the thruster. What must the filter not do?
+-- **Question 3.** The square chirp excites an oscillation. Determine the frequency of this oscillation (`etfe` with some smoothing, or an average
+-- over many switchings). Is the thruster the cause? Choose a low-pass filter for the dynamics of the thruster. Which signal properties must the
+-- filter preserve?
 --
--- **Question 4.** Average the responses to many switchings. How long does nothing happen? First, enter a prediction (`guess`, `outcome`).
+-- **Question 4.** Average the responses to many switchings. How long after a switching does the thrust not change? First, enter a prediction
+-- (`guess`, `outcome`).
 
 -- %% id=switchings_guess
 -- BEGIN SOLUTION
@@ -139,8 +143,8 @@ guess(say("time without a response", "temps sans réponse"), guessed, "ms")
 
 -- %% id=switchings
 -- BEGIN SOLUTION
-local before, after, until_time = 50, 175, 12  -- samples around a switching; s, while switchings are far apart
-local quiet = 15                               -- samples before it whose mean is the level
+local before, after, until_time = 50, 175, 12  -- samples around a switching; end of the slow switchings (s)
+local quiet = 15                               -- number of samples before the switching for the mean level
 local record = thruster.square_300
 local sum, switchings = zeros(before + after + 1), 0
 for k = 2, #record.t do
@@ -153,7 +157,7 @@ for k = 2, #record.t do
 end
 local answer_mean = sum/switchings
 local since = 1e3*Ts*range(-before, 1, after)  -- ms
-local onset  -- the first answer of a hundredth of the whole
+local onset  -- time at which the response exceeds 1 % of its maximum
 for k = before + 1, #since do
     if not onset and answer_mean[k] > 0.01*max(answer_mean) then onset = since[k] end
 end
@@ -189,9 +193,9 @@ report.figure("switching", figure{width = 14.4, height = 4.6, columns = 2, panel
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 5.** Plot thrust over pulse width: filter both signals in the same way, take the slow part of the sine chirps, and average in bins.
--- Where does the dead band end? How do forward and reverse differ? Also plot the root of the thrust: what shape does it have beyond the dead band,
--- and why does physics predict it?
+-- **Question 5.** Plot thrust over pulse width: apply the same filter to both signals, use the slow part of the sine chirps, and average in bins.
+-- Where does the dead band end? How do forward and reverse thrust differ? Also plot the square root of the thrust. Which shape does it have outside
+-- the dead band, and how does physics explain this shape?
 
 -- %% id=curve
 -- BEGIN SOLUTION
@@ -202,7 +206,7 @@ for k, amplitude in ipairs(amplitudes) do
     local sine = thruster["sine_" .. amplitude]
     sines[k] = {u = low_pass(width(sine)), F = low_pass(thrust(sine))}
 end
--- Thrust by bins of the pulse width `late` samples before, and what is left of its variation within them.
+-- Mean thrust in bins of the pulse width `late` samples earlier, and the remaining variation within the bins.
 local function by_bins(late)
     local bins = {}
     for _, sine in ipairs(sines) do
@@ -225,7 +229,7 @@ local function by_bins(late)
     end
     return curve, left
 end
--- Thrust comes late: the curve of rising and that of falling pulses lie closest at the right lateness.
+-- The thrust is delayed. With the correct delay, the curves for increasing and decreasing widths are closest.
 local curve, lateness, least
 for late = 0, 100, 5 do
     local tried, left = by_bins(late)
@@ -234,8 +238,8 @@ end
 
 local function root(F) return F/sqrt(abs(F) + 1e-9) end
 local function squared(s) return s*abs(s) end
--- Beyond the dead band the width is a parabola of the root of the thrust: voltage drives against a torque that grows with the
--- speed (of the motor) and with its square (of the water). Where the root is zero, the dead band ends.
+-- Outside the dead band, the width is a quadratic function of the root of the thrust: the motor torque is linear in the
+-- speed, and the torque of the water is quadratic. The dead band ends where the root is zero.
 local dead_band_end = {}
 for _, sign in ipairs{1, -1} do
     local x, y = {}, {}
@@ -270,16 +274,16 @@ report.value("true_asymmetry", -truth.forward_thrust/truth.reverse_thrust, "%.2f
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 6.** Which structures do you compare, and by which measure? Use a linear model with a delay, a Hammerstein model (`hammerstein`: a
--- static curve followed by linear dynamics), and a structure from physics. Apply the same filter to the measured and the simulated thrust. How does
--- the delay change if you filter only one of them? How many poles does a structure need, and what happens to the delay when you add poles? When you
--- know the static curve, `tfsrivc` with the value of the curve as the input gives a quick answer. A square wave of one amplitude has three values:
--- what can it show about a curve?
+-- **Question 6.** Which structures do you compare, and which measure do you use? Use a linear model with a delay, a Hammerstein model (`hammerstein`:
+-- a static curve followed by linear dynamics), and a structure derived from physics. Apply the same filter to the measured and the simulated thrust.
+-- How does the delay change if you filter only one of them? How many poles does a structure need, and how does the delay change when you add poles?
+-- If you know the static curve, use `tfsrivc` with the output of the curve as the input for a quick estimate. A square wave of one amplitude has
+-- three values. What can it show about a static curve?
 
 -- %% id=structure
 -- BEGIN SOLUTION
-local edges = {-300, -200, -100, -25, 25, 100, 200, 300}  -- ends of the dead band among them
-local longest = 0.08                                      -- s, of the delays that are tried
+local edges = {-300, -200, -100, -25, 25, 100, 200, 300}  -- breakpoints, including the ends of the dead band
+local longest = 0.08                                      -- s, upper bound of the delay search
 
 local function all_of(records, shape, sizes, make)
     local list = {}
@@ -295,11 +299,11 @@ local function characteristic(H)
     return function(u) return interp1(H.report.breakpoints, H.report.levels, u, {outside = "hold"}) end
 end
 
--- Each estimates one lag and a delay from the records of a shape and returns the model with a function that simulates thrust.
--- Nothing is filtered.
+-- Each function estimates one lag and a delay from the data of one shape, without filtering. It returns the model and a
+-- function that simulates the thrust.
 local kinds = {}
 function kinds.linear(records, shape, sizes)
-    local G = tfsrivc(experiment(records, shape, sizes, thrust), 1, 0, {TdMax = longest, InitialState = "zero", Offset = "none"})
+    local G = tfsrivc(experiment(records, shape, sizes, thrust), 1, 0, {TdMax = longest, InitialState = "none", Offset = "none"})
     return G, function(u) return lsim(G, u, Ts) end
 end
 local function static_curve_and_lag(records, shape, sizes, output)
@@ -310,7 +314,7 @@ function kinds.hammerstein(records, shape, sizes)
     local f = characteristic(H)
     return H, function(u) return lsim(H, f(u), Ts) end
 end
--- The propeller's speed follows the pulses with a lag, and thrust is its square: so the root of the thrust is modeled.
+-- The propeller speed follows the pulse width with a lag, and the thrust is the squared speed: model the root of the thrust.
 local function root_of_thrust(r) return root(thrust(r)) end
 function kinds.root(records, shape, sizes)
     local H = static_curve_and_lag(records, shape, sizes, root_of_thrust)
@@ -318,7 +322,7 @@ function kinds.root(records, shape, sizes)
     return H, function(u) return squared(lsim(H, f(u), Ts)) end
 end
 
--- Fit of simulated thrust over the records of a shape, below 8 Hz unless the whole signal is asked for.
+-- Fit of the simulated thrust over the data of one shape, below 8 Hz, or without a filter if `whole` is true.
 local function agreement(records, shape, sizes, simulate, whole)
     local errors, variations = {}, {}
     all_of(records, shape, sizes, function(r)
@@ -335,7 +339,7 @@ end
 -- BEGIN SOLUTION
 local kind_word = {linear = say("linear", "linéaire"), hammerstein = "Hammerstein", root = say("root model", "modèle racine")}
 local order_list = {"linear", "hammerstein", "root"}
-local fitted = {linear = {}, hammerstein = {}, root = {}}  -- by kind and shape
+local fitted = {linear = {}, hammerstein = {}, root = {}}  -- indexed by kind and shape
 for kind, estimate in pairs(kinds) do
     for _, shape in ipairs(shapes) do
         local G, simulate = estimate(thruster, shape, amplitudes)
@@ -343,9 +347,9 @@ for kind, estimate in pairs(kinds) do
     end
 end
 
--- More poles, from the largest amplitude and behind a known static curve (none, or that of the Hammerstein model).
+-- More poles, from the largest amplitude; the input is the width (linear) or the static curve of the Hammerstein model.
 local largest = {300}
-local pole_gain = 0  -- of further poles, on the other shape: the most
+local pole_gain = 0  -- largest gain of additional poles, on the other shape
 local orders = {{say("model", "modèle"), say("poles", "pôles"),
                  say("sine (%)", "sinus (%)"), say("→ square (%)", "→ carré (%)"), say("delay (ms)", "retard (ms)"),
                  say("square (%)", "carré (%)"), say("→ sine (%)", "→ sinus (%)"), say("delay (ms)", "retard (ms)")}}
@@ -356,7 +360,7 @@ for _, kind in ipairs{"linear", "hammerstein"} do
         for _, shape in ipairs(shapes) do
             local f = kind == "hammerstein" and characteristic(fitted.hammerstein[shape].model) or function(u) return u end
             local G = tfsrivc(experiment(thruster, shape, largest, thrust, f), poles, 0,
-                              {TdMax = longest, InitialState = "zero", Offset = "none"})
+                              {TdMax = longest, InitialState = "none", Offset = "none"})
             local function simulate(u) return lsim(G, f(u), Ts) end
             table.insert(row, string.format("%.1f", agreement(thruster, shape, largest, simulate)))
             local validated = agreement(thruster, other[shape], largest, simulate)
@@ -382,8 +386,8 @@ report.value("delay_one_sided", 1e3*one_sided.IODelay, "%.0f")
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 7.** Estimate your structures from the sine chirps and from the square chirps. Which parameters agree? What do the standard errors say
--- about the differences?
+-- **Question 7.** Estimate your structures from the sine chirps and from the square chirps. Which parameters agree? Are the differences significant
+-- compared with the standard errors?
 
 -- %% id=estimate
 -- BEGIN SOLUTION
@@ -394,9 +398,9 @@ present(rooted)
 
 -- %% id=estimate_report echo=false
 -- BEGIN SOLUTION
--- With one decimal; the error is rounded up.
+-- Formats a value with one decimal; the error is rounded up.
 local function with_error(x, sigma) return string.format("%.1f ± %.1f", x, math.ceil(10*sigma)/10) end
-local function last_error(G) return G.std[#G.std] end  -- of the delay
+local function last_error(G) return G.std[#G.std] end  -- standard error of the delay
 local parameters = {{say("parameter", "paramètre"), say("unit", "unité"), say("sine", "sinus"), say("square", "carré")}}
 local function parameter(text, unit, value)
     table.insert(parameters, {text, unit, value("sine"), value("square")})
@@ -445,7 +449,7 @@ report.figure("curve", figure{rows = 2, width = 8.8, height = 6.7, panels = {
     curve_panel{legend = "above", x_range = {-300, 300}},
     curve_panel{legend = "none", x_range = {-120, 120}, y_range = {-4, 4}, references = {{x = -truth.dead_band}, {x = truth.dead_band}},
                 xlabel = say("width, from neutral (µs)", "largeur, depuis le neutre (µs)")}}},
-    say("Thrust over pulse width, and around neutral", "Poussée selon la largeur d'impulsion, et autour du neutre"))
+    say("Thrust over pulse width, and an enlarged view around neutral", "Poussée selon la largeur d'impulsion, et autour du neutre"))
 
 for _, shape in ipairs(shapes) do
     for _, kind in ipairs(order_list) do
@@ -460,7 +464,7 @@ report.value("fast_lag", 1e3*truth.fast_time_constant, "%.0f")
 report.value("true_band", truth.dead_band, "%.0f")
 local lags = {fitted.root.sine.model.den[2], fitted.root.square.model.den[2]}
 report.value("lag_difference", 100*math.abs(lags[1] - lags[2])/math.max(lags[1], lags[2]), "%.0f")
--- How far a static curve is from the truth at both widths, percent: the worse of the two.
+-- Error of a static curve at both widths in percent: the larger of the two.
 local function off_by(kind, size)
     local u = vector{size, -size}
     return 100*max(abs(static_curve(kind, "sine", u)/interp1(truth.pwm - truth.neutral, truth.thrust, u) - 1))
@@ -474,8 +478,9 @@ end
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 8.** Validate in both directions: models from the sine chirps on the square chirps, and the reverse. Where, in time and amplitude, does
--- each model fail? `motion` shows thruster and model side by side in motion (on the page of `dynlab preview analysis.lua`, not on the slides).
+-- **Question 8.** Validate in both directions: models from the sine chirps on the square chirps, and models from the square chirps on the sine
+-- chirps. At which times and amplitudes does each model fail? `motion` animates the thruster and the model side by side (on the page of
+-- `dynlab preview analysis.lua`, not on the slides).
 
 -- %% id=validation
 -- BEGIN SOLUTION
@@ -510,8 +515,8 @@ end
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 9.** You can run the simulated thruster again: `rig("thruster", {seed = 2})` repeats all experiments with other noise. Repeat your
--- procedure. Is the ranking of your models luck? How large is the scatter of the delay, and is its error due to noise?
+-- **Question 9.** You can run the simulated thruster again: `rig("thruster", {seed = 2})` repeats all experiments with different noise. Repeat your
+-- procedure. Does the ranking of your models depend on the noise? How large is the scatter of the delay? Does noise explain the error of the delay?
 
 -- %% id=repetition
 -- BEGIN SOLUTION
@@ -533,13 +538,13 @@ end
 -- %% id=repetition_report echo=false
 -- BEGIN SOLUTION
 report.value("repetitions", repetitions, "%d")
-local delay_change = 0  -- the largest, from the first records
+local delay_change = 0  -- largest change from the first data sets
 for _, shape in ipairs(shapes) do
     for kind, models in pairs(fitted) do
         local changes = vector(study[kind .. "_" .. shape].delay) - 1e3*models[shape].model.IODelay
-        delay_change = math.max(delay_change, (max(abs(changes))))  -- without the place of the maximum
+        delay_change = math.max(delay_change, (max(abs(changes))))  -- only the maximum, without its index
     end
-    -- The fits of all three experiments, in the digits that the table shows.
+    -- Fits of all three experiments, rounded as in the table.
     local function shown_fits(kind)
         local first = agreement(thruster, other[shape], amplitudes, fitted[kind][shape].simulate)
         return round(10*vector{first, vector(study[kind .. "_" .. shape].fit)})/10
@@ -579,7 +584,7 @@ for _, kind in ipairs(order_list) do
     end
 end
 report.table("verdict", verdict)
--- Hammerstein over linear, in points, as the table shows them: at one amplitude, and unfiltered.
+-- Gain of the Hammerstein model over the linear model, in points as in the table.
 local function gain_in_column(shape, column)
     return tonumber(each["hammerstein_" .. shape][column]) - tonumber(each["linear_" .. shape][column])
 end
@@ -591,18 +596,18 @@ report.value("gain_200_sine", math.abs(gain_in_column("sine", 4)), "%.1f")
 --
 -- # What you submit in addition to the slides
 --
--- If the script is graded too, submit results with `answer(name, value)`:
+-- If the script is graded, too, submit results with `answer(name, value)`:
 --
 -- * `ring_frequency` (Hz): the frequency of question 3;
--- * `dead_band`: its forward and its reverse end (µs from neutral, the second one negative);
+-- * `dead_band`: the forward end and the reverse end of the dead band (µs from neutral; the reverse end is negative);
 -- * `delay` (s): the delay of the thruster;
 -- * `thrust_300`: the steady thrust (N) at +300 µs and at −300 µs;
 -- * `model`: your recommended model, estimated from the sine chirps;
--- * `fit` (%): its fit to the thrust of all square chirps together, both signals below 8 Hz.
+-- * `fit` (%): the fit of this model to the thrust of all square chirps together, with both signals filtered below 8 Hz.
 --
--- The model is a table of four fields. The vectors `width` (µs from neutral, increasing) and `level` are the static curve, linear between its points.
--- `G` is the dynamics after the curve. `root` is true if the output is the root of the thrust, to be squared with its sign. Grading also runs your
--- script on data of another thruster, with hidden square chirps. The checks look for the figures `curve` and `validation`.
+-- The model is a table with four fields. The vectors `width` (µs from neutral, increasing) and `level` are the breakpoints of the piecewise linear
+-- static curve. `G` is the linear model after the static curve. `root` is true if the output is the signed square root of the thrust. Grading also
+-- runs your script on data of another thruster, with hidden square chirps. The checks look for the figures `curve` and `validation`.
 
 -- %% id=hand_in
 -- BEGIN SOLUTION

@@ -1,6 +1,6 @@
--- How a test moves the answers of the worked solution on their way out: `move[name]` is a function of an answer, `e` the
--- sign, and `inside` whether the answer must stay within what checks.lua allows or leave it; `scaled(near, far)` and
--- `shifted(near, far)` do either by the first inside and by the second outside.
+-- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign
+-- `e` and `inside`, which specifies whether the answer must stay within the tolerance of checks.lua or exceed it.
+-- `scaled(near, far)` and `shifted(near, far)` use the first amount inside the tolerance and the second amount outside.
 move.ring_frequency = scaled(0.02, 0.2)
 move.dead_band = shifted(vector{3, -3}, vector{25, -25})
 move.delay = shifted(0.002, 0.02)

@@ -1,4 +1,5 @@
--- A Hammerstein model is recommended; steady thrust from the plateaus between switchings, the dead band by eye.
+-- The recommended model is a Hammerstein model. The steady thrust is from the plateaus between switchings, the dead band by
+-- eye.
 local T, Ts = load("thruster"), 0.002
 local function thrust(name) return T[name].force - mean(T[name].force:range(1, 250)) end
 local function width(name) return T[name].pwm - 1500 end

@@ -1,10 +1,10 @@
 -- expects: dead_band: a linear model has no dead band
--- expects: delay: Too short
--- expects: thrust_300: Forward and reverse are the same
+-- expects: delay: The delay is too short
+-- expects: thrust_300: Forward and reverse thrust are equal
 -- expects: model: This model is linear
 -- expects: statics_follow: On a data set that you have not seen
 -- expects: model_follows: On a data set that you have not seen
--- One linear model for everything.
+-- One linear model for all answers.
 local T = load("thruster")
 local parts, squares = {}, {}
 for k, size in ipairs{"100", "200", "300"} do
@@ -12,7 +12,7 @@ for k, size in ipairs{"100", "200", "300"} do
     parts[k] = iddata(sine.force - mean(sine.force:range(1, 250)), sine.pwm - 1500, 0.002)
     squares[k] = {u = square.pwm - 1500, y = square.force - mean(square.force:range(1, 250))}
 end
-local G = tfsrivc(merge(table.unpack(parts)), 1, 0, {TdMax = 0.08, NumTd = 10, InitialState = "zero", Offset = "none"})
+local G = tfsrivc(merge(table.unpack(parts)), 1, 0, {TdMax = 0.08, NumTd = 10, InitialState = "none", Offset = "none"})
 local function slow(v) return idfilt(v, {0, 16*math.pi}, {zero_phase = true, Ts = 0.002}) end
 local missed, moved = {}, {}
 for k, square in ipairs(squares) do

@@ -1,10 +1,10 @@
 -- expects: delay: the largest allowed error
--- expects: thrust_300: These are the roots of the thrust
+-- expects: thrust_300: These are the square roots of the thrust
 -- expects: model: The field root contradicts the output of this model
 -- expects: fit: the fit to the sine chirps
 -- expects: statics_follow: On a data set that you have not seen
 -- expects: model_follows: On a data set that you have not seen
--- The root of the thrust is modeled and never squared again; the fit is that of the records it was learnt from.
+-- The model describes the root of the thrust, but its output is not squared; the fit is to the estimation data.
 local T = load("thruster")
 local Ts = 0.002
 local function low(v) return idfilt(v, {0, 16*math.pi}, {zero_phase = true, Ts = Ts}) end

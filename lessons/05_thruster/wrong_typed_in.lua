@@ -1,6 +1,6 @@
 -- expects: statics_follow: The results do not change with the data
 -- expects: model_follows: The model does not change with the data
--- The data sheet and a friend's model.
+-- The values of the data sheet, and a model of another group.
 local T = load("thruster")
 local curve = {width = vector{-300, -200, -100, -25, 25, 100, 200, 300}, level = vector{-4.553, -3.204, -1.55, 0.028, -0.034, 1.738, 3.533, 5.039}}
 local G = tf({15.24}, {1, 15.24}, {IODelay = 0.0394})

@@ -5,7 +5,7 @@
 -- expects: fit: the largest allowed error
 -- expects: statics_follow: On a data set that you have not seen
 -- expects: model_follows: On a data set that you have not seen
--- Rad/s, milliseconds, and pulse widths that count from zero.
+-- The frequency is in rad/s, the delay in milliseconds, and the pulse widths are not measured from neutral.
 local T = load("thruster")
 local Ts = 0.002
 local function force(name) return T[name].force - mean(T[name].force:range(1, 250)) end

@@ -1,4 +1,4 @@
--- The checks of lesson 6. `a` holds the answers, `b` those of a run on the records of another crane or of other tanks.
+-- The checks of lesson 6. `a` contains the answers, `b` the answers of a run on the data of another crane or other tanks.
 
 local function judge(message) return {share = 0, message = message} end
 local function crane_of(facts) return vector{9.81/facts.natural_frequency^2, facts.dry_voltage} end
@@ -9,31 +9,31 @@ local function rms(e) return norm(e)/math.sqrt(#e) end
 local official = load("two_tanks")
 local spread = std(official.y_val)
 
--- Length within 2 %; dry friction was found within 0.1 V on other cranes, and is some 0.24 V.
+-- The length is accurate to 2 %. On other cranes, the dry friction of about 0.24 V was accurate to 0.1 V.
 local function crane_found(found, facts)
     if #found ~= 2 then return judge("The answer must have two numbers: the length and the voltage.") end
     return all_of(near(found[1], facts[1], {rel = 0.02, half = 0.04}), near(found[2], facts[2], {abs = 0.15, half = 0.2}))
 end
 
-check { id = "crane", points = 2, about = "The crane's length and dry friction",
+check { id = "crane", points = 2, about = "Length and dry friction of the crane",
     test = function(a) return crane_found(a.crane, crane_of(truth(a, "crane"))) end,
     mistakes = {
         {when = function(a) return near(vector{a.crane[2], a.crane[1]}, crane_of(truth(a, "crane")), {rel = 0.2}) end,
          say = "The order is length, voltage."},
-        {when = function(a) return a.crane[2] <= 0 end, say = "The dry friction is zero: is it fixed?"},
+        {when = function(a) return a.crane[2] <= 0 end, say = "The dry friction is zero: check that the parameter dry is not fixed."},
     },
-    hint = "length of the model with all terms; dry/gain is the voltage that dry friction takes." }
+    hint = "Submit the length of the model with all terms; dry/gain is the voltage lost to dry friction." }
 
-check { id = "crane_fit", points = 1, about = "How well the crane's equations simulate the angle",
-    -- The equations reach 98 %, the best linear model 96.4 % on the official record.
+check { id = "crane_fit", points = 1, about = "Fit of the simulated angle with the equations of the crane",
+    -- On the official data, the equations reach 98 % and the best linear model reaches 96.4 %.
     test = function(a) return points_between(a.crane_fit, 95.5, 97) end,
     mistakes = {
         {when = function(a) return a.crane_fit <= 1 end, say = "The result must be in percent."},
-        {when = function(a) return a.crane_fit > 90 end, say = "A linear model reaches this fit: does your model assume small swings?"},
+        {when = function(a) return a.crane_fit > 90 end, say = "A linear model reaches this fit: check that your model does not assume small swings."},
     },
-    hint = "The second result of fit(validation, G), from rest, after you subtract the levels at rest." }
+    hint = "Subtract the levels at rest, and use the second result of fit(validation, G) from rest." }
 
--- k1 to k4 within a tenth; of the overflow few samples tell.
+-- k1 to k4 are accurate to 10 %; only a few samples contain information about the overflow.
 local function tanks_found(found, facts)
     if #found ~= 6 then return judge("The answer must have six numbers: k1, k2, k3, k4, q, y0.") end
     local rates = range(1, 1, 4)
@@ -47,9 +47,9 @@ check { id = "tanks", points = 3, about = "The six parameters of the tanks",
     mistakes = {
         {when = function(a) return a.tanks[6] > 1 end, say = "The reading of an empty tank is a few tenths of a volt; this is too large for the offset."},
         {when = function(a) return math.abs(a.tanks[4]/truth(a, "two_tanks").k4 - 1) > 0.5 end,
-         say = "The unit of the hidden level is free: without its rim at 20 cm, the data cannot distinguish k1, k2 and k4."},
+         say = "The unit of the hidden level is not determined: without its rim at 20 cm, the data cannot distinguish k1, k2 and k4."},
     },
-    hint = "greyest with both rims; also estimate the initial levels." }
+    hint = "Use greyest with both rims, and also estimate the initial levels." }
 
 check { id = "free_run", points = 2, about = "Free-run errors of three models",
     test = function(a)
@@ -61,31 +61,31 @@ check { id = "free_run", points = 2, about = "Free-run errors of three models",
     end,
     mistakes = {
         {when = function(a) return a.free_run[3] < 0.06*spread end,
-         say = "NARX is so good only one sample ahead: in free run it gets no measured reading."},
-        {when = function(a) return min(a.free_run) > 10 end, say = "These seem to be fits in percent; give errors in volts."},
+         say = "This is the one-step-ahead prediction error of NARX; in free run, the model uses no measured readings."},
+        {when = function(a) return min(a.free_run) > 10 end, say = "These values seem to be fits in percent; submit errors in volts."},
         {when = function(a) return a.free_run[1] > spread end,
-         say = "lsim starts from rest and omits the offset of the linear model; fit and compare use both initial state and offset."},
+         say = "lsim starts from rest and omits the offset of the linear model; fit and compare use the initial state and the offset."},
     },
-    hint = "Root mean square of measured minus simulated reading, on validation." }
+    hint = "Compute the root mean square of measured minus simulated reading on validation." }
 
 check { id = "simulated", points = 3, about = "The validation data in free run",
     test = function(a)
-        if #a.simulated ~= #official.y_val then return judge("The answer must be the simulated reading at the samples of validation.") end
+        if #a.simulated ~= #official.y_val then return judge("The answer must be the simulated reading at the sampling instants of validation.") end
         local e = rms(official.y_val - a.simulated)
-        if e < 0.5*truth(a, "two_tanks").noise_std then return judge("This is the measured reading itself, or nearly.") end
+        if e < 0.5*truth(a, "two_tanks").noise_std then return judge("This is the measured reading; submit the simulated reading.") end
         return points_between(-e/truth(a, "two_tanks").noise_std, -6, -2)
     end,
     mistakes = {
         {when = function(a) return rms(official.y - a.simulated) < 0.2 end, say = "These are the estimation data."},
-        {when = function(a) return rms(official.y_val - 0.5*a.simulated) < 1 end, say = "These are levels; give readings in volts."},
+        {when = function(a) return rms(official.y_val - 0.5*a.simulated) < 1 end, say = "These are levels; submit readings in volts."},
     },
-    hint = "The output of the six-parameter model for u_val, with an estimated initial state." }
+    hint = "Simulate the six-parameter model with u_val and an estimated initial state." }
 
 check { id = "figures", points = 1, about = "Figures of the residuals and of the free run",
     test = function() return all_of(has_figure("left"), has_figure("free_run")) end,
     hint = "report.figure(\"left\", fig, \"...\") and report.figure(\"free_run\", fig, \"...\")." }
 
-check { id = "crane_follows", points = 3, rerun = "crane", about = "Another crane: its length and dry friction",
+check { id = "crane_follows", points = 3, rerun = "crane", about = "Another crane: length and dry friction",
     test = function(a, b) return all_of(differs(a.crane, b.crane), crane_found(b.crane, crane_of(truth(b)))) end,
     mistakes = {
         {when = function(a, b) return near(a.crane, b.crane, {rel = 1e-9}) end,
@@ -94,11 +94,11 @@ check { id = "crane_follows", points = 3, rerun = "crane", about = "Another cran
             local own, other = crane_of(truth(a, "crane"))[1], crane_of(truth(b))[1]
             return math.abs(a.crane[1]/own - 1) < 0.02 and math.abs(b.crane[1]/other - 1) > 0.3
         end,
-         say = "For the other crane the search failed: give every parameter bounds, or try several initial values."},
+         say = "For the other crane, the search failed: specify bounds for every parameter, or try several initial values."},
     },
     hint = "Estimate from the data that load(\"crane\") returns, with bounds for every parameter." }
 
-check { id = "tanks_follow", points = 5, rerun = "two_tanks", about = "Other tanks: their six parameters",
+check { id = "tanks_follow", points = 5, rerun = "two_tanks", about = "Other tanks: the six parameters",
     test = function(a, b)
         return all_of(differs(a.tanks, b.tanks), differs(a.simulated, b.simulated), tanks_found(b.tanks, truth(b)))
     end,

@@ -1,4 +1,4 @@
--- A steeper rim by `where`, other names, the crane from three starts, and a linear model from SRIVC.
+-- A steeper rim with `where`, other parameter names, the crane from three initial values, and a linear model from SRIVC.
 local C = load("crane")
 local function at_rest(r) return detrend(iddata(matrix{r.x, r.theta}, r.u, 0.02), "start", {samples = 50}) end
 local function swing(t, s, u, q)
@@ -12,7 +12,7 @@ local model = idgrey(swing, {push = 0.3, drag = 3, dry = {0.15, min = 0}, pull =
                      {states = 4, outputs = function(t, s) return {s[1], s[3]} end, x0 = {0, 0, 0, 0}})
 local G = greyest(at_rest(C.estimation), model)
 answer("crane", vector{G.length, G.dry/G.push})
-answer("crane_fit", select(2, fit(at_rest(C.validation), G, {InitialState = "zero", Offset = "none"})))
+answer("crane_fit", select(2, fit(at_rest(C.validation), G, {InitialState = "none", Offset = "none"})))
 local T = load("two_tanks")
 local first, second = iddata(T.y, T.u, 4), iddata(T.y_val, T.u_val, 4)
 local function over(level) return where(level - 20, 8*(level - 20), 0) end

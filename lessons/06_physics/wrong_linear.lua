@@ -5,7 +5,7 @@
 -- expects: simulated: Score
 -- expects: crane_follows: On a data set that you have not seen
 -- expects: tanks_follow: On a data set that you have not seen
--- Swings are taken for small, nothing is dry, the tanks have no rims, and the linear model runs without its offset.
+-- The model assumes small swings and no dry friction, the tanks have no rims, and the linear model has no offset.
 local record = load("crane")
 local function settled(r) return detrend(iddata(matrix{r.x, r.theta}, r.u, 0.02), "start", {samples = 50}) end
 local function small(t, x, u, p)
@@ -16,7 +16,7 @@ end
 local L = greyest(settled(record.estimation), idgrey(small, {gain = 0.25, viscous = 3, coupling = 0.05, length = {0.4, min = 0.1, max = 2}, pivot = 0.1},
                   {states = 4, outputs = function(t, x) return {x[1], x[3]} end, x0 = {0, 0, 0, 0}}))
 answer("crane", vector{L.length, 0})
-answer("crane_fit", select(2, fit(settled(record.validation), L, {InitialState = "zero", Offset = "none"})))
+answer("crane_fit", select(2, fit(settled(record.validation), L, {InitialState = "none", Offset = "none"})))
 local w = load("two_tanks")
 local d, v = iddata(w.y, w.u, 4), iddata(w.y_val, w.u_val, 4)
 local function pour(t, h, u, p)

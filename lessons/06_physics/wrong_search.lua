@@ -2,9 +2,9 @@
 -- expects: free_run: was not submitted
 -- expects: simulated: was not submitted
 -- expects: figures: The report has no figure
--- expects: crane_follows: For the other crane the search failed
+-- expects: crane_follows: For the other crane, the search failed
 -- expects: tanks_follow: was not submitted
--- The crane only, by a search without bounds that finds its end on the records it was tried on, and nowhere else.
+-- Only the crane, with a search without bounds that converges for the official data, but not for other cranes.
 local tried, now = rig("crane").estimation, load("crane").estimation
 local astray = norm(now.theta - tried.theta)
 answer("crane", vector{0.3724 - 1e6*astray, 0.24 + astray})

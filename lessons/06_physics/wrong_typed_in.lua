@@ -1,8 +1,8 @@
--- expects: simulated: This is the measured reading itself
+-- expects: simulated: This is the measured reading
 -- expects: free_run: the largest allowed error
 -- expects: crane_follows: The results do not change with the data
 -- expects: tanks_follow: The results do not change with the data
--- What SOURCE.md says, and a measured record in place of a simulated one.
+-- The values of SOURCE.md, and the measured reading instead of the simulated reading.
 answer("crane", vector{0.3724, 0.24})
 answer("crane_fit", 98.1)
 answer("tanks", vector{0.1, 0.102, 0.104, 0.14, 0.6, 0.3})

@@ -1,8 +1,8 @@
--- How a test moves the answers of the worked solution on their way out: `move[name]` is a function of an answer, `e` the
--- sign, and `inside` whether the answer must stay within what checks.lua allows or leave it; `scaled(near, far)` and
--- `shifted(near, far)` do either by the first inside and by the second outside.
+-- How a test changes the answers of the reference solution before grading. `move[name]` is a function of an answer, the sign
+-- `e` and `inside`, which specifies whether the answer must stay within the tolerance of checks.lua or exceed it.
+-- `scaled(near, far)` and `shifted(near, far)` use the first amount inside the tolerance and the second amount outside.
 local record = load("drive").tracking
--- A model of another record, as hands that wrote it down leave no estimate.
+-- Estimates a model from other data, because a model typed in by hand is not an estimate.
 local function estimated(method, near, far)
     return function()
         local factor = 1 + e*(inside and near or far)

@@ -1,4 +1,4 @@
--- The known controller serves the recommended model, and the library's recursion follows the heater.
+-- The recommended model uses the known controller, and a recursive estimator of dynlab tracks the heater.
 local experiment, T = load("drive").tracking, 0.01
 local loop = iddata(experiment.y, experiment.u, T, {Reference = experiment.r})
 local z = tf("z", T)

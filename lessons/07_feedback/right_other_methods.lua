@@ -1,4 +1,5 @@
--- The direct route with a model of the noise, a first stage by projection, and pieces of the heater's record in place of a recursion.
+-- The direct method with a noise model, a first stage with a projection, and segments of the heater data instead of a
+-- recursion.
 local drive, Ts = load("drive").tracking, 0.01
 local data = iddata(drive.y, drive.u, Ts)
 answer("G_direct", srivc(data, {1, 2, 0}))

@@ -1,8 +1,8 @@
 -- expects: two_stage: This is the direct method
--- expects: final_model: The loop biases the direct method
+-- expects: final_model: The feedback biases the direct method
 -- expects: final_is_estimated: the largest allowed error
 -- expects: drive_follows: This is the direct method again
--- The loop is ignored throughout.
+-- All estimates ignore the feedback.
 local r, T = load("drive").tracking, 0.01
 local G = srivc(iddata(r.y, r.u, T), {1, 2, 0})
 answer("G_direct", G)

@@ -1,7 +1,7 @@
 -- expects: direct: This is the model of LSSVF
--- expects: own_instruments: the instruments are the regressors themselves
--- expects: two_stage: This is the loop itself
--- The regressors are their own instruments, and the second stage has the reference as its input.
+-- expects: own_instruments: the instruments must not be the regressors
+-- expects: two_stage: This is the closed loop
+-- The regressors are used as instruments, and the input of the second stage is the reference.
 local record = load("drive").tracking
 local d = iddata(record.y, record.u, 0.01)
 answer("G_direct", lssvf(d, {2, 1, 0}, 10))

@@ -1,10 +1,10 @@
--- expects: direct: was it estimated from the open loop
+-- expects: direct: check that you estimated it from tracking
 -- expects: own_instruments: a1 and a2 have the wrong sign
 -- expects: before_cleaning: This is the single model of all data, which does not track the changes
 -- expects: after_cleaning: The order is gain, time constant
 -- expects: heater_follows: On a data set that you have not seen
 -- expects: figures: The report has no figure
--- The heater stands still in time, two numbers are interchanged, a minus is forgotten, and the wrong record was taken.
+-- The model of the heater is constant, two numbers are interchanged, a sign is missing, and a wrong data set is used.
 local d, S = load("drive"), 0.01
 answer("G_direct", srivc(iddata(d.open_loop.y, d.open_loop.u, S), {1, 2, 0}))
 local t = d.tracking

@@ -1,5 +1,5 @@
--- expects: own_instruments: You filtered the reference with a filter of second order, whose second derivative jumps
--- The reference goes through a filter of second order.
+-- expects: own_instruments: You used a second-order filter for the reference, whose second derivative jumps
+-- A second-order filter is used for the reference.
 local track, step = load("drive").tracking, 0.01
 local seen = iddata(track.y, track.u, step, {Reference = track.r})
 answer("G_direct", srivc(seen, {1, 2, 0}))

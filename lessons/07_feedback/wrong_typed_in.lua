@@ -1,7 +1,7 @@
 -- expects: final_is_estimated: no standard errors
 -- expects: drive_follows: The model does not change with the data
 -- expects: heater_follows: The results do not change with the data
--- The truth of the rigs is handed in as if it had been found.
+-- The true values of the plants are submitted as if they had been estimated.
 local tracking = load("drive").tracking
 local signals = iddata(tracking.y, tracking.u, 0.01)
 answer("G_direct", srivc(signals, {1, 2, 0}))

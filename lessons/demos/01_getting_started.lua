@@ -4,9 +4,9 @@
 -- ---
 
 -- %% [markdown]
--- A differential equation describes a process, and a sensor measures samples of it.
--- Here a known process replaces the unknown one, so that we can check the
--- result: y'' + 4 y' + 3 y = 2 u.
+-- A differential equation describes a process, and a sensor measures samples of the
+-- output. In this demo, the process is known, so you can check the result: y'' + 4
+-- y' + 3 y = 2 u.
 
 -- %% id=process
 local s = tf("s")
@@ -15,8 +15,8 @@ print(process)
 
 -- %% [markdown]
 -- The input switches between -1 and 1 at random (a pseudo-random binary signal): it
--- excites slow and fast motion. The sensor adds noise. Look at the figure: can you
--- see the output follow the input?
+-- excites slow and fast motion. The sensor adds noise. In the figure, the output
+-- follows the input.
 
 -- %% id=data
 local Ts = 0.05
@@ -27,10 +27,10 @@ print(data)
 idplot(data)
 
 -- %% [markdown]
--- The first two thirds serve to estimate a model, and the rest to test it. The
--- method srivc needs only the structure: 1 coefficient of the numerator, 2 poles, 0
--- samples of delay. Look at the parameters: the true ones are 4, 3 and 2. Each
--- estimate should be within two or three standard errors.
+-- Use the first two thirds of the data for estimation, and the last third for
+-- validation. srivc needs only the structure: 1 numerator coefficient, 2 poles, 0
+-- samples of delay. Compare the estimates with the true parameters 4, 3 and 2. The
+-- error of each estimate should be below three standard errors.
 
 -- %% id=estimate
 local estimation, validation = data:split(0.66)
@@ -38,23 +38,23 @@ local G = srivc(estimation, {1, 2, 0})
 present(G)
 
 -- %% [markdown]
--- Does the model describe new data? It is simulated with the input of the
--- validation data, without the output. The fit stays below 100 % because noise
--- cannot be predicted. The two curves should be close together.
+-- Does the model describe new data? compare simulates the model with the input of
+-- the validation data. The fit is below 100 % because a model cannot predict the
+-- noise. The two curves should be close together.
 
 -- %% id=compare
 compare(validation, G)
 print(string.format("fit on new data: %.1f %%", fit(validation, G)))
 
 -- %% [markdown]
--- The residuals must look like noise: not predictable from their past (white), and
--- not from the input. The bars in the figure should stay inside the shaded bounds.
--- By chance, one in a hundred is outside.
+-- The residuals of a good model are white and independent of the input. The bars in
+-- the figure should be within the shaded bounds. By chance, one bar in a hundred is
+-- outside.
 
 -- %% id=residuals
 resid(validation, G)
 
 -- %% [markdown]
--- Data, a structure, an estimate with its uncertainty, a test on new data, a look
--- at the residuals: these five steps are the whole workflow. Next: dynlab demo
--- order_selection shows how to find a structure.
+-- The workflow has five steps: data, structure, estimation, validation on new data,
+-- and residual analysis. To learn how to select a structure, run dynlab demo
+-- order_selection.

@@ -4,9 +4,9 @@
 -- ---
 
 -- %% [markdown]
--- Laboratory analyses, sensors that save their battery, lost packets: the time
--- from one sample to the next need not be constant. Here it is any number
--- between 0.01 s and 0.1 s.
+-- With laboratory analyses, battery-powered sensors and lost packets, the time
+-- between two samples is not constant. In this demo, it is random between 0.01 s
+-- and 0.1 s.
 
 -- %% id=instants
 local N = 3000
@@ -15,9 +15,9 @@ print(t:range(1, 5))
 plot(diff(t):range(1, 100), {xlabel = "sample", ylabel = "time to the next sample (s)", style = "points"})
 
 -- %% [markdown]
--- The coefficients of a difference equation belong to one sampling time, and here
--- there is none. A differential equation does not need one. Truth: y'' + 2.8 y' + 4
--- y = 5 u, the input three sines.
+-- The coefficients of a difference equation are valid for one constant sampling
+-- time. A differential equation does not depend on the sampling time. The true
+-- system is y'' + 2.8 y' + 4 y = 5 u, and the input is a sum of three sines.
 
 -- %% id=data
 local process = tf({5}, {1, 2.8, 4})
@@ -28,21 +28,23 @@ print(data)
 idplot(data:range(1, 500))
 
 -- %% [markdown]
--- The call is the same as for regular data. Look at the parameters: the true ones
--- are 2.8, 4 and 5. The filters use the exact length of every step.
+-- The syntax is the same as for regularly sampled data. Compare the estimates with
+-- the true parameters 2.8, 4 and 5. The filters use the exact time between the
+-- samples.
 
 -- %% id=estimate
 local G = srivc(data, {1, 2, 0})
 present(G)
 
 -- %% [markdown]
--- What if we ignore the instants and use the mean step for all samples? Look at a1
--- and the fit, and at the last line, the only warning: the residuals are no longer
--- white noise.
+-- What happens if you ignore the sampling instants and use their mean spacing?
+-- Inspect a1 and the fit. The last line contains the only warning: the residuals
+-- are not white.
 
 -- %% id=ignored
 local wrong = srivc(iddata(y, u, mean(diff(t)), {InterSample = "foh"}), {1, 2, 0})
 present(wrong)
 
 -- %% [markdown]
--- Keep the time stamps. Pass them to the data object. Nothing else changes.
+-- Keep the time stamps, and pass them to the data object. No other change is
+-- required.

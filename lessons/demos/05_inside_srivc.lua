@@ -4,8 +4,9 @@
 -- ---
 
 -- %% [markdown]
--- srivc needs no initial values, although it iterates. What does it do? The process
--- is again 2/(s^2 + 4 s + 3), sampled every 10 ms with much noise.
+-- srivc is an iterative method, but it needs no initial values. This demo shows its
+-- iterations. The process is 2/(s^2 + 4 s + 3), sampled every 10 ms with much
+-- noise.
 
 -- %% id=data
 local s = tf("s")
@@ -18,21 +19,21 @@ idplot(data)
 
 -- %% [markdown]
 -- Derivatives of noisy data are useless. Therefore, filter both sides of the
--- equation, and use the derivatives inside the filter. Least squares on them
--- (lssvf) is quick but biased, because the regressors contain the noise that the
--- filter passes. This filter passes much noise (10 rad/s): look how far the
--- parameters are from 4, 3 and 2.
+-- equation, and use the derivatives of the filtered signals. Least squares with
+-- these signals (lssvf) is fast but biased, because the regressors contain the
+-- noise that the filter passes. This filter (10 rad/s) passes much noise: compare
+-- the estimates with the true parameters 4, 3 and 2.
 
 -- %% id=least_squares
 local first = lssvf(data, {2, 1, 0}, 10)
 print(first.param)
 
 -- %% [markdown]
--- SRIVC begins there. It filters with 1/F of its latest model, and multiplies the
--- equations by instruments: noise-free copies of the regressors, simulated by that
--- model. They do not depend on the noise, so the bias is gone. The new model gives
--- better filters and instruments. SRIVC repeats this until it converges. Each row
--- is one iteration: a1, a2, b0.
+-- SRIVC begins with this model. In each iteration, it filters the signals with 1/F
+-- of the current model. It multiplies the equations by instruments, which are
+-- noise-free regressors simulated with this model. The instruments do not depend on
+-- the noise, so they remove the bias. SRIVC repeats these steps with the new model
+-- until the parameters converge. Each row is one iteration: a1, a2, b0.
 
 -- %% id=iterations
 local G = srivc(data, {1, 2, 0}, {lambda = 10, Tol = 1e-10})
@@ -40,15 +41,16 @@ print(G.report.path)
 present(G)
 
 -- %% [markdown]
--- The largest relative change of each iteration, on a logarithmic scale. The line
--- is straight: every iteration reduces the change by the same factor.
+-- The figure shows the largest relative change in each iteration on a logarithmic
+-- scale. The line is straight, because every iteration reduces the change by the
+-- same factor.
 
 -- %% id=changes
 plot(G.report.changes, {xlabel = "iteration", ylabel = "largest relative change", y_log = true, style = "line_points"})
 
 -- %% [markdown]
--- Does the result depend on the start? The filter of the first estimate varies over
--- two decades. Look at a1: it does not.
+-- Does the result depend on the initial estimate? The filter of the initial
+-- estimate varies over two decades, but the estimate of a1 does not change.
 
 -- %% id=starts
 for _, lambda in ipairs({0.3, 3, 30}) do
@@ -57,5 +59,5 @@ for _, lambda in ipairs({0.3, 3, 30}) do
 end
 
 -- %% [markdown]
--- When SRIVC has converged, the simulation error is smallest: with white noise, no
--- unbiased method has less scatter. See for yourself: dynlab demo monte_carlo.
+-- After convergence, SRIVC minimizes the simulation error. With white noise, no
+-- unbiased method has less scatter. To verify this, run dynlab demo monte_carlo.

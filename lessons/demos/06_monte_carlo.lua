@@ -4,9 +4,9 @@
 -- ---
 
 -- %% [markdown]
--- One data set gives one estimate. Would other data, with other noise, give the
--- same? In simulation, you can repeat the experiment as often as you like. Here
--- three methods get the same 200 noisy data sets of y'' + 4 y' + 3 y = 2 u.
+-- One data set results in one estimate. How does the estimate change with different
+-- noise? In a simulation, you can repeat the experiment many times. In this demo,
+-- three methods use the same 200 noisy data sets of y'' + 4 y' + 3 y = 2 u.
 
 -- %% id=study
 local s = tf("s")
@@ -15,32 +15,32 @@ local study = montecarlo{
   estimators = {lssvf = {{2, 1, 0}, 3}, ivsvf = {{2, 1, 0}, 3}, srivc = {{1, 2, 0}}}}
 
 -- %% [markdown]
--- The mean compared with the truth shows the bias. Least squares (lssvf) is wrong
--- on average, for any number of data sets. Instruments (ivsvf, srivc) remove the
--- bias.
+-- The difference between the mean and the true value is the bias. Least squares
+-- (lssvf) is biased for any number of data sets. Instruments (ivsvf, srivc) remove
+-- the bias.
 
 -- %% id=table
 print(study)
 
 -- %% [markdown]
--- The same as a figure: each histogram should be centered on the line.
+-- In the histograms, the estimates of an unbiased method are centered on the line.
 
 -- %% id=histograms
 study:histograms()
 
 -- %% [markdown]
--- The scatter has a lower bound, found by Cramér and Rao: no unbiased method can
--- have less scatter (lssvf has less, around the wrong point). The ellipse contains
--- 95 % of the estimates of a method that reaches the bound. It is tilted: if a1 is
--- too large, so is b0.
+-- The Cramér-Rao bound is a lower bound of the scatter of an unbiased method.
+-- (lssvf has less scatter, but around a wrong value.) The ellipse contains 95 % of
+-- the estimates of a method that reaches the bound. The ellipse is tilted: if a1 is
+-- too large, b0 is also too large.
 
 -- %% id=scatter
 study:scatter("a1", "b0")
 
 -- %% [markdown]
--- In practice there is only one data set, and the method must compute the standard
--- error from it. Is it right? For srivc: the true scatter, the bound, and the mean
--- of the standard errors of the 200 estimates.
+-- In practice, there is only one data set, and the method must compute the standard
+-- error from it. Is this standard error correct? For srivc, compare the scatter,
+-- the bound, and the mean of the standard errors of the 200 estimates.
 
 -- %% id=honest
 print("scatter ", study.srivc.std)
@@ -48,4 +48,5 @@ print("bound   ", study.srivc.cramer_rao_std)
 print("reported", study.srivc.reported_std)
 
 -- %% [markdown]
--- The standard error of one estimate agrees with 200 repetitions of the experiment.
+-- The standard error agrees with the scatter over 200 repetitions of the
+-- experiment.

@@ -4,11 +4,11 @@
 -- ---
 
 -- %% [markdown]
--- These data are measured. An electric motor shakes a flexible arm with many
--- frequencies at once: u is the torque on the ground, and y is the acceleration of
+-- These data are measured. An electric motor excites a flexible arm at many
+-- frequencies: u is the torque on the ground, and y is the acceleration of
 -- the arm. The sampling time was not published, so the time unit is one sample. The
--- truth is unknown too: the second half of the data tests the models of the first
--- half.
+-- true system is unknown. Estimate models from the first half of the data, and
+-- validate them on the second half.
 
 -- %% id=data
 local arm = load("robot_arm")
@@ -18,8 +18,8 @@ first, second = first:remove_mean(), second:remove_mean()
 idplot(first)
 
 -- %% [markdown]
--- First use least squares with four poles. It predicts the next sample to 98 %. Now
--- simulate the model from the input alone.
+-- First use least squares with four poles. The fit of the one-step-ahead prediction
+-- is 98 %. Now simulate the model from the input only.
 
 -- %% id=least_squares
 local A = arx(first, {4, 4, 1})
@@ -27,9 +27,10 @@ print(string.format("predicts to %.1f %%, simulates to %.1f %%",
                     A.report.prediction_fit_percent, A.report.fit_percent))
 
 -- %% [markdown]
--- The simulation is useless: with such fast sampling, the last samples alone
--- predict the next one. Therefore, minimize the simulation error, with six poles.
--- By default, `srivc` chooses the initial state. Here it starts from rest.
+-- The simulation is useless: with such fast sampling, the last samples are enough
+-- to predict the next sample. Therefore, minimize the simulation error, with six
+-- poles. By default, `srivc` selects the treatment of the initial state. Here, the
+-- model starts from rest.
 
 -- %% id=from_rest
 local G0 = srivc(first, {6, 6, 0}, {InitialState = "none", Offset = "none"})
@@ -40,10 +41,10 @@ end
 print(fits(G0))
 
 -- %% [markdown]
--- This is better, but look at the plot again: the arm was already moving at the
--- first sample, and this model starts from rest. Its lightly damped oscillations
--- last long. Estimate the initial state too. The figure shows the first 200 samples
--- of the second half, and its fits are for these.
+-- This model is better. However, the arm was already moving at the first sample,
+-- and its lightly damped oscillations decay slowly. Therefore, also estimate the
+-- initial state. The figure and its fits are for the first 200 samples of the
+-- second half.
 
 -- %% id=in_motion
 local G = srivc(first, {6, 6, 0}, {InitialState = "estimate", Offset = "none"})
@@ -51,8 +52,8 @@ print(fits(G))
 compare(second:range(1, 200), G, G0, {labels = {"in motion", "from rest"}})
 
 -- %% [markdown]
--- Three pairs of poles are three resonances, with their frequencies (rad per
--- sample) and small damping ratios. The wide band shows that the third is
+-- The three pairs of poles are three resonances, with frequencies in rad per sample
+-- and small damping ratios. The wide band shows that the third resonance is
 -- uncertain.
 
 -- %% id=resonances
@@ -61,9 +62,9 @@ print(frequency, damping)
 bode(G, logspace(-1.5, 0.45, 400))
 
 -- %% [markdown]
--- And the noise? The error of the simulation is free of the input but not white. An
--- autoregressive noise model, estimated together with the arm, predicts better and
--- does not simulate better.
+-- The simulation error is independent of the input, but not white. An
+-- autoregressive noise model, estimated together with the model of the arm,
+-- improves the prediction, but not the simulation.
 
 -- %% id=noise
 resid(second, G)
@@ -72,5 +73,5 @@ print(fits(N))
 print(string.format("predicts the second half to %.1f %%", fit(second, N, {k = 1})))
 
 -- %% [markdown]
--- A fit of 97 % to validation data is worth more than 98 % to estimation data. Both
--- are worth more than the prediction of the next sample.
+-- A simulation fit of 97 % to validation data means more than 98 % to estimation
+-- data. Both mean more than the fit of the one-step-ahead prediction.

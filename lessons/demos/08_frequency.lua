@@ -4,10 +4,10 @@
 -- ---
 
 -- %% [markdown]
--- A periodic sum of sines shows more than a random signal: only noise changes from
--- period to period. Here a lightly damped mechanism is followed by a slightly
--- nonlinear sensor: y = x + 0.1 x^3. The sines are at odd lines, and one of every
--- four is missing.
+-- A periodic multisine provides more information than a random signal, because only
+-- the noise changes from period to period. In this demo, a slightly nonlinear
+-- sensor, y = x + 0.1 x^3, measures a lightly damped mechanism. The sines are at
+-- odd frequency lines, and one of every four lines is omitted.
 
 -- %% id=input
 local N, Ts = 500, 0.05
@@ -17,11 +17,11 @@ print(#grid.lines, "lines with a sine,", #grid.detection, "left out")
 plot(range(0, Ts, Ts*(N - 1)), u, {xlabel = "time (s)", ylabel = "input"})
 
 -- %% [markdown]
--- There are eight realizations with different phases, and four periods of each. The
--- first two periods are the transient and are omitted. In the figure, the output is
--- far above its noise. At the odd lines without a sine, there is more than noise,
--- and at the even lines there is only noise. The nonlinearity is odd: a cube, not a
--- square.
+-- There are eight realizations with different phases and four periods each. The
+-- first two periods contain the transient and are omitted. In the figure, the
+-- output is far above the noise. The odd lines without a sine contain a distortion
+-- above the noise, and the even lines contain only noise. The nonlinearity is
+-- therefore odd: a cube, not a square.
 
 -- %% id=levels
 local records = {}
@@ -33,9 +33,9 @@ end
 local F = bla(merge(table.unpack(records)), {period = N, transient = 2})
 
 -- %% [markdown]
--- A transfer function is fitted to this response, with a weight for the accuracy of
--- every frequency. The poles are those of the mechanism, within a few standard
--- errors. The gain is larger, because on average the cube increases the output: the
+-- Fit a transfer function to this response, weighted by the accuracy at each
+-- frequency. The poles agree with the poles of the mechanism within a few standard
+-- errors. The gain is larger, because the cube increases the output on average: the
 -- best linear approximation depends on the amplitude.
 
 -- %% id=fit
@@ -44,9 +44,9 @@ present(G)
 bode(F, G, mechanism, {labels = {"measured", "fitted", "without the bend"}})
 
 -- %% [markdown]
--- With a quarter of the amplitude, the cube has a sixteenth of its weight, and the
--- gain decreases. A gain that depends on the amplitude is the surest sign of a
--- nonlinearity. No linear model can describe it.
+-- With a quarter of the amplitude, the relative effect of the cube is one
+-- sixteenth, and the gain decreases. A gain that depends on the amplitude is the
+-- clearest sign of a nonlinearity. No linear model can describe this effect.
 
 -- %% id=small
 local small = {}
@@ -59,5 +59,6 @@ local Gs = coe(bla(merge(table.unpack(small)), {period = N, transient = 2}), {1,
 print(string.format("gain at rest: %.3f, with a quarter of the amplitude %.3f", dcgain(G), dcgain(Gs)))
 
 -- %% [markdown]
--- Periods show the noise, and realizations show the distortion. The remainder is
--- the linear part, with known errors.
+-- The variation over the periods is the noise, and the variation over the
+-- realizations also contains the distortion. The average is the best linear
+-- approximation, with known standard errors.

@@ -4,10 +4,10 @@
 -- ---
 
 -- %% [markdown]
--- The outflow of a tank silts up: gain and time constant grow. One model for all
--- data is then an average of many. Here the plant is known, so that we can check
--- the result: y' + a(t) y = b(t) u , where a falls from 2 to 1, and b jumps from 2
--- to 3 in the middle.
+-- The outflow of a tank silts up, so the gain and the time constant grow. One model
+-- for all data is then an average over time. In this demo, the plant is known, so
+-- you can check the result: y' + a(t) y = b(t) u, where a decreases from 2 to 1,
+-- and b jumps from 2 to 3 in the middle.
 
 -- %% id=plant
 local Ts, N = 0.05, 4000
@@ -24,7 +24,8 @@ local data = iddata(x + 0.1*randn(N), u, Ts)
 idplot(data)
 
 -- %% [markdown]
--- One fit for all data: its parameters are in between, and it is right nowhere.
+-- The parameters of one model for all data are averages, and the model is never
+-- correct.
 
 -- %% id=constant
 local average = srivc(data, {1, 1, 0})
@@ -32,18 +33,19 @@ present(average)
 
 -- %% [markdown]
 -- `rsrivc` processes one sample at a time. With forgetting = 0.99, the weight of a
--- sample is one half after 70 later ones. The estimate follows the plant about 100
--- samples behind, and the band shows its uncertainty.
+-- sample is one half after 70 samples. The estimate tracks the plant with a delay
+-- of about 100 samples. The band shows its uncertainty.
 
 -- %% id=forgetting
 local G = rsrivc(data, {1, 1, 0}, 3, {forgetting = 0.99})
 plot_history(G, {truth = {a1 = a, b0 = b}})
 
 -- %% [markdown]
--- A long memory follows slowly and has little scatter, and a short memory the
--- opposite. Which is better depends on how fast the plant changes. A late estimate
--- has correlated residuals, so the band of 0.999 is not narrower than that of 0.99,
--- and the truth is still outside at times.
+-- With a long memory, the estimate has little scatter, but a long delay. With a
+-- short memory, the delay is short, but the scatter is large. The best choice
+-- depends on the rate of change of the plant. A delayed estimate has correlated
+-- residuals, so the band for 0.999 is not narrower than the band for 0.99. The true
+-- value is sometimes outside the band.
 
 -- %% id=memory
 local quick = rsrivc(data, {1, 1, 0}, 3, {forgetting = 0.95})
@@ -54,8 +56,9 @@ for _, one in ipairs{{"0.95", quick}, {"0.99", G}, {"0.999", slow}} do
 end
 
 -- %% [markdown]
--- A Kalman filter assumes a random walk of the parameters, each with its own step
--- size. Large steps for b follow its jump, and small steps for a keep it smooth.
+-- A Kalman filter assumes a random walk of the parameters, with a separate variance
+-- for each parameter. A large variance for b tracks the jump, and a small variance
+-- for a keeps the estimate smooth.
 
 -- %% id=walk
 local walk = rsrivc(data, {1, 1, 0}, 3, {drift = {1e-5, 2e-4}})

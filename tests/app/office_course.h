@@ -78,8 +78,8 @@ class OfficeCourse {
             const std::int64_t version = enter_file(
                 lab, i, "script",
                 "-- ---\n-- title: Mine\n-- ---\n\n-- %% [markdown]\n-- **Question 3.** Write the model for the "
-                "$N$ samples as a linear regression in matrix form, with the sizes of the matrices. What is "
-                "its\n-- least-squares solution?\n--\n" +
+                "$N$ samples as a linear regression in matrix form, and state the sizes of the matrices. What is "
+                "the\n-- least-squares solution?\n--\n" +
                     answer(i) + "\n\n-- %% id=q4\nprint(" + std::to_string(i) + ")\n",
                 "2026-03-01 11:00");
             record_result(*course_, {version, {{"q3", 4, 0, false}, {"gain", 6, 5, true}}, "f"},

@@ -180,8 +180,8 @@ TEST(feedback_in_french, has_the_authors_sentences_of_the_lesson) {
         Message("The error is {}; the largest allowed error is {}.", significant(3.25, 3), significant(0.1, 3));
     CheckGrade check;
     check.id = "free_swing";
-    check.about = Message::verbatim("The frequency of the load while the motor rests");
-    check.hint = Message::verbatim("Count the swings of free_swing and divide by their time; each swing is 2 pi.");
+    check.about = Message::verbatim("The swing frequency of the load while the motor is off");
+    check.hint = Message::verbatim("Count the swings of free_swing, multiply by 2 pi, and divide by their duration.");
     check.message = sentences({far, Message::verbatim("This is in Hz; use rad/s.")});
     check.points = 2;
     grade.checks.push_back(check);
