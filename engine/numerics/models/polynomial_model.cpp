@@ -34,8 +34,9 @@ void check_orders(const PolynomialOrders& orders) {
             throw InvalidArgument("nf, the number of poles of B/F, must be between {} and {}, but is {}", 0, kMaxOrder,
                                   orders.nf[i]);
         if (!between(orders.nk[i], 0, kMaxDelay))
-            throw InvalidArgument("nk, the delay in samples (1: no direct term), must be between {} and {}, but is {}",
-                                  0, kMaxDelay, orders.nk[i]);
+            throw InvalidArgument(
+                "nk, the delay in samples (1: no direct feedthrough), must be between {} and {}, but is {}", 0,
+                kMaxDelay, orders.nk[i]);
     }
 }
 

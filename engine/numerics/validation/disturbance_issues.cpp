@@ -110,8 +110,8 @@ void find_error_outliers(FittedRecord& fit, const std::function<bool()>& cancel,
     DataIssue issue =
         about(fit, "outliers", Weight::kWarning,
               Message("The output {} has {} far from the neighboring samples ({}), up to {} from the values that the "
-                      "input explains. Check whether these samples are valid. If not, filloutliers replaces them by "
-                      "linear interpolation.",
+                      "input explains. Check whether these samples are valid. If they are not, replace them by linear "
+                      "interpolation with filloutliers.",
                       fit.output(), plural(count, "{} sample", "{} samples"), listed_places(repaired->stretches),
                       fit.with_unit(outliers.cwiseAbs().maxCoeff(), 2)),
               static_cast<double>(count));

@@ -62,8 +62,8 @@ YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorVie
 InformationCriteria information_criteria(double mean_square, Index samples, Index parameters) {
     if (!(mean_square >= 0) || parameters < 0 || samples <= parameters + 1)
         throw InvalidArgument(
-            "Information criteria need a mean square that is not negative and more samples than parameters plus one, "
-            "but got {}, {} and {}",
+            "Information criteria need a nonnegative mean square and more samples than parameters plus one, but got "
+            "{}, {} and {}",
             mean_square, plural(samples, "{} sample", "{} samples"),
             plural(parameters, "{} parameter", "{} parameters"));
     const double N = static_cast<double>(samples), d = static_cast<double>(parameters);

@@ -15,9 +15,9 @@ DataIssue too_short(Index samples) {
             Weight::kWarning,
             "",
             plural(samples,
-                   "The data have only {} sample. A model needs about ten samples per parameter: record longer, or use "
-                   "a model with one pole.",
-                   "The data have only {} samples. A model needs about ten samples per parameter: record longer, or "
+                   "The data have only {} sample. A model needs about ten samples per parameter: record more data, or "
+                   "use a model with one pole.",
+                   "The data have only {} samples. A model needs about ten samples per parameter: record more data, or "
                    "use a model with one pole."),
             static_cast<double>(samples),
             0,

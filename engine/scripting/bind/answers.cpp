@@ -16,7 +16,7 @@ void check_declared(const std::vector<ExpectedAnswer>& expected, const std::stri
     for (const ExpectedAnswer& answer : expected) {
         names.push_back(answer.name);
         if (answer.name == name && answer.kind != kind)
-            throw InvalidArgument("the answer \"{}\" must be of the kind {}, but a {} was given", name, answer.kind,
+            throw InvalidArgument("the answer \"{}\" must be of the type {}, but a {} was given", name, answer.kind,
                                   kind);
     }
     if (std::ranges::find(names, name) == names.end()) throw InvalidArgument(undeclared_answer(name, names));
@@ -53,7 +53,7 @@ int answer(Call& call) {
         value = checked_answer(call, name);
         const auto before = answers.find(name);  // the same value again is one answer
         if (before != answers.end() && before->second.json != value.json)
-            throw InvalidArgument("the answer \"{}\" was given before with another value; give each answer once", name);
+            throw InvalidArgument("the answer \"{}\" already has another value; specify each answer only once", name);
     } catch (const InvalidArgument& error) {
         if (!call.context().options.graded) throw;
         value = refused_answer(error.what());

@@ -16,14 +16,14 @@ namespace {
 constexpr std::array kSliderOptions = {
     option<&RecordedSlider::step>(
         "step", about("step between positions; by default, every number in the range can be selected")),
-    option<&RecordedSlider::logarithmic>("log",
-                                         about("positions equally spaced on a logarithmic scale; not with `step`")),
+    option<&RecordedSlider::logarithmic>(
+        "log", about("true spaces the positions equally on a logarithmic scale; not with `step`")),
     option<&RecordedSlider::unit>("unit", about("unit after the number")),
     option<&RecordedSlider::label>("label", about("text next to the slider, by default its name"))};
 constexpr OptionTable kSliderTables[] = {kSliderOptions};
 
 constexpr ArgumentEntry kEntryName = {
-    "name", ValueKind::kText, about("name of the entry, made of letters, digits, _ and -; each name is used once")};
+    "name", ValueKind::kText, about("name of the entry, made of letters, digits, _ and -; use each name only once")};
 constexpr std::array kReportValueArguments = {
     kEntryName, ArgumentEntry{"x", ValueKind::kAny, about("number or text")},
     ArgumentEntry{"format", ValueKind::kText,
@@ -40,10 +40,10 @@ constexpr std::array kReportTextArguments = {kEntryName,
 constexpr std::array kSliderArguments = {
     kEntryName,
     ArgumentEntry{"x", ValueKind::kNumber, about("number that the script uses until the reader selects another")},
-    ArgumentEntry{"from", ValueKind::kNumber, about("smallest number; above 0 with `log`")},
+    ArgumentEntry{"from", ValueKind::kNumber, about("smallest number; positive if `log` is true")},
     ArgumentEntry{"to", ValueKind::kNumber, about("largest number")}};
 constexpr std::array kGuessArguments = {
-    ArgumentEntry{"name", ValueKind::kText, about("name of the prediction, for `outcome`; each name is used once")},
+    ArgumentEntry{"name", ValueKind::kText, about("name of the prediction, for `outcome`; use each name only once")},
     ArgumentEntry{"value", ValueKind::kNumber, about("your prediction, or nil if you have none yet")},
     ArgumentEntry{"unit", ValueKind::kText, about("unit after the numbers")}};
 constexpr std::array kOutcomeArguments = {
@@ -58,7 +58,7 @@ std::string new_name(const Call& call, const Taken& taken) {
         return std::isalnum(c) || c == '_' || c == '-';
     });
     if (!plain) throw InvalidArgument("the name \"{}\" may contain only letters, digits, _ and -", name);
-    if (taken(name)) throw InvalidArgument("the name \"{}\" is used already; every entry needs a different name", name);
+    if (taken(name)) throw InvalidArgument("the name \"{}\" is already used; every entry needs a different name", name);
     return name;
 }
 
@@ -234,7 +234,7 @@ int guess(Call& call) {
     push_guesses(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TNIL)
         throw InvalidArgument(
-            "the prediction \"{}\" was made before; make each prediction once, before you see the result", name);
+            "the prediction \"{}\" already exists; enter each prediction only once, before you see the result", name);
     lua_pop(L, 1);
     lua_createtable(L, 0, 2);
     if (call.given(2)) {

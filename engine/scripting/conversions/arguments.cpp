@@ -24,8 +24,8 @@ constexpr double kLargestExactWhole = 9007199254740992.0;  // 2^53
     const Message given = given_value(L, index);
     if (to_mask(L, index) != nullptr)
         throw InvalidArgument(
-            "{} must be {}, but {} was given; find(mask) returns the indices, #find(mask) their number", label,
-            requested, given);
+            "{} must be {}, but {} was given; find(mask) returns the indices, and #find(mask) returns their number",
+            label, requested, given);
     if (requested == with_article("iddata") && lua_istable(L, index))
         throw InvalidArgument("{} must be {}, but {} was given; create one from vectors with iddata(y, u, Ts)", label,
                               requested, given);
@@ -52,7 +52,7 @@ std::int64_t whole_at(lua_State* L, int index, const Label& label) {
 template <class Label>
 std::int64_t count_at(lua_State* L, int index, const Label& label) {
     const std::int64_t value = whole_at(L, index, label);
-    if (value < 0) throw InvalidArgument("{} must not be negative, but {} was given", label(), value);
+    if (value < 0) throw InvalidArgument("{} must be nonnegative, but {} was given", label(), value);
     return value;
 }
 
@@ -268,7 +268,7 @@ void Options::check_names(const std::vector<std::string>& known) const {
         if (is_known(name)) continue;
         if (const std::string other = with_other_case(name); is_known(other)) {
             if (lua_getfield(L, index_, other.c_str()) != LUA_TNIL)
-                throw InvalidArgument("options '{}' and '{}' are the same: give only one", name, other);
+                throw InvalidArgument("options '{}' and '{}' are equivalent: specify only one", name, other);
             lua_pop(L, 1);
             continue;
         }
