@@ -234,7 +234,7 @@ void HammersteinOptions::validate() const {
         throw InvalidArgument("{} must be \"none\", \"steady\" or \"auto\" for hammerstein",
                               OptionName{"initial_state"});
     if (offset != Offset::kNone)
-        throw InvalidArgument("{} must be \"none\" for hammerstein: its characteristic includes a constant",
+        throw InvalidArgument("{} must be \"none\" for hammerstein, because the characteristic includes a constant",
                               OptionName{"offset"});
 }
 

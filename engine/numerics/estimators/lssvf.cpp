@@ -13,7 +13,7 @@ namespace dynlab::inline numerics {
 void SvfOptions::validate() const {
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, but is {}; choose a "
+            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, but is {}. Choose a "
             "value slightly above the bandwidth of the system",
             lambda);
     if (beta && (!(*beta > 0) || !std::isfinite(*beta)))

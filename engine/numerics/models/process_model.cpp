@@ -32,7 +32,7 @@ ProcessStructure ProcessStructure::parse(const std::string& text) {
     if (text.size() < 2 || text[0] != 'P' || text[1] < '1' || text[1] > '3')
         throw InvalidArgument(
             "process model: \"{}\" is not a process model structure. Write P1, P2 or P3, followed by any of D (delay), "
-            "I (integrator), Z (zero) and U (underdamped poles, only for P2 and P3), such as P2DU",
+            "I (integrator), Z (zero) and U (underdamped, P2 and P3 only), such as P2DU",
             text);
     ProcessStructure structure;
     structure.poles = text[1] - '0';
@@ -41,19 +41,19 @@ ProcessStructure ProcessStructure::parse(const std::string& text) {
         if (chosen == nullptr)
             throw InvalidArgument(
                 "process model: \"{}\" has the unknown letter {}. Write P1, P2 or P3, followed by any of D (delay), I "
-                "(integrator), Z (zero) and U (underdamped poles, only for P2 and P3), such as P2DU",
+                "(integrator), Z (zero) and U (underdamped, P2 and P3 only), such as P2DU",
                 text, std::string(1, letter));
         if (*chosen)
             throw InvalidArgument(
                 "process model: \"{}\" has the letter {} twice. Write P1, P2 or P3, followed by any of D (delay), I "
-                "(integrator), Z (zero) and U (underdamped poles, only for P2 and P3), such as P2DU",
+                "(integrator), Z (zero) and U (underdamped, P2 and P3 only), such as P2DU",
                 text, std::string(1, letter));
         *chosen = true;
     }
     if (structure.underdamped && structure.poles < 2)
         throw InvalidArgument(
             "process model: \"{}\" has too few poles for U. Write P1, P2 or P3, followed by any of D (delay), I "
-            "(integrator), Z (zero) and U (underdamped poles, only for P2 and P3), such as P2DU",
+            "(integrator), Z (zero) and U (underdamped, P2 and P3 only), such as P2DU",
             text);
     return structure;
 }

@@ -18,7 +18,8 @@ void SuspensionParameters::validate() const {
         throw InvalidArgument("The step height of the suspension must be finite and nonzero");
     if (damping * damping >= 4 * stiffness * mass)
         throw InvalidArgument(
-            "The suspension's damping must be below 2 sqrt(stiffness mass); otherwise it does not oscillate");
+            "The damping of the suspension must be less than 2 sqrt(stiffness mass); otherwise, the suspension does "
+            "not oscillate");
 }
 
 SuspensionTruth suspension_truth(const SuspensionParameters& p) {

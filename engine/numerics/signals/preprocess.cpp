@@ -38,7 +38,7 @@ Index initial_stretch(const Experiment& experiment, Index samples) {
     if (samples > 0) return samples;
     if (experiment.u.cols() == 0)
         throw InvalidArgument(
-            "detrend: without an input, the end of the initial rest is unknown; specify its number of samples, as in "
+            "detrend: without an input, the end of the initial rest is unknown; specify the number of samples, as in "
             "detrend(data, \"start\", {samples = 20})");
     const Index found = samples_before_change(experiment.u);
     if (found >= kFewestLeft) return found;

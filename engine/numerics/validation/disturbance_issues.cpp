@@ -198,8 +198,8 @@ bool find_strange_sections(const FittedRecord& fit, DataIssues& findings) {
     DataIssue issue =
         about(fit, "nonlinear", Weight::kWarning,
               Message("A linear model follows {} except in samples {}, where its error is more than {} times the usual "
-                      "error: another effect acts there (a limit, friction, a disturbance). Inspect these samples, and "
-                      "exclude them with data:discard if they do not belong to the dynamics.",
+                      "error: another effect acts there (such as a limit, friction or a disturbance). Inspect these "
+                      "samples, and exclude them with data:discard if they do not belong to the dynamics.",
                       fit.output(), places, kStrange),
               static_cast<double>(sections.size()));
     issue.sections = std::move(sections);

@@ -164,7 +164,7 @@ void find_noise(const FittedRecord& fit, DataIssues& findings) {
         findings.push_back(
             about(fit, "low_snr", Weight::kWarning,
                   Message("The signal-to-noise ratio of {} is only about {} dB (the residual of a model with {} has "
-                          "the standard deviation {}). If the residual is noise, record more data or use a larger "
+                          "the standard deviation {}). If the residual is noise, collect more data or use a larger "
                           "amplitude, and use methods that are unbiased in noise (tfsrivc instead of lssvf). "
                           "Otherwise, an effect other than the input drives the output.",
                           fit.output(), ratio, order, left),

@@ -45,12 +45,12 @@ ModelDoubts ModelDoubts::about(std::size_t i, const std::string& name) const {
 Message model_verdict(const ModelEvidence& model) {
     const Number fit = significant(model.fit_percent, 3);
     if (model.unstable) {
-        const Message verdict = Message("The model is unstable. Do not use it, whatever the residual tests show.");
+        const Message verdict = Message("The model is unstable. Do not use it, even if the residual tests pass.");
         return model.doubts.remedy.empty() ? verdict : sentences({verdict, model.doubts.remedy});
     }
     if (model.tested && explains_little(model.fit_percent)) {
         const Message verdict =
-            Message("The model explains little of the output (fit {} %), whatever the residual tests show.", fit);
+            Message("The model explains little of the output (fit {} %), even if the residual tests pass.", fit);
         const bool missing = !model.independent || !model.doubts.remedy.empty();
         return sentences(
             {verdict,

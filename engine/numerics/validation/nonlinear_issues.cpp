@@ -244,9 +244,9 @@ DataIssue curve_at_output(const FittedRecord& fit, double effect) {
                      effect);
     }
     return about(fit, "nonlinear", Weight::kWarning,
-                 Message("{} is a nonlinear function of a linear model's output (a square law, a limit): this effect "
-                         "is {} % of the variation of {}, which no linear model can follow. Use a smaller amplitude, "
-                         "or correct the output by the characteristic of its sensor.",
+                 Message("{} is a nonlinear function of a linear model's output (such as a square law or a limit): "
+                         "this effect is {} % of the variation of {}, which no linear model can represent. Use a "
+                         "smaller amplitude, or correct the output by the characteristic of its sensor.",
                          fit.output(), in_percent(effect), fit.output()),
                  effect);
 }
@@ -256,16 +256,17 @@ DataIssue nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) 
         case Curve::kInput:
             return about(
                 fit, "nonlinear", Weight::kWarning,
-                Message("{} acts through a nonlinear characteristic (a dead band, a square law, a limit): this effect "
-                        "is {} % of the variation of {}, which no linear model can follow. Use a smaller amplitude "
-                        "around one operating point, or estimate the characteristic with hammerstein.",
-                        fit.input(), in_percent(effect), fit.output()),
+                Message(
+                    "{} acts through a nonlinear characteristic (such as a dead band, a square law or a limit): this "
+                    "effect is {} % of the variation of {}, which no linear model can represent. Use a smaller "
+                    "amplitude around one operating point, or estimate the characteristic with hammerstein.",
+                    fit.input(), in_percent(effect), fit.output()),
                 effect);
         case Curve::kInputPlay:
             return about(
                 fit, "nonlinear", Weight::kWarning,
                 Message("{} acts with backlash or friction, so its effect depends on the direction of movement: this "
-                        "effect is {} % of the variation of {}, which no linear model can follow. Move in one "
+                        "effect is {} % of the variation of {}, which no linear model can represent. Move in one "
                         "direction only, remove the backlash, or use much larger amplitudes.",
                         fit.input(), in_percent(effect), fit.output()),
                 effect);
@@ -273,7 +274,7 @@ DataIssue nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) 
             return about(fit, "nonlinear", Weight::kWarning,
                          Message("{} shows backlash or friction, because it does not follow when the movement "
                                  "reverses: this effect is {} % of the variation of {}, which no linear model can "
-                                 "follow. Remove the backlash, or use much larger amplitudes.",
+                                 "represent. Remove the backlash, or use much larger amplitudes.",
                                  fit.output(), in_percent(effect), fit.output()),
                          effect);
         case Curve::kGain:

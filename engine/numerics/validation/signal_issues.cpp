@@ -168,8 +168,8 @@ void find_quantization(const Channel& channel, const Quantization& grid, std::ve
     if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
     findings.push_back(
         about(channel, "quantization", Weight::kWarning,
-              Message("{} is quantized in steps of {}, only {} of them over its range. The effect is like noise of "
-                      "standard deviation {}; use a finer range of the converter or a larger amplitude.",
+              Message("{} is quantized in steps of {}, with only {} steps over its range. The effect is similar to "
+                      "noise with the standard deviation {}; use a finer range of the converter or a larger amplitude.",
                       subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
                       value_of(channel, grid.step / std::sqrt(12.0), 2)),
               grid.step));
@@ -231,7 +231,7 @@ bool find_wrap(const Channel& channel, std::vector<DataIssue>& findings) {
     if (!period) return false;
     findings.push_back(about(channel, "wrapped", Weight::kWarning,
                              Message("{} is an angle that jumps by a full turn ({}) at the end of its range, which no "
-                                     "linear model can follow: remove the jumps with {}.",
+                                     "linear model can represent: remove the jumps with {}.",
                                      subject(channel), value_of(channel, *period),
                                      *period == kDegreesPerTurn ? "unwrap(x, 360)" : "unwrap(x)"),
                              *period));

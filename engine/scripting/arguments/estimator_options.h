@@ -34,12 +34,12 @@ inline constexpr std::array kStartOptions = {
     option<&FitOptions::initial_state>(
         "InitialState",
         about("initial state: at rest with zero input (\"none\"), at rest with the first input value (\"steady\"), "
-              "estimated (\"estimate\"), or the one with the smallest BIC (\"auto\")"),
+              "estimated (\"estimate\"), or the choice with the smallest BIC (\"auto\")"),
         {.initial = "\"auto\"", .choices = kInitialStates, .former = "zero", .member = "initial_state"}),
     option<&FitOptions::offset>(
         "Offset",
         about("constant offset of the output: zero (\"none\"), removed with the operating point before the estimation "
-              "(\"remove\"), estimated (\"estimate\"), or the one of none and estimate with the smaller BIC "
+              "(\"remove\"), estimated (\"estimate\"), or \"none\" or \"estimate\", whichever has the smaller BIC "
               "(\"auto\"). If you specify only one of InitialState and Offset, the other remains \"auto\""),
         {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"})};
 

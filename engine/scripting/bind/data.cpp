@@ -22,13 +22,13 @@ namespace {
 
 constexpr OptionEntry kImportOptions[] = {
     option<&ImportOptions::skip>("skip", about("number of lines to skip at the beginning of a text file")),
-    {"names", ValueKind::kAny, about("names of all columns, instead of those in the file")},
+    {"names", ValueKind::kAny, about("names of all columns, which replace the names in the file")},
     {"delimiter", ValueKind::kText, about("separator of the cells; \" \" for any number of spaces and tabs")},
-    {"units", ValueKind::kTable, about("units by column, {u = \"V\"}, instead of those in the file")},
+    {"units", ValueKind::kTable, about("units by column, such as {u = \"V\"}, which replace the units in the file")},
     option<&ImportOptions::time>("time", about("name of the time column")),
     option<&ImportOptions::time_unit>(
         "time_unit", about("unit of the time column; \"dd/mm/yyyy\" or \"mm/dd/yyyy\" if the column contains dates")),
-    option<&ImportOptions::sheet>("sheet", about("name of a workbook's sheet; by default the first one"))};
+    option<&ImportOptions::sheet>("sheet", about("name of the sheet of a workbook; by default, the first sheet"))};
 constexpr OptionEntry kIddataOptions[] = {
     option<&IdData::hold>("InterSample", kHoldOption.description,
                           {.initial = "\"zoh\"", .choices = kHolds, .member = "hold"}),
@@ -109,7 +109,7 @@ std::map<std::string, std::string> units_by_name(const Options& options) {
     if (!options.has("units")) return units;
     lua_State* L = options.call().state();
     const int index = options.push("units");
-    const auto refuse = [] { throw InvalidArgument("option 'units' must be a table like {u = \"V\"}"); };
+    const auto refuse = [] { throw InvalidArgument("option 'units' must be a table such as {u = \"V\"}"); };
     if (lua_type(L, index) != LUA_TTABLE) refuse();
     lua_pushnil(L);
     while (lua_next(L, index)) {

@@ -38,24 +38,24 @@ constexpr OptionTable kDiscreteSimulation[] = {kStartOptions, kDiscreteIntegrati
 constexpr std::array kEquationErrorArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("na poles, nb coefficients of B, nk samples of delay, 1 for no direct feedthrough; with "
+                  about("na poles, nb coefficients of B, nk samples of delay, 1 for no direct feedthrough. With "
                         "several inputs, nb and nk are tables, such as {2, {1, 2}, {1, 3}}")}};
 constexpr std::array kArmaxArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
                   about("na poles, nb coefficients of B, nc coefficients of C after the leading one, nk samples of "
-                        "delay, 1 for no direct feedthrough; with several inputs, nb and nk are tables")}};
+                        "delay, 1 for no direct feedthrough. With several inputs, nb and nk are tables")}};
 constexpr std::array kDiscreteOutputErrorArguments = {
     kOneOutputData,
     ArgumentEntry{
         "orders", ValueKind::kOrders,
-        about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct feedthrough; with several inputs, "
+        about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct feedthrough. With several inputs, "
               "each with separate poles, nb, nf and nk are tables, such as {{2, 1}, {2, 1}, {1, 3}}")}};
 constexpr std::array kBoxJenkinsArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
                   about("nb coefficients of B, nc and nd of C and D after the leading one, nf poles, nk samples of "
-                        "delay, 1 for no direct feedthrough; with several inputs, nb, nf and nk are tables")}};
+                        "delay, 1 for no direct feedthrough. With several inputs, nb, nf and nk are tables")}};
 
 /// The entry of an order vector that is one number for all inputs.
 int only_value(const std::vector<int>& entry, const OrderEntry& what) {

@@ -19,7 +19,7 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr OptionEntry kModelPeriod = {
-    "Ts", ValueKind::kNumber, about("sampling time; by default continuous time"), {.unit = "s"}};
+    "Ts", ValueKind::kNumber, about("sampling time; by default, the model is a continuous-time model"), {.unit = "s"}};
 constexpr OptionEntry kTfOptions[] = {kModelPeriod,
                                       {"IODelay",
                                        ValueKind::kNumber,
@@ -84,7 +84,7 @@ int push_field(lua_State* L, int index, const char* name) {
 Vector coefficients_of_field(const Call& call, int index, const char* name) {
     lua_State* L = call.state();
     if (push_field(L, index, name) == LUA_TTABLE)
-        make_vector_of_table(L, lua_gettop(L), Message("the field {} of a model's struct", name));
+        make_vector_of_table(L, lua_gettop(L), Message("the field {} of a model struct", name));
     NumericBlock* block = to_vector(L, -1) != nullptr ? to_vector(L, -1) : to_matrix(L, -1);
     Vector values;
     if (lua_type(L, -1) == LUA_TNUMBER)
@@ -92,7 +92,7 @@ Vector coefficients_of_field(const Call& call, int index, const char* name) {
     else if (block != nullptr && std::min(block->rows, block->columns) == 1)
         values = Eigen::Map<const Vector>(block->data(), block->rows * block->columns);
     else
-        throw InvalidArgument("the field {} of a model's struct must be a vector, but it is {}", name,
+        throw InvalidArgument("the field {} of a model struct must be a vector, but it is {}", name,
                               given_value(L, lua_gettop(L)));
     lua_pop(L, 1);
     return values;
@@ -102,7 +102,7 @@ double number_of_field(const Call& call, int index, const char* name) {
     lua_State* L = call.state();
     const int type = push_field(L, index, name);
     if (type != LUA_TNIL && type != LUA_TNUMBER)
-        throw InvalidArgument("the field {} of a model's struct must be a number, but it is {}", name,
+        throw InvalidArgument("the field {} of a model struct must be a number, but it is {}", name,
                               given_value(L, lua_gettop(L)));
     const double value = type == LUA_TNIL ? 0 : lua_tonumber(L, -1);
     lua_pop(L, 1);

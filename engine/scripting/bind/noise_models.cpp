@@ -31,7 +31,7 @@ constexpr std::array kNoisyArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
                   about("nb coefficients of B (at most nf + 1), nc and nd of C and D after the leading one, nf poles, "
-                        "nk samples of delay; with several inputs, nb, nf and nk are tables")}};
+                        "nk samples of delay. With several inputs, nb, nf and nk are tables")}};
 constexpr std::array kNoisyTransferArguments = {kOneOutputData, kPoleCount, kZeroCount};
 
 int noise_order(const std::vector<int>& entry, const OrderEntry& what) {

@@ -42,7 +42,7 @@ constexpr ArgumentEntry
                        about("samples of the input: a vector, or a matrix with a column for each input")},
     kInputPeriod = {"Ts", ValueKind::kNumber, about("sampling time of the input in seconds")},
     kInputData = {"data", ValueKind::kData,
-                  about("instead of `u` and `Ts`, a data object of one experiment; only its input is used")};
+                  about("data object with one experiment, instead of `u` and `Ts`; only the input is used")};
 constexpr ArgumentEntry kNoiseArguments[] = {
     {"G", ValueKind::kModel, about("model, with one or several inputs and outputs")},
     kSimulatedInput,

@@ -43,7 +43,7 @@ constexpr std::array kPolyfitOptions = {
     kRegressionMethod};
 constexpr OptionEntry kRegressionPlotOptions[] = {
     {"forecast", ValueKind::kNumber, about("value of x at which to mark a forecast")},
-    {"text", ValueKind::kText, about("label of the forecast; by default its value")},
+    {"text", ValueKind::kText, about("label of the forecast; by default, the value of the forecast")},
     {"level", ValueKind::kNumber, about("probability of the bands"), {.initial = "0.95"}},
     {"xlabel", ValueKind::kText, about("label of the x axis")},
     {"ylabel", ValueKind::kText, about("label of the y axis")}};

@@ -19,7 +19,7 @@ constexpr std::array kSliderOptions = {
     option<&RecordedSlider::logarithmic>(
         "log", about("true spaces the positions equally on a logarithmic scale; not with `step`")),
     option<&RecordedSlider::unit>("unit", about("unit after the number")),
-    option<&RecordedSlider::label>("label", about("text next to the slider, by default its name"))};
+    option<&RecordedSlider::label>("label", about("text next to the slider; by default, the name"))};
 constexpr OptionTable kSliderTables[] = {kSliderOptions};
 
 constexpr ArgumentEntry kEntryName = {

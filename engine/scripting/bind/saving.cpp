@@ -162,7 +162,8 @@ std::map<std::string, std::string> texts_by_name(const Call& call, const Options
     if (!options.has(option)) return texts;
     lua_State* L = call.state();
     const int index = options.push(option);
-    if (lua_type(L, index) != LUA_TTABLE) throw InvalidArgument("option '{}' must be a table like {t = \"s\"}", option);
+    if (lua_type(L, index) != LUA_TTABLE)
+        throw InvalidArgument("option '{}' must be a table such as {t = \"s\"}", option);
     lua_pushnil(L);
     while (lua_next(L, index)) {
         if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)

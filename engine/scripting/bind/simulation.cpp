@@ -72,7 +72,7 @@ constexpr std::array kBodeArguments = {
                   about("models, and measured frequency responses (idfrd, bla, spa, etfe), in any order")},
     kDrawnFrequencies};
 constexpr std::array kPzmapArguments = {
-    ArgumentEntry{"G1, G2, ...", ValueKind::kModel, about("models, all continuous or all discrete")}};
+    ArgumentEntry{"G1, G2, ...", ValueKind::kModel, about("models, all continuous-time or all discrete-time")}};
 constexpr std::array kHistogramArguments = {
     ArgumentEntry{"values", ValueKind::kVector, about("vector of finite values")}};
 

@@ -37,7 +37,7 @@ constexpr OptionEntry kStudyOptions[] = {
         about("seed of the noise: run k = 0, 1, ... adds the numbers that `randn` returns after `rng(seed + k)`"),
         {.most = kMaxSeed}),
     option<&MonteCarloStudy::threads>("threads", about("number of threads; 0 for all cores")),
-    {"estimators", ValueKind::kTable, about("estimators by name, with their arguments after the data")}};
+    {"estimators", ValueKind::kTable, about("table of named estimators, each with its arguments after the data")}};
 constexpr OptionTable kStudyTables[] = {kStudyOptions};
 
 MonteCarloEstimate estimate_in_study(const Fit& result) {

@@ -44,8 +44,8 @@ constexpr std::array kRefinedArguments = {
     kDataArgument,
     ArgumentEntry{"orders", ValueKind::kOrders,
                   about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay. With several inputs, "
-                        "each with separate poles, nb, nf and nk are tables with one entry per input; with several "
-                        "outputs, one entry per channel, output 1 first")}};
+                        "each with separate poles, nb, nf and nk are tables with one entry per input. With several "
+                        "outputs, the tables have one entry per channel, output 1 first")}};
 constexpr std::array kTransferFunctionArguments = {kDataArgument, kPoleCount, kZeroCount};
 
 /// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta.

@@ -135,9 +135,9 @@ void Call::at_most(int arguments) const {
     const bool named = arguments >= 1 && lua_type(state_, arguments) == LUA_TSTRING;
     const Message all = plural(arguments, "{} argument", "{} arguments");
     if (orders)
-        throw InvalidArgument("takes at most {}, but {} were given; write the orders as one table {}", all, arguments_,
-                              "{1, 1, 0}");
-    throw InvalidArgument("takes at most {}, but {} were given; write the options as one table {}", all, arguments_,
+        throw InvalidArgument("accepts at most {}, but {} were given; write the orders as one table {}", all,
+                              arguments_, "{1, 1, 0}");
+    throw InvalidArgument("accepts at most {}, but {} were given; write the options as one table {}", all, arguments_,
                           fmt::format("{{{} = value}}", named ? lua_tostring(state_, arguments) : "name"));
 }
 
@@ -383,7 +383,7 @@ std::map<std::string, double> Options::numbers_by_name(const char* name) const {
             wrong_value(L, index, option_label(name), Message("a table such as {a1 = 2}"));
         for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
             if (lua_type(L, -2) != LUA_TSTRING)
-                throw InvalidArgument("{} must name its values, such as {a1 = 2}", option_label(name));
+                throw InvalidArgument("{} must contain named values, such as {a1 = 2}", option_label(name));
             const std::string key = lua_tostring(L, -2);
             values[key] = number_at(L, -1, [&] { return Message("{} in {}", key, option_label(name)); });
         }

@@ -116,7 +116,7 @@ int numeric_times(Call& call) {
 
 int refuse_comparison(Call&) {
     throw InvalidArgument(
-        "for an element-wise comparison of vectors, use gt(x, y), lt, ge, le or eq, which return a mask; x < y would "
+        "for an element-wise comparison of vectors, use gt(x, y), lt, ge, le or eq, which return a mask. x < y would "
         "return a single true or false");
 }
 

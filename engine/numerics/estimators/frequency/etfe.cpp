@@ -75,7 +75,7 @@ void EtfeOptions::validate() const {
     if (smooth < 0)
         throw InvalidArgument("etfe: the number of frequencies to smooth over must be nonnegative, but is {}", smooth);
     if (!(least_input >= 0 && least_input < 1))
-        throw InvalidArgument("etfe: the threshold for the input's amplitude must be between 0 and 1, but is {}",
+        throw InvalidArgument("etfe: the threshold for the amplitude of the input must be between 0 and 1, but is {}",
                               least_input);
 }
 

@@ -31,8 +31,8 @@ constexpr OptionEntry kResponseForm = {
     "form",
     ValueKind::kChoice,
     about("meaning of two vectors: real and imaginary part (\"complex\"), magnitude and phase in degrees (\"polar\"), "
-          "or decibels and degrees (\"dB\"); by default, determined by the units of the columns returned by `load`, "
-          "otherwise \"complex\""),
+          "or decibels and degrees (\"dB\"). By default, the units of the columns returned by `load` determine the "
+          "meaning, otherwise \"complex\""),
     {.choices = kResponseForms}};
 constexpr std::array kResponseOptions = {
     kResponseForm,
@@ -102,8 +102,13 @@ ResponseForm form_of(const Call& call, int index, const Options& options) {
             "option form = \"dB\"",
             argument_label(index, "H"), angle);
     call.print(
-        localized(call, decibels ? Message("idfrd: according to their units, the columns are decibels and degrees")
-                                 : Message("idfrd: according to their units, the columns are magnitude and degrees")) +
+        localized(
+            call,
+            decibels
+                ? Message(
+                      "idfrd: according to the units, the columns contain the magnitude in dB and the phase in degrees")
+                : Message(
+                      "idfrd: according to the units, the columns contain the magnitude and the phase in degrees")) +
         "\n");
     return decibels ? ResponseForm::kDecibels : ResponseForm::kPolar;
 }

@@ -59,7 +59,7 @@ constexpr OptionTable kNarx[] = {kNarxOptions}, kSindy[] = {kSindyOptions}, kDmd
 
 constexpr std::array kNarxArguments = {
     kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
-                                  about("na past outputs, nb values of the input, delay of nk samples; with several "
+                                  about("na past outputs, nb values of the input, delay of nk samples. With several "
                                         "inputs, nb and nk can be tables, such as {2, {1, 2}, {1, 3}}")}};
 constexpr std::array kSindyArguments = {
     ArgumentEntry{"data", ValueKind::kData,

@@ -119,7 +119,7 @@ std::map<std::string, Vector> truth_of(const Options& options) {
         throw InvalidArgument("option 'truth' must be a table such as {a1 = 4, b0 = v}");
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING)
-            throw InvalidArgument("option 'truth' must name its values, such as {a1 = 4, b0 = v}");
+            throw InvalidArgument("option 'truth' must contain named values, such as {a1 = 4, b0 = v}");
         const std::string name = lua_tostring(L, -2);
         if (lua_type(L, -1) == LUA_TNUMBER)
             truth[name] = Vector::Constant(1, lua_tonumber(L, -1));
