@@ -220,7 +220,7 @@ void push_members(lua_State* L, const std::string& kind, ValueReader& answer, in
     } else if (kind == "table") {
         push_answer_table(L, answer, depth);
     } else {
-        throw InvalidArgument("the answer has an unknown type");
+        throw InvalidArgument("the answer has an unknown kind");
     }
 }
 

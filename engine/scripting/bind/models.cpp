@@ -69,8 +69,8 @@ constexpr ArgumentEntry kDiscreteArguments[] = {
     {"G", ValueKind::kModel, about("continuous-time transfer function or state-space model")},
     {"Ts", ValueKind::kNumber, about("sampling time in seconds")},
     kConversion};
-constexpr ArgumentEntry kContinuousArguments[] = {{"Gd", ValueKind::kModel, about("discrete-time transfer function")},
-                                                  kConversion};
+constexpr ArgumentEntry kContinuousArguments[] = {
+    {"Gd", ValueKind::kModel, about("discrete-time transfer function to convert")}, kConversion};
 constexpr ArgumentEntry kPresentArguments[] = {{"G, ...", ValueKind::kModel, about("one or several models")}};
 constexpr ArgumentEntry kLoopArguments[] = {{"G", ValueKind::kModel, about("open-loop model")}};
 

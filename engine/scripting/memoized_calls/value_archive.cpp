@@ -206,7 +206,7 @@ void push_archived_value(const Call& call, CborReader& archive, std::vector<Figu
         case Kind::kObject:
             return push_known_object(call, archive, figures);
         default:
-            archive.refuse(Message("the value has an unknown type"));
+            archive.refuse(Message("the value has an unknown kind"));
     }
 }
 

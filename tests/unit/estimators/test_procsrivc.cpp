@@ -514,7 +514,7 @@ TEST(procsrivc,
         const Fit found = fit(siso(y, Vector::Constant(300, 55), 0.5), "P1D");
         EXPECT_NEAR(found.theta[1], 25, 0.5) << seed;
         EXPECT_TRUE(std::isinf(found.std[0]) && std::isinf(found.std[2])) << found.std.transpose();
-        EXPECT_THAT(message_text(found.full_message()), HasSubstr("assume that it was zero"));
+        EXPECT_THAT(message_text(found.full_message()), HasSubstr("assume that the input was zero"));
     }
 }
 

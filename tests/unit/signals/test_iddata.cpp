@@ -108,8 +108,8 @@ TEST(iddata, merge_takes_no_part_for_what_it_is_not) {
     EXPECT_THAT(thrown_message([&] {
                     IdData::merge({numbered(3), on_lines});
                 }),
-                HasSubstr("the input of part 2 is linearly interpolated between the samples (foh), but the first input "
-                          "is held (zoh)"));
+                HasSubstr("the input of part 2 is linearly interpolated (foh), but the input of the first part has a "
+                          "zero-order hold (zoh)"));
     EXPECT_THAT(thrown_message([&] {
                     IdData::merge({volts, millivolts});
                 }),

@@ -67,11 +67,11 @@ TEST(closed_loop, sensitivities_are_those_of_the_loop) {
     const std::vector<Case> cases = {
         {"sampled", Vector{{2}}, Vector{{1, 4, 3}}, 0, {pi, 1}, Hold::kZoh},
         {"a delay", Vector{{0.5, 2}}, Vector{{1, 4, 3}}, 0.12, {pi, 0}, Hold::kZoh},
-        {"a direct term", Vector{{0.1, 0.2}}, Vector{{1, 3}}, 0, {pi, 1}, Hold::kZoh},
+        {"direct feedthrough", Vector{{0.1, 0.2}}, Vector{{1, 3}}, 0, {pi, 1}, Hold::kZoh},
         {"a late direct term", Vector{{0.1, 0.2}}, Vector{{1, 3}}, 0.07, {pi, 1}, Hold::kZoh},
         {"unstable", Vector{{2}}, Vector{{1, 3, -4}}, 0, {discrete(Vector{{8}}, Vector{{1}}), 0}, Hold::kZoh},
         {"continuous", Vector{{2}}, Vector{{1, 3, -4}}, 0, {lag, 0}, Hold::kFoh},
-        {"a direct term before a lag", Vector{{0.1, 0.2, 1}}, Vector{{1, 1, 2}}, 0, {lag, 0}, Hold::kZoh}};
+        {"direct feedthrough before a lag", Vector{{0.1, 0.2, 1}}, Vector{{1, 1, 2}}, 0, {lag, 0}, Hold::kZoh}};
     const Vector r = reference_signal();
     for (const Case& one : cases) {
         const auto output = [&](const Vector& theta) {

@@ -76,7 +76,7 @@ TEST(noise, of_a_given_snr) {  // oracle: definition
     EXPECT_THAT(thrown_message([&] { noise_std_of_snr(Vector::Ones(4), 10); }), HasSubstr("that changes"));
     EXPECT_THAT(thrown_message([&] { noise_std_of_snr(x, kInfinity); }), HasSubstr("decibels"));
     RandomStream random;
-    EXPECT_THAT(thrown_message([&] { ColoredNoise{}.draw(3, -1, random); }), HasSubstr("zero or positive"));
+    EXPECT_THAT(thrown_message([&] { ColoredNoise{}.draw(3, -1, random); }), HasSubstr("nonnegative"));
 }
 
 }  // namespace test_noise

@@ -86,8 +86,9 @@ local db = idfrd({1*d.Gain, 1*d.Phase}, 2*math.pi*d.Frequency, {form = "dB"})
 print(db.magnitude[1], db.phase[1])
 )lua");
     ASSERT_FALSE(run.record.error) << run.record.error->text();
-    EXPECT_THAT(run.printed, AllOf(HasSubstr("w0 503 zeta 0.10 gain 2.0 delay 0.0020"),
-                                   HasSubstr("decibels and degrees"), HasSubstr("frequencies are in Hz")));
+    EXPECT_THAT(run.printed,
+                AllOf(HasSubstr("w0 503 zeta 0.10 gain 2.0 delay 0.0020"),
+                      HasSubstr("the magnitude in dB and the phase in degrees"), HasSubstr("frequencies are in Hz")));
 }
 
 TEST_F(field_records, even_instants_make_regular_data) {

@@ -226,7 +226,7 @@ TEST(greyest, refuses_what_it_cannot_fit) {  // oracle: definitions
     model.parameters[0].lower = 2;
     EXPECT_THAT(refusal(model), HasSubstr("a starts from 1, outside its bounds 2 and Inf"));
     model.parameters[0].upper = 1;
-    EXPECT_THAT(refusal(model), HasSubstr("the first must not exceed the second"));
+    EXPECT_THAT(refusal(model), HasSubstr("the lower bound must not exceed the upper bound"));
     model = pendulum(1, 1, 1);
     model.parameters[1].start = kNaN;
     EXPECT_THAT(refusal(model), HasSubstr("The parameter b starts from NaN"));
