@@ -69,7 +69,7 @@ TEST(script_discrete, orders_are_explained) {
     EXPECT_THAT(refusal("oe(data, {2, 2, 1}, {Offst = 'none'})"), HasSubstr("did you mean 'Offset'?"));
     EXPECT_THAT(refusal("oe(data, {2, 2, 1}, {InitialState = 'rest'})"),
                 HasSubstr("option 'InitialState' must be one of \"none\""));
-    EXPECT_THAT(refusal("print(Go.A)"), HasSubstr("difference equations"));
+    EXPECT_THAT(refusal("print(Go.A)"), HasSubstr("discrete-time polynomial models"));
 }
 
 // Oracle: the simulated system, of which every method is told that it has an integrator.

@@ -109,7 +109,7 @@ TEST(script_estimators, a_model_or_a_delay_starts_the_search) {  // oracle: the 
               "true\ttrue\n3\n");
     EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}), {Td0 = 1})"),
                 HasSubstr("which already includes a delay"));
-    EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}, {Ts = 1}))"), HasSubstr("continuous time"));
+    EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}, {Ts = 1}))"), HasSubstr("continuous-time model"));
 }
 
 TEST(script_estimators, known_parameters_stay_as_they_are) {  // oracle: the system

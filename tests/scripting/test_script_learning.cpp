@@ -106,7 +106,7 @@ TEST(script_learning, bad_input_is_refused_in_words) {
            "'names' has 2 texts, but the library returns 1 function");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, degree = 2})", "cannot be combined");
     expect(kSindyRecord + "sindy(data, {library = function(x) error('own') end})", "own");
-    expect(kSindyRecord + "local G = sindy(data) bode(G)", "must be a linear model, but this model by sindy is not");
+    expect(kSindyRecord + "local G = sindy(data) bode(G)", "must be a linear model, but this model from sindy is not");
     expect(kSindyRecord + "bode(tf({1}, {1, 1}), sindy(data))", "must be a linear model");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x.prey, x.foxes} end})",
            "x has no state foxes; the states are prey, hunters");

@@ -134,7 +134,7 @@ TEST(script_studies, arx_orders_are_chosen_and_go_on_to_arx) {
                 AllOf(HasSubstr("true\ttrue\ttrue"), HasSubstr("val. loss")));
     EXPECT_THAT(error_of(record + "selstruc(arxstruc(data), 'FPE')"),
                 HasSubstr("\"loss\", \"AIC\", \"BIC\" or \"MDL\""));
-    EXPECT_THAT(error_of(record + "arxstruc(data, second, {{1, 1, 1}})"), HasSubstr("takes at most 2 arguments"));
+    EXPECT_THAT(error_of(record + "arxstruc(data, second, {{1, 1, 1}})"), HasSubstr("accepts at most 2 arguments"));
     EXPECT_THAT(error_of(record + "arxstruc(data, {n = 2})"), HasSubstr("unknown option 'n'"));
     EXPECT_THAT(error_of(record + "selstruc(3)"), HasSubstr("the result of arxstruc"));
 }

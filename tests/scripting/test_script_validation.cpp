@@ -235,9 +235,9 @@ TEST(script_validation, fit_compare_and_present_state_the_offset_that_they_remov
                       "print(compare(raised, G).curves[2].label, compare(white, G).curves[2].label:match('offset'))"),
               "model 1: 100.0 %, offset 5 V\tnil\n");
     EXPECT_THAT(printed(raised + "present(srivc(raised, {1, 2, 0}))"),
-                HasSubstr("The fit is simulated from rest at zero input, with an estimated offset (5"));
+                HasSubstr("The fit refers to the simulation from rest at zero input, with an estimated offset (5"));
     EXPECT_THAT(printed(raised + "present(srivc(white, {1, 2, 0}, {InitialState = 'none', Offset = 'none'}))"),
-                HasSubstr("The fit is simulated from rest at zero input, without an offset.\n"));
+                HasSubstr("The fit refers to the simulation from rest at zero input, without an offset.\n"));
 }
 
 TEST(script_validation, crossvalidate_ranks_structures) {

@@ -183,8 +183,8 @@ TEST(script_vectors, form_matrices) {
     EXPECT_EQ(error_of("matrix{{1, 2}, {3}}"),
               "lesson.lua:1: matrix: argument 1 (rows or columns): row 2 has 1 value, but row 1 has 2");
     EXPECT_EQ(error_of("local x = eye(2)[1]"),
-              "lesson.lua:1: write an element of a matrix as A[{i, j}], a row as A:row(i), a column as A:col(j), not "
-              "as A[1]");
+              "lesson.lua:1: write an element of a matrix as A[{i, j}], a row as A:row(i), and a column as A:col(j), "
+              "not as A[1]");
     EXPECT_EQ(error_of("eye(2):at(3, 1)"), "lesson.lua:1: at: row 3 does not exist: there are 1 to 2");
 }
 

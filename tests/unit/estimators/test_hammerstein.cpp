@@ -224,7 +224,7 @@ TEST(hammerstein, refuses_what_it_cannot_fit) {  // oracle: definitions
     EXPECT_THAT(refusal(data, options), HasSubstr("`offset` must be"));
     IdData other = data;
     other.hold = Hold::kFoh;
-    EXPECT_THAT(refusal(other, {}), HasSubstr("held input"));
+    EXPECT_THAT(refusal(other, {}), HasSubstr("zero-order hold"));
 }
 
 }  // namespace test_hammerstein

@@ -35,7 +35,8 @@ TEST(frequency_data, that_cannot_be_are_refused_with_place_and_value) {
     EXPECT_THAT(refusal(kResponse, kFrequencies, Vector{{1.0, 2.0}}), HasSubstr("each frequency (3), but has 2"));
     EXPECT_THAT(refusal(kResponse, kFrequencies, Vector{{1.0, 0.0, 1.0}}),
                 HasSubstr("variances must be positive, but the variance at frequency 2, 2 rad/s, is 0"));
-    EXPECT_THAT(refusal(kResponse, kFrequencies, none, 1), HasSubstr("frequencies end at pi/Ts = 3.1416 rad/s"));
+    EXPECT_THAT(refusal(kResponse, kFrequencies, none, 1),
+                HasSubstr("frequencies must not exceed pi/Ts = 3.1416 rad/s"));
     EXPECT_THAT(refusal(kResponse, kFrequencies, none, -1), HasSubstr("must be nonnegative"));
     EXPECT_THAT(refusal(kResponse, kFrequencies, none, 0, InterSample::kZoh), HasSubstr("needs the sampling time"));
     EXPECT_THAT(refusal(ComplexVector(), Vector(), none), HasSubstr("the response has no frequencies"));

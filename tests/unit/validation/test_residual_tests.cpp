@@ -55,7 +55,7 @@ TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the
     EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
     EXPECT_TRUE(tests.outputs[0].inputs[0].without_feedback);
     EXPECT_THAT(message_text(tests.verdict), HasSubstr("y1: The output error is white"));
-    EXPECT_THAT(message_text(tests.verdict), HasSubstr("u1 explains no more of the error"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("u1 is not correlated with the error"));
     EXPECT_THAT(message_text(tests.verdict), HasSubstr("contain no further information about the system"));
 }
 

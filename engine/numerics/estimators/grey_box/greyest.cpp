@@ -55,10 +55,10 @@ Vector named_start(const GreyModel& model, const std::map<std::string, double>& 
     for (const auto& [name, value] : values) {
         const auto found = std::ranges::find(model.parameters, name, &GreyParameter::name);
         if (found == model.parameters.end())
-            throw InvalidArgument("greyest: {} contain the parameter {}, which the model does not have",
+            throw InvalidArgument("greyest: the option {} contains the parameter {}, which the model does not have",
                                   OptionName{"starts"}, name);
         if (!(value >= found->lower && value <= found->upper))
-            throw InvalidArgument("greyest: {} contain {} = {}, which is outside the bounds {} and {}",
+            throw InvalidArgument("greyest: the option {} contains {} = {}, which is outside the bounds {} and {}",
                                   OptionName{"starts"}, name, value, found->lower, found->upper);
         start[found - model.parameters.begin()] = value;
     }

@@ -139,7 +139,7 @@ TEST(bla, levels_sum_up_to_the_output) {  // oracle: Parseval; no line at zero o
     const double power = mean_periods.squaredNorm() / (4 * kPeriod);
     EXPECT_NEAR(sums.power, power, 1e-3 * power);
     EXPECT_NEAR(sums.noise, 0.05 * 0.05 / 3, 0.1 * 0.05 * 0.05 / 3);
-    EXPECT_THAT(message_text(found.message), HasSubstr("dB of the output, averaged over 3 periods."));
+    EXPECT_THAT(message_text(found.message), HasSubstr("dB relative to the output, averaged over 3 periods."));
 }
 
 TEST(bla, reports_what_is_wrong_with_a_record) {
@@ -184,7 +184,7 @@ TEST(bla, refuses_what_it_cannot_use) {
     options.realizations = 5;
     EXPECT_THAT(refusal(options), HasSubstr("the number of realizations, 5, must divide the number of samples, 6144"));
     options.realizations = 4, options.transient = 3;
-    EXPECT_THAT(refusal(options), HasSubstr("no data remain without 3 of 3 periods"));
+    EXPECT_THAT(refusal(options), HasSubstr("no data remain after 3 of 3 periods are omitted"));
     options.transient = 0, options.least_input = 1;
     EXPECT_THAT(refusal(options), HasSubstr("between 0 and 1"));
 }
