@@ -217,7 +217,7 @@ Search search_for(const OutputErrorModel& model, const VectorView& y, const Vect
     if (start.size() != count)
         throw InvalidArgument("The search needs {} initial values, but {} were given", count, start.size());
     if (y.size() <= count)
-        throw InvalidArgument("The data have {} samples, but more samples than the {} parameters are needed", y.size(),
+        throw InvalidArgument("The number of samples, {}, must be greater than the number of parameters, {}", y.size(),
                               count);
     return Search(model, y, options);
 }

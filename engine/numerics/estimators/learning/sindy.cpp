@@ -44,11 +44,11 @@ Rotated rotated_equations(const IdData& data, const FunctionLibrary& library, co
     rotated.R = factor.R();
     if (rotated.rows > functions) return rotated;
     throw InvalidArgument(
-        width ? Message("sindy: too few samples: more than {} equations are required, one for each function, but the "
-                        "data provide {}: use a smaller {} or fewer functions",
+        width ? Message("sindy: too few samples: the number of equations must be greater than the number of functions, "
+                        "{}, but is {}: use a smaller {} or fewer functions",
                         functions, rotated.rows, OptionName{"width"})
-              : Message("sindy: too few samples: more than {} equations are required, one for each function, but the "
-                        "data provide {}: use fewer functions, or {} if the input jumps often",
+              : Message("sindy: too few samples: the number of equations must be greater than the number of functions, "
+                        "{}, but is {}: use fewer functions, or {} if the input jumps often",
                         functions, rotated.rows, OptionName{"weak"}));
 }
 

@@ -152,9 +152,8 @@ void LoopSignals::check_controller(bool find_delay) {
     }
     if (!(explained > kBelievedController))
         warning_ = Message(
-            "The measured input does not agree with the controller and reference minus output, which explain {} % of "
-            "the input. Check the sign, gain and sampling time of the controller, and whether an offset or a trend was "
-            "removed from the signals.",
+            "With this controller, reference minus output explains only {} % of the measured input. Check the sign, "
+            "gain and sampling time of the controller, and whether an offset or a trend was removed from the signals.",
             significant(std::max(explained, 0.0), 2));
 }
 

@@ -74,7 +74,7 @@ TEST(clivsvf, experiments_are_joined) {
 TEST(clivsvf, doubts_a_wrong_controller) {  // oracle: the warning
     LoopKnowledge wrong{LoopController{TransferFunction(values({-0.5}), values({1}), kLoopTs), 1}};
     EXPECT_THAT(message_text(clivsvf(loop_record(0.05, 3), kPlant, cutoff(3), wrong).full_message()),
-                HasSubstr("does not agree with the controller and reference minus output"));
+                HasSubstr("reference minus output explains only"));
 }
 
 TEST(clivsvf, refuses_what_it_cannot_use) {  // oracle: the sentence names method and fault

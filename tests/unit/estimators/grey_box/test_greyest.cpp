@@ -242,7 +242,7 @@ TEST(greyest, refuses_what_it_cannot_fit) {  // oracle: definitions
     });
     EXPECT_THAT(refusal(growing), HasSubstr("the state x becomes infinite"));
     EXPECT_THAT(thrown_message([&] { greyest(data.select({1}, {1}).range(10, 11), pendulum(1, 1, 1)); }),
-                HasSubstr("The data have 2 samples, but more samples than the 3 parameters are needed"));
+                HasSubstr("The number of samples, 2, must be greater than the number of parameters, 3"));
 }
 
 }  // namespace test_greyest
