@@ -86,10 +86,9 @@ std::optional<Message> simpler_arx(const ArxSelection& selection, std::size_t ch
             one.comparison_loss() <= kHardlyLarger * taken->comparison_loss())
             simplest = &one;
     if (simplest == taken) return std::nullopt;
-    return plural(simplest->parameters(),
-                  "With {} parameter instead of {}, {} has a loss within 1 % of the smallest loss.",
-                  "With {} parameters instead of {}, {} has a loss within 1 % of the smallest loss.",
-                  taken->parameters(), orders_text(*simplest));
+    return plural(simplest->parameters(), "With {} parameter instead of {}, {} has a loss that is at most 1 % larger.",
+                  "With {} parameters instead of {}, {} has a loss that is at most 1 % larger.", taken->parameters(),
+                  orders_text(*simplest));
 }
 
 Message reason_of(const std::string& orders, ArxCriterion criterion, bool validated) {
