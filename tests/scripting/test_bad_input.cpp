@@ -173,7 +173,7 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
         {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2}})", "3 samples but the time vector has 2"},
         {"iddata({1, 2}, {1}, 1)", "the output has 2 samples but the input has 1"},
         {"iddata({}, {}, 1)", "must have rows or columns, but the table is empty"},
-        {"iddata({theta = y, t = u}, u, 1)", "the table contains t, theta: give one of these, such as data.t"},
+        {"iddata({theta = y, t = u}, u, 1)", "the table contains t, theta: use one of these, such as data.t"},
         {"iddata(y, u, {0, 0.1, 0.3})", "iddata(y, u, nil, {SamplingInstants = t})"},
         {"iddata(y, matrix{u, e}, 0.05, {InputName = {'a', 'a'}})", "the name 'a' is used for two channels"},
         {"iddata(y, u, 0.05, {InputName = 'a', OutputName = 'a'})", "the name 'a' is used for two channels"},

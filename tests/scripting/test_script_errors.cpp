@@ -246,7 +246,7 @@ TEST(script_errors, name_argument_wanted_and_given) {
         {"rng(-1)", "lesson.lua:1: rng: the seed must be a whole number from 0 to 4294967295, but -1 was given"},
         {"sqrt(-2)", "lesson.lua:1: sqrt: the function is undefined for the negative number -2"},
         {"norm({1}, {2})",
-         "lesson.lua:1: norm: takes at most 1 argument, but 2 were given; write the options as one table {name = "
+         "lesson.lua:1: norm: accepts at most 1 argument, but 2 were given; write the options as one table {name = "
          "value}"},
     });
 }

@@ -141,7 +141,7 @@ TEST(greyest, keeps_to_bounds_and_fixed_values) {  // oracle: definition, and th
     EXPECT_EQ(bounded.fit.theta[2], 0.45);
     EXPECT_TRUE(bounded.fit.at_bound[2]);
     EXPECT_EQ(bounded.fit.std[2], 0);
-    EXPECT_THAT(message_text(bounded.fit.full_message()), HasSubstr("The parameter c is at its bound 0.45"));
+    EXPECT_THAT(message_text(bounded.fit.full_message()), HasSubstr("The parameter c ended at its bound 0.45"));
     model.parameters[2] = {"c", 0.45, -kInfinity, kInfinity, true};
     const GreyFit fixed = greyest(data, model, tight());
     EXPECT_LT((fixed.fit.theta - bounded.fit.theta).cwiseAbs().maxCoeff(), 1e-6);
