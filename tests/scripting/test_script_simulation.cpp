@@ -176,7 +176,7 @@ TEST(script_simulation, habits_of_the_toolboxes) {
     EXPECT_THAT(error_of("detrend({1, 2, 3}, 2)"), HasSubstr("degree 0"));
     EXPECT_THAT(error_of("bode(tf({1}, {1, 1}), 'sd', 3)"), HasSubstr("{confidence = 0.99}"));
     EXPECT_THAT(error_of("local u = prbs(5, 4)\nsrivc(iddata(u, matrix{u, u^2}, 1), {1, 1, 2, 2, 0, 0})"),
-                HasSubstr("an entry is a list with one value for each"));
+                HasSubstr("an entry is a list with one value per input"));
 }
 
 // Oracle: counted by hand; a line and a gap are three values.

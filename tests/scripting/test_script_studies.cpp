@@ -157,7 +157,8 @@ TEST(script_studies, delays_are_real_numbers) {  // oracle: the simulated system
                                  "print(math.abs(Td - 8) < 4*D.std, D.delay == Td, math.abs(D.samples - 10*Td) < 1e-9, "
                                  "D.poles, D.zeros, D.model.IODelay == Td, #D.delays == #D.losses, D.rival)"),
                 AllOf(HasSubstr("The delay is "), HasSubstr("true\ttrue\ttrue\t2\t1\ttrue\ttrue\tnil\n")));
-    EXPECT_THAT(error_of(record + "delayest(data, {TdMin = 3, TdMax = 3})"), HasSubstr("TdMax must be above TdMin"));
+    EXPECT_THAT(error_of(record + "delayest(data, {TdMin = 3, TdMax = 3})"),
+                HasSubstr("TdMax must be greater than TdMin"));
     EXPECT_THAT(error_of(record + "delayest(data, {TdMax = 1000})"), HasSubstr("TdMax"));
     EXPECT_THAT(error_of(record + "delayest(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
     EXPECT_THAT(error_of(record + "delayest(x)"), HasSubstr("data"));

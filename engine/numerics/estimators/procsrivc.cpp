@@ -237,8 +237,8 @@ void warn_of_times(Fit& result, double Ts, double longest) {
         const double value = result.theta[static_cast<Index>(i)];
         if (name.front() != 'T' || name == "Td" || name == "Tz") continue;
         if (value < 0.1 * Ts)
-            result.warnings.push_back(
-                Message("{} is far below the sampling time: a structure with fewer poles is sufficient.", name));
+            result.warnings.push_back(Message(
+                "{} is much smaller than the sampling time: a structure with fewer poles is sufficient.", name));
         if (value > longest)
             result.warnings.push_back(
                 Message("{} is longer than the duration of the data and cannot be distinguished from the gain: record "

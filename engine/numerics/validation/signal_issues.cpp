@@ -149,13 +149,13 @@ void find_saturation(const Channel& channel, const Quantization& grid, std::vect
     const Number percent = significant(100 * share, 2);
     const Message message =
         share > 0.5 ? Message(
-                          "{} saturates for {} % of the data (samples {}): it reaches {} at full speed and stays "
-                          "there. A linear model cannot represent saturation. Most of the data are saturated: repeat "
+                          "{} saturates for {} % of the data (samples {}): it reaches {} abruptly and stays at this "
+                          "value. A linear model cannot represent saturation. Most of the data are saturated: repeat "
                           "the experiment with a smaller amplitude or another range of the sensor.",
                           who, percent, listed_places(runs), limit)
                     : Message(
-                          "{} saturates for {} % of the data (samples {}): it reaches {} at full speed and stays "
-                          "there. A linear model cannot represent saturation. Exclude these ranges with data:discard, "
+                          "{} saturates for {} % of the data (samples {}): it reaches {} abruptly and stays at this "
+                          "value. A linear model cannot represent saturation. Exclude these ranges with data:discard, "
                           "or repeat the experiment with a smaller amplitude.",
                           who, percent, listed_places(runs), limit);
     DataIssue issue = about(channel, "saturation", Weight::kWarning, message, share);

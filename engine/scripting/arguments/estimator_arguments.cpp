@@ -63,8 +63,8 @@ std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span
         const Message has = plural(count, "{} entry", "{} entries");
         if (count > static_cast<Index>(entries.size()) + 1)
             throw InvalidArgument(
-                "argument {} (orders) must be {}, but it has {}. With several inputs an entry is a list with one value "
-                "for each, such as {1, 1}",
+                "argument {} (orders) must be {}, but it has {}. With several inputs, an entry is a list with one "
+                "value per input, such as {1, 1}",
                 index, meaning_of(entries), has);
         throw InvalidArgument("argument {} (orders) must be {}, but it has {}", index, meaning_of(entries), has);
     };

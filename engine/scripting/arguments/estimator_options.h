@@ -27,7 +27,7 @@ inline constexpr std::array kFirstFilterOptions = {
         about("cut-off frequency of the filter of the initial estimate; by default, several frequencies are tried"),
         {.unit = "rad/s"}),
     option<&FitOptions::hold_y>(
-        "hold_y", about("intersample behavior of the output in the filters; it does not change the result"),
+        "hold_y", about("intersample behavior of the output in the filters; this option does not affect the result"),
         {.initial = "\"foh\"", .choices = kHolds})};
 
 inline constexpr std::array kStartOptions = {

@@ -50,7 +50,7 @@ constexpr ArgumentEntry kSsArguments[] = {
     {"B", ValueKind::kAny, about("n x inputs matrix")},
     {"C", ValueKind::kAny, about("outputs x n matrix")},
     {"D", ValueKind::kAny, about("outputs x inputs matrix")},
-    {"G", ValueKind::kModel, about("instead of the matrices, a transfer function")}};
+    {"G", ValueKind::kModel, about("transfer function, instead of the matrices")}};
 constexpr ArgumentEntry
     kEqualTimes = {"G1, G2", ValueKind::kModel, about("models with equal sampling times")},
     kEqualDelays = {"G1, G2", ValueKind::kModel,

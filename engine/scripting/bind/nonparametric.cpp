@@ -43,10 +43,11 @@ constexpr std::array kSpaOptions = {
     kQuietEstimate};
 constexpr std::array kKernels = {"TC", "DC", "SS"};
 constexpr std::array kImpulseestOptions = {
-    option<&ImpulseestOptions::kernel>("Kernel", about("covariance of the prior, which defines smoothness"),
+    option<&ImpulseestOptions::kernel>("Kernel",
+                                       about("regularization kernel, the prior covariance of the impulse response"),
                                        {.initial = "\"TC\"", .choices = kKernels}),
     option<&ImpulseestOptions::lags>(
-        "lags", about("length of the response in samples, like the argument `n`; 0 for the smaller of 70 and N/5")),
+        "lags", about("length of the response in samples, same as the argument `n`; 0 for the smaller of 70 and N/5")),
     option<&ImpulseestOptions::smooth>("smooth", about("true uses regularized least squares, for a smooth and decaying "
                                                        "response, instead of ordinary least squares")),
     kReadingConfidence, kLabelsOption};

@@ -45,7 +45,7 @@ constexpr OptionEntry kGapOptions[] = {
     {"t", ValueKind::kVector, about("increasing sampling instants of irregularly sampled data")},
     {"longest", ValueKind::kCount, about("longest gap in samples to fill; by default 10 for linear interpolation")}};
 constexpr std::array kOutlierOptions = {
-    option<&OutlierOptions::window>("window", about("odd number of samples of the moving median")),
+    option<&OutlierOptions::window>("window", about("window length of the moving median, an odd number of samples")),
     option<&OutlierOptions::threshold>("threshold", about("distance from the median in robust standard deviations"))};
 constexpr OptionTable kTrendTables[] = {kTrendOptions}, kButterworthTables[] = {kButterworthOptions},
                       kGapsTables[] = {kGapOptions}, kOutliersTables[] = {kOutlierOptions};

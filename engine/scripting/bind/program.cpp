@@ -55,8 +55,8 @@ std::filesystem::path file_of_module(const Call& call, const std::string& name) 
     const std::filesystem::path folder = call.context().options.script_folder, file = folder / (relative + ".lua");
     call.context().recorder.note_file_read(file);  // also one that is not there: it may come
     if (!std::filesystem::is_regular_file(file))
-        throw InvalidArgument("file not found: {}.lua in the script's folder; scripts cannot use libraries elsewhere",
-                              relative);
+        throw InvalidArgument(
+            "file not found: {}.lua in the script's folder; scripts cannot use libraries in other folders", relative);
     if (!is_below_folder(file, folder)) throw InvalidArgument("{}.lua is outside the script's folder", relative);
     return file;
 }

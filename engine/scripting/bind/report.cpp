@@ -34,7 +34,7 @@ constexpr std::array kReportTableArguments = {
                                     "formulas between dollar signs, \"$a_1$\"")}};
 constexpr std::array kReportFigureArguments = {
     kEntryName, ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
-    ArgumentEntry{"caption", ValueKind::kText, about("caption for documents that do not contain one")}};
+    ArgumentEntry{"caption", ValueKind::kText, about("caption, used only in documents that do not specify a caption")}};
 constexpr std::array kReportTextArguments = {kEntryName,
                                              ArgumentEntry{"markdown", ValueKind::kText, about("text in Markdown")}};
 constexpr std::array kSliderArguments = {
@@ -167,9 +167,10 @@ void check_range(const std::string& name, const RecordedSlider& slider) {
         throw InvalidArgument("the range of the slider \"{}\" must increase, but it is from {} to {}", name,
                               slider.from, slider.to);
     if (slider.logarithmic && slider.from <= 0)
-        throw InvalidArgument("the slider \"{}\" has log = true and must start above 0, not at {}", name, slider.from);
+        throw InvalidArgument("the slider \"{}\" has log = true and must start at a positive number, not at {}", name,
+                              slider.from);
     if (slider.step && !(*slider.step > 0 && *slider.step <= slider.to - slider.from))
-        throw InvalidArgument("the step of the slider \"{}\" must be above 0 and at most {}, not {}", name,
+        throw InvalidArgument("the step of the slider \"{}\" must be greater than 0 and at most {}, not {}", name,
                               slider.to - slider.from, *slider.step);
     for (const double value : {slider.initial, slider.value})
         if (!(value >= slider.from && value <= slider.to))

@@ -27,8 +27,8 @@ constexpr OptionTable kInterp1Tables[] = {kInterp1Options};
 constexpr std::array kMakeVectorArguments = {
     ArgumentEntry{"x1, x2, ...", ValueKind::kVector, about("numbers or vectors, in braces")}};
 constexpr std::array kMakeMatrixArguments = {
-    ArgumentEntry{"{...}, {...}", ValueKind::kVector, about("tables of numbers, the rows, of equal length")},
-    ArgumentEntry{"v1, v2", ValueKind::kVector, about("vectors, the columns, of equal length")}};
+    ArgumentEntry{"{...}, {...}", ValueKind::kVector, about("rows of the matrix: tables of numbers with equal length")},
+    ArgumentEntry{"v1, v2", ValueKind::kVector, about("columns of the matrix: vectors of equal length")}};
 constexpr std::array kZerosArguments = {
     ArgumentEntry{"n", ValueKind::kCount, about("number of values, or number of rows if you specify m")},
     ArgumentEntry{"m", ValueKind::kCount, about("number of columns; by default 1")}};

@@ -31,7 +31,7 @@ constexpr std::array kArrowOptions = {
 constexpr std::array kOneCurveOptions = {
     OptionEntry{"x", ValueKind::kVector, about("values on the x axis; by default 1, 2, 3, ...")},
     OptionEntry{"y", ValueKind::kVector, about("values on the y axis")},
-    OptionEntry{"y_upper", ValueKind::kVector, about("upper end of a band from y")}};
+    OptionEntry{"y_upper", ValueKind::kVector, about("upper limit of a band that starts at y")}};
 constexpr OptionTable kPanelTables[] = {kPanelOptions}, kReferenceTables[] = {kMarkPlaceOptions, kReferenceOptions},
                       kAnnotationTables[] = {kMarkPlaceOptions, kAnnotationOptions}, kArrowTables[] = {kArrowOptions},
                       kOneCurveTables[] = {kOneCurveOptions, kCurveAppearanceOptions};
@@ -60,7 +60,7 @@ double needed_number(const Options& options, const char* name, const Message& wh
 ReferenceLine read_reference(const Call& call, int index) {
     const Options options(call, index, kReferenceTables);
     if (options.has("x") == options.has("y"))
-        throw InvalidArgument("a reference must be either {y = level} or {x = instant}");
+        throw InvalidArgument("a reference line must be either {y = level} or {x = instant}");
     ReferenceLine line;
     line.horizontal = options.has("y");
     line.at = line.horizontal ? options.number("y", 0) : options.number("x", 0);

@@ -52,8 +52,8 @@ constexpr std::array kResponseOptions = {
 constexpr std::array kBlaOptions = {
     OptionEntry{"period", ValueKind::kCount, about("period of the input in samples; required")},
     option<&BlaOptions::realizations>("realizations", about("number of realizations in each experiment"), {.least = 1}),
-    option<&BlaOptions::transient>("transient", about("periods to omit at the beginning of every realization"),
-                                   {.member = "transient"}),
+    option<&BlaOptions::transient>(
+        "transient", about("number of periods to omit at the beginning of every realization"), {.member = "transient"}),
     option<&BlaOptions::smooth>(
         "smooth",
         about("number of frequencies on each side over which variances are averaged; by default chosen from the data")),

@@ -31,10 +31,10 @@ constexpr std::array kSindyOptions = {
         about(
             "function(x, u) that returns a list of vectors, the candidates, instead of products of states and inputs")},
     OptionEntry{"names", ValueKind::kAny,
-                about("names of the functions of the library in the equations, otherwise f1, f2 and so on")},
+                about("names of the library functions in the equations; by default, f1, f2, ...")},
     OptionEntry{"degree",
                 ValueKind::kCount,
-                about("without a library, maximum number of factors in a product of states and inputs"),
+                about("maximum number of factors in a product of states and inputs; only without a library"),
                 {.initial = "2", .member = "degree"}},
     option<&SindyOptions::threshold>("threshold",
                                      about("threshold as a fraction of the rate, at least 0 and less than 1; functions "
@@ -44,10 +44,10 @@ constexpr std::array kSindyOptions = {
                                 about("true uses the weak form: integrals with smooth test functions, which average "
                                       "the noise, instead of derivatives"),
                                 {.member = "weak"}),
-    option<&SindyOptions::window>("window",
-                                  about("odd number of samples of the polynomial fit that provides state and "
-                                        "derivative; only without the option weak"),
-                                  {.member = "window"}),
+    option<&SindyOptions::window>(
+        "window",
+        about("odd number of samples of the polynomial fit that provides state and derivative; only if weak is false"),
+        {.member = "window"}),
     option<&SindyOptions::width>("width", about("half the width of a test function; by default chosen from the data"),
                                  {.unit = "s", .member = "width"})};
 constexpr std::array kDmdcOptions = {
