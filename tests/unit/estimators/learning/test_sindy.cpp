@@ -194,7 +194,8 @@ TEST(sindy, refuses_what_cannot_be_fitted) {
     EXPECT_THAT(thrown_message([&] { sindy(data, {}); }), HasSubstr("contains no function"));
     SindyOptions options;
     options.threshold = 1;
-    EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }), HasSubstr("`threshold` is a share"));
+    EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }),
+                HasSubstr("`threshold`, a fraction of the rate, must be at least 0"));
     options = {};
     options.window = 4;
     EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }), HasSubstr("`window` must be an odd number"));
