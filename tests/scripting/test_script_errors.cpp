@@ -127,10 +127,10 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
         {"local z = x./y", "lesson.lua:1: expected a name before '/'; for vectors write x/y instead of ./"},
         {"local z = x.^2", "lesson.lua:1: expected a name before '^'; for vectors write x^2 instead of .^"},
         {"local k = 0:N-1",
-         "lesson.lua:1: unexpected ':'; write a range as range(first, last) or range(first, step, last), a part of a "
-         "vector v as v:range(i, j)"},
+         "lesson.lua:1: unexpected ':'; write a range as range(first, last) or range(first, step, last), and a part of "
+         "a vector v as v:range(i, j)"},
         {"local v = [1 2 3]",
-         "lesson.lua:1: unexpected '['; write a vector as vector{1, 2, 3}, a matrix as matrix{{1, 2}, {3, 4}}"},
+         "lesson.lua:1: unexpected '['; write a vector as vector{1, 2, 3} and a matrix as matrix{{1, 2}, {3, 4}}"},
         {"% a comment", "lesson.lua:1: a comment starts with -- in Lua"},
         {"local a = 1\n% my comment\nprint(a)", "lesson.lua:2: a comment starts with -- in Lua"},
         {"local a = 1\n\n  % my comment\n\nprint(a)", "lesson.lua:3: a comment starts with -- in Lua"},
@@ -144,7 +144,7 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
          "lesson.lua:2: unexpected 'end'; the last element is x[#x]; vector{x, y} appends y to x"},
         {"print(A[1,2])", "lesson.lua:1: expected ']' before ','; the element in row 1 and column 2 is A[{1, 2}]"},
         {"local b = a > 1 ? 2 : 3", "lesson.lua:1: unexpected '?'; write if ... then ... else ... end instead of ?"},
-        {"print(1) end", "lesson.lua:1: unexpected 'end': it closes nothing"},
+        {"print(1) end", "lesson.lua:1: unexpected 'end': no block is open"},
         {"print(2 + 1i)",
          "lesson.lua:1: unexpected '1i'; dynlab has no complex arithmetic; complex numbers returned by functions have "
          "the fields re, im, abs, arg"},
