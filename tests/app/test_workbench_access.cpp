@@ -266,7 +266,7 @@ TEST_F(workbench_access, a_record_that_begins_in_a_movement_is_answered_by_an_op
     const auto program = app("moving.csv");
     Browser browser;
     browser.open(program->address());
-    ASSERT_TRUE(says(browser, "during a movement"));
+    ASSERT_TRUE(says(browser, "during a transient"));
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(press(browser, "G1: InitialState = \"estimate\""));
     EXPECT_TRUE(script_has(browser, "G1 = tfsrivc(estimation, 2, 0, {InitialState = \"estimate\"})"));

@@ -116,7 +116,7 @@ TEST_F(workbench_reports, the_language_turns_what_the_workbench_has_written_and_
     EXPECT_EQ(text_of("plant_session.lua"), english);
     EXPECT_TRUE(
         browser.becomes_true("[...document.querySelectorAll('#steps option')].some((one) => "
-                             "one.textContent.includes('each with any of D, I, Z'))"));
+                             "one.textContent.includes('each optionally with D, I and Z'))"));
 }
 
 /// What a run tells is in its script's language: a page in another would be half and half.

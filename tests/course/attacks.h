@@ -54,7 +54,7 @@ inline const Attack kAttacks[] = {
     {"shared", "local t = {}\nfor i = 1, 7 do local n = {}\nfor k = 1, 100 do n[k] = t end\nt = n end\nanswer('x', t)",
      0, "at most"},
     {"functions", "answer('x', print)", 0, "cannot be an answer"},
-    {"twice", "answer('x', 42)\nanswer('x', 41)", 0, "given before"},
+    {"twice", "answer('x', 42)\nanswer('x', 41)", 0, "already has another value"},
     {"undeclared", "answer('y', 42)", 0, "was not submitted"},
     {"long_name", "answer(string.rep('x', 1e6), 42)", 0, ""},
     {"other_header", "-- ---\n-- title: Mine\n-- answers:\n--   x: text\n-- ---\nanswer('x', 'forty-two')\n", 0,

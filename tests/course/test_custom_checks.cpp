@@ -38,7 +38,7 @@ TEST(custom_checks, an_answer_that_cannot_be_taken_costs_no_other) {
     }
     EXPECT_EQ(said(bench.result("kind"), 0), "The answer \"x\" must be of the kind number, but a table was given.");
     EXPECT_EQ(said(bench.result("twice"), 0),
-              "The answer \"x\" was given before with another value; give each answer once.");
+              "The answer \"x\" already has another value; specify each answer only once.");
     EXPECT_EQ(said(bench.result("name"), 0), "The answer \"x\" was not submitted.");
     // Outside of grading the script's writer is told at once.
     bench.bench().write("own.lua", GradingBench::header(kAnswers) + "answer('x', {42})\n");

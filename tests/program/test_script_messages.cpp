@@ -38,14 +38,12 @@ TEST(script_messages, a_report_has_the_same_messages) {
     bench.write("A/analysis.lua", "local function f(n)\n  return zeros(n)\nend\nf(-1)\nprint('never')\n");
     bench.write("A/report.md", "---\ntitle: A\n---\n\nText.\n");
     EXPECT_EQ(bench.dynlab({"report", "A", "-o", "a.md"}).error_output,
-              "dynlab: A/analysis.lua:2: zeros: argument 1 (n) must not be negative, but -1 was given\n"
-              "    return zeros(n)\n"
-              "  A/analysis.lua:4: called f(n = -1)\n"
-              "    f(-1)\n");
+              "dynlab: A/analysis.lua:2: zeros: argument 1 (n) must be nonnegative, but -1 was given\n    return "
+              "zeros(n)\n  A/analysis.lua:4: called f(n = -1)\n    f(-1)\n");
     const auto checked = nlohmann::json::parse(bench.dynlab({"check", "A", "--json"}).output);
     EXPECT_EQ(checked.at("findings").at(0).at("what"),
               "The report cannot be built from a clean copy of the folder: analysis.lua:2: zeros: argument 1 (n) must "
-              "not be negative, but -1 was given");
+              "be nonnegative, but -1 was given");
 }
 
 TEST(script_messages, run_prints_what_is_reported) {

@@ -173,7 +173,7 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
         {"iddata({1, 2, 3}, {1, 0, 1}, nil, {SamplingInstants = {0, 2}})", "3 samples but the time vector has 2"},
         {"iddata({1, 2}, {1}, 1)", "the output has 2 samples but the input has 1"},
         {"iddata({}, {}, 1)", "must have rows or columns, but the table is empty"},
-        {"iddata({theta = y, t = u}, u, 1)", "the table contains t, theta: give one of these, such as data.t"},
+        {"iddata({theta = y, t = u}, u, 1)", "the table contains t, theta: use one of these, such as data.t"},
         {"iddata(y, u, {0, 0.1, 0.3})", "iddata(y, u, nil, {SamplingInstants = t})"},
         {"iddata(y, matrix{u, e}, 0.05, {InputName = {'a', 'a'}})", "the name 'a' is used for two channels"},
         {"iddata(y, u, 0.05, {InputName = 'a', OutputName = 'a'})", "the name 'a' is used for two channels"},
@@ -251,7 +251,7 @@ TEST(bad_input, cut_off_frequencies_are_refused_or_doubted) {
         const std::string start = std::string("local M = ") + name + "(d, {2, 1, 0}, ";
         for (const char* lambda : {"0", "-1", "0/0", "1/0"})
             EXPECT_THAT(said(start + lambda + ")"),
-                        AllOf(StartsWith("ERROR"), HasSubstr("slightly above the bandwidth of the system, but is")))
+                        AllOf(StartsWith("ERROR"), HasSubstr("must be a positive number of rad/s, but is")))
                 << name << lambda;
         for (const char* lambda : {"1e-4", "1e5"})
             EXPECT_THAT(said(start + lambda + ")\nprint(M.report.message)"),
@@ -287,14 +287,14 @@ TEST(bad_input, models_of_the_wrong_kind_are_refused) {
          "the model needs one transfer function from each input to each output of the data (1 input and 1 output)"},
         {"fit_measures(d, M)", "must have one input and one output"},
         {"lsim(M, u, 0.05)", "must have one input and one output"},
-        {"compare(iddata(y, u, 0.1), D)", "the model is discrete with Ts = 0.05 s"},
+        {"compare(iddata(y, u, 0.1), D)", "the discrete-time model has Ts = 0.05 s"},
         {"compare(d, tf({1, 0, 0}, {1, 1}))", "an improper model cannot be simulated"},
         {"fit(d, 'a')", "must be a model"},
         {"bode(d)", "must be a model, but an iddata was given"},
         {"present(d)", "must be a model, but an iddata was given"},
         {"step_construction(P)", "must be a model returned by step_first_order, step_second_order or step_delayed"},
         {"crossvalidate(d, P)", "must be a function of a data object, but a model was given"},
-        {"d2c(P)", "the model is already continuous"},
+        {"d2c(P)", "the model is already a continuous-time model"},
         {"forecast(3, 1)", "must be a regression"},
     };
     for (const auto& [code, sentence] : kCases)

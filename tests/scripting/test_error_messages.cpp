@@ -89,7 +89,7 @@ TEST(error_messages, survive_a_script_that_catches_and_raises_them_again) {
 TEST(error_messages, that_the_script_made_or_changed_are_verbatim) {
     const RecordedError changed = error_in("local ok, e = pcall(zeros, -1)\nerror('so: ' .. e, 0)");
     EXPECT_EQ(changed.message.id(), "{}");
-    EXPECT_THAT(changed.text(), HasSubstr("zeros: argument 1 (n) must not be negative"));
+    EXPECT_THAT(changed.text(), HasSubstr("zeros: argument 1 (n) must be nonnegative"));
     const RecordedError own = error_in("\nerror('my own {} sentence')");
     EXPECT_EQ(own.message, Message::verbatim("my own {} sentence"));
     EXPECT_EQ(own.line, 2);
@@ -106,7 +106,7 @@ TEST(error_messages, of_a_function_of_the_script_are_quoted_with_their_place) {
     const Message quoted = said_by("sindy", error.message);
     ASSERT_EQ(quoted.id(), "{}:{}: {}");
     EXPECT_EQ(quoted.arguments()[1], MessageArgument(std::int64_t{4}));
-    EXPECT_EQ(message_text(quoted), "lesson.lua:4: zeros: argument 1 (n) must not be negative, but -1 was given");
+    EXPECT_EQ(message_text(quoted), "lesson.lua:4: zeros: argument 1 (n) must be nonnegative, but -1 was given");
 }
 
 TEST(error_messages, options_have_the_names_of_scripts_for_every_reader) {

@@ -31,7 +31,7 @@ TEST(habits, are_answered_with_the_remedy) {
         {"local x = vector{1, 2}\nx(3) = 5", "write an element as x[3]"},
         {"A(1, 2) = 5", "write an element of a matrix as A[{1, 2}]"},
         {"x = {}\nx(end+1) = 3", "the last element is x[#x]"},
-        {"x = vector{}\nx[1] = 2", "v has 0 elements, and its length is fixed; zeros(n) creates a vector to fill"},
+        {"x = vector{}\nx[1] = 2", "v has 0 elements, and its length is fixed; zeros(n) creates a vector of length n"},
         {"x = vector{1}\nx[2] = 2", "v has 1 element, and its length"},
         {"local mag, ph, w = bode(tf({1}, {1, 1}))\nprint(mag[1])", "bode_values(G, w)"},
         // calls
@@ -54,7 +54,7 @@ TEST(habits, are_answered_with_the_remedy) {
         {"for k = 1:10 print(k) end", "for k = 1, N do ... end"},
         {"x = 1\nx += 1", "x = x + 1"},
         {"local 2x = 1", "a name must start with a letter"},
-        {"x = 3,5", "x = 3,5 gives x the value 3: write a decimal number with a point, 3.5"},
+        {"x = 3,5", "x = 3,5 assigns x the value 3: write a decimal number with a point, 3.5"},
         {"print(1)\nlocal Ts = 0,01\nprint(Ts)", "lesson.lua:2: Ts = 0,01 gives Ts the value 0"},
         {"math.randomseed(3)", "rng(seed)"},
         {"local ok = randn(9) > 0", "gt(x, y)"},

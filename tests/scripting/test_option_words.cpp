@@ -30,7 +30,7 @@ TEST(option_words, errors_name_the_options_of_scripts) {
     for (const auto& [call, said] : std::vector<std::pair<std::string, std::string>>{
              {"procsrivc(d, 'P1D', {TdMin = 2, TdMax = 1})", "TdMax must be at least TdMin = 2, but is 1"},
              {"tfsrivc(d, 2, 0, {TdMax = 1000})", "TdMax must be shorter than the data"},
-             {"tfcoe(d, 2, 0, {TdMin = -1})", "TdMin must not be negative, but is -1"},
+             {"tfcoe(d, 2, 0, {TdMin = -1})", "TdMin must be nonnegative, but is -1"},
              {"tfsrivc(d, 2, 0, {NumTd = 0})", "NumTd must be at least 1"},
              {"coe(d, {1, 2, 0}, {InitialState = 'warm'})",
               "option 'InitialState' must be one of \"none\", \"steady\", \"estimate\", \"auto\", but \"warm\" was "

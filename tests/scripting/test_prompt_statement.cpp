@@ -83,7 +83,7 @@ TEST(prompt_statement, understands_habits) {
     EXPECT_EQ(session({"help tf"}), session({"help('tf')"}));
     EXPECT_EQ(session({"help"}), session({"help()"}));
     EXPECT_THAT(session({"help report.value"}), HasSubstr("report.value"));
-    EXPECT_THAT(session({"hold on"}), HasSubstr("give all curves in one call"));
+    EXPECT_THAT(session({"hold on"}), HasSubstr("plot all curves in one call"));
     EXPECT_THAT(session({"x = [1 2 3]"}), HasSubstr("vector{1, 2, 3}"));
 }
 
@@ -124,7 +124,7 @@ TEST(prompt_statement, a_script_that_is_run_leaves_its_variables) {
     EXPECT_EQ(session({"G = tf({1}, {1, 0.5}, 0.1)", "who"}), "G  1/(z + 0.5), Ts = 0.1 s\n");
     EXPECT_THAT(session({"run('" + path + "/wrong.lua')"}), HasSubstr("wrong.lua:2: "));
     EXPECT_THAT(session({"run('absent.lua')"}), HasSubstr("script not found: absent.lua"));
-    EXPECT_THAT(error_of("run('x.lua')"), HasSubstr("in a script write require(name)"));
+    EXPECT_THAT(error_of("run('x.lua')"), HasSubstr("in a script, write require(name)"));
 }
 
 TEST(prompt_statement, globals_random_numbers_and_errors_live_on) {

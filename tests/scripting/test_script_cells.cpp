@@ -137,11 +137,11 @@ TEST(script_cells, handles_are_where_the_numbers_of_sliders_put_them) {
 TEST(script_cells, handles_that_cannot_move_say_why) {
     const std::string begin = "local k = slider('k', 1, -1, 2)\nlocal f = plot({1, 2}, {1, 2})\nf:handle";
     for (const auto& [call, sentence] : std::vector<std::pair<std::string, std::string>>{
-             {"{x = 1, y = 2}", "a handle moves a slider: x or y must be a function of its number"},
-             {"{x = 1}", "a handle needs y = number, or y = function(number of the slider) and y_slider = \"NAME\""},
+             {"{x = 1, y = 2}", "x or y of a handle must be a function of the slider value"},
+             {"{x = 1}", "a handle needs y = number, or y = function(slider value) and y_slider = \"NAME\""},
              {"{x = 1, x_slider = 'k', y = 1}", "a handle needs x = number, or x = function"},
              {"{x = abs, y = 1}", "'x' is a function: x_slider = \"NAME\" must name its slider"},
-             {"{x = abs, x_slider = 'l', y = 1}", "the script has not requested a slider \"l\" yet"},
+             {"{x = abs, x_slider = 'l', y = 1}", "the slider \"l\" does not exist yet"},
              {"{x = math.abs, x_slider = 'k', y = 1}",
               "the function 'x' of the handle must be monotonic for the slider \"k\" from -1 to 2"},
              {"{x = print, x_slider = 'k', y = 1}", "must return a number, but for -1 it returned nil"},
@@ -171,10 +171,10 @@ TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
     for (const auto& [call, sentence] : std::vector<std::pair<std::string, std::string>>{
              {"slider('k', 3, 10, 1)", "the range of the slider \"k\" must increase, but it is from 10 to 1"},
              {"slider('k', 0, 1, 2)", "the range of the slider \"k\" is 1 to 2; 0 is outside"},
-             {"slider('k', 1, 0, 2, {log = true})", "must start above 0"},
-             {"slider('k', 1, 0, 2, {step = -1})", "must be above 0 and at most 2"},
+             {"slider('k', 1, 0, 2, {log = true})", "must start at a positive number"},
+             {"slider('k', 1, 0, 2, {step = -1})", "must be greater than 0 and at most 2"},
              {"slider('k', 1, 1, 2, {log = true, step = 1})", "and cannot have a step"},
-             {"slider('k', 1, 1, 2) slider('k', 1, 1, 2)", "is used already"},
+             {"slider('k', 1, 1, 2) slider('k', 1, 1, 2)", "is already used"},
              {"slider('a b', 1, 1, 2)", "may contain only letters"},
              {"slider('k', 0/0, 1, 2)", "is outside"}})
         EXPECT_THAT(test::error_of(call), testing::HasSubstr(sentence)) << call;

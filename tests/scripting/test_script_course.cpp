@@ -77,8 +77,8 @@ TEST(script_course, fits_a_process_model_to_noise_free_data) {
               "true\ttrue\ttrue\ttrue\n");
     EXPECT_EQ(
         error_of("procsrivc(iddata({1, 2}, {1, 2}, 1), 'P4')"),
-        "lesson.lua:1: procsrivc: process model: \"P4\" is not the structure of a process model. Write P1, P2 or P3 "
-        "followed by any of D (delay), I (integrator), Z (zero), U (underdamped pair, from P2 on), as in P2DU");
+        "lesson.lua:1: procsrivc: process model: \"P4\" is not a process model structure. Write P1, P2 or P3, followed "
+        "by any of D (delay), I (integrator), Z (zero) and U (underdamped, P2 and P3 only), such as P2DU");
     EXPECT_EQ(printed("local u = prbs(6, 8)\nlocal G = idproc('P3DIZU', {Kp = 0.5, Tp3 = 0.3, Tw = 0.4, Zeta = 0.2, "
                       "Tz = -0.2, Td = 0.23})\n"
                       "local a = iddata(lsim(G, u, 0.05), u, 0.05)\n"
@@ -128,7 +128,7 @@ TEST(script_course, takes_short_curve_names_but_no_line_specifications) {
             << look;
     }
     EXPECT_EQ(error_of("plot({1, 2}, {3, 4}, {color = 1.7})"),
-              "lesson.lua:1: plot: option 'color' must be a whole number from 0, or a name such as \"red\", but 1.7 "
+              "lesson.lua:1: plot: option 'color' must be a nonnegative integer, or a name such as \"red\", but 1.7 "
               "was given");
 }
 

@@ -112,7 +112,7 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"local y = 1%0", "lesson.lua:1: the remainder of a division by zero is undefined"},
         {"local t = {}\nt[nil] = 1", "lesson.lua:2: the key of the table is nil (it has no value)"},
         {"local function f() return 1 + f() end\nf()",
-         "lesson.lua:1: functions call each other endlessly (stack overflow)"},
+         "lesson.lua:1: functions call each other without end (stack overflow)"},
         {"error()", "lesson.lua:1: error() was called without a message"},
         {"error('my own words')", "lesson.lua:1: my own words"},
         {"error({code = 2})", "lesson.lua:1: {code = 2}"},
@@ -127,10 +127,10 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
         {"local z = x./y", "lesson.lua:1: expected a name before '/'; for vectors write x/y instead of ./"},
         {"local z = x.^2", "lesson.lua:1: expected a name before '^'; for vectors write x^2 instead of .^"},
         {"local k = 0:N-1",
-         "lesson.lua:1: unexpected ':'; write a range as range(first, last) or range(first, step, last), a part of a "
-         "vector v as v:range(i, j)"},
+         "lesson.lua:1: unexpected ':'; write a range as range(first, last) or range(first, step, last), and a part of "
+         "a vector v as v:range(i, j)"},
         {"local v = [1 2 3]",
-         "lesson.lua:1: unexpected '['; write a vector as vector{1, 2, 3}, a matrix as matrix{{1, 2}, {3, 4}}"},
+         "lesson.lua:1: unexpected '['; write a vector as vector{1, 2, 3} and a matrix as matrix{{1, 2}, {3, 4}}"},
         {"% a comment", "lesson.lua:1: a comment starts with -- in Lua"},
         {"local a = 1\n% my comment\nprint(a)", "lesson.lua:2: a comment starts with -- in Lua"},
         {"local a = 1\n\n  % my comment\n\nprint(a)", "lesson.lua:3: a comment starts with -- in Lua"},
@@ -144,7 +144,7 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
          "lesson.lua:2: unexpected 'end'; the last element is x[#x]; vector{x, y} appends y to x"},
         {"print(A[1,2])", "lesson.lua:1: expected ']' before ','; the element in row 1 and column 2 is A[{1, 2}]"},
         {"local b = a > 1 ? 2 : 3", "lesson.lua:1: unexpected '?'; write if ... then ... else ... end instead of ?"},
-        {"print(1) end", "lesson.lua:1: unexpected 'end': it closes nothing"},
+        {"print(1) end", "lesson.lua:1: unexpected 'end': no block is open"},
         {"print(2 + 1i)",
          "lesson.lua:1: unexpected '1i'; dynlab has no complex arithmetic; complex numbers returned by functions have "
          "the fields re, im, abs, arg"},
@@ -216,11 +216,11 @@ TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
          "lesson.lua:1: plot: \"LineWidth\" is an option of MATLAB's plot; write the options as one table, plot(x, y, "
          "{line_width = 2, color = \"red\", style = \"points\"})"},
         {"plot({1, 2}, {color = 'pinkish'})",
-         "lesson.lua:1: plot: option 'color' must be a number from 0, or one of \"blue\", \"orange\", \"black\", "
+         "lesson.lua:1: plot: option 'color' must be a nonnegative number, or one of \"blue\", \"orange\", \"black\", "
          "\"green\", \"purple\", \"cyan\", \"red\", \"magenta\", \"grey\", \"gray\", but \"pinkish\" was given"},
         {"io.open('x')",
-         "lesson.lua:1: unknown function 'io'; scripts read with load(name), write with save_csv(path, data), and "
-         "print with print(x)"},
+         "lesson.lua:1: unknown function 'io'; read data with load(name), write data with save_csv(path, data), and "
+         "print values with print(x)"},
         {"strcmp('a', 'b')", "lesson.lua:1: unknown function 'strcmp'; write a == b"},
     });
 }
@@ -236,7 +236,7 @@ TEST(script_errors, name_argument_wanted_and_given) {
     check({
         {"zeros('x')", "lesson.lua:1: zeros: argument 1 (n) must be a number, but the text \"x\" was given"},
         {"zeros(2.5)", "lesson.lua:1: zeros: argument 1 (n) must be a whole number, but 2.5 was given"},
-        {"zeros(-1)", "lesson.lua:1: zeros: argument 1 (n) must not be negative, but -1 was given"},
+        {"zeros(-1)", "lesson.lua:1: zeros: argument 1 (n) must be nonnegative, but -1 was given"},
         {"zeros()", "lesson.lua:1: zeros: argument 1 (n) is missing; it must be a whole number"},
         {"sum('x')", "lesson.lua:1: sum: argument 1 (v) must be a vector, but the text \"x\" was given"},
         {"sum({1, 'a'})",
@@ -246,7 +246,7 @@ TEST(script_errors, name_argument_wanted_and_given) {
         {"rng(-1)", "lesson.lua:1: rng: the seed must be a whole number from 0 to 4294967295, but -1 was given"},
         {"sqrt(-2)", "lesson.lua:1: sqrt: the function is undefined for the negative number -2"},
         {"norm({1}, {2})",
-         "lesson.lua:1: norm: takes at most 1 argument, but 2 were given; write the options as one table {name = "
+         "lesson.lua:1: norm: accepts at most 1 argument, but 2 were given; write the options as one table {name = "
          "value}"},
     });
 }

@@ -83,7 +83,7 @@ TEST(script_estimators, rivc_and_tfrivc_can_be_studied) {
 }
 
 TEST(script_estimators, models_without_a_noise_model_say_who_has_one) {
-    EXPECT_THAT(error_of(kColored + "print(srivc(data, {1, 2, 6}).C)"), HasSubstr("rivc B, C, D and F"));
+    EXPECT_THAT(error_of(kColored + "print(srivc(data, {1, 2, 6}).C)"), HasSubstr("rivc returns B, C, D and F"));
 }
 
 TEST(script_estimators, difference_equations_have_robust_errors_too) {
@@ -107,8 +107,9 @@ TEST(script_estimators, a_model_or_a_delay_starts_the_search) {  // oracle: the 
                                  "same(tfcoe(data, 2, 0, {Td0 = 0.25}).param, free.param))\n"
                                  "print(#tfcoe(data, tf({1.5}, {1, 3, 2})).param)"),
               "true\ttrue\n3\n");
-    EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}), {Td0 = 1})"), HasSubstr("which has its own delay"));
-    EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}, {Ts = 1}))"), HasSubstr("continuous time"));
+    EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}), {Td0 = 1})"),
+                HasSubstr("which already includes a delay"));
+    EXPECT_THAT(error_of(kDelayed + "tfsrivc(data, tf({1}, {1, 2}, {Ts = 1}))"), HasSubstr("continuous-time model"));
 }
 
 TEST(script_estimators, known_parameters_stay_as_they_are) {  // oracle: the system
@@ -117,7 +118,7 @@ TEST(script_estimators, known_parameters_stay_as_they_are) {  // oracle: the sys
                                  "local T = tfcoe(data, 2, 0, {Fixed = {b0 = 2}})\n"
                                  "print(T.param[3], math.abs(T.IODelay - 0.3) < 4*T.std[4], T.std[3])"),
               "3\t2\t0\ttrue\n2\ttrue\t0\n");
-    EXPECT_THAT(error_of(kDelayed + "srivc(data, {1, 2, 6}, {Fixed = {3}})"), HasSubstr("must name its values"));
+    EXPECT_THAT(error_of(kDelayed + "srivc(data, {1, 2, 6}, {Fixed = {3}})"), HasSubstr("must contain named values"));
 }
 
 TEST(script_estimators, each_output_has_orders_of_its_own) {  // oracle: each output by itself

@@ -68,7 +68,7 @@ TEST(script_frequency, spectral_estimates_are_responses) {
                      "local g = srivc(S, {1, 2, 0})\n"
                      "near(g.param[2], 4, 0.2) assert(S.method == 'spa' and S.variance and S.coherence)\n"
                      "print(g.report.warnings[#g.report.warnings])"),
-                HasSubstr("\nNeighboring values of a smoothed response share their errors"));
+                HasSubstr("\nThe errors of neighboring values of a smoothed response are correlated"));
 }
 
 TEST(script_frequency, spectral_estimates_are_quiet_when_asked) {  // oracle: the same call that is not
@@ -117,20 +117,20 @@ TEST(script_frequency, multisines_follow_the_stream_or_a_seed) {
 
 TEST(script_frequency, mistakes_are_reported_in_sentences) {
     const std::pair<const char*, const char*> kCases[] = {
-        {"idfrd(F.H, w - 0.1)", "frequencies must be above zero (rad/s), but frequency 1 is 0; remove it"},
-        {"idfrd(F.H, -1*w)", "frequencies must be above zero"},
+        {"idfrd(F.H, w - 0.1)", "frequencies must be positive (rad/s), but frequency 1 is 0; remove it"},
+        {"idfrd(F.H, -1*w)", "frequencies must be positive"},
         {"idfrd(F.H, w, {variance = 0})", "variances must be positive"},
-        {"idfrd(F.H, w, {Ts = 1})", "frequencies end at pi/Ts"},
+        {"idfrd(F.H, w, {Ts = 1})", "frequencies must not exceed pi/Ts"},
         {"idfrd(F.H, w:range(1, 9))", "each frequency (9), but has 50"},
         {"idfrd(w, w)", "must be a complex vector"},
-        {"coe(F, {1, 2, 3})", "nk counts samples of delay, which a response without Ts does not have"},
+        {"coe(F, {1, 2, 3})", "nk is a delay in samples, which is undefined for a response without Ts"},
         {"coe(F, {1, 40, 0})", "poles"},
         {"coe(idfrd({{1, 2}}, {3}), {1, 2, 0})",
-         "3 parameters need at least as many frequencies, but the response has 1"},
+         "the response must have at least as many frequencies as parameters (3), but has 1"},
         {"coe(F, {1, 2, 0}, {Offset = 'estimate'})", "unknown option 'Offset'"},
         {"ivsvf(F, {2, 1, 0}, 2)", "must be an iddata, but"},
         {"lssvf(F, {2, 1, 0}, -1)", "cut-off frequency"},
-        {"idfrd(c2d(G0, 0.1), w*20)", "frequencies end at pi/Ts = 31.416 rad/s"},
+        {"idfrd(c2d(G0, 0.1), w*20)", "frequencies must not exceed pi/Ts = 31.416 rad/s"},
         {"idfrd(c2d(G0, 0.1), w, {Ts = 0.2})", "but the model has 0.1 s"},
         {"coe(idfrd(0*F.H.re + 0, w), {1, 2, 0})", "must be a complex vector"},
         {"coe(idfrd({0*w, 0*w}, w), {1, 2, 0})", "the response is zero at all frequencies"},

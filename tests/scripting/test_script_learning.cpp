@@ -94,7 +94,7 @@ TEST(script_learning, bad_input_is_refused_in_words) {
         EXPECT_THAT(printed(code), HasSubstr(words)) << code;
     };
     expect(kNarxRecord + "narx(data, {2, 2})", "but it has 2 entries");
-    expect(kNarxRecord + "narx(data, {2, 2, 1}, {terms = 40})", "the lags and the degree give only 15 candidates");
+    expect(kNarxRecord + "narx(data, {2, 2, 1}, {terms = 40})", "the lags and the degree allow only 15 candidates");
     expect(kSindyRecord + "sindy(data, {library = 3})", "'library' must be a function(x, u)");
     expect(kSindyRecord + "sindy(data, {library = function(x) return 3 end})", "must return a list of vectors");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1], vector{1, 2}} end})",
@@ -106,7 +106,7 @@ TEST(script_learning, bad_input_is_refused_in_words) {
            "'names' has 2 texts, but the library returns 1 function");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, degree = 2})", "cannot be combined");
     expect(kSindyRecord + "sindy(data, {library = function(x) error('own') end})", "own");
-    expect(kSindyRecord + "local G = sindy(data) bode(G)", "must be a linear model, but this model by sindy is not");
+    expect(kSindyRecord + "local G = sindy(data) bode(G)", "must be a linear model, but this model from sindy is not");
     expect(kSindyRecord + "bode(tf({1}, {1, 1}), sindy(data))", "must be a linear model");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x.prey, x.foxes} end})",
            "x has no state foxes; the states are prey, hunters");
@@ -114,7 +114,7 @@ TEST(script_learning, bad_input_is_refused_in_words) {
            "u has no input 1; it has no inputs");
     expect(kSindyRecord + "sindy(data, {library = function(x) return x[1], x[2] end})", "must return one list");
     expect(kNarxRecord + "narx(data[{1, 30}], {3, 3, 1}, {degree = 3})",
-           "27 samples have a complete recorded past, but 84 candidate terms");
+           "27 samples have all required past values, which is too few for 84 candidate terms");
     expect(kNarxRecord + "dmdc(data, {rank = 5})", "rank is 5, but a snapshot has only 1");
 }
 

@@ -51,7 +51,7 @@ TEST(script_loops, four_routes) {
     EXPECT_THAT(error_of(kLoop + "clsrivc(data, {1, 2, 0}, {controller = 'C'})"),
                 HasSubstr("the controller must be a model"));
     EXPECT_THAT(error_of(kLoop + "clivsvf(data, {2, 1, 0}, 4, {ComputingDelay = 1})"),
-                HasSubstr("give 'controller', too"));
+                HasSubstr("requires the option 'controller'"));
     EXPECT_THAT(error_of(kLoop + "simloop(G0, 100, r, Ts) simloop(tf({1}, {1, -1}), 0.5, r, Ts)"),
                 HasSubstr("the loop is unstable"));
 }
@@ -70,7 +70,7 @@ TEST(script_loops, an_unstable_plant_is_measured_in_its_loop) {
                     "print(table.concat(G.report.warnings, ' '))");
         EXPECT_THAT(reported, HasSubstr("true\ttrue\n")) << call;
         EXPECT_THAT(reported, HasSubstr("check the controller, the orders and the cut-off frequency")) << call;
-        EXPECT_THAT(reported, HasSubstr("to the model in its loop")) << call;
+        EXPECT_THAT(reported, HasSubstr("to the closed loop with the model")) << call;
         EXPECT_THAT(reported, testing::Not(HasSubstr("Stable"))) << call;
     }
 }
@@ -83,7 +83,8 @@ TEST(script_loops, records_of_loops_say_what_they_cannot) {
     EXPECT_THAT(english, testing::StartsWith("simloop: with a continuous-time controller, u changes"));
     EXPECT_EQ(std::count(english.begin(), english.end(), '\n'), 1) << "a sampled controller holds u";
     EXPECT_THAT(french, testing::StartsWith("simloop : avec un régulateur en temps continu"));
-    EXPECT_THAT(error_of("simloop(tf({2}, {1, 4}), 3, 1, 0.05)"), HasSubstr("r is the reference at every sample"));
+    EXPECT_THAT(error_of("simloop(tf({2}, {1, 4}), 3, 1, 0.05)"),
+                HasSubstr("r must contain the reference at every sample"));
 }
 
 TEST(script_loops, studies_of_loops) {
@@ -111,7 +112,7 @@ TEST(script_loops, recursive_methods_report_their_history) {
               "true\t620\t3\ntrue\ta1 a2 b0\n10\tfigure: 3 panels, 8 curves\n");
     const std::string record = "local u = prbs(5, 20)\nlocal d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05), u, 0.05)\n";
     EXPECT_THAT(error_of(record + "rlssvf(d, {2, 1, 0}, 4, {forgetting = 1.1})"),
-                HasSubstr("forgetting must be above 0"));
+                HasSubstr("forgetting must be greater than 0"));
     EXPECT_THAT(error_of(record + "print(lssvf(d, {2, 1, 0}, 4).history)"), HasSubstr("processes all samples at once"));
     // A fixed model for filters and instruments: the end is the batch estimate with the same.
     EXPECT_EQ(

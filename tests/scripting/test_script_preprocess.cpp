@@ -58,15 +58,15 @@ TEST(script_preprocess, missing_and_wild_samples_are_replaced) {
 TEST(script_preprocess, misuse_is_reported_with_the_remedy) {
     EXPECT_THAT(refused("idfilt(d, {0, 50})"), HasSubstr("must have an edge between 0 and pi/Ts = 31.416"));
     EXPECT_THAT(refused("idfilt(d, {3})"), HasSubstr("{0, w} is a low-pass filter"));
-    EXPECT_THAT(refused("idfilt(d, {0, 3}, {Ts = 1})"), HasSubstr("a data object has a sampling time"));
-    EXPECT_THAT(refused("idfilt(d, {0, 3}, {zero_phase = true, start = 'zero'})"), HasSubstr("continued at both ends"));
+    EXPECT_THAT(refused("idfilt(d, {0, 3}, {Ts = 1})"), HasSubstr("a data object already has a sampling time"));
+    EXPECT_THAT(refused("idfilt(d, {0, 3}, {zero_phase = true, start = 'zero'})"), HasSubstr("extended at both ends"));
     EXPECT_THAT(refused("idfilt(d, {0, 3}, {ordre = 3})"), HasSubstr("order"));
     EXPECT_THAT(refused("detrend(d, 'cubic')"), HasSubstr("\"linear\", \"mean\" or \"start\""));
     EXPECT_THAT(refused("detrend(d, 'mean', {samples = 3})"), HasSubstr("requires the kind \"start\""));
-    EXPECT_THAT(refused("detrend(y, 'start')"), HasSubstr("give its number of samples"));
+    EXPECT_THAT(refused("detrend(y, 'start')"), HasSubstr("specify the number of samples"));
     EXPECT_THAT(refused("resample(d, 1, 0)"), HasSubstr("between 1 and 1000"));
     EXPECT_THAT(refused("merge(d, d:resample(1, 2))"),
-                AllOf(HasSubstr("has the sampling time 0.2 s but the first has 0.1 s"), HasSubstr("resample")));
+                AllOf(HasSubstr("has the sampling time 0.2 s, but the first has 0.1 s"), HasSubstr("resample")));
 }
 
 }  // namespace test_script_preprocess

@@ -70,7 +70,8 @@ TEST(script_simulation, sim_takes_a_signal_to_noise_ratio) {
                       "print(norm(v - sigma*e) < 1e-12, norm(y - x - v) < 1e-12)\n"
                       "print(math.abs(20*math.log(std(x)/std(v), 10) - 15) < 0.5)"),
               "true\ttrue\ntrue\n");
-    EXPECT_THAT(error_of("sim(tf({1}, {1, 1}), ones(9), 1, {noise = true})"), HasSubstr("give the option snr, in dB"));
+    EXPECT_THAT(error_of("sim(tf({1}, {1, 1}), ones(9), 1, {noise = true})"),
+                HasSubstr("specify the option snr in dB"));
     EXPECT_THAT(error_of(kEstimate + "sim(lssvf(d, {2, 1, 0}, 3), d, {noise = true})"),
                 HasSubstr("estimates an equation error"));
     EXPECT_THAT(error_of(kEstimate + "sim(rivc(d, {1, 0, 1, 2, 0}), u, 0.1, {noise = true})"),
@@ -154,8 +155,9 @@ TEST(script_simulation, delays_in_loops_and_states) {
                       "  print(re^2 + im^2 < 1e-24)\nend\n"
                       "print(ss(P).A.rows)"),
               "true\ntrue\ntrue\n4\n");
-    EXPECT_THAT(error_of("feedback(tf({1}, {1, 1}, {IODelay = 1}), 1)"), HasSubstr("use pade(G, n)"));
-    EXPECT_THAT(error_of("ss(tf({1}, {1, 1}, {IODelay = 1}))"), HasSubstr("use pade(G, n)"));
+    EXPECT_THAT(error_of("feedback(tf({1}, {1, 1}, {IODelay = 1}), 1)"),
+                HasSubstr("approximate the delay with pade(G, n)"));
+    EXPECT_THAT(error_of("ss(tf({1}, {1, 1}, {IODelay = 1}))"), HasSubstr("approximate the delay with pade(G, n)"));
     EXPECT_EQ(printed("local Gm, Pm, Wcg, Wcp, Dm = margin(tf({2}, {1, 0}, {IODelay = 0.25}))\n"
                       "print(string.format('%.6f %.6f %.6f %.6f %.6f', Gm, Pm, Wcg, Wcp, Dm))\n"
                       "print(pade(tf({1}, {1, 1}, {IODelay = 1}), 2).IODelay)"),
@@ -170,11 +172,11 @@ TEST(script_simulation, habits_of_the_toolboxes) {
                       "print(tf({1}, {1, 0.5}, 0.2).Ts)"),
               "true\n0\t0\n0.2\n");
     EXPECT_THAT(error_of("srivc(iddata(ones(9), ones(9), 1), {1, 1, 0}, {Lambda = 2, lambda = 2})"),
-                HasSubstr("are the same"));
+                HasSubstr("are equivalent"));
     EXPECT_THAT(error_of("detrend({1, 2, 3}, 2)"), HasSubstr("degree 0"));
     EXPECT_THAT(error_of("bode(tf({1}, {1, 1}), 'sd', 3)"), HasSubstr("{confidence = 0.99}"));
     EXPECT_THAT(error_of("local u = prbs(5, 4)\nsrivc(iddata(u, matrix{u, u^2}, 1), {1, 1, 2, 2, 0, 0})"),
-                HasSubstr("an entry is a list with one value for each"));
+                HasSubstr("an entry is a list with one value per input"));
 }
 
 // Oracle: counted by hand; a line and a gap are three values.

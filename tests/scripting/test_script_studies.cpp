@@ -134,7 +134,7 @@ TEST(script_studies, arx_orders_are_chosen_and_go_on_to_arx) {
                 AllOf(HasSubstr("true\ttrue\ttrue"), HasSubstr("val. loss")));
     EXPECT_THAT(error_of(record + "selstruc(arxstruc(data), 'FPE')"),
                 HasSubstr("\"loss\", \"AIC\", \"BIC\" or \"MDL\""));
-    EXPECT_THAT(error_of(record + "arxstruc(data, second, {{1, 1, 1}})"), HasSubstr("takes at most 2 arguments"));
+    EXPECT_THAT(error_of(record + "arxstruc(data, second, {{1, 1, 1}})"), HasSubstr("accepts at most 2 arguments"));
     EXPECT_THAT(error_of(record + "arxstruc(data, {n = 2})"), HasSubstr("unknown option 'n'"));
     EXPECT_THAT(error_of(record + "selstruc(3)"), HasSubstr("the result of arxstruc"));
 }
@@ -157,7 +157,8 @@ TEST(script_studies, delays_are_real_numbers) {  // oracle: the simulated system
                                  "print(math.abs(Td - 8) < 4*D.std, D.delay == Td, math.abs(D.samples - 10*Td) < 1e-9, "
                                  "D.poles, D.zeros, D.model.IODelay == Td, #D.delays == #D.losses, D.rival)"),
                 AllOf(HasSubstr("The delay is "), HasSubstr("true\ttrue\ttrue\t2\t1\ttrue\ttrue\tnil\n")));
-    EXPECT_THAT(error_of(record + "delayest(data, {TdMin = 3, TdMax = 3})"), HasSubstr("TdMax must be above TdMin"));
+    EXPECT_THAT(error_of(record + "delayest(data, {TdMin = 3, TdMax = 3})"),
+                HasSubstr("TdMax must be greater than TdMin"));
     EXPECT_THAT(error_of(record + "delayest(data, {TdMax = 1000})"), HasSubstr("TdMax"));
     EXPECT_THAT(error_of(record + "delayest(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
     EXPECT_THAT(error_of(record + "delayest(x)"), HasSubstr("data"));

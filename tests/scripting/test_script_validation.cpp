@@ -28,17 +28,17 @@ TEST(script_validation, resid_says_what_is_left) {
                                   "#t.residuals[1], #t.outputs[1].inputs[1].correlation)"),
                 HasSubstr("true\ttrue\t1016\t51\n"));
     EXPECT_THAT(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P1'))\nprint(t.independent)"),
-                testing::AllOf(HasSubstr("Dynamics are missing"), HasSubstr("false\n")));
+                testing::AllOf(HasSubstr("The model does not describe all dynamics"), HasSubstr("false\n")));
     EXPECT_THAT(printed(kRecord + "print((resid(iddata(x, u, 0.05), idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}))))"),
                 testing::AllOf(HasSubstr("to rounding"), HasSubstr("nil\n")));
 }
 
 TEST(script_validation, reports_and_resid_name_the_structure_that_is_missed) {
-    EXPECT_THAT(
-        printed(kRecord + "local raised = iddata(x + u + 0.1*randn(#u) + 5, u, 0.05)\n"
-                          "local G = srivc(raised, {1, 2, 0})\nprint(G.report.warnings[#G.report.warnings])\n"
-                          "local fig, t = resid(raised, G)\nprint(t.verdict)"),
-        testing::AllOf(HasSubstr("With as many zeros as poles the fit is"), Not(HasSubstr("Dynamics are missing"))));
+    EXPECT_THAT(printed(kRecord + "local raised = iddata(x + u + 0.1*randn(#u) + 5, u, 0.05)\n"
+                                  "local G = srivc(raised, {1, 2, 0})\nprint(G.report.warnings[#G.report.warnings])\n"
+                                  "local fig, t = resid(raised, G)\nprint(t.verdict)"),
+                testing::AllOf(HasSubstr("With as many zeros as poles the fit is"),
+                               Not(HasSubstr("The model does not describe all dynamics"))));
     EXPECT_THAT(printed(kRecord + "print(#srivc(white, {1, 2, 0}).report.warnings)"), HasSubstr("0\n"));
     EXPECT_THAT(printed(kRecord + "local G = rivc(iddata(x + u + 0.1*randn(#u) + 5, u, 0.05), {1, 0, 1, 2, 0})\n"
                                   "print(G.report.warnings[#G.report.warnings])"),
@@ -193,8 +193,7 @@ TEST(script_validation, predict_and_pe_know_the_noise) {
     EXPECT_THAT(error_of(kNoisyRecord + "predict(d, arx(d, {2, 2, 1}), {k = 0.5})"),
                 HasSubstr("option 'k' must be a whole number of steps"));
     EXPECT_THAT(error_of(kNoisyRecord + "predict(d, arx(d, {2, 2, 1}), -2)"), HasSubstr("but -2 was given"));
-    EXPECT_THAT(error_of(kNoisyRecord + "pe(iddata(y, u, 0.5), arx(d, {2, 2, 1}))"),
-                HasSubstr("the two must be equal"));
+    EXPECT_THAT(error_of(kNoisyRecord + "pe(iddata(y, u, 0.5), arx(d, {2, 2, 1}))"), HasSubstr("both must be equal"));
 }
 
 TEST(script_validation, resid_tests_predictions_too) {
@@ -226,8 +225,8 @@ TEST(script_validation, fit_compare_and_present_state_the_offset_that_they_remov
                                       "print('plain', 100*(1 - 5*math.sqrt(#u)/norm(x - mean(x))))");
     std::smatch found;
     const std::regex note(
-        "^fit: an estimated offset of 5 V was removed; without it the fit is (-[0-9.]+) %\\. To choose, "
-        "set Offset to \"estimate\" or \"none\"\\.\nplain\t(-[0-9.]+)\n$");
+        "^fit: an estimated offset of 5 V was removed; without this offset, the fit is (-[0-9.]+) %\\. To choose, set "
+        "Offset to \"estimate\" or \"none\"\\.\nplain\t(-[0-9.]+)\n$");
     ASSERT_TRUE(std::regex_match(noted, found, note)) << noted << "once a line";
     EXPECT_NEAR(std::stod(found[1]), std::stod(found[2]), 0.1);
     EXPECT_EQ(printed(raised + "local f, g = fit(raised, G, {Offset = 'estimate'}), fit(white, G)"), "")
@@ -236,9 +235,9 @@ TEST(script_validation, fit_compare_and_present_state_the_offset_that_they_remov
                       "print(compare(raised, G).curves[2].label, compare(white, G).curves[2].label:match('offset'))"),
               "model 1: 100.0 %, offset 5 V\tnil\n");
     EXPECT_THAT(printed(raised + "present(srivc(raised, {1, 2, 0}))"),
-                HasSubstr("The fit is simulated from rest at zero input, with an estimated offset (5"));
+                HasSubstr("The fit refers to the simulation from rest at zero input, with an estimated offset (5"));
     EXPECT_THAT(printed(raised + "present(srivc(white, {1, 2, 0}, {InitialState = 'none', Offset = 'none'}))"),
-                HasSubstr("The fit is simulated from rest at zero input, without an offset.\n"));
+                HasSubstr("The fit refers to the simulation from rest at zero input, without an offset.\n"));
 }
 
 TEST(script_validation, crossvalidate_ranks_structures) {

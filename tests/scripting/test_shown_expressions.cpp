@@ -156,7 +156,7 @@ TEST(shown_expressions, files_of_the_folder_can_be_required) {
     EXPECT_THAT(error_of("require('absent')", options), HasSubstr("file not found: absent.lua in the script's folder"));
     for (const char* outside : {"../tools", "/etc/passwd", "lib..more", ""})
         EXPECT_THAT(error_of(std::string("require('") + outside + "')", options),
-                    HasSubstr("folder without its extension"));
+                    HasSubstr("folder without extension"));
     std::filesystem::create_symlink("/etc/hostname", folder.path() / "link.lua");
     EXPECT_THAT(error_of("require('link')", options), HasSubstr("is outside the script's folder"));
 }

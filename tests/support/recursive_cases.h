@@ -34,9 +34,9 @@ inline std::vector<RecursiveCase> recursive_cases() {
     const IdData irregular(course.experiments[0].y, course.experiments[0].u, t);
     return {{"two poles", course, TransferStructure::single(2, 0), 3},
             {"a zero", course, TransferStructure::single(2, 1), 3},
-            {"a direct term", course, TransferStructure::single(2, 2), 3},
+            {"direct feedthrough", course, TransferStructure::single(2, 2), 3},
             {"a delay", course, TransferStructure::single(2, 0, 0.07), 3},
-            {"a delay and a direct term", straight, TransferStructure::single(2, 2, 0.07), 3},
+            {"a delay and direct feedthrough", straight, TransferStructure::single(2, 2, 0.07), 3},
             {"straight lines", straight, TransferStructure::single(2, 1), 3},
             {"irregular", irregular, TransferStructure::single(2, 0), 3},
             {"one pole", course, TransferStructure::single(1, 0), 2},

@@ -87,8 +87,8 @@ StateFeedback linear_quadratic_regulator(const MatrixView& A, const MatrixView& 
     const auto inverse = count < n ? std::nullopt : inverse_of_regular(stable.topRows(n));
     if (!inverse)
         throw InvalidArgument(
-            "no feedback makes the criterion finite: an unstable mode is not stabilizable, or Q does not detect a mode "
-            "that does not decay");
+            "the Riccati equation has no stabilizing solution: an unstable mode is not stabilizable, or a mode that "
+            "does not decay is not observable through Q");
     const Matrix P = scale.tail(n).asDiagonal() * (stable.bottomRows(n) * *inverse).real() *
                      scale.head(n).cwiseInverse().asDiagonal();
     return closed(A, B, cheapest->x * (P + P.transpose()) / 2);
@@ -100,7 +100,7 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     if (B.cols() != 1)
         throw InvalidArgument("pole placement needs a system with one input, but B has {} columns", B.cols());
     if (poles.size() != n || !poles.allFinite())
-        throw InvalidArgument("the system has {}, so it needs the same number of finite poles, not {}",
+        throw InvalidArgument("the system has {}, so the same number of finite poles is required, not {}",
                               plural(n, "{} state", "{} states"), poles.size());
     const Vector c = monic_coefficients(poles);
 
@@ -113,7 +113,8 @@ StateFeedback pole_placement(const MatrixView& A, const MatrixView& B, const Com
     const auto [last_row, reciprocal_condition] = solve_by_lu(reach.transpose(), Vector::Unit(n, n - 1));
     if (!(reciprocal_condition > kSingular))
         throw InvalidArgument(
-            "the system is not controllable: the input does not affect every state, so not every pole can be placed");
+            "the system is not controllable: the input does not affect every mode, so the poles cannot be placed "
+            "arbitrarily");
     Eigen::RowVectorXd row = last_row.transpose() / std::pow(scale, n - 1);
     Eigen::RowVectorXd K = Eigen::RowVectorXd::Zero(n);
     for (Index k = 0; k < n; ++k, row = row * A) K += c[k] * row;

@@ -45,7 +45,7 @@ JointOperatingPoint joint_operating_point(const MatrixView& u, const VectorView&
 std::vector<StartCondition> start_conditions(const MatrixView& u, InitialState state, Offset offset) {
     const bool flat = constant(u), zero_first = u.row(0).isZero(0);
     if (flat && state == InitialState::kSteady)
-        throw InvalidArgument("{} \"steady\" needs an input that changes, but this input is constant: use \"zero\"",
+        throw InvalidArgument("{} \"steady\" needs an input that changes, but this input is constant: use \"none\"",
                               OptionName{"initial_state"});
     if (flat && state == InitialState::kEstimate && offset == Offset::kEstimate)
         throw InvalidArgument(

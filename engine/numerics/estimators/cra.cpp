@@ -77,8 +77,8 @@ CorrelationAnalysis cra(const IdData& data, const CraOptions& options) {
     const double worst = input.tail(lags).cwiseAbs().maxCoeff() / input[0];
     if (worst > std::max(2 * limit, 0.2))
         impulse.warnings.push_back(
-            Message("The whitened input still has a correlation of up to {} over the lags, which blurs the response. "
-                    "The input is too regular for this method; impulseest does not need a white input.",
+            Message("The whitened input still has an autocorrelation of up to {}, which distorts the impulse response. "
+                    "Use impulseest, which does not need a white input.",
                     significant(worst, 2)));
     return result;
 }

@@ -19,7 +19,7 @@ void check(const MatrixView& Phi, const VectorView& y, const GradientDescentOpti
         throw InvalidArgument("Phi must have one row per value of y and at least one column, but is {} x {} for {}",
                               Phi.rows(), Phi.cols(), plural(y.size(), "{} value", "{} values"));
     if (!Phi.allFinite() || !y.allFinite()) throw InvalidArgument("Phi and y must contain only finite numbers");
-    if (Phi.isZero(0)) throw InvalidArgument("All regressors are zero, so gradient descent has no slope");
+    if (Phi.isZero(0)) throw InvalidArgument("All regressors are zero, so the gradient is zero");
     if (options.start.size() != 0 && options.start.size() != Phi.cols())
         throw InvalidArgument("The starting point must have {}, but has {}",
                               plural(Phi.cols(), "{} value", "{} values"), options.start.size());
@@ -49,8 +49,8 @@ void GradientDescentOptions::validate() const {
     if (step_size && (!(*step_size > 0) || !std::isfinite(*step_size)))
         throw InvalidArgument("The step size must be positive, but is {}", *step_size);
     if (max_iterations < 0)
-        throw InvalidArgument("The number of iterations must not be negative, but is {}", max_iterations);
-    if (!(tolerance >= 0)) throw InvalidArgument("The tolerance must not be negative, but is {}", tolerance);
+        throw InvalidArgument("The number of iterations must be nonnegative, but is {}", max_iterations);
+    if (!(tolerance >= 0)) throw InvalidArgument("The tolerance must be nonnegative, but is {}", tolerance);
     if (!start.allFinite()) throw InvalidArgument("The starting point must contain only finite numbers");
 }
 

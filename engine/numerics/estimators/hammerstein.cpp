@@ -47,8 +47,8 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
     if (values && (values->size() != edges.size() || *values != edges)) {
         edges = *values;
         warnings.push_back(
-            Message("The input takes only {} values, which are the edges of the bins. Between them the characteristic "
-                    "is unknown and linearly interpolated.",
+            Message("The input has only {} distinct values, which are the bin edges. Between these values, the "
+                    "characteristic is unknown and linearly interpolated.",
                     edges.size()));
     }
     Vector visits = Vector::Zero(edges.size());
@@ -59,13 +59,13 @@ Vector visited_edges(const IdData& data, const HammersteinOptions& options, std:
         if (visits[i] >= kLeastVisits) kept.push_back(edges[i]);
     if (kept.size() < 2)
         throw InvalidArgument(
-            "hammerstein: the input visits only {} of the edges of the bins, but two are required: excite the system "
-            "with more levels, or give {} near the input's values",
+            "hammerstein: the input reaches only {} of the bin edges, but at least two are required: use an input with "
+            "more levels, or specify {} near the values of the input",
             kept.size(), OptionName{"breakpoints"});
     if (static_cast<Index>(kept.size()) < edges.size())
         warnings.push_back(plural(edges.size() - static_cast<Index>(kept.size()),
-                                  "Left out: {} edge of bins with too few input values nearby.",
-                                  "Left out: {} edges of bins with too few input values nearby."));
+                                  "{} bin edge is omitted, because it has too few input values nearby.",
+                                  "{} bin edges are omitted, because they have too few input values nearby."));
     return Vector::Map(kept.data(), static_cast<Index>(kept.size()));
 }
 
@@ -211,8 +211,8 @@ void check(const IdData& data, const TransferStructure& structure, const Hammers
     check_transfer_data("hammerstein", data, structure);
     if (data.hold != Hold::kZoh)
         throw InvalidArgument(
-            "hammerstein needs a held input (zoh): the characteristic would distort the linear interpolation of any "
-            "other input");
+            "hammerstein needs an input with zero-order hold (zoh): the characteristic would distort a linearly "
+            "interpolated input");
     for (const Experiment& experiment : data.experiments)
         if ((experiment.u.array() != experiment.u(0, 0)).any()) return;
     throw InvalidArgument("hammerstein: the input never changes, so it does not excite the system");
@@ -231,10 +231,10 @@ void HammersteinOptions::validate() const {
             throw InvalidArgument("{} must increase, but value {} is {} after {}", OptionName{"breakpoints"}, i + 1,
                                   breakpoints[i], breakpoints[i - 1]);
     if (initial_state == InitialState::kEstimate)
-        throw InvalidArgument("{} must be \"zero\", \"steady\" or \"auto\" for hammerstein",
+        throw InvalidArgument("{} must be \"none\", \"steady\" or \"auto\" for hammerstein",
                               OptionName{"initial_state"});
     if (offset != Offset::kNone)
-        throw InvalidArgument("{} must be \"none\" for hammerstein: its characteristic includes a constant",
+        throw InvalidArgument("{} must be \"none\" for hammerstein, because the characteristic includes a constant",
                               OptionName{"offset"});
 }
 

@@ -84,7 +84,7 @@ void fit_plainly(const IdData& data, Index n, double count, RegressedResponse& e
     if (fit.rank < regression.Phi.cols() || fit.condition_number > 1e8)
         throw InvalidArgument(
             "impulseest: the input is not persistently exciting enough to determine the {} samples of the impulse "
-            "response. Use the smooth estimate, use fewer lags, or resample the data to a lower rate first",
+            "response. Use the regularized estimate, use fewer lags, or resample the data to a lower rate first",
             regression.Phi.cols());
     estimate.response = fit.solution;
     estimate.noise_variance = fit.residuals.squaredNorm() / std::max(count - static_cast<double>(n + 1), 1.0);

@@ -51,7 +51,8 @@ Fit ivsvf(const IdData& data, const TransferStructure& structure, const SvfOptio
     describe_models(estimate);
     if (mirrored)
         estimate.warnings.push_back(
-            Message("The first model, from least squares, was unstable; its poles were mirrored for the instruments."));
+            Message("The initial least-squares model was unstable; its poles were reflected into the left half plane "
+                    "to generate the instruments."));
     warn_of_cutoff(estimate, options.lambda);
     estimate.message = Message("Instrumental variables on filtered signals.");
     return estimate;

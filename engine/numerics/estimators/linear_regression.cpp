@@ -26,8 +26,8 @@ Solution solve_normal_equations(const MatrixView& Phi, const VectorView& y) {
     const auto solution = solve_by_cholesky(gram, Phi.transpose() * y);
     if (!inverse || inverse->reciprocal_condition < std::numeric_limits<double>::epsilon())
         throw InvalidArgument(
-            "The normal equations have no unique solution to working accuracy: columns of Phi are linearly dependent "
-            "or have too different scales; use the method \"qr\", or center and scale the regressors");
+            "The normal equations have no unique solution to working accuracy: the columns of Phi are linearly "
+            "dependent or differ too much in scale; use the method \"qr\", or center and scale the regressors");
     return {solution->x, inverse->x};
 }
 
@@ -87,20 +87,20 @@ LinearRegression lsq(const MatrixView& Phi, const VectorView& y, RegressionMetho
             ? Message("Least squares with {} and {}: RMSE {}.", plural(Phi.rows(), "{} equation", "{} equations"),
                       plural(Phi.cols(), "{} parameter", "{} parameters"), fit.rmse)
             : Message(
-                  "The columns of Phi are linearly dependent (rank {} of {}); this is the solution of minimum norm.",
+                  "The columns of Phi are linearly dependent (rank {} of {}); the result is the minimum-norm solution.",
                   fit.rank, Phi.cols());
     return fit;
 }
 
 PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degree, const PolyfitOptions& options) {
-    if (degree < 0) throw InvalidArgument("The degree must not be negative, but is {}", degree);
+    if (degree < 0) throw InvalidArgument("The degree must be nonnegative, but is {}", degree);
     if (x.size() != y.size())
         throw InvalidArgument("x and y must have the same length, but have {} and {} values", x.size(), y.size());
     if (!x.allFinite()) throw InvalidArgument("x contains a value that is not finite");
     const Index distinct = distinct_values(x);
     if (distinct <= degree)
-        throw InvalidArgument("A polynomial of degree {} needs at least {} different x, but {} were given", degree,
-                              degree + 1, distinct);
+        throw InvalidArgument("A polynomial of degree {} needs at least {} distinct values of x, but {} were given",
+                              degree, degree + 1, distinct);
     PolynomialFit fit;
     fit.degree = degree;
     fit.center = options.centered ? x.mean() : 0;

@@ -13,8 +13,8 @@ namespace dynlab::inline numerics {
 void SvfOptions::validate() const {
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, slightly above the "
-            "bandwidth of the system, but is {}",
+            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, but is {}. Choose a "
+            "value slightly above the bandwidth of the system",
             lambda);
     if (beta && (!(*beta > 0) || !std::isfinite(*beta)))
         throw InvalidArgument("beta must be positive, but is {}", *beta);
@@ -22,13 +22,13 @@ void SvfOptions::validate() const {
 
 void check_carx(const char* method, const TransferStructure& structure) {
     if (structure.free_delays)
-        throw InvalidArgument("{}: delays are fixed in this method; srivc and coe estimate them", method);
+        throw InvalidArgument("{}: this method does not estimate delays; use srivc or coe", method);
     for (Index output = 0; output < structure.outputs; ++output)
         for (Index input = 1; input < structure.inputs; ++input)
             if (structure.channel(output, input).denominator != structure.channel(output, 0).denominator)
                 throw InvalidArgument(
-                    "{}: the inputs of an output share their denominator in this method; srivc and coe give each input "
-                    "its own denominator",
+                    "{}: this method uses one denominator for all inputs of an output; for separate denominators, use "
+                    "srivc or coe",
                     method);
 }
 
@@ -45,9 +45,10 @@ void warn_of_cutoff(Fit& estimate, double lambda) {
 
 void color_covariance(Fit& fit, const IdData& data, const SvfOptions& options, bool instruments) {
     if (data.sample_count() > kMaxColoredSamples) {
-        fit.warnings.push_back(Message(
-            "Standard errors for more than {} samples assume a white equation error, although the filters color it.",
-            kMaxColoredSamples));
+        fit.warnings.push_back(
+            Message("For more than {} samples, the standard errors assume a white equation error, although the filters "
+                    "make the error colored.",
+                    kMaxColoredSamples));
         return;
     }
     for (std::size_t g = 0; g < fit.structure.poles.size(); ++g) {

@@ -45,8 +45,8 @@ Index chosen_block_rows(const IdData& data, int order, int requested) {
     while (requested == 0 && s > least && !fits(data, s)) --s;
     if (fits(data, s)) return s;
     throw InvalidArgument(
-        "n4sid: the {} samples of the data are too few for order {} and {} block rows: they give {} equations for {} "
-        "values",
+        "n4sid: the {} samples of the data are too few for order {} and {} block rows: they provide {} equations for "
+        "{} unknowns",
         data.sample_count(), order, s, places(data, s), 2 * s * (data.input_count() + data.output_count()));
 }
 
@@ -231,7 +231,8 @@ void describe(SubspaceFit& found, bool reflected) {
         fit.warnings.push_back(plural(
             seen, "The data support only {} state; the other singular values are rounding errors. Use a lower order.",
             "The data support only {} states; the other singular values are rounding errors. Use a lower order."));
-    if (reflected) fit.warnings.push_back(Message("Eigenvalues outside the unit circle were mirrored into it."));
+    if (reflected)
+        fit.warnings.push_back(Message("Eigenvalues outside the unit circle were reflected into the unit circle."));
     if (fit.condition_number > kAmbiguousCondition)
         fit.warnings.push_back(Message("The data do not determine all entries of B separately (condition number {}).",
                                        significant(fit.condition_number, 2)));
@@ -244,14 +245,14 @@ void describe(SubspaceFit& found, bool reflected) {
 
 void SubspaceOptions::validate() const {
     if (block_rows < 0)
-        throw InvalidArgument("{} must not be negative, but is {}", OptionName{"block_rows"}, block_rows);
+        throw InvalidArgument("{} must be nonnegative, but is {}", OptionName{"block_rows"}, block_rows);
 }
 
 SubspaceFit n4sid(const IdData& data, int order, const SubspaceOptions& options) {
     options.validate();
     if (order < 1 || order > kMaxStates)
-        throw InvalidArgument("n4sid: the order, a number of states, must be between 1 and {}, but is {}", kMaxStates,
-                              order);
+        throw InvalidArgument("n4sid: the order, which is the number of states, must be between 1 and {}, but is {}",
+                              kMaxStates, order);
     check_sampled_data("n4sid", data);
     const Sizes sizes{order, data.input_count(), data.output_count(),
                       chosen_block_rows(data, order, options.block_rows)};

@@ -80,7 +80,7 @@ std::vector<StartCondition> conditions_for(const IdData& data, const ProcessStru
     if (options.initial_state == InitialState::kSteady && !rests)
         throw InvalidArgument(
             "A process with an integrator is at rest only for zero input, so {} \"steady\" is unsuitable: use "
-            "\"zero\", \"estimate\" or \"auto\"",
+            "\"none\", \"estimate\" or \"auto\"",
             OptionName{"initial_state"});
     if (options.initial_state == InitialState::kEstimate && options.offset == Offset::kEstimate)
         throw InvalidArgument(
@@ -237,12 +237,13 @@ void warn_of_times(Fit& result, double Ts, double longest) {
         const double value = result.theta[static_cast<Index>(i)];
         if (name.front() != 'T' || name == "Td" || name == "Tz") continue;
         if (value < 0.1 * Ts)
-            result.warnings.push_back(
-                Message("{} is far below the sampling time: a structure with fewer poles is sufficient.", name));
-        if (value > longest)
             result.warnings.push_back(Message(
-                "{} is longer than the data, which cannot distinguish it from the gain: record a longer experiment.",
-                name));
+                "{} is much smaller than the sampling time: a structure with fewer poles is sufficient.", name));
+        if (value > longest)
+            result.warnings.push_back(
+                Message("{} is longer than the duration of the data and cannot be distinguished from the gain: record "
+                        "a longer experiment.",
+                        name));
     }
     const Index lags = real_lag_count(structure);
     for (Index i = 1; i < lags; ++i)
@@ -289,9 +290,10 @@ void set_process(Fit& fit, const ProcessStructure& structure) {
 void warn_of_undetermined(Fit& fit, const IdData& data, const FitOptions& options) {
     if (fit.process->structure.delay && has_ambiguous_delay(fit.models.front(), data)) {
         withdraw_errors(fit, {"Tz", "Td"});
-        fit.warnings.push_back(Message(
-            "Tz and Td cannot be distinguished within one sampling time, whatever the input. They have no standard "
-            "errors, because the input is held and the model has as many zeros as poles. Use a type without D or Z."));
+        fit.warnings.push_back(
+            Message("Tz and Td cannot be distinguished within one sampling time for any input. They have no standard "
+                    "errors, because the input has a zero-order hold and the model has as many zeros as poles. Use a "
+                    "structure without D or Z."));
     } else if (!withdraw_errors_of_gain(fit, data))
         warn_of_doubtful_parameters(fit);
     withdraw_errors_at_bounds(fit, options);
@@ -317,8 +319,8 @@ Fit procsrivc(const IdData& data, const ProcessStructure& structure, const Procs
     const auto conditions = conditions_for(record.data, structure, options);
     const Index values = problem.value_count(data, conditions[0]), fewest = kSamplesPerProcessParameter * values;
     if (data.sample_count() < fewest)
-        throw InvalidArgument("procsrivc: at least {} samples are needed for {} values, but the data have {}", fewest,
-                              values, data.sample_count());
+        throw InvalidArgument("procsrivc: at least {} samples are needed to estimate {} values, but the data have {}",
+                              fewest, values, data.sample_count());
     Fit fit = best_fit_to_long(problem, record.data, conditions);
     fit = without_masked_inputs(problem, record.data, std::move(fit));
     set_process(fit, structure);

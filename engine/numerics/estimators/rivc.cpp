@@ -29,8 +29,8 @@ void check(const IdData& data, const NoiseOrders& orders, const TransferStructur
             "(interp1), or use srivc, which accepts any sampling");
     if (structure.outputs != 1 || data.output_count() != 1)
         throw InvalidArgument(
-            "rivc: exactly one output is required, because each output has its own noise model, but the data have {}: "
-            "select one output at a time",
+            "rivc: exactly one output is required, because each output has a separate noise model, but the data have "
+            "{}: select one output at a time",
             data.output_count());
     const Index requested = 3 * (structure.parameter_count() + orders.nc + orders.nd);
     if (data.sample_count() < requested)
@@ -290,7 +290,7 @@ Fit rivc_fit(const IdData& data, const TransferStructure& structure, const Noise
 
 void NoiseOrders::validate() const {
     if (nc < 0 || nd < 0)
-        throw InvalidArgument("nc and nd, the orders of the noise model, must not be negative, but are {} and {}", nc,
+        throw InvalidArgument("nc and nd, the orders of the noise model, must be nonnegative, but are {} and {}", nc,
                               nd);
 }
 

@@ -75,7 +75,7 @@ Fit srivc_by_passes(const IdData& data, const TransferStructure& structure, cons
     if (estimate.termination == Termination::kConverged)
         estimate.message = Message("SRIVC converged after {}: {}.", passes, simulation_text(estimate));
     else
-        estimate.message = Message("SRIVC did not converge after {}; the result is the best of them: {}.", passes,
+        estimate.message = Message("SRIVC did not converge after {}; the result is the best iteration: {}.", passes,
                                    simulation_text(estimate));
     return estimate;
 }
@@ -113,12 +113,10 @@ Fit better_by_search(Fit estimate, const IdData& data, const FitOptions& options
     if (!(searched.loss < (settled ? 1 - kNoGain : 1) * estimate.loss)) return estimate;
     const Message passes = plural(static_cast<std::int64_t>(estimate.trace.size()), "{} pass", "{} passes");
     searched.message =
-        settled ? Message("SRIVC converged after {} to a local minimum; a further search found this lower minimum: {}.",
+        settled ? Message("SRIVC converged after {} to a local minimum; a further search found a lower minimum: {}.",
                           passes, simulation_text(searched))
-                : Message(
-                      "SRIVC did not converge after {}; the result is the minimum of the output error, the aim of "
-                      "these iterations: {}.",
-                      passes, simulation_text(searched));
+                : Message("SRIVC did not converge after {}; the result minimizes the output error instead: {}.", passes,
+                          simulation_text(searched));
     return searched;
 }
 

@@ -74,8 +74,8 @@ ReadingPoint overshoot_point(const StepRecord& record) {
     const double least = std::max(0.01, 2 * record.noise_std / std::abs(record.output_change()));
     if (record.rise(top) - 1 < least || top == N - 1)
         throw InvalidArgument(
-            "The response does not overshoot its final level by more than {} %, so no damping can be determined: use "
-            "step_first_order or step_delayed",
+            "The response does not overshoot its final level by more than {} %, so the damping cannot be determined: "
+            "use step_first_order or step_delayed",
             significant(100 * least, kDigits));
     if (top < record.step_index + 3)
         throw InvalidArgument("The response peaks within three samples after the step: sample faster");
@@ -95,9 +95,9 @@ StepTestResult step_first_order(const IdData& data) {
     result.parameters << K, T;
     result.points = {settling};
     result.model = TransferFunction(Vector::Constant(1, K), Vector{{T, 1.0}});
-    const Message reading = Message(
-        "The smoothed response stays within 5 % of its final value from {} s after the step, three time constants.",
-        significant(settling_time, kDigits));
+    const Message reading =
+        Message("The 5 % settling time of the smoothed response is {} s, which equals three time constants.",
+                significant(settling_time, kDigits));
     result.message =
         highest_rise(record) > 1.05
             ? sentences({reading, Message("The response overshoots: a second-order model would be better.")})
@@ -113,7 +113,7 @@ StepTestResult step_second_order(const IdData& data) {
     const double logarithm = std::log(D1), pi = std::numbers::pi;
     if (D1 >= 1)
         throw InvalidArgument(
-            "The first overshoot is as high as the step itself, which no damped second-order system produces");
+            "The first overshoot is as high as the step itself, which is impossible for a damped second-order system");
     const double z = std::sqrt(logarithm * logarithm / (logarithm * logarithm + pi * pi));
     const double w0 = pi / ((peak.time - record.step_time) * std::sqrt(1 - z * z));
     const double K = result.parameters[0];
@@ -141,9 +141,7 @@ StepTestResult step_delayed(const IdData& data) {
         Message("The smoothed response reaches 28.3 % and 63.2 % of its change {} s and {} s after the step.",
                 significant(t1 - record.step_time, kDigits), significant(t2 - record.step_time, kDigits));
     result.message =
-        D == 0 ? sentences({reading,
-                            Message("The points leave no time for a delay: use step_first_order for this response.")})
-               : reading;
+        D == 0 ? sentences({reading, Message("The response shows no delay: use step_first_order.")}) : reading;
     return result;
 }
 

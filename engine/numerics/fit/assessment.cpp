@@ -139,10 +139,10 @@ Linearized linearize(const AssessedRecord& record, std::span<const ChannelPlaces
 // Why standard errors of the model mean little, however they are worked out; empty where they do not.
 Message worthlessness(const Fit& fit) {
     if (std::any_of(fit.models.begin(), fit.models.end(), has_unstable_pole))
-        return Message("Its standard errors are unreliable: the model is unstable.");
+        return Message("The standard errors are unreliable, because the model is unstable.");
     for (const double percent : fit.fit_percent)
         if (explains_little(percent))
-            return Message("Its standard errors are unreliable: the model explains little of the output.");
+            return Message("The standard errors are unreliable, because the model explains little of the output.");
     return Message();
 }
 
@@ -161,7 +161,7 @@ Message verdict_of(const Assessment& assessment, const Fit& fit, const IdData& d
     else if (!assessment.white)
         all.push_back(data.sample_count() < kFewSamples
                           ? Message("Use the robust standard errors as a lower bound: {} samples are too few to "
-                                    "determine how the errors depend on each other.",
+                                    "estimate the correlation of the errors.",
                                     data.sample_count())
                           : Message("Use the robust standard errors."));
     return sentences(std::move(all));

@@ -196,23 +196,23 @@ Message ambiguity(SimplerModel simpler, Number condition) {
     switch (simpler) {
         case SimplerModel::kFewerBins:
             return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): use fewer bins or a "
-                "richer input.",
+                "The data do not determine all parameters separately (condition number {}): use fewer bins or a richer "
+                "input.",
                 condition);
         case SimplerModel::kFewerTerms:
             return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): use fewer terms or a "
+                "The data do not determine all parameters separately (condition number {}): use fewer terms or a "
                 "richer input.",
                 condition);
         case SimplerModel::kFewerFreeParameters:
             return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): use fewer free "
-                "parameters or a richer input.",
+                "The data do not determine all parameters separately (condition number {}): use fewer free parameters "
+                "or a richer input.",
                 condition);
         default:
             return Message(
-                "The data do not determine all parameters separately (badly conditioned: {}): use a simpler structure "
-                "or a richer input.",
+                "The data do not determine all parameters separately (condition number {}): use a simpler structure or "
+                "a richer input.",
                 condition);
     }
 }
@@ -237,15 +237,14 @@ void warn_of_ambiguous_delays(Fit& fit, const IdData& data) {
         withdraw_errors(fit, names);
         std::erase(fit.warnings, ambiguity(SimplerModel::kStructure, significant(fit.condition_number, 2)));
         fit.warnings.push_back(
-            channel
-                ? Message("The delay from input {} to output {} is only known to within one sampling time, so {} have "
-                          "no standard errors: the input is held and the model has as many zeros as poles. Fix the "
-                          "delay with {}, or use one zero fewer.",
-                          channel->input, channel->output, listed(names), OptionName{"delay"})
-                : Message(
-                      "The delay is only known to within one sampling time, so {} have no standard errors: the input "
-                      "is held and the model has as many zeros as poles. Fix the delay with {}, or use one zero fewer.",
-                      listed(names), OptionName{"delay"}));
+            channel ? Message("The delay from input {} to output {} is only known to within one sampling time, so {} "
+                              "have no standard errors: the input has a zero-order hold and the model has as many "
+                              "zeros as poles. Fix the delay with {}, or use one zero fewer.",
+                              channel->input, channel->output, listed(names), OptionName{"delay"})
+                    : Message("The delay is only known to within one sampling time, so {} have no standard errors: the "
+                              "input has a zero-order hold and the model has as many zeros as poles. Fix the delay "
+                              "with {}, or use one zero fewer.",
+                              listed(names), OptionName{"delay"}));
     }
 }
 
@@ -270,10 +269,10 @@ bool withdraw_errors_of_gain(Fit& fit, const IdData& data) {
     for (const std::string& name : fit.names)
         if (name == "Kp" || name.front() == 'b' || name.starts_with("Td")) names.push_back(name);
     withdraw_errors(fit, names);
-    fit.warnings.push_back(
-        Message("The input never changes. The gain and the delay assume that it was zero until the first sample; they "
-                "have no standard errors. If the input started from another value, subtract that value from {}.",
-                listed(data.input_names)));
+    fit.warnings.push_back(Message(
+        "The input never changes. The gain and the delay assume that the input was zero before the first sample, and "
+        "have no standard errors. If the input started from another value, subtract that value from {}.",
+        listed(data.input_names)));
     return true;
 }
 
@@ -348,9 +347,9 @@ void warn_of_delay(Fit& fit, double delay, const DelayRange& range, const std::o
         fit.warnings.push_back(delay_at(OptionName{"least_delay"}, range.least, false, channel));
     else if (delay <= edge && range.largest > 0 && std::ranges::none_of(fit.fit_percent, explains_little))
         fit.warnings.push_back(
-            channel ? Message("No delay from input {} to output {} is visible: use a model without delay.",
+            channel ? Message("No delay from input {} to output {} was detected: use a model without delay.",
                               channel->input, channel->output)
-                    : Message("No delay is visible: use a model without delay."));
+                    : Message("No delay was detected: use a model without delay."));
 }
 
 bool explains_little(double fit_percent) {

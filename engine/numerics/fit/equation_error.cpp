@@ -88,8 +88,8 @@ void check_equation_error(const std::string& method, const IdData& data, const P
     const Index d = orders.parameter_count(), equations = ArxEquations(data, orders).count();
     if (equations > d) return;
     throw InvalidArgument(
-        "{} needs more equations than its {}, but the data give {}: they have {}, and the past uses the first {} of "
-        "each experiment",
+        "{} needs more equations than its {}, but the data provide {}: the data have {}, and the first {} of each "
+        "experiment are used as past values",
         method, plural(d, "{} parameter", "{} parameters"), equations,
         plural(data.sample_count(), "{} sample", "{} samples"), orders.past());
 }
@@ -120,16 +120,16 @@ void warn_of_operating_point(Fit& estimate, const IdData& data) {
         data.sample_count() < kSamplesPerParameter * estimate.theta.size())
         return;
     if (const std::optional<Fit> other = better_with_offset(data, estimate))
-        estimate.warnings.push_back(
-            Message("With an offset of {} in {}, a simulation by sriv or oe fits {} % instead of {} %. A difference "
-                    "equation goes through the origin, and noise biases it. Remove the offset and use sriv or oe.",
-                    significant(other->offsets(0, 0), 3), data.output_names.front(),
-                    significant(other->fit_percent[0], 4), significant(estimate.fit_percent[0], 4)));
+        estimate.warnings.push_back(Message(
+            "With an offset of {} in {}, the simulation fit of sriv or oe is {} % instead of {} %. The difference "
+            "equation has no constant term, and noise biases its coefficients. Remove the offset and use sriv or oe.",
+            significant(other->offsets(0, 0), 3), data.output_names.front(), significant(other->fit_percent[0], 4),
+            significant(estimate.fit_percent[0], 4)));
     else if (const std::optional<double> better = better_without_means(data, estimate))
-        estimate.warnings.push_back(
-            Message("Without the means the simulation fits {} % instead of {} %. A difference equation goes through "
-                    "the origin, but these data do not. Remove the means (data:remove_mean()).",
-                    significant(*better, 4), significant(estimate.fit_percent[0], 4)));
+        estimate.warnings.push_back(Message(
+            "Without the means of the signals, the simulation fit is {} % instead of {} %. The difference equation has "
+            "no constant term, but these data have an offset. Remove the means with data:remove_mean().",
+            significant(*better, 4), significant(estimate.fit_percent[0], 4)));
 }
 
 void describe_equation_error(Fit& estimate) {

@@ -25,10 +25,10 @@ Message Fit::full_message() const {
         const Number percent = significant(fit_percent[i], 3);
         all.push_back(fit_percent.size() == 1
                           ? Message("The model fits worse than the mean of the output (fit {} %): do not use it. Check "
-                                    "the data and the structure, or use other start values.",
+                                    "the data and the structure, or use other initial values.",
                                     percent)
                           : Message("The model fits output {} worse than the mean of that output (fit {} %): do not "
-                                    "use it. Check the data and the structure, or use other start values.",
+                                    "use it. Check the data and the structure, or use other initial values.",
                                     i + 1, percent));
     }
     return sentences(std::move(all));
@@ -38,14 +38,14 @@ void FitOptions::validate() const {
     if (lambda && (!(*lambda > 0) || !std::isfinite(*lambda)))
         throw InvalidArgument("lambda must be a positive number of rad/s, but is {}", *lambda);
     if (!(least_delay >= 0) || !std::isfinite(least_delay))
-        throw InvalidArgument("{} must not be negative, but is {}", OptionName{"least_delay"}, least_delay);
+        throw InvalidArgument("{} must be nonnegative, but is {}", OptionName{"least_delay"}, least_delay);
     if (largest_delay && (!(*largest_delay >= least_delay) || !std::isfinite(*largest_delay)))
         throw InvalidArgument("{} must be at least {} = {}, but is {}", OptionName{"largest_delay"},
                               OptionName{"least_delay"}, least_delay, *largest_delay);
     if (delay_count < 1)
         throw InvalidArgument("{} must be at least 1, but is {}", OptionName{"delay_count"}, delay_count);
     if (max_iterations < 0)
-        throw InvalidArgument("{} must not be negative, but is {}", OptionName{"max_iterations"}, max_iterations);
+        throw InvalidArgument("{} must be nonnegative, but is {}", OptionName{"max_iterations"}, max_iterations);
     if (!(tolerance > 0) || !std::isfinite(tolerance))
         throw InvalidArgument("{} must be positive, but is {}", OptionName{"tolerance"}, tolerance);
 }

@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 
 IdData integrated_inputs(const IdData& data) {
     if (data.hold != Hold::kZoh)
-        throw InvalidArgument("{} needs a held input (zoh), because it integrates the input exactly",
+        throw InvalidArgument("{} needs an input with zero-order hold (zoh), because it integrates the input exactly",
                               OptionName{"integration"});
     IdData integrated = data;
     integrated.hold = Hold::kFoh;

@@ -215,9 +215,9 @@ Search search_for(const OutputErrorModel& model, const VectorView& y, const Vect
     options.validate();
     const Index count = model.parameter_count();
     if (start.size() != count)
-        throw InvalidArgument("The search needs {} start values, but {} were given", count, start.size());
+        throw InvalidArgument("The search needs {} initial values, but {} were given", count, start.size());
     if (y.size() <= count)
-        throw InvalidArgument("The data have {} samples, but more than {} are needed for as many parameters", y.size(),
+        throw InvalidArgument("The number of samples, {}, must be greater than the number of parameters, {}", y.size(),
                               count);
     return Search(model, y, options);
 }

@@ -372,7 +372,7 @@ Message reason_text(const StructureAdvice& missed) {
         case StructureAdviceCode::kHold:
             return Message("the input changes between its samples");
         default:
-            return Message("the output responds to the input immediately (a direct feedthrough)");
+            return Message("the output responds to the input immediately (direct feedthrough)");
     }
 }
 
@@ -441,8 +441,8 @@ Message sentence_of(const StructureAdvice& missed) {
                                 : Message("the fit of {} of the first {} samples", missed.output, missed.samples);
     const Number better = significant(missed.better_fit_percent, 4), present = significant(missed.fit_percent, 4);
     return std::isfinite(missed.fit_percent)
-               ? Message("With {} {} is {} % instead of {} %: {}.", option, fit, better, present, reason)
-               : Message("With {} {} is {} %: {}.", option, fit, better, reason);
+               ? Message("With {}, {} is {} % instead of {} %: {}.", option, fit, better, present, reason)
+               : Message("With {}, {} is {} %: {}.", option, fit, better, reason);
 }
 
 }  // namespace dynlab::inline numerics

@@ -31,7 +31,7 @@ OrthogonalPolynomials orthogonal_polynomials(const ComplexVector& s, const Vecto
         }
         const double length = std::sqrt(product(next, next));
         if (!(length > kDependent * size)) {
-            if (j == 0) throw InvalidArgument("the response is zero at all frequencies, so it determines no model");
+            if (j == 0) throw InvalidArgument("the response is zero at all frequencies, so no model can be estimated");
             throw InvalidArgument(
                 "{} frequencies cannot distinguish a polynomial of degree {} from lower degrees: use fewer poles and "
                 "zeros, or a wider band",

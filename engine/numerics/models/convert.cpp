@@ -69,7 +69,7 @@ bool has_root(const Vector& p, double x) {
 }
 
 [[noreturn]] void report_pole_without_image(double Ts) {
-    throw InvalidArgument("c2d: the tustin method has no result for a pole at 2/Ts = {} rad/s; choose another Ts",
+    throw InvalidArgument("c2d: the tustin method is undefined for a pole at 2/Ts = {} rad/s; choose another Ts",
                           2 / Ts);
 }
 
@@ -124,7 +124,7 @@ TransferFunction exact_d2c(const TransferFunction& G, Hold hold) {
 
 TransferFunction tustin_d2c(const TransferFunction& G) {
     const Vector top = Eigen::Vector2d(1, 2), bottom = Eigen::Vector2d(-1, 2);  // z, with time in samples
-    if (has_root(G.den(), -1)) throw InvalidArgument("d2c: the tustin method has no result for a pole at z = -1");
+    if (has_root(G.den(), -1)) throw InvalidArgument("d2c: the tustin method is undefined for a pole at z = -1");
     const Vector den = substitute(G.den(), top, bottom, G.pole_count());
     const Vector num = without_rounding(substitute(G.num(), top, bottom, G.pole_count()));
     return TransferFunction(in_seconds(num, G.Ts()), in_seconds(den, G.Ts()), 0, G.delay());
@@ -133,14 +133,16 @@ TransferFunction tustin_d2c(const TransferFunction& G) {
 }  // namespace
 
 TransferFunction c2d(const TransferFunction& G, double Ts, Discretization method) {
-    if (!G.continuous()) throw InvalidArgument("c2d: the model is already discrete, with Ts = {} s", G.Ts());
+    if (!G.continuous())
+        throw InvalidArgument("c2d: the model is already a discrete-time model, with Ts = {} s", G.Ts());
     check_sampling_time("c2d", Ts);
     check_convertible("c2d", G);
     return method == Discretization::kTustin ? tustin_c2d(G, Ts) : exact_c2d(G, Ts, hold_of(method));
 }
 
 StateSpace c2d(const StateSpace& system, double Ts, Discretization method) {
-    if (system.Ts > 0) throw InvalidArgument("c2d: the model is already discrete, with Ts = {} s", system.Ts);
+    if (system.Ts > 0)
+        throw InvalidArgument("c2d: the model is already a discrete-time model, with Ts = {} s", system.Ts);
     check_sampling_time("c2d", Ts);
     const Matrix &A = system.A, &B = system.B, &C = system.C;
     if (method == Discretization::kTustin) {
@@ -160,7 +162,7 @@ StateSpace c2d(const StateSpace& system, double Ts, Discretization method) {
 }
 
 TransferFunction d2c(const TransferFunction& G, Discretization method) {
-    if (G.continuous()) throw InvalidArgument("d2c: the model is already continuous");
+    if (G.continuous()) throw InvalidArgument("d2c: the model is already a continuous-time model");
     check_convertible("d2c", G);
     return method == Discretization::kTustin ? tustin_d2c(G) : exact_d2c(G, hold_of(method));
 }
@@ -169,8 +171,8 @@ TransferFunction with_rational_delay(const std::string& caller, const TransferFu
     if (G.delay() == 0) return G;
     if (G.continuous())
         throw InvalidArgument(
-            "{}: with the delay of {} s this is not a rational transfer function: use pade(G, n), an approximation, or "
-            "c2d(G, Ts), which is exact at the samples",
+            "{}: a model with a delay of {} s has no rational transfer function: approximate the delay with pade(G, "
+            "n), or use c2d(G, Ts), which is exact at the sampling instants",
             caller, G.delay());
     const auto samples = static_cast<Index>(std::lround(G.delay() / G.Ts()));
     return TransferFunction(G.num(), multiply(G.den(), Vector::Unit(samples + 1, 0)), G.Ts());

@@ -29,12 +29,13 @@ void check_frequencies(const std::string& caller, const FrequencyData& data) {
         const double w = data.w[k];
         if (!std::isfinite(w)) throw InvalidArgument("{}: frequency {} is not a finite number", caller, k + 1);
         if (!(w > 0))
-            throw InvalidArgument("{}: frequencies must be above zero (rad/s), but frequency {} is {}; remove it",
-                                  caller, k + 1, w);
+            throw InvalidArgument("{}: frequencies must be positive (rad/s), but frequency {} is {}; remove it", caller,
+                                  k + 1, w);
         if (k > 0 && !(w > data.w[k - 1]))
-            throw InvalidArgument("{}: each frequency may occur once, but {} rad/s occurs more often", caller, w);
+            throw InvalidArgument("{}: each frequency may occur only once, but {} rad/s occurs several times", caller,
+                                  w);
         if (w > end)
-            throw InvalidArgument("{}: frequencies end at pi/Ts = {} rad/s, but frequency {} is {}", caller,
+            throw InvalidArgument("{}: frequencies must not exceed pi/Ts = {} rad/s, but frequency {} is {}", caller,
                                   std::numbers::pi / data.Ts, k + 1, w);
     }
 }
@@ -48,9 +49,9 @@ InterSample inter_sample_of(Hold hold) {
 void check_frequency_data(const std::string& caller, const FrequencyData& data) {
     check_sizes(caller, data);
     if (!(data.Ts >= 0) || !std::isfinite(data.Ts))
-        throw InvalidArgument("{}: the sampling time must not be negative, but is {}", caller, data.Ts);
+        throw InvalidArgument("{}: the sampling time must be nonnegative, but is {}", caller, data.Ts);
     if (data.Ts == 0 && data.inter_sample != InterSample::kBandLimited)
-        throw InvalidArgument("{}: a held input (zoh) needs the sampling time Ts", caller);
+        throw InvalidArgument("{}: an input with zero-order hold (zoh) needs the sampling time Ts", caller);
     check_frequencies(caller, data);
     for (Index k = 0; k < data.w.size(); ++k)
         if (!std::isfinite(data.response[k].real()) || !std::isfinite(data.response[k].imag()))

@@ -21,13 +21,15 @@ std::vector<Index> GreyModel::free_parameters() const {
 
 void GreyModel::validate() const {
     for (const GreyParameter& p : parameters) {
-        if (!std::isfinite(p.start)) throw InvalidArgument("The parameter {} starts from {}", p.name, p.start);
+        if (!std::isfinite(p.start))
+            throw InvalidArgument("The initial value of the parameter {} must be finite, but is {}", p.name, p.start);
         if (std::isnan(p.lower) || std::isnan(p.upper) || p.lower > p.upper)
-            throw InvalidArgument("The parameter {} has the bounds {} and {}, but the first must not exceed the second",
-                                  p.name, p.lower, p.upper);
+            throw InvalidArgument(
+                "The parameter {} has the bounds {} and {}, but the lower bound must not exceed the upper bound",
+                p.name, p.lower, p.upper);
         if (p.start < p.lower || p.start > p.upper)
-            throw InvalidArgument("The parameter {} starts from {}, outside its bounds {} and {}", p.name, p.start,
-                                  p.lower, p.upper);
+            throw InvalidArgument("The parameter {} has the initial value {}, which is outside the bounds {} and {}",
+                                  p.name, p.start, p.lower, p.upper);
     }
     if (state_names.empty()) throw InvalidArgument("The model needs at least one state");
 }

@@ -22,13 +22,13 @@ void read_dead_time(ImpulseEstimate& estimate, double Ts, Hold hold, double half
     if (!estimate.first) {
         estimate.message = sentences(
             {estimate.message,
-             Message("The response never exceeds the noise: the input has no visible effect on the output.")});
+             Message("The response never exceeds the noise: the input has no detectable effect on the output.")});
         return;
     }
     const Index first = *estimate.first, dead = std::max<Index>(first - (hold == Hold::kZoh ? 1 : 0), 0);
     const double first_time = static_cast<double>(first) * Ts, dead_time = static_cast<double>(dead) * Ts;
     const Message found =
-        dead == 0 ? Message("The response first exceeds the noise at lag {} ({} s); no dead time is visible.", first,
+        dead == 0 ? Message("The response first exceeds the noise at lag {} ({} s); no dead time was detected.", first,
                             first_time)
                   : Message("The response first exceeds the noise at lag {} ({} s); the dead time is about {} s ({}).",
                             first, first_time, dead_time, plural(dead, "{} sample", "{} samples"));

@@ -21,11 +21,13 @@ void check_orders(const PolynomialOrders& orders) {
     if (!between(orders.na, 0, kMaxOrder))
         throw InvalidArgument("na, the number of poles, must be between {} and {}, but is {}", 0, kMaxOrder, orders.na);
     if (!between(orders.nc, 0, kMaxOrder))
-        throw InvalidArgument("nc, the number of coefficients of C after its 1, must be between {} and {}, but is {}",
-                              0, kMaxOrder, orders.nc);
+        throw InvalidArgument(
+            "nc, the number of coefficients of C after the leading 1, must be between {} and {}, but is {}", 0,
+            kMaxOrder, orders.nc);
     if (!between(orders.nd, 0, kMaxOrder))
-        throw InvalidArgument("nd, the number of coefficients of D after its 1, must be between {} and {}, but is {}",
-                              0, kMaxOrder, orders.nd);
+        throw InvalidArgument(
+            "nd, the number of coefficients of D after the leading 1, must be between {} and {}, but is {}", 0,
+            kMaxOrder, orders.nd);
     for (std::size_t i = 0; i < orders.inputs(); ++i) {
         if (!between(orders.nb[i], 1, kMaxOrder))
             throw InvalidArgument("nb, the number of coefficients of B, must be between {} and {}, but is {}", 1,
@@ -34,8 +36,9 @@ void check_orders(const PolynomialOrders& orders) {
             throw InvalidArgument("nf, the number of poles of B/F, must be between {} and {}, but is {}", 0, kMaxOrder,
                                   orders.nf[i]);
         if (!between(orders.nk[i], 0, kMaxDelay))
-            throw InvalidArgument("nk, the delay in samples (1: no direct term), must be between {} and {}, but is {}",
-                                  0, kMaxDelay, orders.nk[i]);
+            throw InvalidArgument(
+                "nk, the delay in samples (1: no direct feedthrough), must be between {} and {}, but is {}", 0,
+                kMaxDelay, orders.nk[i]);
     }
 }
 

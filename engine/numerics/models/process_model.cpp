@@ -31,8 +31,8 @@ bool* flag(ProcessStructure& structure, char letter) {
 ProcessStructure ProcessStructure::parse(const std::string& text) {
     if (text.size() < 2 || text[0] != 'P' || text[1] < '1' || text[1] > '3')
         throw InvalidArgument(
-            "process model: \"{}\" is not the structure of a process model. Write P1, P2 or P3 followed by any of D "
-            "(delay), I (integrator), Z (zero), U (underdamped pair, from P2 on), as in P2DU",
+            "process model: \"{}\" is not a process model structure. Write P1, P2 or P3, followed by any of D (delay), "
+            "I (integrator), Z (zero) and U (underdamped, P2 and P3 only), such as P2DU",
             text);
     ProcessStructure structure;
     structure.poles = text[1] - '0';
@@ -40,20 +40,20 @@ ProcessStructure ProcessStructure::parse(const std::string& text) {
         bool* chosen = flag(structure, letter);
         if (chosen == nullptr)
             throw InvalidArgument(
-                "process model: \"{}\" has the unknown letter {}. Write P1, P2 or P3 followed by any of D (delay), I "
-                "(integrator), Z (zero), U (underdamped pair, from P2 on), as in P2DU",
+                "process model: \"{}\" has the unknown letter {}. Write P1, P2 or P3, followed by any of D (delay), I "
+                "(integrator), Z (zero) and U (underdamped, P2 and P3 only), such as P2DU",
                 text, std::string(1, letter));
         if (*chosen)
             throw InvalidArgument(
-                "process model: \"{}\" has the letter {} twice. Write P1, P2 or P3 followed by any of D (delay), I "
-                "(integrator), Z (zero), U (underdamped pair, from P2 on), as in P2DU",
+                "process model: \"{}\" has the letter {} twice. Write P1, P2 or P3, followed by any of D (delay), I "
+                "(integrator), Z (zero) and U (underdamped, P2 and P3 only), such as P2DU",
                 text, std::string(1, letter));
         *chosen = true;
     }
     if (structure.underdamped && structure.poles < 2)
         throw InvalidArgument(
-            "process model: \"{}\" has too few poles for an underdamped pair. Write P1, P2 or P3 followed by any of D "
-            "(delay), I (integrator), Z (zero), U (underdamped pair, from P2 on), as in P2DU",
+            "process model: \"{}\" has too few poles for U. Write P1, P2 or P3, followed by any of D (delay), I "
+            "(integrator), Z (zero) and U (underdamped, P2 and P3 only), such as P2DU",
             text);
     return structure;
 }
@@ -81,8 +81,8 @@ ProcessModel::ProcessModel(ProcessStructure structure_, Vector parameters_)
     : structure(structure_), parameters(std::move(parameters_)) {
     const std::vector<std::string> names = structure.parameter_names();
     if (parameters.size() == static_cast<Index>(names.size())) return;
-    throw InvalidArgument("process model: {} has the parameters {}, {} values, but {} were given", structure.text(),
-                          listed(names), names.size(), parameters.size());
+    throw InvalidArgument("process model: {} needs values for the parameters {} ({} values), but {} were given",
+                          structure.text(), listed(names), names.size(), parameters.size());
 }
 
 double ProcessModel::parameter(const std::string& name) const {

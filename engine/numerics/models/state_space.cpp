@@ -70,7 +70,7 @@ StateSpace::StateSpace(Matrix A_, Matrix B_, Matrix C_, Matrix D_, double Ts_)
 StateSpace to_state_space(const TransferFunction& G) {
     if (!G.proper())
         throw InvalidArgument(
-            "a transfer function with {} and {} is improper and has no state space form; it needs at least as many "
+            "a transfer function with {} and {} is improper and has no state-space form; it needs at least as many "
             "poles as zeros",
             plural(G.zero_count(), "{} zero", "{} zeros"), plural(G.pole_count(), "{} pole", "{} poles"));
     const Index n = G.pole_count();

@@ -75,7 +75,7 @@ TransferFunction::TransferFunction(const VectorView& num, const VectorView& den,
         throw InvalidArgument(
             "transfer function: Ts must be a positive number of seconds, or 0 for continuous time, but it is {}", Ts);
     if (!(delay >= 0) || !std::isfinite(delay))
-        throw InvalidArgument("transfer function: the delay must not be negative, but it is {} s", delay);
+        throw InvalidArgument("transfer function: the delay must be nonnegative, but it is {} s", delay);
     if (den.isZero(0)) throw InvalidArgument("transfer function: the denominator is zero");
     if (Ts > 0) delay_ = delay_on_grid(delay, Ts);
     const Vector stripped = strip_leading_zeros(den);
@@ -146,7 +146,7 @@ TransferFunction operator/(const TransferFunction& a, const TransferFunction& b)
             "division of a transfer function with a delay of {} s by a transfer function with a delay of {} s: the "
             "quotient would not be causal",
             a.delay(), b.delay());
-    if (b.num().isZero(0)) throw InvalidArgument("division by a transfer function that is zero");
+    if (b.num().isZero(0)) throw InvalidArgument("division by a zero transfer function");
     return a.with_delay(a.delay() - b.delay()) * TransferFunction(b.den(), b.num(), b.Ts());
 }
 
@@ -159,13 +159,14 @@ TransferFunction pow(const TransferFunction& base, int exponent) {
 TransferFunction feedback(const TransferFunction& forward, const TransferFunction& backward, int sign) {
     if (forward.delay() > 0 || backward.delay() > 0)
         throw InvalidArgument(
-            "feedback: a loop with a delay is not a rational transfer function: replace the delay with pade(G, n), an "
-            "approximation, or close the loop of discrete models, c2d(G, Ts)");
+            "feedback: a closed loop with a delay has no rational transfer function: approximate the delay with "
+            "pade(G, n), or convert the models to discrete time with c2d(G, Ts)");
     const double Ts = common_sampling_time(forward, backward);
     const Vector loop = multiply(forward.num(), backward.num());
     const Vector den = add(multiply(forward.den(), backward.den()), sign > 0 ? Vector(-loop) : loop);
     if (den.isZero(0))
-        throw InvalidArgument("feedback: the loop has no solution, because its gain is one at all frequencies");
+        throw InvalidArgument(
+            "feedback: the closed loop is not well-posed, because the loop gain is one at all frequencies");
     return TransferFunction(multiply(forward.num(), backward.den()), den, Ts);
 }
 

@@ -26,15 +26,18 @@ void check_lists(const std::vector<int>& poles, const std::vector<int>& zeros, c
     const Message count = plural(static_cast<Index>(channels), "{} channel", "{} channels");
     if (!of_channels(poles, channels))
         throw InvalidArgument(
-            "The model has {}, so the number of poles needs one value or one for each, but {} were given", count,
-            poles.size());
+            "The model has {}, so the number of poles must be one value or one value for each channel, but {} were "
+            "given",
+            count, poles.size());
     if (!of_channels(zeros, channels))
         throw InvalidArgument(
-            "The model has {}, so the number of zeros needs one value or one for each, but {} were given", count,
-            zeros.size());
+            "The model has {}, so the number of zeros must be one value or one value for each channel, but {} were "
+            "given",
+            count, zeros.size());
     if (!of_channels(delays, channels))
-        throw InvalidArgument("The model has {}, so the delay needs one value or one for each, but {} were given",
-                              count, delays.size());
+        throw InvalidArgument(
+            "The model has {}, so the delay must be one value or one value for each channel, but {} were given", count,
+            delays.size());
 }
 
 Index denominator_of(Denominators sharing, Index output, Index input, Index inputs) {
@@ -64,7 +67,7 @@ TransferStructure TransferStructure::grid(Index outputs, Index inputs, Denominat
             structure.poles.push_back(n);
         else if (structure.poles[static_cast<std::size_t>(denominator)] != n)
             throw InvalidArgument(
-                "Channels with a common denominator need equal numbers of poles, but {} and {} were given",
+                "Channels with a common denominator need the same number of poles, but {} and {} were given",
                 structure.poles[static_cast<std::size_t>(denominator)], n);
         structure.channels.push_back({denominator, entry(zeros, i), entry(delays, i)});
     }
@@ -166,7 +169,7 @@ std::vector<TransferFunction> TransferStructure::models(const VectorView& theta)
 void TransferStructure::validate() const {
     if (inputs < 1)
         throw InvalidArgument(
-            "A model relates inputs to outputs, but the data have no input: add an input with iddata");
+            "A transfer function needs an input, but the data have no input: add an input with iddata");
     if (outputs < 1 || channels.size() != static_cast<std::size_t>(outputs * inputs))
         throw InvalidArgument(
             "A model needs at least one output, and one channel for each pair of an input and an output");
@@ -181,7 +184,7 @@ void TransferStructure::validate() const {
             throw InvalidArgument("The number of zeros must be between 0 and the number of poles, {}, but is {}", n,
                                   channel.zeros);
         if (!(channel.delay >= 0) || !std::isfinite(channel.delay))
-            throw InvalidArgument("A delay must not be negative, but is {} s", channel.delay);
+            throw InvalidArgument("A delay must be nonnegative, but is {} s", channel.delay);
     }
 }
 
@@ -192,7 +195,9 @@ TransferStructure TransferStructure::of_models(const std::vector<TransferFunctio
     structure.inputs = static_cast<Index>(models.size()) / outputs;
     std::vector<Vector> denominators;
     for (const TransferFunction& G : models) {
-        if (G.Ts() > 0) throw InvalidArgument("a start model must be in continuous time, but this model is discrete");
+        if (G.Ts() > 0)
+            throw InvalidArgument(
+                "a start model must be a continuous-time model, but this model is a discrete-time model");
         const Vector den = G.den() / G.den()[0];
         const auto known = std::find(denominators.begin(), denominators.end(), den);
         structure.channels.push_back({known - denominators.begin(), static_cast<int>(G.zero_count()), G.delay()});

@@ -73,7 +73,7 @@ CraneTruth crane_truth(const CraneParameters& p) {
 CraneSimulator::CraneSimulator(const CraneParameters& parameters, const CraneState& start, const OdeOptions& options)
     : p_(parameters), x_(packed(start)), solver_([this](double, const OdeState& x) { return rate(x); }, options) {
     p_.validate();
-    if (!x_.allFinite()) throw InvalidArgument("The crane's initial state must be finite numbers");
+    if (!x_.allFinite()) throw InvalidArgument("The initial state of the crane must contain only finite numbers");
     if (start.speed != 0) sliding_ = sign(start.speed);
     if (std::abs(start.position) > p_.rail) buffer_ = sign(start.position);
 }

@@ -16,11 +16,11 @@ double reading(double truth, double noise_std, double resolution, RandomStream& 
 
 void CraneRun::validate(const CraneParameters& parameters) const {
     if (!(duration > 0) || !std::isfinite(duration))
-        throw InvalidArgument("The crane's duration of a run must be positive, but is {}", significant(duration, 6));
-    if (!std::isfinite(angle)) throw InvalidArgument("The crane's angle at the start must be finite");
+        throw InvalidArgument("The duration of a crane run must be positive, but is {}", significant(duration, 6));
+    if (!std::isfinite(angle)) throw InvalidArgument("The initial angle of the crane must be finite");
     if (!(std::abs(position) <= parameters.rail))
-        throw InvalidArgument("The crane must start on its rail, between -{} m and {} m", parameters.rail,
-                              parameters.rail);
+        throw InvalidArgument("The initial position of the crane must be on the rail, between -{} m and {} m",
+                              parameters.rail, parameters.rail);
 }
 
 CraneRecord control_crane(const CraneParameters& parameters, const CraneExperiments& plan, const CraneRun& run,
@@ -40,7 +40,7 @@ CraneRecord control_crane(const CraneParameters& parameters, const CraneExperime
         record.theta[k] = reading(state.angle, plan.angle_noise_std, plan.angle_resolution, random);
         record.u[k] = controller(t[k], record.x[k], record.theta[k]);
         if (!std::isfinite(record.u[k]))
-            throw InvalidArgument("the controller returned a voltage that is not finite at {} s", t[k]);
+            throw InvalidArgument("the controller returned a voltage that is not finite at t = {} s", t[k]);
         crane.advance(record.u[k], plan.Ts);
     }
     return record;

@@ -51,7 +51,8 @@ Vector simulate_drifting_process(const DriftingProcessParameters& p, const Vecto
     p.validate();
     require_positive("drifting process", "sampling time", Ts);
     if (u.size() == 0 || !u.allFinite())
-        throw InvalidArgument("The drifting process's powers must be at least one finite number");
+        throw InvalidArgument(
+            "The power of the drifting process must have at least one sample, and every sample must be finite");
     double power = u[0], since = 0;
     OdeSolver solver(
         [&](double t, const OdeState& x) {

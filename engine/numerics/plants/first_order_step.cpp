@@ -12,7 +12,7 @@ void FirstOrderStepParameters::validate() const {
     require_positive(plant, "time constant", time_constant, "sampling time", Ts);
     require_not_negative(plant, "output noise", output_noise_std, "derivative noise", derivative_noise_std);
     if (!std::isfinite(gain) || !std::isfinite(step_height))
-        throw InvalidArgument("The first-order step's gain and step height must be finite numbers");
+        throw InvalidArgument("The gain and the height of the first-order step must be finite numbers");
     if (samples < 2)
         throw InvalidArgument("The first-order step needs at least 2 samples, but {} were requested", samples);
 }

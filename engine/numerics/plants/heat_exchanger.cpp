@@ -15,7 +15,7 @@ void HeatExchangerParameters::validate() const {
     require_positive(plant, "mass", mass, "specific heat", specific_heat, "power", power, "sampling time", Ts,
                      "flow and loss together", flow + loss, "time between step and end", duration - step_time);
     if (valve_before > 100 || valve_after > 100)
-        throw InvalidArgument("The heat exchanger's valve opens from 0 to 100 %, but a larger opening was requested");
+        throw InvalidArgument("The valve opening of the heat exchanger must be at most 100 %");
 }
 
 HeatExchangerTruth heat_exchanger_truth(const HeatExchangerParameters& p) {

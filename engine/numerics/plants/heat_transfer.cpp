@@ -63,7 +63,8 @@ Vector simulate_heat_transfer(const HeatTransferParameters& p, const Vector& u, 
     p.validate();
     require_positive("heat-transfer plant", "sampling time", Ts);
     if (u.size() == 0 || !u.allFinite())
-        throw InvalidArgument("The voltages of the heat-transfer plant must be at least one finite number");
+        throw InvalidArgument(
+            "The voltages of the heat-transfer plant must have at least one sample, and every sample must be finite");
     const double w = 2 * std::numbers::pi / p.drift_period, phase = 2 * std::numbers::pi * random.uniform();
     // The rig is linear in heating power and inlet temperature, so that both may be delayed in place of the air.
     double power = heating(p, u[0]);

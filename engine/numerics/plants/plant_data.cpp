@@ -20,7 +20,7 @@ void require_positive(const char* plant, const char* name, double value) {
 
 void require_not_negative(const char* plant, const char* name, double value) {
     if (!(value >= 0) || !std::isfinite(value))
-        throw InvalidArgument("The {}'s {} must not be negative, but is {}", plant, name, significant(value, 6));
+        throw InvalidArgument("The {}'s {} must be nonnegative, but is {}", plant, name, significant(value, 6));
 }
 
 Vector seeded_prbs(int stages, int hold, double low, double high, RandomStream& random) {

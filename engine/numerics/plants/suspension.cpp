@@ -15,10 +15,11 @@ void SuspensionParameters::validate() const {
     require_positive(plant, "mass", mass, "stiffness", stiffness, "force per volt", force_per_volt, "sampling time", Ts,
                      "time between step and end", duration - step_time);
     if (!std::isfinite(step_height) || step_height == 0)
-        throw InvalidArgument("The suspension's step height must be a number other than zero");
+        throw InvalidArgument("The step height of the suspension must be finite and nonzero");
     if (damping * damping >= 4 * stiffness * mass)
         throw InvalidArgument(
-            "The suspension's damping must be below 2 sqrt(stiffness mass); otherwise it does not oscillate");
+            "The damping of the suspension must be less than 2 sqrt(stiffness mass); otherwise, the suspension does "
+            "not oscillate");
 }
 
 SuspensionTruth suspension_truth(const SuspensionParameters& p) {

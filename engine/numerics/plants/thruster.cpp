@@ -119,7 +119,8 @@ Vector simulate_thruster(const ThrusterParameters& parameters, const Vector& pwm
     parameters.validate();
     require_positive("thruster", "sampling time", Ts);
     if (pwm.size() == 0 || !pwm.allFinite())
-        throw InvalidArgument("The thruster's pulse widths must be at least one finite number");
+        throw InvalidArgument(
+            "The pulse width of the thruster must have at least one sample, and every sample must be finite");
     RandomStream random(seed);
     return readings(parameters, pwm, Ts, {pwm.size(), random});
 }

@@ -121,7 +121,8 @@ Matrix two_tanks_levels(const TwoTanksParameters& p, const Vector& voltage, doub
     p.validate();
     require_positive("two tanks", "sampling time", Ts);
     if (voltage.size() == 0 || !voltage.allFinite())
-        throw InvalidArgument("The two tanks' voltages must be at least one finite number");
+        throw InvalidArgument(
+            "The voltages of the two tanks must have at least one sample, and every sample must be finite");
     require_not_negative("two tanks", "lowest voltage", voltage.minCoeff());
     for (double level : start) {
         require_not_negative("two tanks", "start level", level);

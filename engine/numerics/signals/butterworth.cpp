@@ -32,7 +32,7 @@ Analog analog_of(const PassBand& band, double Ts, bool stop) {
     if (!(band.low >= 0) || !(band.low < band.high) || band.low >= end || (from_zero && to_end))
         throw InvalidArgument(
             "the band of the filter must have an edge between 0 and pi/Ts = {} rad per time unit, but it is {} to {}. "
-            "Give the lower edge first; {0, w} is a low-pass filter",
+            "Specify the lower edge first; {0, w} is a low-pass filter",
             end, band.low, band.high);
     const double infinity = std::numeric_limits<double>::infinity();
     const double low = std::tan(band.low * Ts / 2), high = to_end ? infinity : std::tan(band.high * Ts / 2);

@@ -18,12 +18,12 @@ Message of(SignalName name, const std::array<Message, 4>& all) {
 Message not_a_number(SignalName name, Index sample) {
     return of(
         name,
-        {{Message("sample {} of the input is not a number (NaN); fillmissing(u, {method = \"previous\"}) holds the "
+        {{Message("sample {} of the input is not a number (NaN); fillmissing(u, {method = \"previous\"}) repeats the "
                   "previous value",
                   sample),
           Message("sample {} of the output is not a number (NaN); fillmissing(y) interpolates missing samples", sample),
-          Message("sample {} of the reference is not a number (NaN); fillmissing(r, {method = \"previous\"}) holds the "
-                  "previous value",
+          Message("sample {} of the reference is not a number (NaN); fillmissing(r, {method = \"previous\"}) repeats "
+                  "the previous value",
                   sample),
           Message("sample {} of the signal is not a number (NaN); fillmissing(x) interpolates missing samples",
                   sample)}});
@@ -31,13 +31,13 @@ Message not_a_number(SignalName name, Index sample) {
 
 Message not_a_number(SignalName name, Index sample, Index channel) {
     return of(name, {{Message("sample {} of channel {} of the input is not a number (NaN); fillmissing(u, {method = "
-                              "\"previous\"}) holds the previous value",
+                              "\"previous\"}) repeats the previous value",
                               sample, channel),
                       Message("sample {} of channel {} of the output is not a number (NaN); fillmissing(y) "
                               "interpolates missing samples",
                               sample, channel),
                       Message("sample {} of channel {} of the reference is not a number (NaN); fillmissing(r, {method "
-                              "= \"previous\"}) holds the previous value",
+                              "= \"previous\"}) repeats the previous value",
                               sample, channel),
                       Message("sample {} of channel {} of the signal is not a number (NaN); fillmissing(x) "
                               "interpolates missing samples",
@@ -144,8 +144,8 @@ void check_instants(const std::string& caller, const VectorView& t) {
         if (!std::isfinite(t(k)))
             throw InvalidArgument("{}: instant {} of the time vector is not a finite number", caller, k + 1);
         if (k > 0 && t(k) <= t(k - 1))
-            throw InvalidArgument("{}: the time must increase from sample to sample, but instant {} is {} after {}",
-                                  caller, k + 1, significant(t(k), 9), significant(t(k - 1), 9));
+            throw InvalidArgument("{}: the time vector must be increasing, but instant {} is {} after {}", caller,
+                                  k + 1, significant(t(k), 9), significant(t(k - 1), 9));
     }
 }
 

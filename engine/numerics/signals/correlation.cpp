@@ -128,7 +128,7 @@ Vector lagged_products(const VectorView& x, const VectorView& y, Index lags) {
     if (x.size() != y.size() || x.size() == 0)
         throw InvalidArgument("A correlation needs two signals of equal length, but these have {} and {} samples",
                               x.size(), y.size());
-    if (lags < 0) throw InvalidArgument("The number of lags must not be negative, but is {}", lags);
+    if (lags < 0) throw InvalidArgument("The number of lags must be nonnegative, but is {}", lags);
     return lags <= kDirectLags ? direct_products(x, y, lags) : transformed_products(x, y, lags);
 }
 

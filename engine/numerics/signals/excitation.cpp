@@ -35,7 +35,8 @@ Eigen::ArrayXd instants(const std::string& caller, double duration, double Ts) {
     const double count = std::round(duration / Ts);
     if (!(count >= 1) || count > kMaxSamples)
         throw InvalidArgument(
-            "{}: the duration must be at least one sampling time of {} s and at most 1e10 of them, but it is {} s",
+            "{}: the duration must be at least one sampling time of {} s and at most 1e10 sampling times, but it is {} "
+            "s",
             caller, Ts, duration);
     const Index samples = static_cast<Index>(count);
     return Ts * Eigen::ArrayXd::LinSpaced(samples, 0, static_cast<double>(samples - 1));
@@ -81,7 +82,7 @@ Vector chirp(double start_frequency, double end_frequency, double duration, doub
 
 Vector multisine(const VectorView& frequencies, double duration, double Ts) {
     const Eigen::ArrayXd t = instants("multisine", duration, Ts);
-    if (frequencies.size() == 0) throw InvalidArgument("multisine: give at least one frequency");
+    if (frequencies.size() == 0) throw InvalidArgument("multisine: specify at least one frequency");
     check_distinct(frequencies);
     const double count = static_cast<double>(frequencies.size());
     Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(t.size());

@@ -40,10 +40,10 @@ void check_same_units(const std::vector<std::string>& first, const std::vector<s
     for (std::size_t i = 0; i < std::min(first.size(), units.size()); ++i) {
         if (first[i].empty() || units[i].empty() || first[i] == units[i]) continue;
         if (kind == Channels::kInputs)
-            throw InvalidArgument("merge: part {} has its input {} in {} but the first in {}", part, i + 1, units[i],
-                                  first[i]);
-        throw InvalidArgument("merge: part {} has its output {} in {} but the first in {}", part, i + 1, units[i],
-                              first[i]);
+            throw InvalidArgument("merge: part {} has the input {} in {}, but the first part has this input in {}",
+                                  part, i + 1, units[i], first[i]);
+        throw InvalidArgument("merge: part {} has the output {} in {}, but the first part has this output in {}", part,
+                              i + 1, units[i], first[i]);
     }
 }
 
@@ -217,7 +217,7 @@ IdData IdData::shifted(Index samples) const {
 }
 
 IdData IdData::merge(const std::vector<IdData>& parts) {
-    if (parts.empty()) throw InvalidArgument("merge: give at least one data object");
+    if (parts.empty()) throw InvalidArgument("merge: specify at least one data object");
     IdData merged = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i) {
         const IdData& part = parts[i];
@@ -232,21 +232,21 @@ IdData IdData::merge(const std::vector<IdData>& parts) {
                                   merged.reference_count());
         if (part.Ts != merged.Ts)
             throw InvalidArgument(
-                "merge: part {} has the sampling time {} {} but the first has {} {}: bring them to the same one with "
-                "resample or interp1 first",
+                "merge: part {} has the sampling time {} {}, but the first has {} {}: convert both to the same "
+                "sampling time with resample or interp1",
                 i + 1, part.Ts, part.time_unit, merged.Ts, merged.time_unit);
         if (part.time_unit != merged.time_unit)
             throw InvalidArgument("merge: part {} has the time unit {}, but the first has {}", i + 1, part.time_unit,
                                   merged.time_unit);
         if (part.hold == Hold::kZoh && merged.hold != Hold::kZoh)
             throw InvalidArgument(
-                "merge: the input of part {} is held between the samples (zoh), but the first input is linearly "
+                "merge: the input of part {} has a zero-order hold (zoh), but the input of the first part is linearly "
                 "interpolated (foh)",
                 i + 1);
         if (part.hold != Hold::kZoh && merged.hold == Hold::kZoh)
             throw InvalidArgument(
-                "merge: the input of part {} is linearly interpolated between the samples (foh), but the first input "
-                "is held (zoh)",
+                "merge: the input of part {} is linearly interpolated (foh), but the input of the first part has a "
+                "zero-order hold (zoh)",
                 i + 1);
         check_same_units(merged.input_units, part.input_units, Channels::kInputs, i + 1);
         check_same_units(merged.output_units, part.output_units, Channels::kOutputs, i + 1);

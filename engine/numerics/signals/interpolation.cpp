@@ -12,7 +12,7 @@ void check_points(const VectorView& x, const VectorView& y) {
     if (x.size() < 2) throw InvalidArgument("interpolation needs at least two points, but {} was given", x.size());
     for (Index i = 1; i < x.size(); ++i)
         if (!(x[i] > x[i - 1]))
-            throw InvalidArgument("x must increase, but its element {} is not larger than the previous one", i + 1);
+            throw InvalidArgument("x must be increasing, but element {} is not larger than the previous one", i + 1);
 }
 
 }  // namespace
@@ -24,8 +24,9 @@ Vector interpolate_linearly(const VectorView& x, const VectorView& y, const Vect
     return x_new.unaryExpr([&](double place) {
         if (outside == Outside::kHold) place = std::clamp(place, x[0], x[last]);
         if (!(place >= x[0] && place <= x[last]))
-            throw InvalidArgument("no value exists at {}: x ranges from {} to {}", significant(place, kDigits),
-                                  significant(x[0], kDigits), significant(x[last], kDigits));
+            throw InvalidArgument("interpolation at {} is not possible: x ranges from {} to {}",
+                                  significant(place, kDigits), significant(x[0], kDigits),
+                                  significant(x[last], kDigits));
         const Index right = std::clamp<Index>(std::upper_bound(x.begin(), x.end(), place) - x.begin(), 1, last);
         const double part = (place - x[right - 1]) / (x[right] - x[right - 1]);
         return y[right - 1] + part * (y[right] - y[right - 1]);

@@ -38,13 +38,13 @@ Index initial_stretch(const Experiment& experiment, Index samples) {
     if (samples > 0) return samples;
     if (experiment.u.cols() == 0)
         throw InvalidArgument(
-            "detrend: without an input, the end of the initial rest is unknown; give its number of samples, as in "
+            "detrend: without an input, the end of the initial rest is unknown; specify the number of samples, as in "
             "detrend(data, \"start\", {samples = 20})");
     const Index found = samples_before_change(experiment.u);
     if (found >= kFewestLeft) return found;
     throw InvalidArgument(
-        "detrend: the input changes already at sample {}, so the data show no initial level. Remove the mean instead, "
-        "or give the number of samples to use, as in detrend(data, \"start\", {samples = 20})",
+        "detrend: the input already changes at sample {}, so the data contain no initial level. Remove the mean "
+        "instead, or specify the number of samples to use, as in detrend(data, \"start\", {samples = 20})",
         found + 1);
 }
 

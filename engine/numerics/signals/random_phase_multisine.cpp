@@ -81,14 +81,14 @@ void RandomPhaseOptions::validate(Index period) const {
     for (const double line : lines)
         if (line != std::floor(line) || line < 1 || line > static_cast<double>(last))
             throw InvalidArgument(
-                "multisine: lines are whole numbers of cycles per period, from 1 to {}, but one is {}", last, line);
+                "multisine: lines must be whole numbers of cycles per period, from 1 to {}, but one is {}", last, line);
     std::vector<double> sorted(lines.begin(), lines.end());
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end())
         throw InvalidArgument("multisine: each line may occur only once, but {} occurs several times", *twice);
     if (detection != 0 && detection < kSmallestGroup)
-        throw InvalidArgument("multisine: each group omits one line, so groups need at least 2 lines, not {}",
+        throw InvalidArgument("multisine: each group omits one line, so a group needs at least 2 lines, not {}",
                               detection);
     if (!(amplitude > 0) || !std::isfinite(amplitude))
         throw InvalidArgument("multisine: the amplitude must be positive, but is {}", amplitude);
@@ -98,7 +98,7 @@ RandomPhaseMultisine random_phase_multisine(Index period, const RandomPhaseOptio
     options.validate(period);
     std::vector<double> lines = chosen_lines(period, options), detection;
     if (options.detection > 0) draw_detection(options.detection, lines, detection);
-    if (lines.empty()) throw InvalidArgument("multisine: no line remains for a sine");
+    if (lines.empty()) throw InvalidArgument("multisine: no line remains to be excited");
     RandomPhaseMultisine result;
     result.lines = as_vector(lines), result.detection = as_vector(detection);
     result.u = sum_of_cosines(period, result.lines, 2 * std::numbers::pi * phases.uniform(result.lines.size()));

@@ -102,8 +102,8 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t, std::optio
             throw InvalidArgument(
                 "fillmissing: samples {} to {} are missing, more than {}. For an input that is logged when it changes, "
                 "use {method = \"previous\"}. For an output, use the parts before and after the gap as two "
-                "experiments, or give iddata only the measured samples with their times as {}. {longest = {}} allows "
-                "linear interpolation across the gap",
+                "experiments. Alternatively, pass only the measured samples to iddata, with their times as {}. The "
+                "option {longest = {}} allows linear interpolation across the gap",
                 first, last, plural(most, "{} sample", "{} samples"), OptionName{"sampling_instants"},
                 last - first + 1);
     return result;

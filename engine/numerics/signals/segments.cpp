@@ -13,7 +13,7 @@ void check_segments(const std::string& caller, const IdData& data, const std::ve
         throw InvalidArgument(
             "{}: the data must have one experiment, but they have {}; select one with data:experiment(k)", caller,
             data.experiments.size());
-    if (segments.empty()) throw InvalidArgument("{}: give at least one range {first, last}", caller);
+    if (segments.empty()) throw InvalidArgument("{}: specify at least one range {first, last}", caller);
     const Index count = data.sample_count();
     for (const Segment& segment : segments)
         if (segment.first < 1 || segment.last > count || segment.first > segment.last)

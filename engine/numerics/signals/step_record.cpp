@@ -84,7 +84,7 @@ Level level_of(const StepRecord& record, Index first, Index count) {
 void read_levels(StepRecord& record) {
     const Index N = record.y.size(), after = N - record.step_index;
     if (after < kSamplesAfterStep)
-        throw InvalidArgument("The data have {} from the step on, but at least {} are needed to evaluate the response",
+        throw InvalidArgument("The data have {} after the step, but at least {} are needed to evaluate the response",
                               plural(after, "{} sample", "{} samples"), kSamplesAfterStep);
     // The sample at the step itself still shows the old level: the output of a system with a lag cannot jump.
     record.initial = level_of(record, 0, record.step_index + 1);
@@ -177,7 +177,7 @@ double StepRecord::crossing_time(double part) const {
         const double before = rise(k - 1), after = rise(k);
         return t[k - 1] + (t[k] - t[k - 1]) * (part - before) / (after - before);
     }
-    throw InvalidArgument("The response never reaches the required part of its change");
+    throw InvalidArgument("The response never reaches the required fraction of its change");
 }
 
 StepRecord read_step_record(const IdData& data, double widest_window) {

@@ -16,20 +16,20 @@ namespace {
 constexpr double kSameStep = 1e-9;  // relative difference of two sampling times that mean the same
 [[noreturn]] void report_endless_answers() {
     throw InvalidArgument(
-        "closed loop: plant and controller both have a direct term (as many zeros as poles), which forms an algebraic "
-        "loop. Add a computing delay, or give one of them another pole");
+        "closed loop: plant and controller both have direct feedthrough (as many zeros as poles), which forms an "
+        "algebraic loop. Add a computing delay, or add a pole to the plant or the controller");
 }
 
 void check_proper(const TransferFunction& plant, const TransferFunction& controller) {
     if (!plant.proper())
         throw InvalidArgument(
-            "closed loop: the plant has {} but only {}; it needs at least as many poles (the derivative of a PID needs "
-            "a filter)",
+            "closed loop: the plant has {} but only {}; it needs at least as many poles (the derivative term of a PID "
+            "controller needs a filter)",
             plural(plant.zero_count(), "{} zero", "{} zeros"), plural(plant.pole_count(), "{} pole", "{} poles"));
     if (!controller.proper())
         throw InvalidArgument(
-            "closed loop: the controller has {} but only {}; it needs at least as many poles (the derivative of a PID "
-            "needs a filter)",
+            "closed loop: the controller has {} but only {}; it needs at least as many poles (the derivative term of a "
+            "PID controller needs a filter)",
             plural(controller.zero_count(), "{} zero", "{} zeros"),
             plural(controller.pole_count(), "{} pole", "{} poles"));
 }
@@ -41,21 +41,22 @@ void check_loop(const TransferFunction& plant, const LoopController& controller,
         throw InvalidArgument("closed loop: the plant must be a continuous-time model; convert it with d2c(G)");
     check_proper(plant, controller.C);
     if (controller.computing_delay < 0)
-        throw InvalidArgument("closed loop: the computing delay must be a number of samples from 0, but it is {}",
+        throw InvalidArgument("closed loop: the computing delay must be a nonnegative number of samples, but it is {}",
                               controller.computing_delay);
     if (controller.sampled()) {
         if (std::abs(controller.C.Ts() - Ts) <= kSameStep * Ts) return;
         throw InvalidArgument(
-            "closed loop: the controller has the sampling time {} s, but the data have {} s; the two must be equal",
+            "closed loop: the controller has the sampling time {} s, but the data have {} s; both must be equal",
             controller.C.Ts(), Ts);
     }
     if (controller.computing_delay > 0)
         throw InvalidArgument(
-            "closed loop: a computing delay needs a sampled controller, but this controller is in continuous time");
+            "closed loop: a computing delay needs a sampled controller, but this controller is a continuous-time "
+            "model");
     if (plant.delay() > 0 || controller.C.delay() > 0)
         throw InvalidArgument(
-            "closed loop: a loop with a delay and a continuous-time controller has no exact recursion; replace the "
-            "delay with pade(G, n), or use a sampled controller");
+            "closed loop: a loop with a delay and a continuous-time controller cannot be simulated exactly; "
+            "approximate the delay with pade(G, n), or use a sampled controller");
 }
 
 /// The plant; or, as two copies of it, the plant and its derivative by one of its parameters: states [z; dz], inputs

@@ -56,9 +56,9 @@ GreySimulator::GreySimulator(const GreyModel& model, Index outputs, GreyDirectio
     if (outputs <= own && (outputs == own || model.outputs_are_states)) return;
     const Message given = plural(own, "{} output", "{} outputs");
     if (model.outputs_are_states)
-        throw InvalidArgument("The model gives {}, but the data have {}: {} is required", given, outputs,
+        throw InvalidArgument("The model returns {}, but the data have {}: specify the option {}", given, outputs,
                               OptionName{"outputs"});
-    throw InvalidArgument("The model gives {}, but the data have {}", given, outputs);
+    throw InvalidArgument("The model returns {}, but the data have {}", given, outputs);
 }
 
 Vector GreySimulator::initial_state(const Vector& parameters) {

@@ -36,7 +36,7 @@ Vector initial_state(const VectorView& x0, Index order) {
 void check_discrete_sampling(double model_Ts, double Ts) {
     if (std::abs(model_Ts - Ts) <= kGridRounding * Ts) return;
     throw InvalidArgument(
-        "lsim: the model is discrete with Ts = {} s, but the data have the sampling time {} s; the two must be equal",
+        "lsim: the discrete-time model has Ts = {} s, but the data have the sampling time {} s; both must be equal",
         model_Ts, Ts);
 }
 
@@ -81,7 +81,8 @@ Vector lsim(const TransferFunction& G, const VectorView& u, const VectorView& t,
     const double regular_Ts = t.size() > 1 ? regular_sampling_time(t) : G.continuous() ? 1 : G.Ts();
     if (regular_Ts > 0) return lsim(G, u, regular_Ts, hold, x0);
     if (!G.continuous())
-        throw InvalidArgument("lsim: a discrete model needs equally spaced instants, but the time vector is irregular");
+        throw InvalidArgument(
+            "lsim: a discrete-time model needs equally spaced instants, but the time vector is irregular");
     check_model(G);
     const StateSpace form = to_state_space(G);
     IrregularFilter filter(form.A, form.B.col(0), form.C, form.D.col(0), hold, G.delay());

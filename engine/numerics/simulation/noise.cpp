@@ -36,21 +36,21 @@ Vector colored(const Vector& C, const Vector& D, const Vector& e) {
 double ColoredNoise::gain() const {
     if (D.size() > 1 && roots(D).cwiseAbs().maxCoeff() >= 1)
         throw InvalidArgument(
-            "The noise model has a pole on or outside the unit circle, so its noise has no standard deviation");
+            "The noise model has a pole on or outside the unit circle, so its noise has no finite standard deviation");
     const Index length = decay_time(C, D) + 1;
     return colored(C, D, Vector::Unit(length, 0)).norm();
 }
 
 Vector ColoredNoise::draw(Index count, double sigma, RandomStream& random) const {
     if (!(sigma >= 0) || !std::isfinite(sigma))
-        throw InvalidArgument("The standard deviation of noise must be zero or positive, but {} was given", sigma);
+        throw InvalidArgument("The standard deviation of noise must be nonnegative, but {} was given", sigma);
     return colored(C, D, sigma * random.normal(decay_time(C, D) + count)).tail(count);
 }
 
 double noise_std_of_snr(const VectorView& x, double snr) {
-    if (!std::isfinite(snr)) throw InvalidArgument("snr must be a number of decibels, but {} was given", snr);
+    if (!std::isfinite(snr)) throw InvalidArgument("snr must be a finite number in dB, but {} was given", snr);
     const double scale = std::sqrt((x.array() - x.mean()).square().sum() / static_cast<double>(x.size()));
-    if (!std::isfinite(scale)) throw InvalidArgument("snr needs a noise-free output that stays finite");
+    if (!std::isfinite(scale)) throw InvalidArgument("snr needs a noise-free output that is finite");
     if (scale == 0) throw InvalidArgument("snr needs a noise-free output that changes");
     return scale * std::pow(10.0, -snr / 20);
 }

@@ -32,8 +32,8 @@ ComplexVector response_between_samples(const TransferFunction& G, const VectorVi
     if (inter_sample == InterSample::kBandLimited || !G.continuous() || Ts == 0) return frequency_response(G, w);
     if (!G.proper())
         throw InvalidArgument(
-            "frequency response: a held input (zoh) has jumps, to which a model with more zeros than poles has no "
-            "response");
+            "frequency response: with a zero-order hold input (zoh), the model must have at least as many poles as "
+            "zeros");
     if (!w.allFinite()) throw InvalidArgument("frequency response: the frequencies contain a value that is not finite");
     if (G.pole_count() == 0) {
         // a gain: as much of it arrives as the delay lets through

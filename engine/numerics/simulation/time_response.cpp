@@ -28,7 +28,8 @@ Eigen::VectorX<Index> sample_numbers(const std::string& caller, const VectorView
         numbers(i) = std::llround(samples);
         if (std::abs(samples - static_cast<double>(numbers(i))) > kRounding)
             throw InvalidArgument(
-                "{}: the model is discrete, so the instants must be multiples of Ts = {} s, but instant {} is {} s",
+                "{}: the model is a discrete-time model, so the instants must be multiples of Ts = {} s, but instant "
+                "{} is {} s",
                 caller, Ts, i + 1, t(i));
     }
     return numbers;

@@ -13,7 +13,7 @@ namespace {
 
 void check_autoregression(Index count, const std::vector<Index>& lengths) {
     if (std::accumulate(lengths.begin(), lengths.end(), Index{0}) != count)
-        throw InvalidArgument("The lengths of the experiments of an autoregression must add up to its {} values",
+        throw InvalidArgument("The lengths of the experiments of an autoregressive model must add up to the {} samples",
                               count);
 }
 

@@ -86,8 +86,8 @@ std::optional<Message> simpler_arx(const ArxSelection& selection, std::size_t ch
             one.comparison_loss() <= kHardlyLarger * taken->comparison_loss())
             simplest = &one;
     if (simplest == taken) return std::nullopt;
-    return plural(simplest->parameters(), "With {} parameter instead of {}, {} is within 1 % of it.",
-                  "With {} parameters instead of {}, {} is within 1 % of it.", taken->parameters(),
+    return plural(simplest->parameters(), "With {} parameter instead of {}, {} has a loss that is at most 1 % larger.",
+                  "With {} parameters instead of {}, {} has a loss that is at most 1 % larger.", taken->parameters(),
                   orders_text(*simplest));
 }
 
@@ -147,8 +147,9 @@ OrderChoice choose_arx(const ArxSelection& selection, ArxCriterion criterion) {
     std::vector<Message> explanation{reason_of(orders_text(*best), criterion, selection.validated)};
     if (criterion != ArxCriterion::kLoss) return {place, sentences(explanation)};
     if (!selection.validated)
-        explanation.push_back(Message(
-            "On the estimation data the loss decreases with every parameter: give validation data, or choose by BIC."));
+        explanation.push_back(
+            Message("On the estimation data, the loss decreases with every additional parameter: specify validation "
+                    "data, or select the orders by BIC."));
     if (const auto simpler = simpler_arx(selection, place)) explanation.push_back(*simpler);
     return {place, sentences(explanation)};
 }

@@ -69,15 +69,15 @@ Matrix cramer_rao_bound(const TransferFunction& system, const VectorView& u, dou
     const ParameterNumbers numbers = numbers_in(names);
     if (theta.size() == 0)
         throw InvalidArgument(
-            "The Cramer-Rao bound is known for the coefficients a1, .., b0, .. (and Td) of a model with as many poles "
-            "as the system and no fewer zeros");
+            "The Cramer-Rao bound is available only for the coefficients a1, .., b0, .. (and Td) of a model with as "
+            "many poles as the system and no fewer zeros");
     if (numbers.delay && numbers.numerator > numbers.poles)
         throw InvalidArgument(
-            "The Cramer-Rao bound of a delay needs fewer zeros than poles: the output of this system jumps with its "
-            "input");
+            "The Cramer-Rao bound of a delay needs fewer zeros than poles: this system has direct feedthrough");
     if (u.size() < theta.size())
-        throw InvalidArgument("The Cramer-Rao bound of {} parameters needs at least as many samples, but there are {}",
-                              theta.size(), u.size());
+        throw InvalidArgument(
+            "The Cramer-Rao bound of {} parameters needs at least as many samples, but the data have {}", theta.size(),
+            u.size());
     const Matrix psi = sensitivities(system, theta, numbers, u, Ts, hold);
     const LeastSquares solved = solve_least_squares(psi, Vector::Zero(psi.rows()));
     if (solved.rank < theta.size()) {

@@ -20,7 +20,7 @@ constexpr Index kProfiledSamples = 50'000;  // of a longer record, its beginning
 void check_options(const DelaySearchOptions& options) {
     const FitOptions& estimation = options.estimation;
     if (estimation.largest_delay && !(*estimation.largest_delay > estimation.least_delay))
-        throw InvalidArgument("{} must be above {} ({} s), but {} was given: the range contains no delay",
+        throw InvalidArgument("{} must be greater than {} ({} s), but {} was given: the range contains no delay",
                               OptionName{"largest_delay"}, OptionName{"least_delay"}, estimation.least_delay,
                               *estimation.largest_delay);
 }
@@ -120,7 +120,8 @@ Message explanation_of(const DelaySearch& search, const IdData& data, bool repor
 
 Message late_input_sentence(const IdData& data) {
     return Message(
-        "{} responds before {} changes, by about one sample: the input was logged late. Shift it with data:shift(-1).",
+        "{} responds before {} changes, by about one sample: the input was logged late. Shift the input with "
+        "data:shift(-1).",
         data.output_names.front(), data.input_names.front());
 }
 

@@ -110,8 +110,8 @@ void find_error_outliers(FittedRecord& fit, const std::function<bool()>& cancel,
     DataIssue issue =
         about(fit, "outliers", Weight::kWarning,
               Message("The output {} has {} far from the neighboring samples ({}), up to {} from the values that the "
-                      "input explains. Check whether these samples are valid. If not, filloutliers replaces them by "
-                      "linear interpolation.",
+                      "input explains. Check whether these samples are valid. If they are not, replace them by linear "
+                      "interpolation with filloutliers.",
                       fit.output(), plural(count, "{} sample", "{} samples"), listed_places(repaired->stretches),
                       fit.with_unit(outliers.cwiseAbs().maxCoeff(), 2)),
               static_cast<double>(count));
@@ -198,8 +198,8 @@ bool find_strange_sections(const FittedRecord& fit, DataIssues& findings) {
     DataIssue issue =
         about(fit, "nonlinear", Weight::kWarning,
               Message("A linear model follows {} except in samples {}, where its error is more than {} times the usual "
-                      "error: another effect acts there (a limit, friction, a disturbance). Inspect these samples, and "
-                      "exclude them with data:discard if they do not belong to the dynamics.",
+                      "error: another effect acts there (such as a limit, friction or a disturbance). Inspect these "
+                      "samples, and exclude them with data:discard if they do not belong to the dynamics.",
                       fit.output(), places, kStrange),
               static_cast<double>(sections.size()));
     issue.sections = std::move(sections);

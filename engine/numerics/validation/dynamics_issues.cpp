@@ -164,9 +164,9 @@ void find_noise(const FittedRecord& fit, DataIssues& findings) {
         findings.push_back(
             about(fit, "low_snr", Weight::kWarning,
                   Message("The signal-to-noise ratio of {} is only about {} dB (the residual of a model with {} has "
-                          "the standard deviation {}). If the residual is noise, record longer or with a larger "
-                          "amplitude, and use methods that noise does not bias (tfsrivc instead of lssvf). If not, an "
-                          "effect other than the input moves the output.",
+                          "the standard deviation {}). If the residual is noise, collect more data or use a larger "
+                          "amplitude, and use methods that are unbiased in noise (tfsrivc instead of lssvf). "
+                          "Otherwise, an effect other than the input drives the output.",
                           fit.output(), ratio, order, left),
                   decibels));
 }
@@ -183,7 +183,8 @@ void find_dead_time(const FittedRecord& fit, DataIssues& findings) {
                   "The cause is a delay or another pole: compare both (tfsrivc with {} poles and a delay, and with {} "
                   "poles and {} = 0).",
                   fit.search.candidate.poles, fit.search.candidate.poles + 1, OptionName{"largest_delay"})
-            : Message("Add a dead time to the model ({} of tfsrivc, the D of procsrivc).", OptionName{"largest_delay"});
+            : Message("Add a dead time to the model ({} of tfsrivc, D in the structure of procsrivc).",
+                      OptionName{"largest_delay"});
     findings.push_back(about(fit, "dead_time", Weight::kNote, sentences({seen, remedy}), delay));
 }
 
@@ -193,12 +194,13 @@ void find_offset(const FittedRecord& fit, DataIssues& findings) {
     if (!fit.simulation.start.offset || std::abs(offset) < least) {
         const std::optional<double> level = level_at_rest(fit);
         if (level && std::abs(*level) >= std::max(kOffsetAtRest * deviation, 3 * fit.disturbance))
-            findings.push_back(about(fit, "offset", Weight::kNote,
-                                     Message("{} rests at about {} during the first {} samples, while {} is zero: "
-                                             "data:detrend(\"start\") or {} = \"estimate\" removes this offset.",
-                                             fit.output(), fit.with_unit(*level, 3), samples_at_rest(fit.u()),
-                                             fit.input(), OptionName{"offset"}),
-                                     *level));
+            findings.push_back(
+                about(fit, "offset", Weight::kNote,
+                      Message("{} is at rest at about {} during the first {} samples, while {} is zero. Remove this "
+                              "offset with data:detrend(\"start\"), or use {} = \"estimate\".",
+                              fit.output(), fit.with_unit(*level, 3), samples_at_rest(fit.u()), fit.input(),
+                              OptionName{"offset"}),
+                      *level));
         return;
     }
     const bool extrapolated = excludes_zero(fit.u());
@@ -206,14 +208,14 @@ void find_offset(const FittedRecord& fit, DataIssues& findings) {
         with_unit(rounded_to(offset, deviation / (extrapolated ? 5 : 50)), fit.data.output_units.front());
     const Message seen = extrapolated
                              ? Message(
-                                   "Linear extrapolation of these data gives {} of about {} when {} is zero; the data "
+                                   "Linear extrapolation of these data yields {} of about {} when {} is zero; the data "
                                    "cover only {} from {} to {}.",
                                    fit.output(), level, fit.input(), fit.input(), rounded(fit.u().minCoeff(), 3),
                                    rounded(fit.u().maxCoeff(), 3))
-                             : Message("{} rests at about {} when {} is zero.", fit.output(), level, fit.input());
+                             : Message("{} is at rest at about {} when {} is zero.", fit.output(), level, fit.input());
     const Message remedy = Message(
-        "A linear model goes through the origin: remove the offset with data:remove_mean() or data:detrend(\"start\"), "
-        "or use {} = \"estimate\".",
+        "A linear model cannot represent an offset: remove the offset with data:remove_mean() or "
+        "data:detrend(\"start\"), or use {} = \"estimate\".",
         OptionName{"offset"});
     findings.push_back(about(fit, "offset", Weight::kWarning, sentences({seen, remedy}), offset));
 }
@@ -276,12 +278,12 @@ void find_running_start(const FittedRecord& fit, DataIssues& findings) {
     const OptionName option{"initial_state"};
     const Message message = moves
                                 ? Message(
-                                      "The data start during a movement of {} of about {}: a start from rest does not "
-                                      "explain the first samples. Use {} = \"estimate\", or start the data later.",
+                                      "The data start during a transient of {} of about {}, so initial rest does not "
+                                      "explain the first samples. Use {} = \"estimate\", or remove the first samples.",
                                       fit.output(), fit.with_unit(largest, 2), option)
                                 : Message(
-                                      "The data start during a movement of {}: a start from rest does not explain the "
-                                      "first samples. Use {} = \"estimate\", or start the data later.",
+                                      "The data start during a transient of {}, so initial rest does not explain the "
+                                      "first samples. Use {} = \"estimate\", or remove the first samples.",
                                       fit.output(), option);
     findings.push_back(about(fit, "running_start", Weight::kWarning, message, largest));
 }
@@ -295,9 +297,10 @@ void find_sampling_rate(const FittedRecord& fit, DataIssues& findings) {
     if (ratio < kSlow && band < kBeyond * input_frequency(fit))
         findings.push_back(about(
             fit, "slow_sampling", Weight::kWarning,
-            Message("The sampling frequency is {} times the bandwidth of about {}; 10 to 30 times is usual. The data "
-                    "do not show the behavior between the samples: sample faster, and do not trust fast poles.",
-                    times, bandwidth),
+            Message(
+                "The sampling frequency is {} times the bandwidth of about {}; 10 to 30 times is usual. The data do "
+                "not show the behavior between the samples, and estimates of fast poles are unreliable: sample faster.",
+                times, bandwidth),
             ratio));
     else if (ratio > kFast)
         findings.push_back(about(
@@ -382,7 +385,7 @@ bool find_load(const FittedRecord& fit, DataIssues& findings) {
     const Message balance = with_unit(rounded(-found->load, 2), fit.data.input_units.front());
     findings.push_back(
         about(fit, "load", Weight::kWarning,
-              Message("{} integrates {} and a constant load of about {}: it is at rest when {} is {}, not zero. "
+              Message("{} integrates {} and a constant load of about {}: the equilibrium is at {} = {}, not at zero. "
                       "Subtract this value from {}, and include the pole at zero in the model with {}.",
                       fit.output(), fit.input(), load, fit.input(), balance, fit.input(), OptionName{"integration"}),
               found->load));

@@ -119,7 +119,7 @@ Message remedy_for_feedback(const Experiment& experiment) {
         return Message("Record data in open loop, or add the reference to iddata for clsrivc and clivsvf.");
     if ((experiment.r.array() == experiment.r(0, 0)).all())
         return Message("The reference never changes, so clsrivc and clivsvf cannot use it: vary the reference.");
-    return Message("The data have the loop's reference, which clsrivc and clivsvf use.");
+    return Message("The data contain the reference of the loop, which clsrivc and clivsvf use.");
 }
 
 }  // namespace

@@ -11,8 +11,9 @@ namespace {
 
 void require_pair(const VectorView& y, const VectorView& y_sim) {
     if (y.size() != y_sim.size())
-        throw InvalidArgument("The simulated output must be as long as the measured output, but has {} instead of {}",
-                              plural(y_sim.size(), "{} value", "{} values"), y.size());
+        throw InvalidArgument(
+            "The simulated output must have the same length as the measured output, but has {} samples instead of {}",
+            plural(y_sim.size(), "{} value", "{} values"), y.size());
     if (y.size() < 2)
         throw InvalidArgument(plural(y.size(), "A fit needs at least two samples, but {} was given",
                                      "A fit needs at least two samples, but {} were given"));
@@ -62,8 +63,8 @@ YoungCriterion yic(const VectorView& y, const VectorView& y_sim, const VectorVie
 InformationCriteria information_criteria(double mean_square, Index samples, Index parameters) {
     if (!(mean_square >= 0) || parameters < 0 || samples <= parameters + 1)
         throw InvalidArgument(
-            "Information criteria need a mean square that is not negative and more samples than parameters plus one, "
-            "but got {}, {} and {}",
+            "Information criteria need a nonnegative mean square and more samples than parameters plus one, but got "
+            "{}, {} and {}",
             mean_square, plural(samples, "{} sample", "{} samples"),
             plural(parameters, "{} parameter", "{} parameters"));
     const double N = static_cast<double>(samples), d = static_cast<double>(parameters);

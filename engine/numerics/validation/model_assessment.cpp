@@ -14,13 +14,13 @@ Message missing_part(const ModelEvidence& model) {
     if (!model.start.empty()) return model.start;
     if (model.acts_at_once)
         return Message(
-            "The output responds to the input immediately, but the model does not: try a direct feedthrough, with as "
+            "The output responds to the input immediately, but the model does not: try direct feedthrough, that is, as "
             "many zeros as poles.");
     if (model.acts_earlier)
         return Message("The output responds earlier than the model's delay allows: try a shorter delay.");
     return Message(
-        "Dynamics are missing: try another delay, one more pole or one more zero, and then check for a nonlinearity or "
-        "a drift.");
+        "The model does not describe all dynamics: try another delay, one more pole or one more zero, and then check "
+        "for a nonlinearity or a drift.");
 }
 
 /// Whether a parameter belongs to the output of this number alone: b0_y2 and b0_y2u1 to 2. One without an output's
@@ -45,16 +45,19 @@ ModelDoubts ModelDoubts::about(std::size_t i, const std::string& name) const {
 Message model_verdict(const ModelEvidence& model) {
     const Number fit = significant(model.fit_percent, 3);
     if (model.unstable) {
-        const Message verdict = Message("The model is unstable. Do not use it, whatever the residual tests show.");
+        const Message verdict = Message("The model is unstable. Do not use it, even if the residual tests pass.");
         return model.doubts.remedy.empty() ? verdict : sentences({verdict, model.doubts.remedy});
     }
     if (model.tested && explains_little(model.fit_percent)) {
         const Message verdict =
-            Message("The model explains little of the output (fit {} %), whatever the residual tests show.", fit);
+            Message("The model explains little of the output (fit {} %), even if the residual tests pass.", fit);
         const bool missing = !model.independent || !model.doubts.remedy.empty();
         return sentences(
-            {verdict, missing ? missing_part(model)
-                              : Message("The rest comes from a disturbance, another input or a nonlinearity.")});
+            {verdict,
+             missing
+                 ? missing_part(model)
+                 : Message(
+                       "The remainder of the output is caused by a disturbance, another input or a nonlinearity.")});
     }
     const bool cause_known = !model.doubts.remedy.empty() || !model.start.empty();
     if (!model.independent || (!model.white && cause_known)) return missing_part(model);
@@ -64,7 +67,9 @@ Message model_verdict(const ModelEvidence& model) {
             "structure may be sufficient.",
             listed(model.doubts.undetermined));
     if (model.white)
-        return Message("The model explains everything that the data show, and its standard errors are valid.");
+        return Message(
+            "The residuals contain no further information about the system, and the standard errors of the model are "
+            "valid.");
     if (!model.tested)
         return Message(
             "The cause is missing dynamics or a colored disturbance: these data, without a varying input, cannot "
@@ -76,7 +81,7 @@ Message model_verdict(const ModelEvidence& model) {
     if (model.fit_percent < kMostlyExplained)
         return Message(
             "The model explains everything that depends on the input (fit {} %). The residual has more than half of "
-            "the output's standard deviation. Possible causes are another input, a nonlinearity, or a colored "
+            "the standard deviation of the output. Possible causes are another input, a nonlinearity, or a colored "
             "disturbance; for the latter, use robust standard errors or a method with a noise model.",
             fit);
     return Message(

@@ -15,10 +15,10 @@ DataIssue too_short(Index samples) {
             Weight::kWarning,
             "",
             plural(samples,
-                   "The data have only {} sample. A model needs about ten samples per parameter: record longer, or use "
-                   "a model with one pole.",
-                   "The data have only {} samples. A model needs about ten samples per parameter: record longer, or "
-                   "use a model with one pole."),
+                   "The data have only {} sample. A model needs about ten samples per parameter: collect more data, or "
+                   "use a model with one pole.",
+                   "The data have only {} samples. A model needs about ten samples per parameter: collect more data, "
+                   "or use a model with one pole."),
             static_cast<double>(samples),
             0,
             {}};

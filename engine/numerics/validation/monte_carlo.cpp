@@ -222,7 +222,8 @@ void fill_runs(MonteCarloResult& result, const std::vector<Outcome>& outcomes, I
 std::vector<Outcome> outcomes_of_method(std::vector<MonteCarloRun>& runs, std::size_t method) {
     std::vector<Outcome> outcomes;
     for (MonteCarloRun& run : runs) {
-        if (run.outcomes.size() <= method) throw InvalidArgument("a run of the study lacks an estimator");
+        if (run.outcomes.size() <= method)
+            throw InvalidArgument("a run of the study has no result for one of the estimators");
         outcomes.push_back(std::move(run.outcomes[method]));
     }
     return outcomes;
@@ -277,12 +278,12 @@ void MonteCarloStudy::validate() const {
     if (!system.continuous()) throw InvalidArgument("system must be a continuous-time model");
     if (runs < 2 || runs > 1'000'000)
         throw InvalidArgument("runs must be between 2 and 1000000, but {} was given", runs);
-    if (threads < 0) throw InvalidArgument("threads must not be negative, but {} was given", threads);
+    if (threads < 0) throw InvalidArgument("threads must be nonnegative, but {} was given", threads);
     if (sigma.has_value() == snr.has_value())
-        throw InvalidArgument("give either sigma, the noise's standard deviation, or snr in dB");
+        throw InvalidArgument("specify either sigma (the standard deviation of the noise) or snr (in dB)");
     if (sigma && !(*sigma >= 0 && std::isfinite(*sigma)))
-        throw InvalidArgument("sigma must be zero or positive, but {} was given", *sigma);
-    if (snr && !std::isfinite(*snr)) throw InvalidArgument("snr must be a number of decibels, but {} was given", *snr);
+        throw InvalidArgument("sigma must be nonnegative, but {} was given", *sigma);
+    if (snr && !std::isfinite(*snr)) throw InvalidArgument("snr must be a finite number in dB, but {} was given", *snr);
 }
 
 Vector MonteCarloResult::least_spread() const {
@@ -294,7 +295,7 @@ MonteCarlo monte_carlo(const MonteCarloStudy& study, const std::vector<MonteCarl
     check_methods(methods);
     const NoisyRecords records(study);
     const double scale = standard_deviation(records.noise_free_output());
-    if (study.snr && !(scale > 0)) throw InvalidArgument("snr needs a noise-free output that changes; give sigma");
+    if (study.snr && !(scale > 0)) throw InvalidArgument("snr needs a noise-free output that changes; specify sigma");
     MonteCarlo all;
     all.runs = study.runs;
     all.sigma = study.sigma ? *study.sigma : scale * std::pow(10.0, -*study.snr / 20);

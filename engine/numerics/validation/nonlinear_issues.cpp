@@ -237,16 +237,16 @@ Number in_percent(double effect) {
 DataIssue curve_at_output(const FittedRecord& fit, double effect) {
     if (runs_into_a_limit(slopes_of_curve(fit))) {
         return about(fit, "saturation", Weight::kWarning,
-                     Message("{} flattens where a linear model continues to rise: the signal saturates at a limit "
+                     Message("{} flattens while a linear model continues to rise: the signal saturates at a limit "
                              "below the noise ({} % of its movement is missing). Exclude these ranges with "
                              "data:discard, or repeat the experiment with a smaller amplitude.",
                              fit.output(), in_percent(effect)),
                      effect);
     }
     return about(fit, "nonlinear", Weight::kWarning,
-                 Message("{} is a nonlinear function of a linear model's output (a square law, a limit): this effect "
-                         "is {} % of the variation of {}, which no linear model can follow. Use a smaller amplitude, "
-                         "or correct the output by the characteristic of its sensor.",
+                 Message("{} is a nonlinear function of a linear model's output (such as a square law or a limit): "
+                         "this effect is {} % of the variation of {}, which no linear model can represent. Use a "
+                         "smaller amplitude, or correct the output by the characteristic of its sensor.",
                          fit.output(), in_percent(effect), fit.output()),
                  effect);
 }
@@ -256,30 +256,32 @@ DataIssue nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) 
         case Curve::kInput:
             return about(
                 fit, "nonlinear", Weight::kWarning,
-                Message("{} acts through a nonlinear characteristic (a dead band, a square law, a limit): this effect "
-                        "is {} % of the variation of {}, which no linear model can follow. Use a smaller amplitude "
-                        "around one operating point, or estimate the characteristic with hammerstein.",
-                        fit.input(), in_percent(effect), fit.output()),
+                Message(
+                    "{} acts through a nonlinear characteristic (such as a dead band, a square law or a limit): this "
+                    "effect is {} % of the variation of {}, which no linear model can represent. Use a smaller "
+                    "amplitude around one operating point, or estimate the characteristic with hammerstein.",
+                    fit.input(), in_percent(effect), fit.output()),
                 effect);
         case Curve::kInputPlay:
-            return about(fit, "nonlinear", Weight::kWarning,
-                         Message("{} acts with backlash or friction, so its effect depends on the direction of "
-                                 "movement: this effect is {} % of the variation of {}, which no linear model can "
-                                 "follow. Move in one direction only, remove the play, or use much larger amplitudes.",
-                                 fit.input(), in_percent(effect), fit.output()),
-                         effect);
+            return about(
+                fit, "nonlinear", Weight::kWarning,
+                Message("{} acts with backlash or friction, so its effect depends on the direction of movement: this "
+                        "effect is {} % of the variation of {}, which no linear model can represent. Move in one "
+                        "direction only, remove the backlash, or use much larger amplitudes.",
+                        fit.input(), in_percent(effect), fit.output()),
+                effect);
         case Curve::kOutputPlay:
             return about(fit, "nonlinear", Weight::kWarning,
                          Message("{} shows backlash or friction, because it does not follow when the movement "
                                  "reverses: this effect is {} % of the variation of {}, which no linear model can "
-                                 "follow. Remove the play, or use much larger amplitudes.",
+                                 "represent. Remove the backlash, or use much larger amplitudes.",
                                  fit.output(), in_percent(effect), fit.output()),
                          effect);
         case Curve::kGain:
             return about(fit, "changing_gain", Weight::kWarning,
                          Message("The gain from {} to {} changes during the experiment: this effect is {} % of the "
-                                 "variation of {}. Fit the parts separately (data:range), and find out what changed: a "
-                                 "temperature, a load, a supply.",
+                                 "variation of {}. Fit the parts separately (data:range), and identify the cause, such "
+                                 "as a change of the temperature, the load or the supply.",
                                  fit.input(), fit.output(), in_percent(effect), fit.output()),
                          effect);
         case Curve::kOutput:

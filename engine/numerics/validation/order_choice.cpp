@@ -129,7 +129,7 @@ OrderChoice recommend(const OrderSelection& selection, const Places& estimated) 
     std::vector<Message> explanation;
     if (sound.empty()) {
         explanation.push_back(
-            Message("No structure gives a sound model; the least bad one is {} ({}), with {}. Try fewer poles and "
+            Message("No structure yields a reliable model; the best one is {} ({}), with {}. Try fewer poles and "
                     "zeros, or data with more excitation.",
                     structure_text(taken), measures_of(taken), faults_of(taken)));
     } else {
@@ -197,16 +197,16 @@ Message structure_text(const OrderCandidate& candidate) {
 OrderChoice choose_order(const OrderSelection& selection, OrderCriterion criterion) {
     if (criterion == OrderCriterion::kValidationFit && !selection.validated)
         throw InvalidArgument(
-            "no validation fit is available: give srivcstruc validation data, as in srivcstruc(data, {poles = {1, 4}, "
-            "validate = data2})");
+            "no validation fit is available: specify validation data, as in srivcstruc(data, {poles = {1, 4}, validate "
+            "= data2})");
     const Places estimated =
         places_where(selection, [](const OrderCandidate& candidate) { return candidate.failure.empty(); });
-    if (estimated.empty()) throw InvalidArgument("none of the structures could be estimated, so none can be chosen");
+    if (estimated.empty()) throw InvalidArgument("none of the structures could be estimated, so none can be selected");
     if (criterion == OrderCriterion::kRecommended) return recommend(selection, estimated);
     const std::size_t chosen = best_of(selection, estimated, criterion);
     const OrderCandidate& taken = selection.candidates[chosen];
     std::vector<Message> explanation{best_by(criterion, taken)};
-    if (!taken.sound()) explanation.push_back(Message("But that model has {}.", faults_of(taken)));
+    if (!taken.sound()) explanation.push_back(Message("However, that model has {}.", faults_of(taken)));
     return {chosen, sentences_that_are_there(std::move(explanation))};
 }
 

@@ -165,7 +165,7 @@ void check_selection(const IdData& data, const std::vector<TransferStructure>& c
                      const OrderSelectionOptions& options) {
     check_channels(data, false);
     if (options.validation != nullptr) check_channels(*options.validation, true);
-    if (options.threads < 0) throw InvalidArgument("threads must not be negative, but {} was given", options.threads);
+    if (options.threads < 0) throw InvalidArgument("threads must be nonnegative, but {} was given", options.threads);
     if (candidates.empty())
         throw InvalidArgument("no structure can be tried: the number of zeros must be less than the number of poles");
     for (const TransferStructure& structure : candidates) {

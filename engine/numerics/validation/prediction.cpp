@@ -22,7 +22,7 @@ void check_sampling(const IdData& data, double Ts) {
     constexpr double kRounding = 1e-9;
     if (Ts == 0 || std::abs(data.Ts - Ts) <= kRounding * Ts) return;
     throw InvalidArgument(
-        "The model and its noise have the sampling time Ts = {} s, but the data have {} s: the two must be equal", Ts,
+        "The model and its noise have the sampling time Ts = {} s, but the data have {} s: both must be equal", Ts,
         data.Ts);
 }
 
@@ -30,8 +30,8 @@ void check_invertible(const Vector& C, const Vector& D) {
     for (const auto& [name, p] : {std::pair{"C", C}, std::pair{"D", D}})
         if (!inside_unit_circle(p))
             throw InvalidArgument(
-                "The noise model's {} has a root on or outside the unit circle, so its white noise cannot be computed "
-                "from the data",
+                "The polynomial {} of the noise model has a root on or outside the unit circle, so the white noise "
+                "cannot be computed from the data",
                 name);
 }
 
@@ -130,7 +130,7 @@ StartedPrediction best_start(const IdData& data, const OrderedParameters& model,
     if (candidates.empty())
         throw InvalidArgument(
             "The data have too few samples for a prediction: the model needs {} before the first predicted sample, and "
-            "more samples than the values it estimates",
+            "more samples than estimated values",
             model.orders.past());
     std::vector<Index> common = candidates.front().lengths;
     for (const StartedPrediction& candidate : candidates)

@@ -100,14 +100,14 @@ Message independence_verdict(const IndependenceTest& test, const IdData& data) {
     const std::string& name = data.input_names[static_cast<std::size_t>(test.input)];
     const auto probability = probability_text(test.p_value);
     if (!test.independent)
-        return Message("{} still explains part of the error ({}; most at {}).", name, probability,
+        return Message("{} is correlated with the error ({}; largest at {}).", name, probability,
                        lag_text(strongest_lag(test), data));
     if (!test.without_feedback)
         return Message(
-            "{} explains no more of the error ({}), but its later values correlate with the error ({}): the output "
-            "seems to act back on the input.",
+            "{} is not correlated with the later error ({}), but the error is correlated with later values of the "
+            "input ({}): the output seems to affect the input through feedback.",
             name, probability, probability_text(test.p_value_future));
-    return Message("{} explains no more of the error ({}).", name, probability);
+    return Message("{} is not correlated with the error ({}).", name, probability);
 }
 
 // An input, its covariances at lags 0 and on, and those with the error at lags of both signs.

@@ -41,7 +41,7 @@ DataIssue mixed_sampling(const Clock& clock, Index place, std::size_t experiment
             Weight::kWarning,
             "",
             Message("The data mix two sampling times: {} steps of {} and {} of {}, first at sample {}. Two files were "
-                    "probably joined; make an experiment of each part, resample one and merge them.",
+                    "probably joined; create an experiment from each part, resample one part and merge both.",
                     clock.alike_to(clock.usual), with_unit(significant(clock.usual, 4), unit), clock.alike_to(other),
                     with_unit(significant(other, 4), unit), place + 1),
             other,

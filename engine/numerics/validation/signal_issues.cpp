@@ -69,12 +69,12 @@ double range_of(const Vector& x) {
 
 /// A constant input other than zero may be a step with which the record begins.
 void find_step_at_the_start(const Channel& channel, std::vector<DataIssue>& findings) {
-    findings.push_back(about(
-        channel, "step_input", Weight::kNote,
-        Message("{} stays at {} throughout: this is a step experiment if the input was switched on with the first "
-                "sample and the output started from rest. It shows gain, dead time and one or two time constants.",
-                subject(channel), value_of(channel, channel.x[0])),
-        0));
+    findings.push_back(about(channel, "step_input", Weight::kNote,
+                             Message("{} stays at {} throughout: this is a step experiment if the input was switched "
+                                     "on with the first sample and the output started from rest. Such data determine "
+                                     "the gain, the dead time and one or two time constants.",
+                                     subject(channel), value_of(channel, channel.x[0])),
+                             0));
 }
 
 void find_constant(const Channel& channel, std::vector<DataIssue>& findings) {
@@ -100,11 +100,11 @@ void find_time_column(const Channel& channel, std::vector<DataIssue>& findings) 
     const Vector steps = channel.x.tail(N - 1) - channel.x.head(N - 1);
     const double mean = steps.mean();
     if (!(mean > 0) || (steps.array() - mean).abs().maxCoeff() > 1e-3 * mean) return;
-    findings.push_back(about(channel, "time_column", Weight::kWarning,
-                             Message("{} increases by the same {} from every sample to the next, like a time column. "
-                                     "Check the columns of the file.",
-                                     subject(channel), significant(mean, 4)),
-                             mean));
+    findings.push_back(
+        about(channel, "time_column", Weight::kWarning,
+              Message("{} increases by {} at every sample, like a time column. Check the columns of the file.",
+                      subject(channel), significant(mean, 4)),
+              mean));
 }
 
 /// How far a signal moves in `reach` samples before `place`; 0 where the record does not go back so far.
@@ -147,17 +147,17 @@ void find_saturation(const Channel& channel, const Quantization& grid, std::vect
     const double share = static_cast<double>(samples) / static_cast<double>(channel.x.size());
     const Message who = subject(channel), limit = value_of(channel, channel.x[runs[0].first - 1]);
     const Number percent = significant(100 * share, 2);
-    const Message message = share > 0.5
-                                ? Message(
-                                      "{} saturates for {} % of the data (samples {}): it reaches {} at full speed and "
-                                      "stays there. A linear model cannot follow that. Most of the data are saturated: "
-                                      "repeat the experiment with a smaller amplitude or another range of the sensor.",
-                                      who, percent, listed_places(runs), limit)
-                                : Message(
-                                      "{} saturates for {} % of the data (samples {}): it reaches {} at full speed and "
-                                      "stays there. A linear model cannot follow that. Exclude these ranges with "
-                                      "data:discard, or repeat the experiment with a smaller amplitude.",
-                                      who, percent, listed_places(runs), limit);
+    const Message message =
+        share > 0.5 ? Message(
+                          "{} saturates for {} % of the data (samples {}): it reaches {} abruptly and stays at this "
+                          "value. A linear model cannot represent saturation. Most of the data are saturated: repeat "
+                          "the experiment with a smaller amplitude or another range of the sensor.",
+                          who, percent, listed_places(runs), limit)
+                    : Message(
+                          "{} saturates for {} % of the data (samples {}): it reaches {} abruptly and stays at this "
+                          "value. A linear model cannot represent saturation. Exclude these ranges with data:discard, "
+                          "or repeat the experiment with a smaller amplitude.",
+                          who, percent, listed_places(runs), limit);
     DataIssue issue = about(channel, "saturation", Weight::kWarning, message, share);
     issue.sections = runs;
     findings.push_back(std::move(issue));
@@ -168,8 +168,8 @@ void find_quantization(const Channel& channel, const Quantization& grid, std::ve
     if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
     findings.push_back(
         about(channel, "quantization", Weight::kWarning,
-              Message("{} is quantized in steps of {}, only {} of them over its range. The effect is like noise of "
-                      "standard deviation {}; use a finer range of the converter or a larger amplitude.",
+              Message("{} is quantized in steps of {}, with only {} steps over its range. The effect is similar to "
+                      "noise with the standard deviation {}; use a finer range of the converter or a larger amplitude.",
                       subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
                       value_of(channel, grid.step / std::sqrt(12.0), 2)),
               grid.step));
@@ -210,8 +210,8 @@ void find_outliers(const Channel& channel, const Quantization& grid, std::vector
     if (count == 0 || static_cast<double>(count) > 0.05 * static_cast<double>(channel.x.size())) return;
     DataIssue issue =
         about(channel, "outliers", Weight::kWarning,
-              Message("{} has {} far from the neighboring samples ({}). Check whether these samples are valid. If not, "
-                      "filloutliers replaces them by linear interpolation.",
+              Message("{} has {} far from the neighboring samples ({}). Check whether these samples are valid. If they "
+                      "are not, replace them by linear interpolation with filloutliers.",
                       subject(channel), plural(count, "{} sample", "{} samples"), listed_places(repaired.stretches)),
               static_cast<double>(count));
     issue.sections = repaired.stretches;
@@ -231,7 +231,7 @@ bool find_wrap(const Channel& channel, std::vector<DataIssue>& findings) {
     if (!period) return false;
     findings.push_back(about(channel, "wrapped", Weight::kWarning,
                              Message("{} is an angle that jumps by a full turn ({}) at the end of its range, which no "
-                                     "linear model can follow: remove the jumps with {}.",
+                                     "linear model can represent: remove the jumps with {}.",
                                      subject(channel), value_of(channel, *period),
                                      *period == kDegreesPerTurn ? "unwrap(x, 360)" : "unwrap(x)"),
                              *period));
@@ -299,15 +299,16 @@ Index changes_of(const Vector& u) {
 
 /// Of an input that changes so often only.
 Message few_changes(const Channel& channel, Index changes) {
-    return changes == 1
-               ? Message(
-                     "{} changes only once: a step experiment. It shows gain, dead time and one or two time constants "
-                     "(procsrivc, step_first_order); for higher orders, excite the system with a prbs.",
-                     subject(channel))
-               : Message(
-                     "{} changes only {} times: a step experiment. It shows gain, dead time and one or two time "
-                     "constants (procsrivc, step_first_order); for higher orders, excite the system with a prbs.",
-                     subject(channel), changes);
+    return changes == 1 ? Message(
+                              "{} changes only once: a step experiment. Such data determine the gain, the dead time "
+                              "and one or two time constants (procsrivc, step_first_order); for higher orders, excite "
+                              "the system with a prbs.",
+                              subject(channel))
+                        : Message(
+                              "{} changes only {} times: a step experiment. Such data determine the gain, the dead "
+                              "time and one or two time constants (procsrivc, step_first_order); for higher orders, "
+                              "excite the system with a prbs.",
+                              subject(channel), changes);
 }
 
 Message excitation_of(const Channel& channel, Index order) {
@@ -318,8 +319,9 @@ Message excitation_of(const Channel& channel, Index order) {
             subject(channel), plural(order, "{} parameter", "{} parameters"),
             plural((order + 1) / 2, "{} frequency", "{} frequencies"));
     if (order < kMaxExcitation)
-        return Message("{} is rich enough for models with {} parameters.", subject(channel), order);
-    return Message("{} is rich enough for models with {} parameters or more.", subject(channel), kMaxExcitation);
+        return Message("{} is sufficiently exciting for models with {} parameters.", subject(channel), order);
+    return Message("{} is sufficiently exciting for models with {} parameters or more.", subject(channel),
+                   kMaxExcitation);
 }
 
 void find_excitation(const Channel& channel, const Quantization& grid, std::vector<DataIssue>& findings) {

@@ -16,7 +16,8 @@ namespace dynlab::inline numerics {
 namespace {
 
 void check_model(const TransferFunction& G, const Matrix& covariance) {
-    if (!G.continuous()) throw InvalidArgument("Uncertainty is computed for continuous-time models: give d2c(G)");
+    if (!G.continuous())
+        throw InvalidArgument("Uncertainty is computed only for continuous-time models: convert the model with d2c(G)");
     if (!G.proper())
         throw InvalidArgument(
             "Uncertainty needs a model with at least as many poles as zeros, but this model has {} and {}",
@@ -197,8 +198,8 @@ ModelUncertainty describe_uncertainty(const UncertainModel& model) {
     for (const PoleDescription& mode : damping(G)) result.modes.push_back(mode_uncertainty(mode, poles));
     if (std::any_of(poles.begin(), poles.end(), [](const auto& pole) { return pole.near_multiple; }))
         result.warnings.push_back(
-            Message("Some poles are closer together than their standard errors, so the errors of poles, damping and "
-                    "time constants mean little: fewer poles may suffice."));
+            Message("Some poles are closer together than their standard errors, so the standard errors of poles, "
+                    "damping and time constants are unreliable: fewer poles may be sufficient."));
     return result;
 }
 

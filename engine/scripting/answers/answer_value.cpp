@@ -101,7 +101,7 @@ class AnswerWriter {
             const bool in_list = lua_isinteger(L, -2) && lua_tointeger(L, -2) >= 1 && lua_tointeger(L, -2) <= length;
             if (in_list) continue;
             if (lua_type(L, -2) != LUA_TSTRING)
-                throw InvalidArgument("the keys of a table must be names, or count from 1 without gaps");
+                throw InvalidArgument("the keys of a table must be names, or the integers from 1 without gaps");
             const std::string name = lua_tostring(L, -2);
             count(static_cast<Index>(name.size()));
             json_.key(name);

@@ -14,7 +14,7 @@ constexpr double kLargestOrder = 1e6;
 
 int checked_order(double value, int index, std::span<const OrderEntry> entries, const char* name) {
     if (std::floor(value) != value || value < 0 || value > kLargestOrder)
-        throw InvalidArgument("argument {} (orders) must be {}, but {} is {}; it must be a whole number from 0", index,
+        throw InvalidArgument("argument {} (orders) must be {}, but {} is {}; it must be a nonnegative integer", index,
                               meaning_of(entries), name, significant(value, 10));
     return static_cast<int>(value);
 }
@@ -63,8 +63,8 @@ std::vector<std::vector<int>> order_lists(const Call& call, int index, std::span
         const Message has = plural(count, "{} entry", "{} entries");
         if (count > static_cast<Index>(entries.size()) + 1)
             throw InvalidArgument(
-                "argument {} (orders) must be {}, but it has {}. With several inputs an entry is a list with one value "
-                "for each, such as {1, 1}",
+                "argument {} (orders) must be {}, but it has {}. With several inputs, an entry is a list with one "
+                "value per input, such as {1, 1}",
                 index, meaning_of(entries), has);
         throw InvalidArgument("argument {} (orders) must be {}, but it has {}", index, meaning_of(entries), has);
     };
@@ -114,7 +114,7 @@ std::vector<int> counts_argument(const Call& call, int index, ArgumentName what)
     std::vector<int> counts;
     for (const double value : values) {
         if (!(value >= 0) || value != std::floor(value))
-            throw InvalidArgument("{} must contain whole numbers from 0", argument_label(index, what));
+            throw InvalidArgument("{} must contain nonnegative integers", argument_label(index, what));
         counts.push_back(static_cast<int>(value));
     }
     return counts;
@@ -155,7 +155,7 @@ std::vector<double> delays_of(const std::vector<int>& samples, const IdData& dat
     std::vector<double> delays;
     for (const int nk : samples) {
         if (nk > 0 && !data.regular())
-            throw InvalidArgument("nk counts samples of delay, which do not exist in irregularly sampled data: use 0");
+            throw InvalidArgument("nk is a delay in samples, which is undefined for irregularly sampled data: use 0");
         delays.push_back(nk * data.Ts);
     }
     return delays;
@@ -201,7 +201,8 @@ StartedStructure started_structure(const Call& call, const Options& options, con
     }
     for (const char* name : {"IODelay", "Td0"})
         if (options.has(name))
-            throw InvalidArgument("option '{}' cannot be combined with a start model, which has its own delay", name);
+            throw InvalidArgument("option '{}' cannot be combined with a start model, which already includes a delay",
+                                  name);
     SearchAids aids;
     const auto outputs = static_cast<Index>(object_argument<Model>(call, 2, Message("start model")).outputs);
     const auto structure =

@@ -23,33 +23,34 @@ inline constexpr OptionEntry kHoldOfOutput =
 
 inline constexpr std::array kFirstFilterOptions = {
     option<&FitOptions::lambda>(
-        "lambda", about("cut-off frequency of the filter of the first estimate; by default several are tried"),
+        "lambda",
+        about("cut-off frequency of the filter of the initial estimate; by default, several frequencies are tried"),
         {.unit = "rad/s"}),
     option<&FitOptions::hold_y>(
-        "hold_y", about("intersample behavior of the output in the filters; it does not change the result"),
+        "hold_y", about("intersample behavior of the output in the filters; this option does not affect the result"),
         {.initial = "\"foh\"", .choices = kHolds})};
 
 inline constexpr std::array kStartOptions = {
     option<&FitOptions::initial_state>(
         "InitialState",
         about("initial state: at rest with zero input (\"none\"), at rest with the first input value (\"steady\"), "
-              "estimated (\"estimate\"), or the one with the smallest BIC (\"auto\")"),
+              "estimated (\"estimate\"), or the choice with the smallest BIC (\"auto\")"),
         {.initial = "\"auto\"", .choices = kInitialStates, .former = "zero", .member = "initial_state"}),
     option<&FitOptions::offset>(
         "Offset",
-        about("constant offset of the output: zero (\"none\"), the operating point is removed first (\"remove\"), "
-              "estimated (\"estimate\"), or the smaller BIC of none and estimate (\"auto\"). If you give only one of "
-              "InitialState and Offset, the other remains \"auto\""),
+        about("constant offset of the output: zero (\"none\"), removed with the operating point before the estimation "
+              "(\"remove\"), estimated (\"estimate\"), or \"none\" or \"estimate\", whichever has the smaller BIC "
+              "(\"auto\"). If you specify only one of InitialState and Offset, the other remains \"auto\""),
         {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"})};
 
 inline constexpr OptionEntry kTolerance =
     option<&FitOptions::tolerance>("Tol", about("relative change of the parameters at which the search stops"),
                                    {.initial = "1e-6", .member = "tolerance"});
 inline constexpr std::array kIterationOptions = {
-    option<&FitOptions::max_iterations>(
-        "MaxIter",
-        about("maximum number of iterations; by default a search that has not converged continues up to 500"),
-        {.least = 0, .member = "max_iterations"}),
+    option<&FitOptions::max_iterations>("MaxIter",
+                                        about("maximum number of iterations; by default, a search that has not "
+                                              "converged continues for up to 500 iterations"),
+                                        {.least = 0, .member = "max_iterations"}),
     kTolerance};
 /// Of methods that end there in any case.
 inline constexpr std::array kLimitOptions = {
@@ -58,25 +59,25 @@ inline constexpr std::array kLimitOptions = {
     kTolerance};
 
 inline constexpr std::array kIntegrationOptions = {option<&FitOptions::integration>(
-    "Integration", about("integrator in addition to the poles, G = B/(s F); for held inputs only"),
+    "Integration", about("true adds an integrator to the model, G = B/(s F); only for inputs with zero-order hold"),
     {.member = "integration"})};
 
 inline constexpr OptionEntry kCommonDenominator = {
-    "CommonDenominator", ValueKind::kFlag, about("one denominator F for all channels"), {.initial = "false"}};
+    "CommonDenominator", ValueKind::kFlag, about("true uses one denominator F for all channels"), {.initial = "false"}};
 inline constexpr std::array kSharingOptions = {kCommonDenominator};
 
 inline constexpr OptionEntry kStableOption = option<&FitOptions::stable>(
     "Stable",
-    about("true allows only models with all poles in the left half plane; false takes the best fit regardless of its "
-          "poles. By default, an unstable model must lower the loss by 2 % or more"),
+    about("true allows only models with all poles in the left half plane; false returns the best fit regardless of its "
+          "poles. By default, an unstable model must decrease the loss by at least 2 %"),
     {.member = "stable"});
 inline constexpr OptionEntry kFixedOption = option<&FitOptions::fixed>(
-    "Fixed", about("known parameters, {a2 = 4}, which are not estimated"), {.member = "fixed"});
+    "Fixed", about("known parameters that are not estimated, such as {a2 = 4}"), {.member = "fixed"});
 inline constexpr std::array kSearchOptions = {
     kStableOption, kFixedOption,
     option<&FitOptions::output_weights>("OutputWeights",
-                                        about("with several outputs, one weight per output for its errors; by default "
-                                              "1/(standard deviation of the errors)"),
+                                        about("weights of the errors, one per output if there are several outputs; by "
+                                              "default 1/(standard deviation of the errors)"),
                                         {.member = "output_weights"})};
 
 inline constexpr std::array kDelayOptions = {
@@ -91,7 +92,7 @@ inline constexpr std::array kDelayOptions = {
 inline constexpr OptionEntry kKnownDelayOption = {
     "IODelay",
     ValueKind::kVector,
-    about("known delay, which is then not estimated; one per input with several inputs"),
+    about("known delay, which is not estimated; with several inputs, one delay per input"),
     {.unit = "s", .member = "delay"}};
 inline constexpr std::array kFixedDelayOptions = {kKnownDelayOption};
 /// Read by started_structure().
@@ -105,13 +106,15 @@ inline constexpr ArgumentEntry kDataArgument = {"data", ValueKind::kData,
                                                 about("data object or measured frequency response (idfrd)")};
 inline constexpr ArgumentEntry kOneOutputData = {
     "data", ValueKind::kData,
-    about("data object with one output, one or several inputs and experiments, regularly sampled")};
+    about("regularly sampled data object with one output, and with one or several inputs and experiments")};
 inline constexpr ArgumentEntry kFilterFrequency = {
     "lambda", ValueKind::kNumber,
     about("cut-off frequency of the filter in rad/s, usually slightly above the bandwidth of the system")};
 inline constexpr ArgumentEntry kPoleCount = {
     "np", ValueKind::kCount,
     about("number of poles; with several inputs or outputs, one number for all or a table with one per channel")};
-inline constexpr ArgumentEntry kZeroCount = {"nz", ValueKind::kCount, about("number of zeros, in the same form")};
+inline constexpr ArgumentEntry kZeroCount = {
+    "nz", ValueKind::kCount,
+    about("number of zeros; with several inputs or outputs, one number for all or a table with one per channel")};
 
 }  // namespace dynlab::inline scripting

@@ -28,7 +28,8 @@ LoopKnowledge loop_knowledge(const Options& options) {
     options.read(known);
     if (!options.has("controller")) {
         if (options.has("ComputingDelay"))
-            throw InvalidArgument("option 'ComputingDelay' is the delay of the controller: give 'controller', too");
+            throw InvalidArgument(
+                "option 'ComputingDelay' is the delay of the controller and requires the option 'controller'");
         return known;
     }
     known.controller = controller_at(options.call(), options.push("controller"));

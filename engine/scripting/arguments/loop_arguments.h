@@ -15,10 +15,10 @@ Index computing_delay_of(const Options& options);
 
 inline constexpr std::array kLoopOptions = {
     OptionEntry{"controller", ValueKind::kModel,
-                about("controller of the loop: a model in continuous time or with the sampling time of the data, or a "
-                      "number; optional")},
+                about("controller of the loop: a continuous-time model, a discrete-time model with the sampling time "
+                      "of the data, or a number; optional")},
     OptionEntry{"ComputingDelay", ValueKind::kCount,
-                about("delay of a sampled controller in samples; by default the data decide between none and one")},
+                about("delay of a sampled controller in samples; by default, 0 or 1 is determined from the data")},
     option<&LoopKnowledge::hold_r>("hold_r",
                                    about("intersample behavior of the reference for a continuous-time controller"),
                                    {.initial = "\"zoh\"", .choices = kHolds})};

@@ -29,7 +29,7 @@ inline constexpr std::array kStatesOfComparison = {"none", "steady", "estimate",
 inline constexpr OptionEntry kComparedStateOption = {
     "InitialState",
     ValueKind::kChoice,
-    about("initial state, as in `srivc`; for a grey-box model also \"model\", its own initial state"),
+    about("initial state, as in `srivc`; for a grey-box model also \"model\", the initial state of the model"),
     {.initial = "\"auto\"", .choices = kStatesOfComparison, .former = "zero", .member = "initial_state"}};
 inline constexpr OptionEntry kOffsetOption = option<&CompareOptions::offset>(
     "Offset", kStartOptions[1].description, {.initial = "\"auto\"", .choices = kOffsets, .member = "offset"});

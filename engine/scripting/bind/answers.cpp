@@ -53,7 +53,7 @@ int answer(Call& call) {
         value = checked_answer(call, name);
         const auto before = answers.find(name);  // the same value again is one answer
         if (before != answers.end() && before->second.json != value.json)
-            throw InvalidArgument("the answer \"{}\" was given before with another value; give each answer once", name);
+            throw InvalidArgument("the answer \"{}\" already has another value; specify each answer only once", name);
     } catch (const InvalidArgument& error) {
         if (!call.context().options.graded) throw;
         value = refused_answer(error.what());

@@ -21,23 +21,23 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr OptionEntry kImportOptions[] = {
-    option<&ImportOptions::skip>("skip", about("number of lines of a text file that are skipped")),
-    {"names", ValueKind::kAny, about("names of all columns, instead of those in the file")},
-    {"delimiter", ValueKind::kText, about("separator of the cells; \" \" for any number of blanks and tabs")},
-    {"units", ValueKind::kTable, about("units by column, {u = \"V\"}, instead of those in the file")},
-    option<&ImportOptions::time>("time", about("name of the column of instants")),
+    option<&ImportOptions::skip>("skip", about("number of lines to skip at the beginning of a text file")),
+    {"names", ValueKind::kAny, about("names of all columns, which replace the names in the file")},
+    {"delimiter", ValueKind::kText, about("separator of the cells; \" \" for any number of spaces and tabs")},
+    {"units", ValueKind::kTable, about("units by column, such as {u = \"V\"}, which replace the units in the file")},
+    option<&ImportOptions::time>("time", about("name of the time column")),
     option<&ImportOptions::time_unit>(
-        "time_unit", about("unit of that column; \"dd/mm/yyyy\" or \"mm/dd/yyyy\" if it contains days")),
-    option<&ImportOptions::sheet>("sheet", about("name of a workbook's sheet; by default the first one"))};
+        "time_unit", about("unit of the time column; \"dd/mm/yyyy\" or \"mm/dd/yyyy\" if the column contains dates")),
+    option<&ImportOptions::sheet>("sheet", about("name of the sheet of a workbook; by default, the first sheet"))};
 constexpr OptionEntry kIddataOptions[] = {
     option<&IdData::hold>("InterSample", kHoldOption.description,
                           {.initial = "\"zoh\"", .choices = kHolds, .member = "hold"}),
     {"InputName", ValueKind::kAny, about("name of the input, or a list of names of several inputs")},
     {"OutputName", ValueKind::kAny, about("name of the output, or a list of names of several outputs")},
     {"InputUnit", ValueKind::kAny,
-     about("unit of the input, or a list of units; by default that of a column of `load`")},
+     about("unit of the input, or a list of units; by default, the unit of the column returned by `load`")},
     {"OutputUnit", ValueKind::kAny,
-     about("unit of the output, or a list of units; by default that of a column of `load`")},
+     about("unit of the output, or a list of units; by default, the unit of the column returned by `load`")},
     option<&IdData::time_unit>("TimeUnit", about("unit of `Ts`, `Tstart` and all instants"), {.initial = "\"s\""}),
     {"Tstart", ValueKind::kNumber, about("time of the first sample"), {.initial = "0"}},
     {"SamplingInstants",
@@ -109,7 +109,7 @@ std::map<std::string, std::string> units_by_name(const Options& options) {
     if (!options.has("units")) return units;
     lua_State* L = options.call().state();
     const int index = options.push("units");
-    const auto refuse = [] { throw InvalidArgument("option 'units' must be a table like {u = \"V\"}"); };
+    const auto refuse = [] { throw InvalidArgument("option 'units' must be a table such as {u = \"V\"}"); };
     if (lua_type(L, index) != LUA_TTABLE) refuse();
     lua_pushnil(L);
     while (lua_next(L, index)) {
@@ -128,7 +128,7 @@ ImportOptions import_options(const Options& options) {
     const std::string delimiter = options.text("delimiter", "");
     if (delimiter.size() > 1)
         throw InvalidArgument("{} must be {}, but \"{}\" was given", option_label("delimiter"),
-                              Message("one character (\" \" for blanks and tabs)"), delimiter);
+                              Message("one character (\" \" for spaces and tabs)"), delimiter);
     if (!delimiter.empty()) import.delimiter = delimiter.front();
     import.units = units_by_name(options);
     return import;
@@ -246,8 +246,9 @@ void tell_other_clock(const Call& call, const IdData& data) {
         call.print(
             localized(
                 call,
-                Message("iddata: the sampling time is {} {}, but according to the time '{}' of the file it is {} s",
-                        significant(data.Ts, 6), data.time_unit, origin.clock, significant(origin.Ts, 6))) +
+                Message(
+                    "iddata: the sampling time is {} {}, but according to the time column '{}' of the file it is {} s",
+                    significant(data.Ts, 6), data.time_unit, origin.clock, significant(origin.Ts, 6))) +
             "\n");
         return;
     }
@@ -256,8 +257,8 @@ void tell_other_clock(const Call& call, const IdData& data) {
 /// Once in a run: models do not know the unit of their data's time.
 void tell_time_unit(const Call& call, const std::string& unit) {
     if (unit == "s" || std::exchange(call.context().told_time_unit, true)) return;
-    call.print(localized(call, Message("iddata: these data, and models estimated from them, have the time unit {}: if "
-                                       "their texts and axes show s, read {}",
+    call.print(localized(call, Message("iddata: these data, and models estimated from them, have the time unit {}. If "
+                                       "a text or an axis shows s, the unit is {}",
                                        unit, unit)) +
                "\n");
 }
@@ -285,8 +286,8 @@ int make_iddata(Call& call) {
     const Options options(call, 4, kIddataTables);
     if (call.holds_vector(3))
         throw InvalidArgument(
-            "{} must be a number of seconds, but instants were given; for unequal distances write iddata(y, u, nil, "
-            "{SamplingInstants = t})",
+            "{} must be a number of seconds, but instants were given; for irregularly sampled data, write iddata(y, u, "
+            "nil, {SamplingInstants = t})",
             argument_label(3, "Ts"));
     const bool inputs_only = !call.given(1) && call.given(2);
     const Matrix y = inputs_only ? Matrix(call.matrix(2, "u").rows(), 0) : Matrix(call.matrix(1, "y"));

@@ -30,7 +30,7 @@ constexpr std::array kDiscreteOutputErrorOrders = {kDiscreteNb, kDiscreteNf, kDi
 constexpr std::array kBoxJenkinsOrders = {kDiscreteNb, kDiscreteNc, kDiscreteNd, kDiscreteNf, kDiscreteNk};
 
 constexpr std::array kDiscreteIntegration = {option<&FitOptions::integration>(
-    "Integration", about("integrator in addition to the poles: B/(1 - q^-1) replaces B"), {.member = "integration"})};
+    "Integration", about("true adds an integrator to the model: B/(1 - q^-1) replaces B"), {.member = "integration"})};
 constexpr OptionTable kEquationError[] = {kDiscreteIntegration};
 constexpr OptionTable kPredictionError[] = {kLimitOptions, kDiscreteIntegration};
 constexpr OptionTable kDiscreteSimulation[] = {kStartOptions, kDiscreteIntegration, kLimitOptions};
@@ -38,29 +38,29 @@ constexpr OptionTable kDiscreteSimulation[] = {kStartOptions, kDiscreteIntegrati
 constexpr std::array kEquationErrorArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("na poles, nb coefficients of B, nk samples of delay, 1 for no direct feedthrough; "
-                        "with several inputs nb and nk are tables, {2, {1, 2}, {1, 3}}")}};
+                  about("na poles, nb coefficients of B, nk samples of delay, 1 for no direct feedthrough. With "
+                        "several inputs, nb and nk are tables, such as {2, {1, 2}, {1, 3}}")}};
 constexpr std::array kArmaxArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
                   about("na poles, nb coefficients of B, nc coefficients of C after the leading one, nk samples of "
-                        "delay, 1 for no direct feedthrough; with several inputs nb and nk are tables")}};
+                        "delay, 1 for no direct feedthrough. With several inputs, nb and nk are tables")}};
 constexpr std::array kDiscreteOutputErrorArguments = {
     kOneOutputData,
     ArgumentEntry{
         "orders", ValueKind::kOrders,
-        about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct feedthrough; with several "
-              "inputs, each with separate poles, they are tables, {{2, 1}, {2, 1}, {1, 3}}")}};
+        about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct feedthrough. With several inputs, "
+              "each with separate poles, nb, nf and nk are tables, such as {{2, 1}, {2, 1}, {1, 3}}")}};
 constexpr std::array kBoxJenkinsArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
                   about("nb coefficients of B, nc and nd of C and D after the leading one, nf poles, nk samples of "
-                        "delay, 1 for no direct feedthrough; with several inputs nb, nf and nk are tables")}};
+                        "delay, 1 for no direct feedthrough. With several inputs, nb, nf and nk are tables")}};
 
 /// The entry of an order vector that is one number for all inputs.
 int only_value(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
-    throw InvalidArgument("{} is one number of {} for all inputs, but {} were given", what.name, what.meaning(),
+    throw InvalidArgument("{} must be one number of {} for all inputs, but {} were given", what.name, what.meaning(),
                           entry.size());
 }
 
@@ -122,16 +122,16 @@ constexpr FunctionEntry kDiscreteEstimatorsFunctions[] = {
      marked("estimator", "Estimate A y = B u + v by instrumental variables in four steps"),
      guarded<memoized_call<estimate_equation_error<iv4>>>, kEquationError, kEquationErrorArguments},
     {"armax", "discrete time", "armax(data, {na, nb, nc, nk}, {options}) -> G",
-     marked("estimator", "Estimate A y = B u + C e with the smallest prediction error"),
+     marked("estimator", "Estimate A y = B u + C e by minimizing the prediction error"),
      guarded<memoized_call<estimate_armax>>, kPredictionError, kArmaxArguments},
     {"oe", "discrete time", "oe(data, {nb, nf, nk}, {options}) -> G",
-     marked("estimator", "Estimate y = B/F u + e with the smallest simulation error"),
+     marked("estimator", "Estimate y = B/F u + e by minimizing the simulation error"),
      guarded<memoized_call<estimate_output_error<oe>>>, kDiscreteSimulation, kDiscreteOutputErrorArguments},
     {"sriv", "discrete time", "sriv(data, {nb, nf, nk}, {options}) -> G",
      marked("estimator", "Estimate y = B/F u + e by refined instrumental variables"),
      guarded<memoized_call<estimate_output_error<sriv>>>, kDiscreteSimulation, kDiscreteOutputErrorArguments},
     {"bj", "discrete time", "bj(data, {nb, nc, nd, nf, nk}, {options}) -> G",
-     marked("estimator", "Estimate y = B/F u + C/D e with the smallest prediction error"),
+     marked("estimator", "Estimate y = B/F u + C/D e by minimizing the prediction error"),
      guarded<memoized_call<estimate_bj>>, kDiscreteSimulation, kBoxJenkinsArguments},
 };
 

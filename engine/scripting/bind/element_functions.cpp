@@ -53,7 +53,8 @@ int exponential(Call& call) {
     const std::optional<double> delay = delay_of(*model);
     if (!delay || *delay < 0)
         throw InvalidArgument(
-            "of models, only a delay is supported: exp(-Td*s) with s = tf(\"s\") and Td from 0, or {IODelay = Td}");
+            "for models, exp supports only a delay: exp(-Td*s) with s = tf(\"s\") and a nonnegative Td, or {IODelay = "
+            "Td}");
     const Vector one = Vector::Ones(1);
     return give_model(call, TransferFunction(one, one, 0, *delay));
 }

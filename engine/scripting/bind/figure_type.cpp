@@ -15,9 +15,9 @@ namespace {
 constexpr std::array kPanelNumberOptions = {
     OptionEntry{"panel", ValueKind::kCount, about("number of the panel"), {.initial = "1"}}};
 constexpr std::array kHandleOptions = {
-    OptionEntry{"x", ValueKind::kAny, about("position on the x axis: a number, or a function of the slider's number")},
+    OptionEntry{"x", ValueKind::kAny, about("position on the x axis: a number, or a function of the slider value")},
     OptionEntry{"x_slider", ValueKind::kText, about("name of the slider that moves x")},
-    OptionEntry{"y", ValueKind::kAny, about("position on the y axis: a number, or a function of the slider's number")},
+    OptionEntry{"y", ValueKind::kAny, about("position on the y axis: a number, or a function of the slider value")},
     OptionEntry{"y_slider", ValueKind::kText, about("name of the slider that moves y")},
     OptionEntry{"text", ValueKind::kText, about("text next to the point")}};
 constexpr OptionTable kAddTables[] = {kCurveAppearanceOptions, kPanelNumberOptions},
@@ -103,9 +103,8 @@ const RecordedSlider& slider_of_handle(const Options& options, const std::string
     const auto found = sliders.find(name);
     if (found != sliders.end()) return found->second;
     if (name.empty()) throw InvalidArgument("'{}' is a function: {} = \"NAME\" must name its slider", coordinate, key);
-    throw InvalidArgument(
-        "the script has not requested a slider \"{}\" yet: slider(\"{}\", ...) must come before the handle", name,
-        name);
+    throw InvalidArgument("the slider \"{}\" does not exist yet: call slider(\"{}\", ...) before you create the handle",
+                          name, name);
 }
 
 /// A coordinate of a handle: a number, or a function of the slider that is named beside it.
@@ -118,9 +117,8 @@ double handle_coordinate(const Options& options, const char* coordinate, bool ho
         lua_settop(call.state(), given - 1);
         const auto number = options.optional_number(coordinate);
         if (!number || options.has(key.c_str()))
-            throw InvalidArgument(
-                "a handle needs {} = number, or {} = function(number of the slider) and {} = \"NAME\"", coordinate,
-                coordinate, key);
+            throw InvalidArgument("a handle needs {} = number, or {} = function(slider value) and {} = \"NAME\"",
+                                  coordinate, coordinate, key);
         return *number;
     }
     const RecordedSlider& slider = slider_of_handle(options, coordinate);
@@ -147,7 +145,7 @@ int add_handle(Call& call) {
     handle.text = Message::verbatim(options.text("text", ""));
     if (handle.scales.empty())
         throw InvalidArgument(
-            "a handle moves a slider: x or y must be a function of its number (otherwise use fig:mark)");
+            "x or y of a handle must be a function of the slider value; for a fixed point, use fig:mark");
     panel_of(figure_self(call), options.size("panel", 1)).annotations.push_back(std::move(handle));
     figure_self(call).validate();
     return give_self(call);
@@ -190,7 +188,7 @@ int rule_paper(Call& call) {
         if (const double size = ranges[axis].second - ranges[axis].first;
             !(steps[axis] > 0) || size / steps[axis] > kMaxLineCount)
             throw InvalidArgument(
-                "fig:rule: {} must be a positive number that gives at most {} lines, but {} was given",
+                "fig:rule: {} must be a positive number that results in at most {} lines, but {} was given",
                 axis == 0 ? "dx" : "dy", kMaxLineCount, steps[axis]);
     for (const auto& [times, width] : {std::pair(1., 0.15), std::pair(5., 0.45)})
         for (const int axis : {0, 1}) {

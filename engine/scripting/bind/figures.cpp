@@ -47,7 +47,8 @@ constexpr std::array kMotionOptions = {
     OptionEntry{"simulated", ValueKind::kTable,
                 about("simulated signals of the plant, a table with one vector per signal")},
     option<&MotionAppearance::instants>(
-        "instants", about("instants of the drawings on paper; by default four, equally spaced"), {.unit = "s"}),
+        "instants", about("instants of the drawings in a printed document; by default, four equally spaced instants"),
+        {.unit = "s"}),
     OptionEntry{"title", ValueKind::kText, about("text above the figure")},
     option<&MotionAppearance::width_cm>("width", about("width of the figure"), {.unit = "cm"}),
     option<&MotionAppearance::height_cm>("height", about("height of the figure; 0 for a height that fits the panels"),
@@ -56,9 +57,10 @@ constexpr OptionTable kPlotTables[] = {kPanelOptions, kCurveLists, kFigureSizeOp
                       kFigureTables[] = {kPanelOptions, kFigureGridOptions, kFigureSizeOptions},
                       kMotionTables[] = {kMotionOptions};
 
-constexpr std::array kCurvesArguments = {ArgumentEntry{
-    "x, y, \"name\", ...", ValueKind::kVector,
-    about("curves and their names in the legend. You can omit the name, and also x, which then counts from 1")}};
+constexpr std::array kCurvesArguments = {
+    ArgumentEntry{"x, y, \"name\", ...", ValueKind::kVector,
+                  about("curves and their names in the legend. You can omit the names and x; without x, the values are "
+                        "plotted over 1, 2, 3, ...")}};
 constexpr std::array kFigureNumberArguments = {
     ArgumentEntry{"n", ValueKind::kCount, about("number of the next figure, instead of a description")}};
 constexpr std::array kSubplotArguments = {
@@ -88,7 +90,7 @@ std::vector<double> numbers(const Options& options, const char* name) {
 /// The number as an index into a list of looks.
 int place_of_look(double number, const char* name) {
     if (number < 0 || number != std::floor(number) || number > 1000)
-        refuse_option(name, Message("a whole number from 0 on"), Message("{}", number));
+        refuse_option(name, Message("a nonnegative integer"), Message("{}", number));
     return static_cast<int>(number);
 }
 
@@ -178,11 +180,9 @@ void note_left_out(const Call& call, const Panel& panel) {
     }
     if (left_out > 0)
         call.print(
-            localized(
-                call,
-                Message(
-                    "{}: {} of {} points are left out, because a logarithmic axis has no values that are not positive",
-                    call.function_name(), left_out, all)) +
+            localized(call,
+                      Message("{}: {} of {} points are omitted, because a logarithmic axis shows only positive values",
+                              call.function_name(), left_out, all)) +
             "\n");
 }
 
@@ -273,8 +273,8 @@ Matrix signals_of_parts(const Options& options, const char* name, const PlantDra
     for (std::size_t k = 0; k < plant.parts.size(); ++k) {
         const PlantPart& part = plant.parts[k];
         if (lua_getfield(call.state(), table, part.signal.c_str()) == LUA_TNIL)
-            throw InvalidArgument("option '{}' lacks the {} ({}), which moves the animated plant", name, part.signal,
-                                  part.unit);
+            throw InvalidArgument("option '{}' does not contain the {} ({}), which animates the plant", name,
+                                  part.signal, part.unit);
         const Call with_signal(call.state());  // it counts what stands on the stack now
         if (!with_signal.holds_vector(with_signal.count()))
             throw InvalidArgument("the {} {} must be a vector, but it is {}", name, part.signal,
@@ -308,7 +308,8 @@ int save(Call& call) {
     call.at_most(2);
     if (call.type(1) == LUA_TSTRING)
         throw InvalidArgument(
-            "save takes the figure first: save(fig, path); use save_mat(path, {x = x}) or save_csv for variables");
+            "the first argument of save must be a figure: save(fig, path); for variables, use save_mat(path, {x = x}) "
+            "or save_csv");
     ScriptFigure& figure = used_figure(call, 1, "figure");
     const std::filesystem::path file = output_path(call.context(), call.text(2, "path"));
     if (call.context().options.graded) return 0;

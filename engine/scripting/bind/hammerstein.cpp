@@ -15,21 +15,22 @@ namespace {
 
 constexpr std::array kRestStates = {"none", "steady", "auto"};  // of InitialState
 constexpr std::array kCharacteristicOptions = {
-    option<&HammersteinOptions::bins>("Bins", about("number of equal bins between the smallest and the largest input"),
+    option<&HammersteinOptions::bins>("Bins",
+                                      about("number of equally spaced bins between the smallest and the largest input"),
                                       {.least = 1, .most = 1000, .member = "bins"}),
     option<&HammersteinOptions::breakpoints>(
-        "Breakpoints", about("edges of the bins, such as the ends of a dead band, instead of equal bins"),
+        "Breakpoints", about("bin edges, such as the ends of a dead band, instead of equally spaced bins"),
         {.member = "breakpoints"}),
     option<&HammersteinOptions::initial_state>(
         "InitialState",
-        about("initial state: at rest with the first input value (\"steady\") or with zero input (\"none\"), or "
-              "the better of both (\"auto\")"),
+        about("initial state: at rest with the first input value (\"steady\") or with zero input (\"none\"), or the "
+              "better of these two (\"auto\")"),
         {.initial = "\"auto\"", .choices = kRestStates, .former = "zero", .member = "initial_state"})};
 constexpr OptionTable kHammerstein[] = {kCharacteristicOptions, kDelayOptions, kFixedDelayOptions, kLimitOptions};
 
 constexpr std::array kHammersteinArguments = {
     ArgumentEntry{"data", ValueKind::kData,
-                  about("data object with one input, held between samples, and one output; any number of experiments")},
+                  about("data object with one input with zero-order hold and one output; any number of experiments")},
     ArgumentEntry{"np", ValueKind::kCount, about("number of poles of the linear part")},
     ArgumentEntry{"nz", ValueKind::kCount, about("number of zeros of the linear part")}};
 

@@ -76,7 +76,7 @@ int read_matrix_element(Call& call) {
     lua_State* L = call.state();
     if (call.type(2) != LUA_TTABLE || lua_rawlen(L, 2) != 2)
         throw InvalidArgument(
-            "write an element of a matrix as A[{i, j}], a row as A:row(i), a column as A:col(j), not as A[{}]",
+            "write an element of a matrix as A[{i, j}], a row as A:row(i), and a column as A:col(j), not as A[{}]",
             given_value(L, 2));
     lua_rawgeti(L, 2, 1);
     lua_rawgeti(L, 2, 2);

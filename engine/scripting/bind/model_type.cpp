@@ -28,7 +28,7 @@ const Estimate& estimate_in(const Model& model) {
 /// The transfer function of a model with one channel.
 const TransferFunction& only_channel(const Model& model) {
     if (model.single_channel()) return model.G;
-    throw InvalidArgument("this field is for a model with one channel, but the model has several channels: {}",
+    throw InvalidArgument("this field exists only for models with one channel, but this model has several channels: {}",
                           channels_hint(model));
 }
 Vector numerator_of(const Model& model) {
@@ -42,8 +42,9 @@ const PolynomialModel& polynomials(Call& call) {
     const Model& model = model_self(call);
     if (model.polynomial) return *model.polynomial;
     throw InvalidArgument(
-        "only models of difference equations, from arx, oe or sriv, have this polynomial: lssvf and ivsvf give A and "
-        "B, srivc, coe and tfsrivc B and F, rivc B, C, D and F, n4sid the matrices A, B, C and D");
+        "only discrete-time polynomial models, such as the results of arx, oe and sriv, have this polynomial. lssvf "
+        "and ivsvf return A and B. srivc, coe and tfsrivc return B and F. rivc returns B, C, D and F. n4sid returns "
+        "the matrices A, B, C and D");
 }
 bool is_carx(Call& call) {
     const Model& model = model_self(call);
@@ -92,7 +93,7 @@ int field_channels(Call& call) {
 int field_history(Call& call) {
     const Estimate& estimate = estimate_in(model_self(call));
     if (!estimate.history)
-        throw InvalidArgument("{} processes all samples at once; rlssvf, rivsvf and rsrivc give a history",
+        throw InvalidArgument("{} processes all samples at once; rlssvf, rivsvf and rsrivc return a history",
                               estimate.method);
     return give_table(call, "t", estimate.history->t, "theta", estimate.history->theta, "std", estimate.history->std,
                       "names", estimate.names);
@@ -121,7 +122,8 @@ int field_parameter(Call& call) {
     const ModelParameters parameters = parameters_of(model_self(call));
     for (std::size_t i = 0; i < parameters.names.size(); ++i)
         if (parameters.names[i] == name) return call.give(parameters.values[static_cast<Index>(i)]);
-    throw InvalidArgument("this model has no parameter of that name; its parameters are {}", listed(parameters.names));
+    throw InvalidArgument("this model has no parameter with this name; its parameters are {}",
+                          listed(parameters.names));
 }
 
 /// A matrix of a state-space model, or what the letter stands for in any other.
@@ -232,7 +234,7 @@ int field_free_parameter(Call& call) {
     const auto names = object_argument<ProcessStructure>(call, 1, "structure").parameter_names();
     if (std::find(names.begin(), names.end(), call.function_name()) != names.end())
         return call.give(std::numeric_limits<double>::quiet_NaN());
-    throw InvalidArgument("this structure has no parameter of that name; its parameters are {}", listed(names));
+    throw InvalidArgument("this structure has no parameter with this name; its parameters are {}", listed(names));
 }
 
 constexpr lua_CFunction kFreeParameter = guarded<field_free_parameter>;

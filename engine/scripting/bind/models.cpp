@@ -19,19 +19,19 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr OptionEntry kModelPeriod = {
-    "Ts", ValueKind::kNumber, about("sampling time; by default continuous time"), {.unit = "s"}};
+    "Ts", ValueKind::kNumber, about("sampling time; by default, the model is a continuous-time model"), {.unit = "s"}};
 constexpr OptionEntry kTfOptions[] = {kModelPeriod,
                                       {"IODelay",
                                        ValueKind::kNumber,
-                                       about("delay; in discrete time a multiple of `Ts`"),
+                                       about("delay; for a discrete-time model, a multiple of `Ts`"),
                                        {.initial = "0", .unit = "s"}}};
 constexpr OptionEntry kIdprocOptions[] = {
     {"Kp", ValueKind::kNumber, about("gain")},
     {"Tp1", ValueKind::kNumber, about("first time constant"), {.unit = "s"}},
     {"Tp2", ValueKind::kNumber, about("second time constant"), {.unit = "s"}},
     {"Tp3", ValueKind::kNumber, about("third time constant"), {.unit = "s"}},
-    {"Tw", ValueKind::kNumber, about("1/w0 of an underdamped pair (U)"), {.unit = "s"}},
-    {"Zeta", ValueKind::kNumber, about("damping ratio of that pair")},
+    {"Tw", ValueKind::kNumber, about("1/w0 of the underdamped poles (U)"), {.unit = "s"}},
+    {"Zeta", ValueKind::kNumber, about("damping ratio of the underdamped poles (U)")},
     {"Tz", ValueKind::kNumber, about("time constant of the zero (Z)"), {.unit = "s"}},
     {"Td", ValueKind::kNumber, about("delay (D)"), {.unit = "s"}}};
 constexpr std::array kSsOptions = {kModelPeriod};
@@ -40,8 +40,8 @@ constexpr OptionTable kTfTables[] = {kTfOptions}, kIdprocTables[] = {kIdprocOpti
 constexpr std::array kModelAlone = {kModelArgument};
 constexpr ArgumentEntry kTfArguments[] = {
     {"num", ValueKind::kVector,
-     about("coefficients of the numerator, highest power first; or only a struct of a model written by `save_mat` or "
-           "`save_json`")},
+     about("coefficients of the numerator, highest power first; or, as the only argument, a struct of a model written "
+           "by `save_mat` or `save_json`")},
     {"den", ValueKind::kVector, about("coefficients of the denominator, highest power first")}};
 constexpr ArgumentEntry kIdprocArguments[] = {
     {"structure", ValueKind::kProcess, about("name of the structure, such as \"P1\", \"P2U\", \"P1D\" or \"P2DU\"")}};
@@ -50,7 +50,7 @@ constexpr ArgumentEntry kSsArguments[] = {
     {"B", ValueKind::kAny, about("n x inputs matrix")},
     {"C", ValueKind::kAny, about("outputs x n matrix")},
     {"D", ValueKind::kAny, about("outputs x inputs matrix")},
-    {"G", ValueKind::kModel, about("instead of the matrices, a transfer function")}};
+    {"G", ValueKind::kModel, about("transfer function, instead of the matrices")}};
 constexpr ArgumentEntry
     kEqualTimes = {"G1, G2", ValueKind::kModel, about("models with equal sampling times")},
     kEqualDelays = {"G1, G2", ValueKind::kModel,
@@ -61,18 +61,18 @@ constexpr ArgumentEntry kFeedbackArguments[] = {
      about("models; a number is a gain, and delays of discrete-time models become poles at zero")},
     {"sign", ValueKind::kNumber, about("-1 (negative feedback, the default) or 1")}};
 constexpr ArgumentEntry kPadeArguments[] = {
-    {"G", ValueKind::kModel, about("model; the delay of a discrete-time model becomes poles at zero, exactly")},
+    {"G", ValueKind::kModel, about("model; in discrete time, the delay is replaced exactly by poles at zero")},
     {"n", ValueKind::kCount, about("number of poles, 1 to 10")}};
 constexpr ArgumentEntry kConversion = {"method", ValueKind::kChoice,
                                        about("\"zoh\" (the default), \"foh\" or \"tustin\"")};
 constexpr ArgumentEntry kDiscreteArguments[] = {
-    {"G", ValueKind::kModel, about("transfer function or state-space system in continuous time")},
+    {"G", ValueKind::kModel, about("continuous-time transfer function or state-space model")},
     {"Ts", ValueKind::kNumber, about("sampling time in seconds")},
     kConversion};
-constexpr ArgumentEntry kContinuousArguments[] = {{"Gd", ValueKind::kModel, about("discrete transfer function")},
-                                                  kConversion};
+constexpr ArgumentEntry kContinuousArguments[] = {
+    {"Gd", ValueKind::kModel, about("discrete-time transfer function to convert")}, kConversion};
 constexpr ArgumentEntry kPresentArguments[] = {{"G, ...", ValueKind::kModel, about("one or several models")}};
-constexpr ArgumentEntry kLoopArguments[] = {{"G", ValueKind::kModel, about("open loop, a model")}};
+constexpr ArgumentEntry kLoopArguments[] = {{"G", ValueKind::kModel, about("open-loop model")}};
 
 /// Pushes a field of a struct, which may be one that load() gave: these refuse names they have not.
 int push_field(lua_State* L, int index, const char* name) {
@@ -84,7 +84,7 @@ int push_field(lua_State* L, int index, const char* name) {
 Vector coefficients_of_field(const Call& call, int index, const char* name) {
     lua_State* L = call.state();
     if (push_field(L, index, name) == LUA_TTABLE)
-        make_vector_of_table(L, lua_gettop(L), Message("the field {} of a model's struct", name));
+        make_vector_of_table(L, lua_gettop(L), Message("the field {} of a model struct", name));
     NumericBlock* block = to_vector(L, -1) != nullptr ? to_vector(L, -1) : to_matrix(L, -1);
     Vector values;
     if (lua_type(L, -1) == LUA_TNUMBER)
@@ -92,7 +92,7 @@ Vector coefficients_of_field(const Call& call, int index, const char* name) {
     else if (block != nullptr && std::min(block->rows, block->columns) == 1)
         values = Eigen::Map<const Vector>(block->data(), block->rows * block->columns);
     else
-        throw InvalidArgument("the field {} of a model's struct must be a vector, but it is {}", name,
+        throw InvalidArgument("the field {} of a model struct must be a vector, but it is {}", name,
                               given_value(L, lua_gettop(L)));
     lua_pop(L, 1);
     return values;
@@ -102,7 +102,7 @@ double number_of_field(const Call& call, int index, const char* name) {
     lua_State* L = call.state();
     const int type = push_field(L, index, name);
     if (type != LUA_TNIL && type != LUA_TNUMBER)
-        throw InvalidArgument("the field {} of a model's struct must be a number, but it is {}", name,
+        throw InvalidArgument("the field {} of a model struct must be a number, but it is {}", name,
                               given_value(L, lua_gettop(L)));
     const double value = type == LUA_TNIL ? 0 : lua_tonumber(L, -1);
     lua_pop(L, 1);

@@ -29,15 +29,15 @@ constexpr OptionTable kNoisyTransferFunction[] = {kNoiseOrderOptions,  kDelayOpt
 
 constexpr std::array kNoisyArguments = {
     kOneOutputData,
-    ArgumentEntry{
-        "orders", ValueKind::kOrders,
-        about("nb coefficients of B (at most nf + 1), nc and nd of C and D after the leading one, nf poles, nk "
-              "samples of delay; with several inputs nb, nf and nk are tables")}};
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("nb coefficients of B (at most nf + 1), nc and nd of C and D after the leading one, nf poles, "
+                        "nk samples of delay. With several inputs, nb, nf and nk are tables")}};
 constexpr std::array kNoisyTransferArguments = {kOneOutputData, kPoleCount, kZeroCount};
 
 int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
     if (entry.size() == 1) return entry.front();
-    throw InvalidArgument("{} is one number for the noise of the output, but {} were given", what.name, entry.size());
+    throw InvalidArgument("{} must be one number for the noise of the output, but {} were given", what.name,
+                          entry.size());
 }
 
 OptionedEstimation noisy_estimation(const StructureMaker& structure, const NoiseOrders& noise,

@@ -18,11 +18,12 @@ namespace {
 
 constexpr OptionEntry kNoiseSeed = {"seed",
                                     ValueKind::kCount,
-                                    about("seed of a separate random stream; by default that of `randn`"),
+                                    about("seed of a separate random stream; by default, the random stream of `randn`"),
                                     {.most = kMaxSeed}},
                       kHoldOfData = {"hold", ValueKind::kChoice, kHoldOption.description, {.choices = kHolds}};
 constexpr OptionEntry kNoiseOptions[] = {
-    {"noise", ValueKind::kFlag, about("noise of the model itself, which must be estimated and must have one output")},
+    {"noise", ValueKind::kFlag,
+     about("true adds the noise of the model, which must be an estimated model with one output")},
     {"snr",
      ValueKind::kNumber,
      about("signal-to-noise ratio 20 log10(std x/std v) of noise that is added to the noise-free output x"),
@@ -30,7 +31,7 @@ constexpr OptionEntry kNoiseOptions[] = {
     kNoiseSeed,
     kHoldOfData};
 constexpr OptionEntry kSpreadOptions[] = {
-    {"runs", ValueKind::kCount, about("number of models to draw"), {.initial = "200", .least = 2}},
+    {"runs", ValueKind::kCount, about("number of random models"), {.initial = "200", .least = 2}},
     kNoiseSeed,
     kHoldOfData,
     kConfidenceOption};
@@ -41,7 +42,7 @@ constexpr ArgumentEntry
                        about("samples of the input: a vector, or a matrix with a column for each input")},
     kInputPeriod = {"Ts", ValueKind::kNumber, about("sampling time of the input in seconds")},
     kInputData = {"data", ValueKind::kData,
-                  about("instead of `u` and `Ts`, a data object of one experiment; only its input is used")};
+                  about("data object with one experiment, instead of `u` and `Ts`; only the input is used")};
 constexpr ArgumentEntry kNoiseArguments[] = {
     {"G", ValueKind::kModel, about("model, with one or several inputs and outputs")},
     kSimulatedInput,
@@ -98,14 +99,15 @@ Matrix simulated_outputs(const std::vector<TransferFunction>& channels, const In
 /// The standard deviation of a model's own white noise e.
 double own_noise_std(const Model* model) {
     if (model == nullptr || !model->estimate)
-        throw InvalidArgument("this model was not estimated, so its noise is unknown: give the option snr, in dB");
+        throw InvalidArgument("this model was not estimated, so its noise is unknown: specify the option snr in dB");
     if (model->estimate->carx)
-        throw InvalidArgument("{} estimates an equation error, not the noise of the output: give the option snr, in dB",
-                              model->estimate->method);
+        throw InvalidArgument(
+            "{} estimates an equation error, not the noise of the output: specify the option snr in dB",
+            model->estimate->method);
     if (const std::optional<double> variance = model->estimate->report().number("noise_variance");
         variance && *variance >= 0)
         return std::sqrt(*variance);
-    throw InvalidArgument("{} does not estimate the variance of the noise: give the option snr, in dB",
+    throw InvalidArgument("{} does not estimate the variance of the noise: specify the option snr in dB",
                           model->estimate->method);
 }
 
@@ -135,7 +137,7 @@ int simulate_with_noise(Call& call) {
     if (!options.flag("noise", snr.has_value()))
         return y.cols() == 1 ? call.give_vector(y.col(0)) : call.give_matrix(y);
     if (y.cols() != 1)
-        throw InvalidArgument("noise can be simulated for one output only, but the model has {}: use its channels",
+        throw InvalidArgument("noise can be simulated only for one output, but the model has {}: use its channels",
                               y.cols());
     if (model.noise_Ts > 0 && std::abs(model.noise_Ts - input.Ts) > 1e-9 * model.noise_Ts)
         throw InvalidArgument("the noise model has the sampling time {} s, but the input has {} s",
@@ -152,8 +154,8 @@ int simulate_with_noise(Call& call) {
 std::optional<TransferStructure> structure_of_estimate(const Model& model) {
     if (model.estimate && !model.polynomial && !model.estimate->of_coefficients)
         throw InvalidArgument(
-            "the covariance does not refer to the model's own coefficients (Integration, hammerstein), so no models "
-            "can be drawn");
+            "the covariance does not refer to the coefficients of the model (Integration, hammerstein), so no random "
+            "models can be generated");
     if (!model.G.continuous() || model.process || model.system || !model.estimate->of_coefficients) return std::nullopt;
     Vector theta;
     TransferStructure structure = TransferStructure::of_models(channels_of(model), 1, theta);

@@ -18,37 +18,43 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr OptionEntry kQuietEstimate = {
-    "quiet", ValueKind::kFlag, about("no text and no figure; the figure is nil"), {.initial = "false"}};
+constexpr OptionEntry kQuietEstimate = {"quiet",
+                                        ValueKind::kFlag,
+                                        about("true suppresses the text and the figure; the returned figure is nil"),
+                                        {.initial = "false"}};
 constexpr OptionEntry kReadingConfidence = {
     "confidence",
     ValueKind::kNumber,
     about("probability of the band, and of the test that detects the dead time"),
     {.initial = "0.99"}};
-constexpr MessageId<> kMeanRemoval = about("removal of the mean of both signals before the estimation");
+constexpr MessageId<> kMeanRemoval = about("true removes the means of both signals before the estimation");
 
 constexpr std::array kEtfeOptions = {
-    option<&EtfeOptions::smooth>("smooth", about("number of frequencies on each side in a weighted mean, 0 for none")),
+    option<&EtfeOptions::smooth>("smooth",
+                                 about("number of frequencies on each side in a weighted mean; 0 for no smoothing")),
     option<&EtfeOptions::remove_mean>("remove_mean", kMeanRemoval), kConfidenceOption, kLabelsOption, kQuietEstimate};
 constexpr std::array kSpaOptions = {
-    option<&SpaOptions::window>("window", about("length of the window in samples, 0 for the smaller of 30 and N/10")),
-    option<&SpaOptions::w>("w", about("frequencies, at most pi/Ts; 128 of them by default"), {.unit = "rad/s"}),
+    option<&SpaOptions::window>("window",
+                                about("length of the lag window in samples; 0 for the smaller of 30 and N/10")),
+    option<&SpaOptions::w>("w", about("frequencies, at most pi/Ts; by default, 128 frequencies"), {.unit = "rad/s"}),
     option<&SpaOptions::remove_mean>("remove_mean", kMeanRemoval),
     kConfidenceOption,
     kLabelsOption,
     kQuietEstimate};
 constexpr std::array kKernels = {"TC", "DC", "SS"};
 constexpr std::array kImpulseestOptions = {
-    option<&ImpulseestOptions::kernel>("Kernel", about("covariance of the prior, which defines smoothness"),
+    option<&ImpulseestOptions::kernel>("Kernel",
+                                       about("regularization kernel, the prior covariance of the impulse response"),
                                        {.initial = "\"TC\"", .choices = kKernels}),
     option<&ImpulseestOptions::lags>(
-        "lags", about("length of the response in samples, like the argument `n`; 0 for the smaller of 70 and N/5")),
-    option<&ImpulseestOptions::smooth>("smooth", about("smooth, decaying response instead of plain least squares")),
+        "lags", about("length of the response in samples, same as the argument `n`; 0 for the smaller of 70 and N/5")),
+    option<&ImpulseestOptions::smooth>("smooth", about("true uses regularized least squares, for a smooth and decaying "
+                                                       "response, instead of ordinary least squares")),
     kReadingConfidence, kLabelsOption};
 constexpr std::array kCraOptions = {
-    option<&CraOptions::lags>("lags", about("number of lags, 0 for the smaller of 70 and N/5")),
+    option<&CraOptions::lags>("lags", about("number of lags; 0 for the smaller of 70 and N/5")),
     option<&CraOptions::whitening>(
-        "whitening", about("order of the autoregressive filter, 0 for an input that is already white"), {.most = 100}),
+        "whitening", about("order of the autoregressive filter; 0 for an input that is already white"), {.most = 100}),
     kReadingConfidence, kLabelsOption};
 constexpr OptionTable kEtfeTables[] = {kEtfeOptions}, kSpaTables[] = {kSpaOptions},
                       kImpulseestTables[] = {kImpulseestOptions}, kCraTables[] = {kCraOptions};
@@ -57,7 +63,7 @@ constexpr ArgumentEntry
     kOneExperiment = {"data", ValueKind::kData,
                       about("data object with one input, one output and one experiment, sampled regularly")},
     kSingleData = {"data", ValueKind::kData,
-                   about("data object with one input and one output, sampled regularly; experiments are joined")},
+                   about("data object with one input and one output, sampled regularly; experiments are combined")},
     kComparedModels = {"G1, ...", ValueKind::kModel, about("models to plot with the estimate")};
 constexpr std::array kEtfeArguments = {kOneExperiment, kComparedModels},
                      kSpectralArguments = {kSingleData, kComparedModels};

@@ -27,7 +27,7 @@ constexpr std::array kStructureOrders = {kNb, kNf, kNk};
 constexpr OptionEntry kSearchLambda = kFirstFilterOptions[0];
 constexpr OptionEntry kValidate = {"validate", ValueKind::kData, about("validation data")};
 template <auto kMember>
-constexpr OptionEntry kSearchThreads = option<kMember>("threads", about("number of threads, 0 for all cores"));
+constexpr OptionEntry kSearchThreads = option<kMember>("threads", about("number of threads; 0 for all cores"));
 
 constexpr OptionEntry kGridOptions[] = {
     {"poles", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 4}"}},
@@ -36,7 +36,10 @@ constexpr OptionEntry kGridOptions[] = {
      ValueKind::kAny,
      about("numbers of delay samples to try, such as {0, 1, 2}, instead of an estimated delay up to `TdMax`"),
      {.initial = "0"}},
-    {"Feedthrough", ValueKind::kFlag, about("also structures with as many zeros as poles"), {.initial = "false"}}};
+    {"Feedthrough",
+     ValueKind::kFlag,
+     about("true also includes structures with as many zeros as poles"),
+     {.initial = "false"}}};
 constexpr std::array kStructureOptions = {kValidate, kSearchLambda, kStableOption,
                                           kSearchThreads<&OrderSelectionOptions::threads>};
 constexpr OptionTable kOrderListTables[] = {kStructureOptions, kStartOptions, kIterationOptions, kIntegrationOptions},
@@ -108,7 +111,7 @@ std::vector<TransferStructure> grid_of(const Options& options, const IdData& dat
     const bool free_delay = options.has("TdMax");
     if (free_delay && options.has("delays"))
         throw InvalidArgument(
-            "give either delays, a list of delays to try, or TdMax, the upper limit of an estimated delay");
+            "specify either delays, a list of delays to try, or TdMax, the upper limit of an estimated delay");
     return order_grid(range_of(options, "poles", {1, 4}), range_of(options, "zeros", {0, 2}),
                       free_delay ? std::vector{options.number("TdMin", 0)} : delays_of(options, data), free_delay,
                       options.flag("Feedthrough", false));

@@ -10,7 +10,7 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr OptionEntry kPredictionOptions[] = {
-    {"k", ValueKind::kNumber, about("number of samples ahead; `math.huge` gives the simulation"), {.initial = "1"}}};
+    {"k", ValueKind::kNumber, about("number of samples ahead; `math.huge` for a simulation"), {.initial = "1"}}};
 constexpr OptionTable kPredictionTables[] = {kPredictionOptions, kSimulationStart};
 
 /// A number for one output, a vector for several.

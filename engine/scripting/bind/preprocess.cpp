@@ -24,11 +24,13 @@ constexpr OptionEntry kFilterStart = {
     about("signal before its first sample: zero (\"zero\"), or constant at the value of the first sample (\"steady\")"),
     {.initial = "\"zero\"", .choices = kFilterStarts}};
 constexpr OptionEntry kButterworthOptions[] = {
-    option<&FilterOptions::order>("order", about("order of the low-pass prototype; two edges give twice as many poles"),
-                                  {.least = 1, .most = 20}),
-    option<&FilterOptions::zero_phase>("zero_phase",
-                                       about("filtering forwards, then backwards: no delay, the magnitude squared")),
-    option<&FilterOptions::stop>("stop", about("removal of the band instead of passing it")),
+    option<&FilterOptions::order>(
+        "order", about("order of the low-pass prototype; a band with two edges has twice as many poles"),
+        {.least = 1, .most = 20}),
+    option<&FilterOptions::zero_phase>(
+        "zero_phase",
+        about("true filters forward and then backward: no phase shift, and the squared magnitude response")),
+    option<&FilterOptions::stop>("stop", about("true removes the band instead of passing it")),
     kFilterStart,
     {"Ts", ValueKind::kNumber, about("sampling time of a vector"), {.initial = "1", .unit = "s"}}};
 constexpr std::array kFillMethods = {"linear", "previous"};
@@ -36,14 +38,14 @@ constexpr OptionEntry kFillMethod = {
     "method",
     ValueKind::kChoice,
     about("linear interpolation between the neighbors (\"linear\", for outputs), or the sample before the gap "
-          "(\"previous\", for inputs that are logged at their changes)"),
+          "(\"previous\", for inputs that are logged only when they change)"),
     {.initial = "\"linear\"", .choices = kFillMethods}};
 constexpr OptionEntry kGapOptions[] = {
     kFillMethod,
     {"t", ValueKind::kVector, about("increasing sampling instants of irregularly sampled data")},
     {"longest", ValueKind::kCount, about("longest gap in samples to fill; by default 10 for linear interpolation")}};
 constexpr std::array kOutlierOptions = {
-    option<&OutlierOptions::window>("window", about("odd number of samples of the moving median")),
+    option<&OutlierOptions::window>("window", about("window length of the moving median, an odd number of samples")),
     option<&OutlierOptions::threshold>("threshold", about("distance from the median in robust standard deviations"))};
 constexpr OptionTable kTrendTables[] = {kTrendOptions}, kButterworthTables[] = {kButterworthOptions},
                       kGapsTables[] = {kGapOptions}, kOutliersTables[] = {kOutlierOptions};
@@ -54,7 +56,7 @@ constexpr ArgumentEntry kAnySignals = {"data", ValueKind::kAny, about("data obje
 constexpr ArgumentEntry kTrendArguments[] = {
     kAnySignals,
     {"kind", ValueKind::kChoice,
-     about("\"linear\" (the default), \"mean\", or \"start\"; 1 and 0 are short for the first two")}};
+     about("\"linear\" (the default), \"mean\", or \"start\"; 1 and 0 are equivalent to \"linear\" and \"mean\"")}};
 constexpr ArgumentEntry kButterworthArguments[] = {
     kRegularSignals,
     {"{lower, upper}", ValueKind::kVector,
@@ -76,7 +78,7 @@ struct Signals {
 Signals signals_argument(const Call& call, double Ts) {
     if (call.holds_vector(1)) return {IdData(Matrix(call.vector(1, "x")), Matrix(), Ts), true};
     if (const IdData* data = to_object<IdData>(call.state(), 1)) return {*data, false};
-    wrong_argument(call.state(), 1, "data", Message("an iddata or a vector"));
+    wrong_argument(call.state(), 1, "data", Message("a data object or a vector"));
 }
 
 int give_signals(const Call& call, const Signals& kind, IdData result) {
@@ -193,13 +195,13 @@ int filter_signals(Call& call) {
     const Options options(call, 3, kButterworthTables);
     const Signals signals = signals_argument(call, options.number("Ts", 1));
     if (!signals.bare && options.has("Ts"))
-        throw InvalidArgument("option 'Ts' is for a vector; a data object has a sampling time");
+        throw InvalidArgument("option 'Ts' is only for a vector, because a data object already has a sampling time");
     FilterOptions requested;
     options.read(requested);
     requested.steady_start = options.has("start") && options.choice(kFilterStart) == 1;
     if (requested.zero_phase && options.has("start"))
         throw InvalidArgument(
-            "option 'start' is for the causal filter; with zero_phase the signal is continued at both ends");
+            "option 'start' is only for the causal filter; with zero_phase, the signal is extended at both ends");
     return give_signals(call, signals, filter_data(signals.data, band_argument(call), requested));
 }
 

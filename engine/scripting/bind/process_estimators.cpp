@@ -31,7 +31,7 @@ constexpr std::array kProcsrivcArguments = {
                   about("data object with one input and one output, one or several experiments, regularly or "
                         "irregularly sampled, zoh or foh")},
     ArgumentEntry{"structure", ValueKind::kProcess,
-                  about("P and the number of poles, 1 to 3, then any of the letters U, D, I and Z: \"P2DU\"; or a "
+                  about("structure: P, the number of poles (1 to 3), and any of U, D, I and Z, such as \"P2DU\"; or a "
                         "result of idproc")}};
 
 template <StepTestResult (*kMethod)(const IdData&)>
@@ -87,18 +87,19 @@ int estimate_process_model(Call& call) {
 constexpr const char* kStep = "step tests";
 constexpr FunctionEntry kEstimatorsFunctions[] = {
     {"step_first_order", kStep, "step_first_order(data) -> G",
-     marked("estimator", "Read K/(1 + T s) from a step response: gain and 5 % settling time"),
+     marked("estimator", "Determine K/(1 + T s) from the gain and the 5 % settling time of a step response"),
      guarded<read_step_response<step_first_order>>, kNoOptions, kStepArguments},
     {"step_second_order", kStep, "step_second_order(data) -> G",
-     marked("estimator", "Read gain, damping and natural frequency from the first overshoot"),
+     marked("estimator",
+            "Determine gain, damping ratio and natural frequency from the first overshoot of a step response"),
      guarded<read_step_response<step_second_order>>, kNoOptions, kStepArguments},
     {"step_delayed", kStep, "step_delayed(data) -> G",
-     marked("estimator", "Read K exp(-D s)/(1 + T s) from two points of a step response"),
+     marked("estimator", "Determine K exp(-D s)/(1 + T s) from two points of a step response"),
      guarded<read_step_response<step_delayed>>, kNoOptions, kStepArguments},
     {"step_construction", kStep, "step_construction(G, {options}) -> fig", "Plot the reading points of a step test",
      guarded<draw_construction>, kConstruction, kConstructionArguments},
     {"procsrivc", "continuous time", "procsrivc(data, \"P2DU\", {options}) -> G",
-     marked("estimator", "Estimate a process model with the smallest simulation error"),
+     marked("estimator", "Estimate a process model by minimizing the simulation error"),
      guarded<memoized_call<estimate_process_model>>, kProcsrivc, kProcsrivcArguments},
 };
 

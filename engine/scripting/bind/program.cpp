@@ -47,16 +47,16 @@ std::filesystem::path file_of_module(const Call& call, const std::string& name) 
     };
     if (name.empty() || !std::all_of(name.begin(), name.end(), allowed) || name.find("..") != std::string::npos)
         throw InvalidArgument(
-            "give the name of a file in the script's folder without its extension, such as \"tools\" for tools.lua, "
-            "but \"{}\" was given",
+            "specify the name of a file in the script's folder without extension, such as \"tools\" for tools.lua, but "
+            "\"{}\" was given",
             name);
     std::string relative = name;
     std::replace(relative.begin(), relative.end(), '.', '/');
     const std::filesystem::path folder = call.context().options.script_folder, file = folder / (relative + ".lua");
     call.context().recorder.note_file_read(file);  // also one that is not there: it may come
     if (!std::filesystem::is_regular_file(file))
-        throw InvalidArgument("file not found: {}.lua in the script's folder; scripts cannot use libraries elsewhere",
-                              relative);
+        throw InvalidArgument(
+            "file not found: {}.lua in the script's folder; scripts cannot use libraries in other folders", relative);
     if (!is_below_folder(file, folder)) throw InvalidArgument("{}.lua is outside the script's folder", relative);
     return file;
 }
@@ -117,7 +117,8 @@ int run_file(Call& call) {
     push_prompt_variables(L);
     if (lua_isnil(L, -1))
         throw InvalidArgument(
-            "use this at the prompt, where variables are kept after a script; in a script write require(name)");
+            "this function is available only at the prompt, which keeps the variables of a script; in a script, write "
+            "require(name)");
     const std::filesystem::path file = script_at(call.text(1, "path"));
     const std::string text = read_text(file);
     const ShownCalls& shown = *call.context().shown_calls;

@@ -38,11 +38,12 @@ constexpr OptionEntry kRegressionMethod = option<&PolyfitOptions::method>(
     {.initial = "\"qr\"", .choices = kRegressionMethods});
 constexpr std::array kLsqOptions = {kRegressionMethod};
 constexpr std::array kPolyfitOptions = {
-    option<&PolyfitOptions::centered>("centered", about("powers of x minus its mean, instead of those of x itself")),
+    option<&PolyfitOptions::centered>("centered",
+                                      about("true uses powers of x minus its mean, instead of powers of x")),
     kRegressionMethod};
 constexpr OptionEntry kRegressionPlotOptions[] = {
-    {"forecast", ValueKind::kNumber, about("x of a forecast to mark")},
-    {"text", ValueKind::kText, about("label of the forecast; by default its value")},
+    {"forecast", ValueKind::kNumber, about("value of x at which to mark a forecast")},
+    {"text", ValueKind::kText, about("label of the forecast; by default, the value of the forecast")},
     {"level", ValueKind::kNumber, about("probability of the bands"), {.initial = "0.95"}},
     {"xlabel", ValueKind::kText, about("label of the x axis")},
     {"ylabel", ValueKind::kText, about("label of the y axis")}};
@@ -51,7 +52,7 @@ constexpr std::array kDescentOptions = {
     option<&GradientDescentOptions::max_iterations>("MaxIter", about("maximum number of iterations")),
     option<&GradientDescentOptions::tolerance>("Tol", about("relative change of theta at which the search stops"),
                                                {.least = 0}),
-    option<&GradientDescentOptions::start>("start", about("first theta; by default zero"))};
+    option<&GradientDescentOptions::start>("start", about("initial theta; by default, zero"))};
 constexpr OptionTable kLsqTables[] = {kLsqOptions}, kPolyfitTables[] = {kPolyfitOptions},
                       kRegressionPlotTables[] = {kRegressionPlotOptions}, kDescentTables[] = {kDescentOptions};
 
@@ -64,7 +65,7 @@ constexpr ArgumentEntry kRegressorArguments[] = {
     {"Phi", ValueKind::kAny, about("matrix with N rows and d columns, N at least d")}, kRegressionY};
 constexpr ArgumentEntry kForecastArguments[] = {
     {"fit", ValueKind::kAny, about("result of `polyfit_report` or `lsq`")},
-    {"x", ValueKind::kAny, about("number, for a polynomial; for `lsq` a vector of d regressors")},
+    {"x", ValueKind::kAny, about("number for a polynomial, or vector of d regressors for `lsq`")},
     {"level", ValueKind::kNumber, about("probability of the interval; by default 0.95")}};
 constexpr ArgumentEntry kQuantileArguments[] = {
     {"p", ValueKind::kNumber,
@@ -182,7 +183,7 @@ int draw_regression(Call& call) {
     call.at_most(4);
     const Options options(call, 4, kRegressionPlotTables);
     const RegressionFit& fit = object_argument<RegressionFit>(call, 3, "fit");
-    if (!fit.polynomial) throw InvalidArgument("{} must come from polyfit_report", argument_label(3, "fit"));
+    if (!fit.polynomial) throw InvalidArgument("{} must be a result of polyfit_report", argument_label(3, "fit"));
     RegressionPicture picture;
     picture.x = call.vector(1, "x");
     picture.y = call.vector(2, "y");

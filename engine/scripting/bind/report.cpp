@@ -16,14 +16,14 @@ namespace {
 constexpr std::array kSliderOptions = {
     option<&RecordedSlider::step>(
         "step", about("step between positions; by default, every number in the range can be selected")),
-    option<&RecordedSlider::logarithmic>("log",
-                                         about("positions equally spaced on a logarithmic scale; not with `step`")),
+    option<&RecordedSlider::logarithmic>(
+        "log", about("true spaces the positions equally on a logarithmic scale; not with `step`")),
     option<&RecordedSlider::unit>("unit", about("unit after the number")),
-    option<&RecordedSlider::label>("label", about("text next to the slider, by default its name"))};
+    option<&RecordedSlider::label>("label", about("text next to the slider; by default, the name"))};
 constexpr OptionTable kSliderTables[] = {kSliderOptions};
 
 constexpr ArgumentEntry kEntryName = {
-    "name", ValueKind::kText, about("name of the entry, made of letters, digits, _ and -; each name is used once")};
+    "name", ValueKind::kText, about("name of the entry, made of letters, digits, _ and -; use each name only once")};
 constexpr std::array kReportValueArguments = {
     kEntryName, ArgumentEntry{"x", ValueKind::kAny, about("number or text")},
     ArgumentEntry{"format", ValueKind::kText,
@@ -34,16 +34,16 @@ constexpr std::array kReportTableArguments = {
                                     "formulas between dollar signs, \"$a_1$\"")}};
 constexpr std::array kReportFigureArguments = {
     kEntryName, ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
-    ArgumentEntry{"caption", ValueKind::kText, about("caption for documents that do not contain one")}};
+    ArgumentEntry{"caption", ValueKind::kText, about("caption, used only in documents that do not specify a caption")}};
 constexpr std::array kReportTextArguments = {kEntryName,
                                              ArgumentEntry{"markdown", ValueKind::kText, about("text in Markdown")}};
 constexpr std::array kSliderArguments = {
     kEntryName,
     ArgumentEntry{"x", ValueKind::kNumber, about("number that the script uses until the reader selects another")},
-    ArgumentEntry{"from", ValueKind::kNumber, about("smallest number; above 0 with `log`")},
+    ArgumentEntry{"from", ValueKind::kNumber, about("smallest number; positive if `log` is true")},
     ArgumentEntry{"to", ValueKind::kNumber, about("largest number")}};
 constexpr std::array kGuessArguments = {
-    ArgumentEntry{"name", ValueKind::kText, about("name of the prediction, for `outcome`; each name is used once")},
+    ArgumentEntry{"name", ValueKind::kText, about("name of the prediction, for `outcome`; use each name only once")},
     ArgumentEntry{"value", ValueKind::kNumber, about("your prediction, or nil if you have none yet")},
     ArgumentEntry{"unit", ValueKind::kText, about("unit after the numbers")}};
 constexpr std::array kOutcomeArguments = {
@@ -58,7 +58,7 @@ std::string new_name(const Call& call, const Taken& taken) {
         return std::isalnum(c) || c == '_' || c == '-';
     });
     if (!plain) throw InvalidArgument("the name \"{}\" may contain only letters, digits, _ and -", name);
-    if (taken(name)) throw InvalidArgument("the name \"{}\" is used already; every entry needs a different name", name);
+    if (taken(name)) throw InvalidArgument("the name \"{}\" is already used; every entry needs a different name", name);
     return name;
 }
 
@@ -167,9 +167,10 @@ void check_range(const std::string& name, const RecordedSlider& slider) {
         throw InvalidArgument("the range of the slider \"{}\" must increase, but it is from {} to {}", name,
                               slider.from, slider.to);
     if (slider.logarithmic && slider.from <= 0)
-        throw InvalidArgument("the slider \"{}\" has log = true and must start above 0, not at {}", name, slider.from);
+        throw InvalidArgument("the slider \"{}\" has log = true and must start at a positive number, not at {}", name,
+                              slider.from);
     if (slider.step && !(*slider.step > 0 && *slider.step <= slider.to - slider.from))
-        throw InvalidArgument("the step of the slider \"{}\" must be above 0 and at most {}, not {}", name,
+        throw InvalidArgument("the step of the slider \"{}\" must be greater than 0 and at most {}, not {}", name,
                               slider.to - slider.from, *slider.step);
     for (const double value : {slider.initial, slider.value})
         if (!(value >= slider.from && value <= slider.to))
@@ -234,7 +235,7 @@ int guess(Call& call) {
     push_guesses(L);
     if (lua_getfield(L, -1, name.c_str()) != LUA_TNIL)
         throw InvalidArgument(
-            "the prediction \"{}\" was made before; make each prediction once, before you see the result", name);
+            "the prediction \"{}\" already exists; enter each prediction only once, before you see the result", name);
     lua_pop(L, 1);
     lua_createtable(L, 0, 2);
     if (call.given(2)) {

@@ -21,13 +21,13 @@ constexpr OptionEntry kResidualOptions[] = {
     option<&ResidualOptions::confidence>("confidence", about("probability of the bounds")),
     {"prediction",
      ValueKind::kFlag,
-     about("one-step prediction errors instead of simulation errors"),
+     about("true uses one-step prediction errors instead of simulation errors"),
      {.initial = "false"}},
-    {"quiet", ValueKind::kFlag, about("no text and no figure"), {.initial = "false"}}};
+    {"quiet", ValueKind::kFlag, about("true suppresses the text and the figure"), {.initial = "false"}}};
 constexpr OptionEntry kFoldOptions[] = {
-    option<&CrossValidationOptions::folds>("folds", about("number of parts")),
-    option<&CrossValidationOptions::by_experiment>("by_experiment",
-                                                   about("leave out one experiment at a time instead of parts")),
+    option<&CrossValidationOptions::folds>("folds", about("number of parts (folds)")),
+    option<&CrossValidationOptions::by_experiment>(
+        "by_experiment", about("true leaves out one experiment at a time instead of one part")),
     {"InitialState",
      ValueKind::kChoice,
      kStateOption.description,

@@ -37,13 +37,13 @@ constexpr std::array kSaveCsvArguments = {
                   about("file name ending in .csv, below the output folder or the script's folder")},
     ArgumentEntry{
         "data", ValueKind::kData,
-        about("data object with one experiment, or a table of vectors, lists of numbers and lists of texts by name")}};
+        about("data object with one experiment, or a table of named vectors, lists of numbers and lists of texts")}};
 constexpr std::array kSaveMatArguments = {
     ArgumentEntry{"path", ValueKind::kText,
                   about("file name ending in .mat, below the output folder or the script's folder")},
-    ArgumentEntry{
-        "variables", ValueKind::kTable,
-        about("table of models, data, vectors, matrices, numbers, texts, lists of texts and tables of these by name")}};
+    ArgumentEntry{"variables", ValueKind::kTable,
+                  about("table of named variables: models, data objects, vectors, matrices, numbers, texts, lists of "
+                        "texts, and tables of these")}};
 constexpr std::array kSaveJsonArguments = {
     ArgumentEntry{"path", ValueKind::kText,
                   about("file name ending in .json, below the output folder or the script's folder")},
@@ -118,7 +118,8 @@ void add_channels(CsvTable& table, const Matrix& channels, const std::vector<std
 
 CsvTable table_of_data(const IdData& data) {
     if (data.experiments.size() != 1)
-        throw InvalidArgument("a CSV file can contain one experiment; write each experiment with data:experiment(k)");
+        throw InvalidArgument(
+            "a CSV file can contain only one experiment; write each experiment with data:experiment(k)");
     CsvTable table;
     table.names.push_back("t");
     table.columns.push_back(data.time());
@@ -161,7 +162,8 @@ std::map<std::string, std::string> texts_by_name(const Call& call, const Options
     if (!options.has(option)) return texts;
     lua_State* L = call.state();
     const int index = options.push(option);
-    if (lua_type(L, index) != LUA_TTABLE) throw InvalidArgument("option '{}' must be a table like {t = \"s\"}", option);
+    if (lua_type(L, index) != LUA_TTABLE)
+        throw InvalidArgument("option '{}' must be a table such as {t = \"s\"}", option);
     lua_pushnil(L);
     while (lua_next(L, index)) {
         if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)
@@ -179,7 +181,7 @@ int save_csv(Call& call) {
     const Options options(call, 3, kSaveCsvTables);
     const IdData* data = to_object<IdData>(call.state(), 2);
     if (data == nullptr && call.type(2) != LUA_TTABLE)
-        wrong_argument(call.state(), 2, "data", Message("an iddata object or a table of vectors by name"));
+        wrong_argument(call.state(), 2, "data", Message("a data object or a table of named vectors"));
     CsvTable table = data != nullptr ? table_of_data(*data) : table_of_columns(call, 2, options);
     for (const auto& [name, unit] : texts_by_name(call, options, "units")) table.units[name] = unit;
     if (options.has("title")) table.remarks["title"] = options.text("title", "");
@@ -238,8 +240,7 @@ int save_mat(Call& call) {
     call.at_most(3);
     const std::filesystem::path file = file_to_write(call, ".mat");
     const Options options(call, 3, kSaveMatTables);
-    if (call.type(2) != LUA_TTABLE)
-        wrong_argument(call.state(), 2, "variables", Message("a table of variables by name"));
+    if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "variables", Message("a table of named variables"));
     write_mat_file(file, variables_of(call, 2, 1), static_cast<int>(options.size("digits", 17)));
     return 0;
 }
@@ -247,8 +248,7 @@ int save_mat(Call& call) {
 int save_json(Call& call) {
     call.at_most(2);
     const std::filesystem::path file = file_to_write(call, ".json");
-    if (call.type(2) != LUA_TTABLE)
-        wrong_argument(call.state(), 2, "variables", Message("a table of variables by name"));
+    if (call.type(2) != LUA_TTABLE) wrong_argument(call.state(), 2, "variables", Message("a table of named variables"));
     write_json_file(file, variables_of(call, 2, 1));
     return 0;
 }

@@ -20,23 +20,24 @@ constexpr std::array kChirpOptions = {OptionEntry{
     "shape", ValueKind::kChoice, about("shape of the wave"), {.initial = "\"sine\"", .choices = kChirpShapes}}};
 constexpr std::array kMultisineOptions = {
     option<&RandomPhaseOptions::lines>(
-        "lines", about("lines with sines, in cycles per period, from 1 to below N/2; line k is at k/(N Ts) hertz")),
-    option<&RandomPhaseOptions::odd>("odd", about("odd lines only; the even lines then show even distortion")),
+        "lines", about("excited lines, in cycles per period, from 1 to less than N/2; line k is at k/(N Ts) hertz")),
+    option<&RandomPhaseOptions::odd>(
+        "odd", about("true excites only the odd lines; the even lines then show even distortion")),
     option<&RandomPhaseOptions::detection>("detection",
                                            about("number of lines per group. One line of each group, chosen at random, "
                                                  "has no input and shows odd distortion; 0 for no groups")),
     option<&RandomPhaseOptions::amplitude>("amplitude", about("root mean square of the signal")),
-    option<&RandomPhaseOptions::low_crest>("low_crest", about("phases with low peaks")),
+    option<&RandomPhaseOptions::low_crest>("low_crest", about("true selects phases with a low crest factor")),
     OptionEntry{"periods", ValueKind::kCount, about("number of periods"), {.initial = "1", .least = 1}},
-    OptionEntry{"seed", ValueKind::kCount, about("seed of the phases; by default that of `rng`")}};
+    OptionEntry{"seed", ValueKind::kCount, about("seed of the phases; by default, the random stream of `rng`")}};
 constexpr OptionTable kSineTables[] = {kSineOptions}, kChirpTables[] = {kChirpOptions},
                       kMultisineTables[] = {kMultisineOptions};
 
 constexpr ArgumentEntry kSignalLength = {"N", ValueKind::kCount, about("number of samples")},
                         kSignalHold = {"p", ValueKind::kCount,
-                                       about("samples for which each value is held, by default 1")},
+                                       about("number of samples for which each value is held; by default 1")},
                         kSignalLevels = {"{low, high}", ValueKind::kVector,
-                                         about("levels of the signal, by default {-1, 1}")},
+                                         about("levels of the signal; by default {-1, 1}")},
                         kSignalDuration = {"T", ValueKind::kNumber, about("duration in seconds")},
                         kSignalPeriod = {"Ts", ValueKind::kNumber, about("sampling time in seconds")};
 constexpr std::array kPrbsArguments = {
@@ -44,17 +45,18 @@ constexpr std::array kPrbsArguments = {
     kSignalHold, kSignalLevels};
 constexpr std::array kRbsArguments = {kSignalLength, kSignalHold, kSignalLevels};
 constexpr std::array kStepSignalArguments = {
-    kSignalLength, ArgumentEntry{"first", ValueKind::kCount, about("sample at which the signal changes, by default 1")},
-    ArgumentEntry{"{low, high}", ValueKind::kVector, about("levels before and after the step, by default {0, 1}")}};
+    kSignalLength, ArgumentEntry{"first", ValueKind::kCount, about("sample at which the signal changes; by default 1")},
+    ArgumentEntry{"{low, high}", ValueKind::kVector, about("levels before and after the step; by default {0, 1}")}};
 constexpr std::array kSineArguments = {ArgumentEntry{"f", ValueKind::kNumber, about("frequency in hertz")},
                                        kSignalDuration, kSignalPeriod};
 constexpr std::array kChirpArguments = {ArgumentEntry{"f0", ValueKind::kNumber, about("first frequency in hertz")},
                                         ArgumentEntry{"f1", ValueKind::kNumber, about("last frequency in hertz")},
                                         kSignalDuration, kSignalPeriod};
 constexpr std::array kMultisineArguments = {
-    ArgumentEntry{"{f1, f2, ...}", ValueKind::kVector, about("frequencies in hertz, all different")},
+    ArgumentEntry{"{f1, f2, ...}", ValueKind::kVector, about("distinct frequencies in hertz")},
     ArgumentEntry{"T", ValueKind::kNumber,
-                  about("duration in seconds; an integer number of periods of every sine repeats without a jump")},
+                  about("duration in seconds; with an integer number of periods of every sine, the signal can be "
+                        "repeated without a jump")},
     kSignalPeriod, ArgumentEntry{"N", ValueKind::kCount, about("number of samples of a period")}};
 
 /// {low, high} of a signal with two levels.

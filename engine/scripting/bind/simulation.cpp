@@ -29,7 +29,7 @@ constexpr std::array kSvfOptions = {
     OptionEntry{"hold",
                 ValueKind::kChoice,
                 about("intersample behavior of the signal: linear interpolation (\"foh\") for measured outputs, or "
-                      "zero-order hold (\"zoh\") for held inputs"),
+                      "zero-order hold (\"zoh\") for piecewise constant inputs"),
                 {.initial = "\"foh\"", .choices = kHolds}}};
 constexpr std::array kModelNameOptions = {
     OptionEntry{"labels", ValueKind::kAny, about("names of the models in the legend, a list with one per model")}};
@@ -39,7 +39,7 @@ constexpr std::array kRegionOptions = {
                 about("probability of the confidence regions of estimated continuous-time models; false for none"),
                 {.initial = "0.99"}}};
 constexpr std::array kHistogramOptions = {
-    option<&HistogramOptions::bins>("bins", about("number of bins; 0 chooses it from the scatter of the values")),
+    option<&HistogramOptions::bins>("bins", about("number of bins; 0 for a number based on the scatter of the values")),
     option<&HistogramOptions::truth>("truth", about("value to mark with a line")),
     OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
     OptionEntry{"label", ValueKind::kText, about("name of the bars in the legend")},
@@ -50,13 +50,14 @@ constexpr OptionTable kLsimTables[] = {kLsimOptions}, kSvfTables[] = {kSvfOption
                       kHistogramTables[] = {kHistogramOptions};
 
 constexpr ArgumentEntry kOneModel = {"G", ValueKind::kModel, about("model")},
-                        kDrawnModels = {"G1, G2, ...", ValueKind::kModel, about("models to draw")},
+                        kDrawnModels = {"G1, G2, ...", ValueKind::kModel, about("models to plot")},
                         kDrawnFrequencies = {"w", ValueKind::kVector, about("vector of frequencies in rad/s")},
-                        kDrawnInstants = {"t", ValueKind::kVector, about("vector of instants in seconds, from 0 on")};
+                        kDrawnInstants = {"t", ValueKind::kVector,
+                                          about("vector of instants in seconds, starting at 0")};
 constexpr std::array kLsimArguments = {
     ArgumentEntry{"G", ValueKind::kModel, about("model with at least as many poles as zeros")},
     ArgumentEntry{"u", ValueKind::kVector,
-                  about("vector of N samples; for several inputs a matrix with one column per input")},
+                  about("vector of N samples; for several inputs, a matrix with one column per input")},
     ArgumentEntry{"t_or_Ts", ValueKind::kVector,
                   about("sampling time in seconds, or a vector of N increasing instants, which may be irregular")}};
 constexpr std::array kSvfArguments = {
@@ -71,7 +72,7 @@ constexpr std::array kBodeArguments = {
                   about("models, and measured frequency responses (idfrd, bla, spa, etfe), in any order")},
     kDrawnFrequencies};
 constexpr std::array kPzmapArguments = {
-    ArgumentEntry{"G1, G2, ...", ValueKind::kModel, about("models, all continuous or all discrete")}};
+    ArgumentEntry{"G1, G2, ...", ValueKind::kModel, about("models, all continuous-time or all discrete-time")}};
 constexpr std::array kHistogramArguments = {
     ArgumentEntry{"values", ValueKind::kVector, about("vector of finite values")}};
 
@@ -198,8 +199,8 @@ void refuse_last_value(const Call& call, int index) {
     if (call.type(index) != LUA_TNUMBER) return;
     const Number last = significant(call.number(index, "t or w"), 6);
     throw InvalidArgument(
-        "give all instants or frequencies instead of only the last, such as x = linspace(0, {}, 300): step(G, x) "
-        "returns numbers, plot(x, step(G, x)) a figure",
+        "specify all instants or frequencies instead of only the last, such as x = linspace(0, {}, 300): step(G, x) "
+        "returns numbers, and plot(x, step(G, x)) returns a figure",
         last);
 }
 

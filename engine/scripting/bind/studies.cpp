@@ -20,8 +20,8 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr OptionEntry kStudyOptions[] = {
-    {"system", ValueKind::kModel, about("true model in continuous time")},
-    {"input", ValueKind::kVector, about("samples of its input")},
+    {"system", ValueKind::kModel, about("true continuous-time model")},
+    {"input", ValueKind::kVector, about("samples of the input")},
     {"controller", ValueKind::kModel,
      about("controller of a closed loop u = C (r - y), instead of `input`: a model, or a number")},
     {"reference", ValueKind::kVector, about("samples of the reference of the closed loop")},
@@ -33,10 +33,11 @@ constexpr OptionEntry kStudyOptions[] = {
                                   {.unit = "dB"}),
     option<&MonteCarloStudy::runs>("runs", about("number of repeated experiments"), {.least = 2}),
     option<&MonteCarloStudy::seed>(
-        "seed", about("seed of the noise: run k = 0, 1, ... adds the numbers of `rng(seed + k)` and `randn`"),
+        "seed",
+        about("seed of the noise: run k = 0, 1, ... adds the numbers that `randn` returns after `rng(seed + k)`"),
         {.most = kMaxSeed}),
-    option<&MonteCarloStudy::threads>("threads", about("number of threads, 0 for all cores")),
-    {"estimators", ValueKind::kTable, about("estimators by name, with their arguments after the data")}};
+    option<&MonteCarloStudy::threads>("threads", about("number of threads; 0 for all cores")),
+    {"estimators", ValueKind::kTable, about("table of named estimators, each with its arguments after the data")}};
 constexpr OptionTable kStudyTables[] = {kStudyOptions};
 
 MonteCarloEstimate estimate_in_study(const Fit& result) {
@@ -200,7 +201,7 @@ void read_excitation(const Options& options, MonteCarloStudy& study) {
     if (options.has(other))
         throw InvalidArgument(
             loop ? Message("in a closed loop, controller and reference determine the input: omit 'input'")
-                 : Message("option 'reference' is for a closed loop: give 'controller', too"));
+                 : Message("option 'reference' is only for a closed loop and requires the option 'controller'"));
     if (!options.has(name)) throw InvalidArgument("option '{}' is missing: the samples of the {}", name, name);
     study.u = options.vector(name);
     if (!loop) return;

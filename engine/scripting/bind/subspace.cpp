@@ -14,13 +14,13 @@ namespace {
 constexpr std::array kWeightings = {"MOESP", "N4SID", "CVA"};  // in the order of SubspaceWeighting
 constexpr std::array kSubspaceOptions = {
     option<&SubspaceOptions::block_rows>("BlockRows",
-                                         about("number of past and of future samples, more than the order; 0 for a "
+                                         about("number of past and of future samples, greater than the order; 0 for a "
                                                "number based on the order and the length of the data"),
                                          {.member = "block_rows"}),
-    option<&SubspaceOptions::weighting>("Weighting", about("weighting of the directions against the noise"),
+    option<&SubspaceOptions::weighting>("Weighting", about("weighting matrices of the singular value decomposition"),
                                         {.initial = "\"MOESP\"", .choices = kWeightings}),
     option<&SubspaceOptions::feedthrough>("Feedthrough",
-                                          about("estimate the direct feedthrough D, which otherwise is zero"))};
+                                          about("true estimates the direct feedthrough D; otherwise, D is zero"))};
 constexpr OptionTable kSubspace[] = {kSubspaceOptions};
 
 constexpr std::array kSubspaceArguments = {

@@ -41,10 +41,11 @@ constexpr std::array kFilteredArguments = {
                         "and nk are tables with one entry per input; with several outputs, one entry per channel")},
     kFilterFrequency};
 constexpr std::array kRefinedArguments = {
-    kDataArgument, ArgumentEntry{"orders", ValueKind::kOrders,
-                                 about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay. With "
-                                       "several inputs, each with separate poles, they are tables with one entry per "
-                                       "input; with several outputs, one entry per channel, output 1 first")}};
+    kDataArgument,
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay. With several inputs, "
+                        "each with separate poles, nb, nf and nk are tables with one entry per input. With several "
+                        "outputs, the tables have one entry per channel, output 1 first")}};
 constexpr std::array kTransferFunctionArguments = {kDataArgument, kPoleCount, kZeroCount};
 
 /// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta.
@@ -58,7 +59,7 @@ FilteredCall filtered_call(const Call& call) {
     call.at_most(4);
     const auto orders = order_lists(call, 2, kCarxOrders);
     if (orders[0].size() != 1)
-        throw InvalidArgument("na is one number of poles for all inputs, but {} were given", orders[0].size());
+        throw InvalidArgument("na must be one number of poles for all inputs, but {} were given", orders[0].size());
     const Options options(call, 4, kMomentFunctionals ? OptionTables(kMoments) : OptionTables(kFiltered));
     SvfOptions requested;
     requested.lambda = call.number(3, "lambda");
@@ -171,7 +172,7 @@ constexpr FunctionEntry kTransferEstimatorsFunctions[] = {
      marked("estimator", "Estimate y = B/F u + e by refined instrumental variables"),
      guarded<memoized_call<estimate_refined<read_refined<srivc>>>>, kRefined, kRefinedArguments},
     {"coe", "continuous time", "coe(data, {nb, nf, nk}, {options}) -> G",
-     marked("estimator", "Estimate y = B/F u + e with the smallest simulation error"),
+     marked("estimator", "Estimate y = B/F u + e by minimizing the simulation error"),
      guarded<memoized_call<estimate_refined<read_refined<coe>>>>, kRefined, kRefinedArguments},
     {"tfsrivc", "continuous time", "tfsrivc(data, np, nz, {options}) -> G",
      marked("estimator", "Estimate a transfer function with delay by refined instrumental variables"),

@@ -21,7 +21,7 @@ namespace {
 
 constexpr OptionEntry kStepsOption = {
     "k", ValueKind::kNumber,
-    about("number of samples ahead for predicted outputs, as in `predict`, instead of simulated outputs")};
+    about("prediction horizon in samples, as in `predict`; by default, the outputs are simulated")};
 constexpr std::array kComparisonOptions = {kLabelsOption, kStepsOption};
 constexpr std::array kFitOptions = {kStepsOption};
 constexpr OptionTable kCompareTables[] = {kComparisonOptions, kComparisonStart},
@@ -108,15 +108,14 @@ void note_offsets(const Call& call, const IdData& data, const Comparison& compar
         MessageList offsets;
         for (const auto& results : comparison.results)
             offsets.items.push_back(level_text(results[output].offset, data.output_units[output]));
-        lines.items.push_back(
-            without.size() == 1
-                ? Message(
-                      "fit: an estimated offset of {} was removed; without it the fit is {} %. To choose, set {} to "
-                      "\"estimate\" or \"none\".",
-                      offsets, significant(without[i], 4), OptionName{"offset"})
-                : Message("fit: an estimated offset of {} was removed from {}; without it the fit is {} %. To choose, "
-                          "set {} to \"estimate\" or \"none\".",
-                          offsets, data.output_names[output], significant(without[i], 4), OptionName{"offset"}));
+        lines.items.push_back(without.size() == 1
+                                  ? Message("fit: an estimated offset of {} was removed; without this offset, the fit "
+                                            "is {} %. To choose, set {} to \"estimate\" or \"none\".",
+                                            offsets, significant(without[i], 4), OptionName{"offset"})
+                                  : Message("fit: an estimated offset of {} was removed from {}; without this offset, "
+                                            "the fit is {} %. To choose, set {} to \"estimate\" or \"none\".",
+                                            offsets, data.output_names[output], significant(without[i], 4),
+                                            OptionName{"offset"}));
     }
     if (lines.items.empty() || !is_first_of_line(call.state())) return;
     call.print(localized(call, Message("{}", lines)) + "\n");

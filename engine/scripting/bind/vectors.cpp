@@ -27,39 +27,39 @@ constexpr OptionTable kInterp1Tables[] = {kInterp1Options};
 constexpr std::array kMakeVectorArguments = {
     ArgumentEntry{"x1, x2, ...", ValueKind::kVector, about("numbers or vectors, in braces")}};
 constexpr std::array kMakeMatrixArguments = {
-    ArgumentEntry{"{...}, {...}", ValueKind::kVector, about("tables of numbers, the rows, of equal length")},
-    ArgumentEntry{"v1, v2", ValueKind::kVector, about("vectors, the columns, of equal length")}};
+    ArgumentEntry{"{...}, {...}", ValueKind::kVector, about("rows of the matrix: tables of numbers with equal length")},
+    ArgumentEntry{"v1, v2", ValueKind::kVector, about("columns of the matrix: vectors of equal length")}};
 constexpr std::array kZerosArguments = {
-    ArgumentEntry{"n", ValueKind::kCount, about("number of values, or of rows where m is given")},
-    ArgumentEntry{"m", ValueKind::kCount, about("number of columns, by default 1")}};
+    ArgumentEntry{"n", ValueKind::kCount, about("number of values, or number of rows if you specify m")},
+    ArgumentEntry{"m", ValueKind::kCount, about("number of columns; by default 1")}};
 constexpr std::array kEyeArguments = {ArgumentEntry{"n", ValueKind::kCount, about("number of rows and of columns")}};
 constexpr std::array kLinspaceArguments = {
     ArgumentEntry{"first", ValueKind::kNumber, about("first value")},
     ArgumentEntry{"last", ValueKind::kNumber, about("last value; it may be smaller than the first")},
-    ArgumentEntry{"n", ValueKind::kCount, about("number of values, by default 100")}};
+    ArgumentEntry{"n", ValueKind::kCount, about("number of values; by default 100")}};
 constexpr std::array kLogspaceArguments = {
     ArgumentEntry{"first", ValueKind::kNumber, about("exponent of ten of the first value")},
     ArgumentEntry{"last", ValueKind::kNumber, about("exponent of ten of the last value")},
-    ArgumentEntry{"n", ValueKind::kCount, about("number of values, by default 50")}};
+    ArgumentEntry{"n", ValueKind::kCount, about("number of values; by default 50")}};
 constexpr std::array kRangeArguments = {
     ArgumentEntry{"first", ValueKind::kNumber, about("first value")},
-    ArgumentEntry{"last", ValueKind::kNumber, about("end of the values, included if the steps reach it")},
-    ArgumentEntry{"step", ValueKind::kNumber, about("step between values, by default 1; negative to count down")}};
+    ArgumentEntry{"last", ValueKind::kNumber, about("last value, included if the steps reach it exactly")},
+    ArgumentEntry{"step", ValueKind::kNumber, about("step between values; by default 1. A negative step counts down")}};
 constexpr std::array kOneVectorArguments = {
     ArgumentEntry{"v", ValueKind::kVector, about("vector, or a table of numbers such as {1, 2, 3}")}};
 constexpr std::array kUnwrapArguments = {
-    ArgumentEntry{"x", ValueKind::kVector, about("vector, an angle that jumps at the ends of its range")},
-    ArgumentEntry{"period", ValueKind::kNumber, about("one full turn: 360 for degrees, by default 2*pi")}};
+    ArgumentEntry{"x", ValueKind::kVector, about("vector of angles that jump at the ends of the range")},
+    ArgumentEntry{"period", ValueKind::kNumber, about("one full turn: 360 for degrees; by default 2*pi")}};
 constexpr std::array kDotArguments = {
     ArgumentEntry{"a", ValueKind::kVector, about("vector, or a table of numbers")},
     ArgumentEntry{"b", ValueKind::kVector, about("vector of the same size, or a table of numbers")}};
 constexpr std::array kPolyvalArguments = {
     ArgumentEntry{"p", ValueKind::kVector, about("vector of coefficients, at least one, highest power first")},
-    ArgumentEntry{"x", ValueKind::kVector, about("number or vector, where the polynomial is evaluated")}};
+    ArgumentEntry{"x", ValueKind::kVector, about("number or vector at which the polynomial is evaluated")}};
 constexpr std::array kInterp1Arguments = {
     ArgumentEntry{"x", ValueKind::kVector, about("vector of at least two increasing values")},
-    ArgumentEntry{"y", ValueKind::kVector, about("vector of the same size, the values at x")},
-    ArgumentEntry{"x_new", ValueKind::kVector, about("number or vector, the points for new values")}};
+    ArgumentEntry{"y", ValueKind::kVector, about("vector of the same size, with the values at x")},
+    ArgumentEntry{"x_new", ValueKind::kVector, about("number or vector, the points of the interpolated values")}};
 
 int make_vector(Call& call) {
     if (call.count() != 1 || (to_vector(call.state(), 1) == nullptr && call.type(1) != LUA_TTABLE))

@@ -24,8 +24,8 @@ constexpr double kLargestExactWhole = 9007199254740992.0;  // 2^53
     const Message given = given_value(L, index);
     if (to_mask(L, index) != nullptr)
         throw InvalidArgument(
-            "{} must be {}, but {} was given; find(mask) returns the indices, #find(mask) their number", label,
-            requested, given);
+            "{} must be {}, but {} was given; find(mask) returns the indices, and #find(mask) returns their number",
+            label, requested, given);
     if (requested == with_article("iddata") && lua_istable(L, index))
         throw InvalidArgument("{} must be {}, but {} was given; create one from vectors with iddata(y, u, Ts)", label,
                               requested, given);
@@ -52,7 +52,7 @@ std::int64_t whole_at(lua_State* L, int index, const Label& label) {
 template <class Label>
 std::int64_t count_at(lua_State* L, int index, const Label& label) {
     const std::int64_t value = whole_at(L, index, label);
-    if (value < 0) throw InvalidArgument("{} must not be negative, but {} was given", label(), value);
+    if (value < 0) throw InvalidArgument("{} must be nonnegative, but {} was given", label(), value);
     return value;
 }
 
@@ -135,9 +135,9 @@ void Call::at_most(int arguments) const {
     const bool named = arguments >= 1 && lua_type(state_, arguments) == LUA_TSTRING;
     const Message all = plural(arguments, "{} argument", "{} arguments");
     if (orders)
-        throw InvalidArgument("takes at most {}, but {} were given; write the orders as one table {}", all, arguments_,
-                              "{1, 1, 0}");
-    throw InvalidArgument("takes at most {}, but {} were given; write the options as one table {}", all, arguments_,
+        throw InvalidArgument("accepts at most {}, but {} were given; write the orders as one table {}", all,
+                              arguments_, "{1, 1, 0}");
+    throw InvalidArgument("accepts at most {}, but {} were given; write the options as one table {}", all, arguments_,
                           fmt::format("{{{} = value}}", named ? lua_tostring(state_, arguments) : "name"));
 }
 
@@ -268,7 +268,7 @@ void Options::check_names(const std::vector<std::string>& known) const {
         if (is_known(name)) continue;
         if (const std::string other = with_other_case(name); is_known(other)) {
             if (lua_getfield(L, index_, other.c_str()) != LUA_TNIL)
-                throw InvalidArgument("options '{}' and '{}' are the same: give only one", name, other);
+                throw InvalidArgument("options '{}' and '{}' are equivalent: specify only one", name, other);
             lua_pop(L, 1);
             continue;
         }
@@ -383,7 +383,7 @@ std::map<std::string, double> Options::numbers_by_name(const char* name) const {
             wrong_value(L, index, option_label(name), Message("a table such as {a1 = 2}"));
         for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
             if (lua_type(L, -2) != LUA_TSTRING)
-                throw InvalidArgument("{} must name its values, such as {a1 = 2}", option_label(name));
+                throw InvalidArgument("{} must contain named values, such as {a1 = 2}", option_label(name));
             const std::string key = lua_tostring(L, -2);
             values[key] = number_at(L, -1, [&] { return Message("{} in {}", key, option_label(name)); });
         }

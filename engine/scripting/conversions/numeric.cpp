@@ -70,7 +70,7 @@ Index joined_size(lua_State* L, int index, Index entries, const Message& label) 
     collect_text_keys(L, index, names);
     if (names.empty()) throw InvalidArgument("{} must have rows or columns, but the table is empty", label);
     std::sort(names.begin(), names.end());
-    throw InvalidArgument("{} must have rows or columns, but the table contains {}: give one of these, such as data.{}",
+    throw InvalidArgument("{} must have rows or columns, but the table contains {}: use one of these, such as data.{}",
                           label, listed(names), names.front());
 }
 
@@ -184,7 +184,7 @@ void make_matrix_of_table(lua_State* L, int index, const Message& label) {
     const Index length = by_rows ? static_cast<Index>(lua_rawlen(L, -1)) : entry_size(L);
     if (length < 0 || lua_isnumber(L, -1))
         throw InvalidArgument(
-            "{} must be a list of rows {{1, 2}, {3, 4}} or of vectors (its columns), but its entry 1 is {}", label,
+            "{} must be a list of rows {{1, 2}, {3, 4}} or of vectors (its columns), but entry 1 is {}", label,
             given_value(L, -1));
     lua_pop(L, 1);
     NumericBlock& block = by_rows ? push_matrix(L, entries, length) : push_matrix(L, length, entries);

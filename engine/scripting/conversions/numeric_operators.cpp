@@ -116,8 +116,8 @@ int numeric_times(Call& call) {
 
 int refuse_comparison(Call&) {
     throw InvalidArgument(
-        "compare vectors element by element with gt(x, y), lt, ge, le and eq, which return a mask; x < y would return "
-        "a single true or false");
+        "for an element-wise comparison of vectors, use gt(x, y), lt, ge, le or eq, which return a mask. x < y would "
+        "return a single true or false");
 }
 
 }  // namespace dynlab::inline scripting

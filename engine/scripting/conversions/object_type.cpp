@@ -46,7 +46,7 @@ Message unknown_member_of(lua_State* L, const TypeEntry& members, const std::str
         return Message("{} has no field or method '{}'; {}", object, key, hint);
     };
     const auto as_function = [&](const std::string& name) {
-        return with_hint(Message("write it as a function, {}(...)", name));
+        return with_hint(Message("call the function {}(...)", name));
     };
     if (is_library_function(L, key)) return as_function(key);
     if (const Message* const hint = foreign_member_hint(type.name, key)) return with_hint(*hint);

@@ -27,7 +27,7 @@ int call_with_checked_length(lua_State* L) {
     if (luaL_getmetafield(L, 1, "__len") != LUA_TNIL) {
         lua_pop(L, 1);
         if (luaL_len(L, 1) > kMaxTableLength)
-            raise_error(L, Message("the table claims to have more elements than fit in memory"));
+            raise_error(L, Message("the table reports more elements than fit in memory"));
     }
     return call_original(L);
 }

@@ -146,7 +146,7 @@ void push_table(const Call& call, CborReader& archive, std::vector<FigurePointer
         archive.element();
         push_archived_value(call, archive, figures);
         const bool usable = !lua_isnil(L, -1) && !(lua_isnumber(L, -1) && lua_tonumber(L, -1) != lua_tonumber(L, -1));
-        if (!usable) archive.refuse(Message("the value cannot be the key of a table"));
+        if (!usable) archive.refuse(Message("the value cannot be a key of a table"));
         archive.element();
         push_archived_value(call, archive, figures);
         lua_rawset(L, -3);

@@ -90,12 +90,14 @@ Message simulation_of(const Fit& fit) {
             offsets.items.push_back(Message("{}", significant(offset, 4)));
         const bool few = fit.offsets.size() <= kMostShown;
         if (!fit.removed.empty())
-            return few ? Message("The operating point was removed: {} of the output.", offsets)
-                       : Message("The operating point was removed.");
-        if (few) return Message("The fit is simulated {} ({}).", description(fit.start), offsets);
+            return few ? Message("The operating point was removed from the data; the offset of the output is {}.",
+                                 offsets)
+                       : Message("The operating point was removed from the data.");
+        if (few) return Message("The fit refers to the simulation {} ({}).", description(fit.start), offsets);
     }
-    return fit.start.offset ? Message("The fit is simulated {}.", description(fit.start))
-                            : Message("The fit is simulated {}, without an offset.", description(fit.start));
+    return fit.start.offset
+               ? Message("The fit refers to the simulation {}.", description(fit.start))
+               : Message("The fit refers to the simulation {}, without an offset.", description(fit.start));
 }
 
 ReportFields report_fields(const Fit& fit) {

@@ -71,15 +71,14 @@ Message channels_hint(const Model& model) {
 namespace {
 
 [[noreturn]] void refuse_simulated(int index, ArgumentName what, const Message& kind) {
-    throw InvalidArgument(
-        "{} must be a linear model, but {} is not linear; simulate it with lsim, compare, fit and resid",
-        argument_label(index, what), kind);
+    throw InvalidArgument("{} must be a linear model, but {} is not linear; use lsim, compare, fit or resid",
+                          argument_label(index, what), kind);
 }
 
 /// A grey box with linear equations, one input and one output.
 Model linear_grey_model(const GreyFit& grey, int index, ArgumentName what) {
     const auto system = linear_system_of(grey.model, grey.fit.theta);
-    if (!system) refuse_simulated(index, what, Message("this grey box"));
+    if (!system) refuse_simulated(index, what, Message("this grey-box model"));
     if (system->B.cols() == 1 && system->C.rows() == 1) return {to_transfer_function(*system)};
     throw InvalidArgument("{} must have one input and one output, but it has {} and {}", argument_label(index, what),
                           system->B.cols(), system->C.rows());
@@ -96,7 +95,7 @@ Model model_argument(const Call& call, int index, ArgumentName what) {
         }
         if (const GreyEstimate grey = to_grey_box(call, index)) return linear_grey_model(*grey, index, what);
         if (const SimulatedModel* simulated = simulated_model(call, index))
-            refuse_simulated(index, what, Message("this model by {}", simulated->estimate->method));
+            refuse_simulated(index, what, Message("this model from {}", simulated->estimate->method));
         if (call.type(index) == LUA_TNUMBER)
             return {TransferFunction(Vector::Constant(1, call.number(index, what)), Vector::Ones(1))};
         if (const StateSpace* system = to_object<StateSpace>(call.state(), index)) {

@@ -20,18 +20,18 @@ constexpr std::array kReferenceOptions = {
         "dash", about("dash pattern: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns"))};
 constexpr std::array kAnnotationOptions = {
     OptionEntry{"text", ValueKind::kText, about("text next to the point")},
-    option<&Annotation::marker>("marker", about("true draws a mark at the point"))};
+    option<&Annotation::marker>("marker", about("true draws a marker at the point"))};
 constexpr std::array kArrowOptions = {
     OptionEntry{"x0", ValueKind::kNumber, about("x at the beginning of the arrow")},
     OptionEntry{"y0", ValueKind::kNumber, about("y at the beginning of the arrow")},
     OptionEntry{"x1", ValueKind::kNumber, about("x at the end of the arrow")},
     OptionEntry{"y1", ValueKind::kNumber, about("y at the end of the arrow")},
     OptionEntry{"text", ValueKind::kText, about("text at the middle of the arrow")},
-    option<&Arrow::both_heads>("both_heads", about("true draws a head at both ends"))};
+    option<&Arrow::both_heads>("both_heads", about("true draws an arrowhead at both ends"))};
 constexpr std::array kOneCurveOptions = {
-    OptionEntry{"x", ValueKind::kVector, about("values on the x axis, by default 1, 2, 3, ...")},
+    OptionEntry{"x", ValueKind::kVector, about("values on the x axis; by default 1, 2, 3, ...")},
     OptionEntry{"y", ValueKind::kVector, about("values on the y axis")},
-    OptionEntry{"y_upper", ValueKind::kVector, about("upper end of a band from y")}};
+    OptionEntry{"y_upper", ValueKind::kVector, about("upper limit of a band that starts at y")}};
 constexpr OptionTable kPanelTables[] = {kPanelOptions}, kReferenceTables[] = {kMarkPlaceOptions, kReferenceOptions},
                       kAnnotationTables[] = {kMarkPlaceOptions, kAnnotationOptions}, kArrowTables[] = {kArrowOptions},
                       kOneCurveTables[] = {kOneCurveOptions, kCurveAppearanceOptions};
@@ -60,7 +60,7 @@ double needed_number(const Options& options, const char* name, const Message& wh
 ReferenceLine read_reference(const Call& call, int index) {
     const Options options(call, index, kReferenceTables);
     if (options.has("x") == options.has("y"))
-        throw InvalidArgument("a reference must be either {y = level} or {x = instant}");
+        throw InvalidArgument("a reference line must be either {y = level} or {x = instant}");
     ReferenceLine line;
     line.horizontal = options.has("y");
     line.at = line.horizontal ? options.number("y", 0) : options.number("x", 0);
@@ -96,11 +96,12 @@ int color_at(const Call& call, int index) {
         if (found != kColorNames.end()) return static_cast<int>(std::min(found - kColorNames.begin(), kGrey));
         throw InvalidArgument(
             "{} must be {}, but \"{}\" was given", option_label("color"),
-            Message("a number from 0, or one of {}", listed_in_quotes({kColorNames.begin(), kColorNames.end()})), name);
+            Message("a nonnegative number, or one of {}", listed_in_quotes({kColorNames.begin(), kColorNames.end()})),
+            name);
     }
     const double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : -1;
     if (number < 0 || number != std::floor(number) || number > 1000)
-        refuse_option("color", Message("a whole number from 0, or a name such as \"red\""), given_value(L, index));
+        refuse_option("color", Message("a nonnegative integer, or a name such as \"red\""), given_value(L, index));
     return static_cast<int>(number);
 }
 

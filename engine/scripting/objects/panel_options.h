@@ -14,13 +14,13 @@ inline constexpr std::array kPanelOptions = {
     OptionEntry{"title", ValueKind::kText, about("text above the panel, or above all panels of a figure")},
     OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
     OptionEntry{"ylabel", ValueKind::kText, about("label of the y axis")},
-    OptionEntry{"x_range", ValueKind::kVector, about("ends of the x axis, {low, high}")},
-    OptionEntry{"y_range", ValueKind::kVector, about("ends of the y axis, {low, high}")},
+    OptionEntry{"x_range", ValueKind::kVector, about("limits of the x axis, {low, high}")},
+    OptionEntry{"y_range", ValueKind::kVector, about("limits of the y axis, {low, high}")},
     option<&Panel::log_x>("x_log", about("true for a logarithmic x axis")),
     option<&Panel::log_y>("y_log", about("true for a logarithmic y axis")),
     option<&Panel::equal_axes>("equal_axes", about("equal units on both axes")),
     option<&Panel::legend>("legend",
-                           about("place of the legend; \"direct\" writes each name next to its curve, or creates a "
+                           about("position of the legend; \"direct\" writes each name next to its curve, or creates a "
                                  "legend if space is missing"),
                            {.initial = "\"automatic\"", .choices = kLegendPlaces}),
     OptionEntry{"curves", ValueKind::kTable,
@@ -37,9 +37,9 @@ inline constexpr std::array kCurveAppearanceOptions = {
     OptionEntry{"color", ValueKind::kAny, about("number in the palette, starting at 0, or a name such as \"red\"")},
     OptionEntry{"dash", ValueKind::kCount,
                 about("dash pattern: 0 solid, 1 dashed, 2 dotted, 3 dash-dot, 4 to 7 further patterns")},
-    OptionEntry{
-        "marker", ValueKind::kCount,
-        about("marker: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the same open, 8 cross, 9 plus, 10 asterisk")},
+    OptionEntry{"marker", ValueKind::kCount,
+                about("marker: 0 dot, 1 square, 2 triangle, 3 diamond, 4 to 7 the same shapes unfilled, 8 cross, 9 "
+                      "plus, 10 asterisk")},
     option<&Curve::line_width>("line_width", about("line width"), {.unit = "points"})};
 
 inline constexpr std::array kFigureSizeOptions = {

@@ -140,7 +140,7 @@ PlantDrawing plant_drawing(const std::string& name) {
     DrawingReader reader;
     const std::vector<std::string> names = reader.names();
     if (std::find(names.begin(), names.end(), name) == names.end())
-        throw InvalidArgument("unknown moving plant '{}'; the plants are {}", name, listed(names));
+        throw InvalidArgument("unknown animated plant '{}'; the plants are {}", name, listed(names));
     return reader.read(name);
 }
 

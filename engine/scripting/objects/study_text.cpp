@@ -68,8 +68,8 @@ std::string StudyText::bias_of(const MonteCarloResult& result) const {
         if (std::abs(result.bias[i]) > kSignificantDeviation * result.spread[i] / root)
             names.push_back(result.names[static_cast<std::size_t>(i)]);
     if (names.empty()) return "";
-    return text(Message("{} is biased: the mean of {} differs from the true value by more than chance explains.",
-                        result.label, listed(names))) +
+    return text(Message("{} is biased: the mean of {} differs significantly from the true value.", result.label,
+                        listed(names))) +
            "\n";
 }
 

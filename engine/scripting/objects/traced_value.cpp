@@ -20,7 +20,7 @@ int operate(Call& call) {
 
 int refuse_order(Call&) {
     throw InvalidArgument(
-        "symbolic values cannot be compared: where(c, a, b) is a where c > 0 and b elsewhere; sign, max, min and abs "
+        "symbolic values cannot be compared: where(c, a, b) returns a if c > 0 and b otherwise; sign, max, min and abs "
         "also support symbolic values");
 }
 

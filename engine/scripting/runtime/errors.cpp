@@ -90,7 +90,7 @@ Message argument_sentence(const std::string& text) {
                        Message("argument {} is not a whole number, which %d requires; write %g or %.0f", *number));
     const std::string given = between(inside, " expected, got ", "").value_or("");
     if ((given == "vector" || given == "matrix") && takes_vectors(*function))
-        return Message("math.{} takes numbers, but {} was given; write {}(x), without math", *function,
+        return Message("math.{} requires numbers, but {} was given; write {}(x), without math", *function,
                        with_article(given), *function);
     if (auto requested = between(inside, "", " expected, got "))
         return Message("{}: {}", *function,
@@ -108,8 +108,8 @@ struct PlainMessage {
 
 const auto& fixed_messages() {
     static const std::array messages = {
-        PlainMessage{"stack overflow", Message("functions call each other endlessly (stack overflow)")},
-        PlainMessage{"C stack overflow", Message("functions call each other endlessly (stack overflow)")},
+        PlainMessage{"stack overflow", Message("functions call each other without end (stack overflow)")},
+        PlainMessage{"C stack overflow", Message("functions call each other without end (stack overflow)")},
         PlainMessage{"error in error handling", Message("an error occurred while another error was handled")},
         PlainMessage{"number has no integer representation", Message("a whole number is required")},
         PlainMessage{"attempt to divide by zero", Message("a whole number cannot be divided by zero with //")},
@@ -148,8 +148,9 @@ Message plain_sentence(const std::string& text) {
                            : *type == kComplexNumber ? Message("use its fields re, im, abs and arg")
                                                      : Message());
     if (auto type = between(text, "attempt to perform bitwise operation on a ", " value"))
-        return with_advice(Message("{} is {}, so & | ~ << >> do not support it", subject(text), what_it_is(*type)),
-                           *type == "boolean" ? Message("write 'not' as not x") : Message());
+        return with_advice(
+            Message("{} is {}, so the operators & | ~ << >> do not support it", subject(text), what_it_is(*type)),
+            *type == "boolean" ? Message("write 'not' as not x") : Message());
     if (auto type = between(text, "attempt to concatenate a ", " value"))
         return Message("{} is {}, so .. cannot join it to a string; use tostring(x)", subject(text), what_it_is(*type));
     if (auto type = between(text, "attempt to get length of a ", " value"))
@@ -190,7 +191,7 @@ Message syntax_sentence(const std::string& text, const std::string& near) {
     if (near == "<eof>") return Message("the script ends in the middle of a statement");
     if (starts_with(text, "<eof> expected") && near != "end")
         return Message("unexpected '{}': return must be the last statement of its block; comment it out with --", near);
-    if (starts_with(text, "<eof> expected")) return Message("unexpected '{}': it closes nothing", near);
+    if (starts_with(text, "<eof> expected")) return Message("unexpected '{}': no block is open", near);
     if (starts_with(text, "<name> expected")) return Message("expected a name before '{}'", near);
     if (auto requested = between(text, "", " expected")) return Message("expected {} before '{}'", *requested, near);
     if (!near.empty()) return Message("unexpected '{}'", near);

@@ -268,11 +268,13 @@ Message matlab_syntax_hint(const std::string& line, const std::string& near) {
     if (has_transpose(code)) return Message("the transpose is A:t(); a vector is already a column");
     if (Message hint = block_hint(code); !hint.empty()) return hint;
     if (Message hint = element_hint(code); !hint.empty()) return hint;
-    if (has_bracket_list(code)) return Message("write a vector as vector{1, 2, 3}, a matrix as matrix{{1, 2}, {3, 4}}");
+    if (has_bracket_list(code))
+        return Message("write a vector as vector{1, 2, 3} and a matrix as matrix{{1, 2}, {3, 4}}");
     if (contains(code, "lambda ")) return inline_function_form();
     if (has_colon_range(code))
         return Message(
-            "write a range as range(first, last) or range(first, step, last), a part of a vector v as v:range(i, j)");
+            "write a range as range(first, last) or range(first, step, last), and a part of a vector v as v:range(i, "
+            "j)");
     if (contains(code, "%") || contains(code, "# ")) return comment_form();
     if (contains(code, "\\")) return Message("write A\\b as solve(A, b)");
     static const RE2 kBeginsWithDigit(R"(\d+[A-Za-z_]\w*)", RE2::Latin1), kContinue(R"(\bcontinue\b)", RE2::Latin1);

@@ -207,11 +207,12 @@ std::optional<MisreadLine> misread_line_of(const std::string& source) {
                 "each row of a matrix is a table: matrix{{1, 2}, {3, 4}}; a semicolon separates entries like a comma")};
     if (const std::optional<int> line = line_with_compared_place(source))
         return MisreadLine{*line, Message("max(v) and min(v) also return the index of the element, which math.max and "
-                                          "math.min would compare like a value: write math.max(x, (max(v)))")};
+                                          "math.min would treat as another value: write math.max(x, (max(v)))")};
     if (const std::optional<DecimalComma> number = decimal_comma_of(source)) {
         const auto& [line, name, whole, fraction] = *number;
-        return MisreadLine{line, Message("{} = {},{} gives {} the value {}: write a decimal number with a point, {}.{}",
-                                         name, whole, fraction, name, whole, whole, fraction)};
+        return MisreadLine{
+            line, Message("{} = {},{} assigns {} the value {}: write a decimal number with a point, {}.{}", name, whole,
+                          fraction, name, whole, whole, fraction)};
     }
     return std::nullopt;
 }

@@ -68,7 +68,7 @@ TEST(grey_output, refuses_other_channels) {  // oracle: definition
     const IdData three(Matrix::Constant(u.size(), 3, 0.1), Matrix(u), 0.1);
     const GreyModel model = pendulum(5, 1.5, 0.3);
     EXPECT_THAT(thrown_message([&] { GreyOutput(three, model, model.start(), std::nullopt, Vector::Ones(3), 1e-7); }),
-                testing::HasSubstr("The model gives 2 outputs, but the data have 3"));
+                testing::HasSubstr("The model returns 2 outputs, but the data have 3"));
     const IdData none(Matrix::Constant(u.size(), 1, 0.1), Matrix(u.size(), 0), 0.1);
     EXPECT_THAT(thrown_message([&] { GreyOutput(none, model, model.start(), std::nullopt, Vector::Ones(1), 1e-7); }),
                 testing::HasSubstr("The model has 1 input, but the data have 0"));

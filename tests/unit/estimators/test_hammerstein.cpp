@@ -146,7 +146,7 @@ TEST(hammerstein, bins_do_without_edges_that_the_input_does_not_visit) {  // ora
     EXPECT_GT(equal.fit_percent[0], equal.characteristic->linear_fit_percent + 5) << message_text(equal.full_message());
     const auto wide = hammerstein(data, system.structure, at_edges(values({-9, -5, -1, -0.2, 0.2, 1, 4})));
     EXPECT_EQ(wide.characteristic->breakpoints.size(), 4) << wide.characteristic->breakpoints.transpose();
-    EXPECT_THAT(message_text(wide.full_message()), HasSubstr("of bins with too few input values nearby"));
+    EXPECT_THAT(message_text(wide.full_message()), HasSubstr("too few input values nearby"));
 }
 
 // Oracle: a held input of three values, of which the two edges about zero know only the mean; at these values the
@@ -164,7 +164,7 @@ TEST(hammerstein, an_input_of_few_values_has_these_as_edges) {
         EXPECT_LT(
             (result.characteristic->levels - characteristic(result.characteristic->breakpoints)).cwiseAbs().maxCoeff(),
             1e-6);
-        EXPECT_THAT(message_text(result.full_message()), HasSubstr("The input takes only 3 values"));
+        EXPECT_THAT(message_text(result.full_message()), HasSubstr("The input has only 3 distinct values"));
     }
     const auto as_asked = hammerstein(data, without_zero().structure, at_edges(values({-1, 0, 1})));
     EXPECT_THAT(message_text(as_asked.full_message()), Not(HasSubstr("only 3 values")));
@@ -215,7 +215,7 @@ TEST(hammerstein, refuses_what_it_cannot_fit) {  // oracle: definitions
         return thrown_message([&] { hammerstein(given, system.structure, options); });
     };
     EXPECT_THAT(refusal(data, at_edges(values({1, 0}))), HasSubstr("`breakpoints` must increase"));
-    EXPECT_THAT(refusal(data, at_edges(values({20, 30}))), HasSubstr("edges of the bins"));
+    EXPECT_THAT(refusal(data, at_edges(values({20, 30}))), HasSubstr("bin edges"));
     HammersteinOptions options;
     options.bins = 0;
     EXPECT_THAT(refusal(data, options), HasSubstr("`bins` must be between"));
@@ -224,7 +224,7 @@ TEST(hammerstein, refuses_what_it_cannot_fit) {  // oracle: definitions
     EXPECT_THAT(refusal(data, options), HasSubstr("`offset` must be"));
     IdData other = data;
     other.hold = Hold::kFoh;
-    EXPECT_THAT(refusal(other, {}), HasSubstr("held input"));
+    EXPECT_THAT(refusal(other, {}), HasSubstr("zero-order hold"));
 }
 
 }  // namespace test_hammerstein

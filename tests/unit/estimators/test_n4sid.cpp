@@ -184,7 +184,7 @@ TEST(n4sid, refuses_what_it_cannot_use) {  // oracle: definitions
     };
     EXPECT_THAT(refusal(data, 0), HasSubstr("must be between 1 and 100"));
     EXPECT_THAT(refusal(data, 5, with(SubspaceWeighting::kMoesp, false, 5)), HasSubstr("greater than the order"));
-    EXPECT_THAT(refusal(data, 5, with(SubspaceWeighting::kMoesp, false, -1)), HasSubstr("must not be negative"));
+    EXPECT_THAT(refusal(data, 5, with(SubspaceWeighting::kMoesp, false, -1)), HasSubstr("must be nonnegative"));
     EXPECT_THAT(refusal(data.range(1, 20), 3), HasSubstr("too few"));
     EXPECT_EQ(refusal(data.range(1, 45), 3), "");
     EXPECT_THAT(refusal(data, 3, with(SubspaceWeighting::kMoesp, false, 60)), HasSubstr("too few"));

@@ -500,7 +500,7 @@ TEST(procsrivc, zero_and_delay_of_p1dz_have_no_standard_errors) {  // oracle: n 
     const Fit found = fit(siso(x + 0.08 * RandomStream(8).normal(2000), u, 0.05), "P1DZ");
     const std::string message = message_text(found.full_message());
     EXPECT_THAT(message, HasSubstr("Tz and Td cannot be distinguished"));
-    EXPECT_EQ(message.find("badly conditioned"), std::string::npos) << message;
+    EXPECT_EQ(message.find("condition number"), std::string::npos) << message;
     EXPECT_TRUE(std::isinf(found.std[2]) && std::isinf(found.std[3])) << found.std.transpose();
     EXPECT_LT(std::abs(found.theta[0] - 1.7), 4 * found.std[0]);
     EXPECT_LT(std::abs(found.theta[1] - 2), 4 * found.std[1]);
@@ -514,7 +514,7 @@ TEST(procsrivc,
         const Fit found = fit(siso(y, Vector::Constant(300, 55), 0.5), "P1D");
         EXPECT_NEAR(found.theta[1], 25, 0.5) << seed;
         EXPECT_TRUE(std::isinf(found.std[0]) && std::isinf(found.std[2])) << found.std.transpose();
-        EXPECT_THAT(message_text(found.full_message()), HasSubstr("assume that it was zero"));
+        EXPECT_THAT(message_text(found.full_message()), HasSubstr("assume that the input was zero"));
     }
 }
 

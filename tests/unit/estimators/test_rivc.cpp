@@ -127,7 +127,7 @@ TEST(rivc, refuses_what_it_cannot_do) {
         return message.find(part) != std::string::npos;
     };
     EXPECT_TRUE(says(thrown_message([&] { rivc(IdData(y, u, t), kCourse, {1, 2}); }), "sampled regularly"));
-    EXPECT_TRUE(says(thrown_message([&] { rivc(data, kCourse, {-1, 2}); }), "must not be negative"));
+    EXPECT_TRUE(says(thrown_message([&] { rivc(data, kCourse, {-1, 2}); }), "must be nonnegative"));
     EXPECT_TRUE(says(thrown_message([&] { rivc(data.range(1, 15), kCourse, {1, 2}); }), "at least 18 samples"));
     EXPECT_TRUE(says(thrown_message([&] {
                          rivc(IdData(y, 0 * u, 0.05), kCourse, {1, 2});

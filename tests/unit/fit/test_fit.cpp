@@ -22,7 +22,7 @@ std::string refusal(const std::function<void(FitOptions&)>& change) {
 TEST(fit, options_that_make_no_sense_are_named) {  // oracle: the promises of the header
     EXPECT_NO_THROW(FitOptions{}.validate());
     EXPECT_THAT(refusal([](FitOptions& o) { o.lambda = -1; }), HasSubstr("lambda must be a positive number"));
-    EXPECT_THAT(refusal([](FitOptions& o) { o.least_delay = -1; }), HasSubstr("`least_delay` must not be negative"));
+    EXPECT_THAT(refusal([](FitOptions& o) { o.least_delay = -1; }), HasSubstr("`least_delay` must be nonnegative"));
     EXPECT_THAT(refusal([](FitOptions& o) { o.least_delay = 2, o.largest_delay = 1; }),
                 HasSubstr("`largest_delay` must be at least `least_delay` = 2, but is 1"));
     EXPECT_THAT(refusal([](FitOptions& o) { o.delay_count = 0; }), HasSubstr("`delay_count`"));

@@ -93,7 +93,7 @@ TEST(integrated_input, has_no_operating_point) {  // oracle: definition
 TEST(integrated_input, needs_a_held_input) {  // oracle: definition
     IdData data(Matrix::Random(10, 1), Matrix::Random(10, 1), 1);
     data.hold = Hold::kFoh;
-    EXPECT_THAT(thrown_message([&] { integrated_inputs(data); }), testing::HasSubstr("held input"));
+    EXPECT_THAT(thrown_message([&] { integrated_inputs(data); }), testing::HasSubstr("zero-order hold"));
 }
 
 }  // namespace test_integrated_input

@@ -148,27 +148,29 @@ TEST(convert, delays_become_poles_where_they_can) {  // oracle: second route, th
             EXPECT_NEAR(std::abs(H.at(z) - G.at(z)), 0, 1e-12);
     }
     EXPECT_EQ(with_rational_delay("test", kSecondOrder).den(), kSecondOrder.den());
-    EXPECT_NE(thrown_message([] { with_rational_delay("ss", kSecondOrder.with_delay(1)); }).find("use pade(G, n)"),
+    EXPECT_NE(thrown_message([] {
+                  with_rational_delay("ss", kSecondOrder.with_delay(1));
+              }).find("approximate the delay with pade(G, n)"),
               std::string::npos);
 }
 
 TEST(convert, says_what_is_wrong) {
     const TransferFunction discrete(from({1}), from({1, 0.5}), 0.1);
-    EXPECT_EQ(thrown_message([&] { c2d(discrete, 0.1); }), "c2d: the model is already discrete, with Ts = 0.1 s");
-    EXPECT_EQ(thrown_message([&] { d2c(kSecondOrder); }), "d2c: the model is already continuous");
+    EXPECT_EQ(thrown_message([&] { c2d(discrete, 0.1); }),
+              "c2d: the model is already a discrete-time model, with Ts = 0.1 s");
+    EXPECT_EQ(thrown_message([&] { d2c(kSecondOrder); }), "d2c: the model is already a continuous-time model");
     EXPECT_EQ(thrown_message([&] { c2d(kSecondOrder, -1); }),
               "c2d: the sampling time must be a positive number of seconds, but it is -1");
     EXPECT_NE(thrown_message([&] { d2c(discrete); }).find("the pole z = -0.5"), std::string::npos);
     EXPECT_NE(thrown_message([&] { c2d(kSecondOrder.with_delay(0.15), 0.1, Discretization::kTustin); }).find("0.15 s"),
               std::string::npos);
     const TransferFunction unstable(from({1}), from({1, -20}));  // a pole at 2/Ts
-    const std::string no_image =
-        "c2d: the tustin method has no result for a pole at 2/Ts = 20 rad/s; choose another Ts";
+    const std::string no_image = "c2d: the tustin method is undefined for a pole at 2/Ts = 20 rad/s; choose another Ts";
     EXPECT_EQ(thrown_message([&] { c2d(unstable, 0.1, Discretization::kTustin); }), no_image);
     EXPECT_EQ(thrown_message([&] { c2d(to_state_space(unstable), 0.1, Discretization::kTustin); }), no_image);
     const TransferFunction alternating(from({1}), from({1, 0.7, -0.3}), 0.1);  // (z + 1)(z - 0.3) but for rounding
     EXPECT_EQ(thrown_message([&] { d2c(alternating, Discretization::kTustin); }),
-              "d2c: the tustin method has no result for a pole at z = -1");
+              "d2c: the tustin method is undefined for a pole at z = -1");
     EXPECT_NE(thrown_message([&] { c2d(TransferFunction::variable(), 0.1); }).find("zeros"), std::string::npos);
 }
 

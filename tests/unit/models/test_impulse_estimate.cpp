@@ -28,7 +28,7 @@ TEST(impulse_estimate, the_first_response_is_followed_by_another_of_its_sign) { 
     ImpulseEstimate changing = estimate_of(Vector{{5.0, -5.0, -6.0, 0.0}});
     read_dead_time(changing, 0.1, Hold::kZoh, 3);
     EXPECT_EQ(changing.first, 1);
-    EXPECT_THAT(message_text(changing.message), HasSubstr("no dead time is visible"));
+    EXPECT_THAT(message_text(changing.message), HasSubstr("no dead time was detected"));
     ImpulseEstimate none = estimate_of(Vector{{1.0, -2.0, 2.0, 1.0}});
     read_dead_time(none, 0.1, Hold::kZoh, 3);
     EXPECT_FALSE(none.first);

@@ -121,7 +121,7 @@ TEST(transfer_function, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([] { TransferFunction(from({NAN}), from({1})); }),
               "transfer function: the numerator contains a coefficient that is not finite");
     EXPECT_EQ(thrown_message([] { TransferFunction(from({1}), from({1}), 0, -1); }),
-              "transfer function: the delay must not be negative, but it is -1 s");
+              "transfer function: the delay must be nonnegative, but it is -1 s");
     EXPECT_EQ(thrown_message([] { TransferFunction(from({1}), from({1}), 0.1, 0.25); }),
               "transfer function: in discrete time the delay must be a multiple of Ts = 0.1 s, but it is 0.25 s");
     EXPECT_NE(thrown_message([] { kSecondOrder + kSecondOrder.with_delay(1); }).find("pade(G, n)"), std::string::npos);

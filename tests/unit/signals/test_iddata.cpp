@@ -108,12 +108,12 @@ TEST(iddata, merge_takes_no_part_for_what_it_is_not) {
     EXPECT_THAT(thrown_message([&] {
                     IdData::merge({numbered(3), on_lines});
                 }),
-                HasSubstr("the input of part 2 is linearly interpolated between the samples (foh), but the first input "
-                          "is held (zoh)"));
+                HasSubstr("the input of part 2 is linearly interpolated (foh), but the input of the first part has a "
+                          "zero-order hold (zoh)"));
     EXPECT_THAT(thrown_message([&] {
                     IdData::merge({volts, millivolts});
                 }),
-                HasSubstr("part 2 has its input 1 in mV but the first in V"));
+                HasSubstr("part 2 has the input 1 in mV, but the first part has this input in V"));
     EXPECT_EQ(IdData::merge({volts, meters, numbered(3)}).experiments.size(), 3u);  // what is not known does not differ
 }
 

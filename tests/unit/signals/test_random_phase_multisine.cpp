@@ -87,10 +87,10 @@ TEST(random_phase_multisine, refuses_what_cannot_be) {
     EXPECT_THAT(refusal(32, options), HasSubstr("2 occurs several times"));
     options.lines = Vector{{2.0, 4.0}};
     options.odd = true;
-    EXPECT_THAT(refusal(32, options), HasSubstr("no line remains for"));
+    EXPECT_THAT(refusal(32, options), HasSubstr("no line remains to be excited"));
     options = {};
     options.detection = 1;
-    EXPECT_THAT(refusal(32, options), HasSubstr("groups need at least 2 lines"));
+    EXPECT_THAT(refusal(32, options), HasSubstr("a group needs at least 2 lines"));
     options = {};
     options.amplitude = 0;
     EXPECT_THAT(refusal(32, options), HasSubstr("amplitude must be positive"));

@@ -67,11 +67,11 @@ TEST(closed_loop, sensitivities_are_those_of_the_loop) {
     const std::vector<Case> cases = {
         {"sampled", Vector{{2}}, Vector{{1, 4, 3}}, 0, {pi, 1}, Hold::kZoh},
         {"a delay", Vector{{0.5, 2}}, Vector{{1, 4, 3}}, 0.12, {pi, 0}, Hold::kZoh},
-        {"a direct term", Vector{{0.1, 0.2}}, Vector{{1, 3}}, 0, {pi, 1}, Hold::kZoh},
+        {"direct feedthrough", Vector{{0.1, 0.2}}, Vector{{1, 3}}, 0, {pi, 1}, Hold::kZoh},
         {"a late direct term", Vector{{0.1, 0.2}}, Vector{{1, 3}}, 0.07, {pi, 1}, Hold::kZoh},
         {"unstable", Vector{{2}}, Vector{{1, 3, -4}}, 0, {discrete(Vector{{8}}, Vector{{1}}), 0}, Hold::kZoh},
         {"continuous", Vector{{2}}, Vector{{1, 3, -4}}, 0, {lag, 0}, Hold::kFoh},
-        {"a direct term before a lag", Vector{{0.1, 0.2, 1}}, Vector{{1, 1, 2}}, 0, {lag, 0}, Hold::kZoh}};
+        {"direct feedthrough before a lag", Vector{{0.1, 0.2, 1}}, Vector{{1, 1, 2}}, 0, {lag, 0}, Hold::kZoh}};
     const Vector r = reference_signal();
     for (const Case& one : cases) {
         const auto output = [&](const Vector& theta) {
@@ -139,7 +139,7 @@ TEST(closed_loop, refuses_what_is_no_loop) {  // oracle: the sentence names the 
     EXPECT_THAT(refused(G, {gain, 1}), HasSubstr("needs a sampled controller"));
     EXPECT_THAT(refused(G.with_delay(0.1), {gain}), HasSubstr("pade(G, n)"));
     EXPECT_THAT(refused(direct, {sampled_gain}), HasSubstr("algebraic loop"));
-    EXPECT_THAT(refused(discrete(Vector{{1}}, Vector{{1, -0.5}}), {sampled_gain}), HasSubstr("continuous time"));
+    EXPECT_THAT(refused(discrete(Vector{{1}}, Vector{{1, -0.5}}), {sampled_gain}), HasSubstr("continuous-time model"));
     EXPECT_EQ(refused(direct, {sampled_gain, 1}), "");
     const Vector r = Vector::Ones(10);
     EXPECT_THAT(thrown_message([&] {

@@ -149,7 +149,7 @@ TEST(lsim, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1, NAN}), 0.1);
               }),
-              "lsim: sample 2 of the input is not a number (NaN); fillmissing(u, {method = \"previous\"}) holds the "
+              "lsim: sample 2 of the input is not a number (NaN); fillmissing(u, {method = \"previous\"}) repeats the "
               "previous value");
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1, 2}), 0);
@@ -158,7 +158,7 @@ TEST(lsim, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([] {
                   lsim(kSecondOrder, from({1, 2, 3}), from({0, 2, 1}));
               }),
-              "lsim: the time must increase from sample to sample, but instant 3 is 1 after 2");
+              "lsim: the time vector must be increasing, but instant 3 is 1 after 2");
     EXPECT_EQ(thrown_message([] {
                   lsim(TransferFunction(from({1, 0}), from({1})), from({1}), 0.1);
               }),
@@ -168,11 +168,11 @@ TEST(lsim, says_what_is_wrong) {
                   lsim(kSecondOrder, from({1}), 0.1, Hold::kZoh, from({1, 2, 3}));
               }),
               "lsim: the initial state x0 must have 2 values, one for each state, but it has 3");
-    EXPECT_EQ(thrown_message([] {
-                  lsim(TransferFunction(from({1}), from({1, 0}), 0.2), from({1}), 0.1);
-              }),
-              "lsim: the model is discrete with Ts = 0.2 s, but the data have the sampling time 0.1 s; the two must be "
-              "equal");
+    EXPECT_EQ(
+        thrown_message([] {
+            lsim(TransferFunction(from({1}), from({1, 0}), 0.2), from({1}), 0.1);
+        }),
+        "lsim: the discrete-time model has Ts = 0.2 s, but the data have the sampling time 0.1 s; both must be equal");
     EXPECT_EQ(thrown_message([] { lsim(kSecondOrder, Vector(), 0.1); }), "lsim: the input has no samples");
     EXPECT_EQ(thrown_message([] {
                   state_variable_filter(from({1, 2}), 1000000, 3, 0.1);

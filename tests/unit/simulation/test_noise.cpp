@@ -74,9 +74,9 @@ TEST(noise, of_a_given_snr) {  // oracle: definition
     EXPECT_NEAR(noise_std_of_snr(x, 20), std::sqrt(2.0) / 10, 1e-14);
     EXPECT_NEAR(noise_std_of_snr(x, 0), std::sqrt(2.0), 1e-14);
     EXPECT_THAT(thrown_message([&] { noise_std_of_snr(Vector::Ones(4), 10); }), HasSubstr("that changes"));
-    EXPECT_THAT(thrown_message([&] { noise_std_of_snr(x, kInfinity); }), HasSubstr("decibels"));
+    EXPECT_THAT(thrown_message([&] { noise_std_of_snr(x, kInfinity); }), HasSubstr("finite number in dB"));
     RandomStream random;
-    EXPECT_THAT(thrown_message([&] { ColoredNoise{}.draw(3, -1, random); }), HasSubstr("zero or positive"));
+    EXPECT_THAT(thrown_message([&] { ColoredNoise{}.draw(3, -1, random); }), HasSubstr("nonnegative"));
 }
 
 }  // namespace test_noise

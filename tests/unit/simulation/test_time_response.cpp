@@ -56,8 +56,8 @@ TEST(time_response, refusals) {
     EXPECT_EQ(thrown_message([] { impulse_response(kLag, Vector()); }), "impulse: the time vector is empty");
     const TransferFunction discrete(Vector::Ones(1), Eigen::Vector2d(1, -0.9), 0.1);
     EXPECT_EQ(thrown_message([&] { step_response(discrete, Eigen::Vector2d(0, 0.15)); }),
-              "step: the model is discrete, so the instants must be multiples of Ts = 0.1 s, but instant 2 is "
-              "0.15 s");
+              "step: the model is a discrete-time model, so the instants must be multiples of Ts = 0.1 s, but instant "
+              "2 is 0.15 s");
 }
 
 }  // namespace test_time_response

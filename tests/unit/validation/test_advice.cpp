@@ -163,7 +163,7 @@ TEST(advice, a_running_start_is_reported) {  // oracle: the record cut out of a 
     Index fastest = 0;
     (r.x.segment(101, 400) - r.x.segment(100, 400)).cwiseAbs().maxCoeff(&fastest);
     const IdData cut = r.data().range(fastest + 101, 1000);
-    EXPECT_THAT(said(advise(cut), "running_start"), HasSubstr("during a movement"));
+    EXPECT_THAT(said(advise(cut), "running_start"), HasSubstr("during a transient"));
 }
 
 TEST(advice, a_drifting_plant_at_rest_does_not_begin_in_a_movement) {  // oracle: a minute at the equilibrium

@@ -104,9 +104,11 @@ TEST(arx_selection, own_loss_falls_with_every_parameter_and_the_choice_says_so) 
         EXPECT_LE(alone.candidates[i].loss, alone.candidates[i - 1].loss);
     const OrderChoice choice = choose_arx(alone, ArxCriterion::kLoss);
     EXPECT_EQ(choice.place, 3u);
-    EXPECT_THAT(message_text(choice.explanation), HasSubstr("{na, nb, nk} = {4, 2, 2} has the smallest loss. On the "
-                                                            "estimation data the loss decreases with every parameter"));
-    EXPECT_THAT(message_text(choice.explanation), HasSubstr("With 4 parameters instead of 6, {2, 2, 2} is within 1 %"));
+    EXPECT_THAT(message_text(choice.explanation),
+                HasSubstr("{na, nb, nk} = {4, 2, 2} has the smallest loss. On the estimation data, the loss decreases "
+                          "with every additional parameter"));
+    EXPECT_THAT(message_text(choice.explanation),
+                HasSubstr("With 4 parameters instead of 6, {2, 2, 2} has a loss that is at most 1 %"));
     EXPECT_EQ(usual_criterion(alone), ArxCriterion::kBic);
     const IdData unseen = record(2, 5000);
     const ArxSelection both = select_arx(record(1), {{1, 4}, {2, 2}, {2, 2}}, &unseen);

@@ -122,7 +122,7 @@ TEST(delay_search, refuses_what_cannot_be_searched) {
     DelaySearchOptions options;
     options.estimation.least_delay = options.estimation.largest_delay.emplace(2);
     EXPECT_THAT(thrown_message([&] { search_delay(data, options); }),
-                HasSubstr("`largest_delay` must be above `least_delay` (2 s)"));
+                HasSubstr("`largest_delay` must be greater than `least_delay` (2 s)"));
     options.estimation.largest_delay = 1000;
     EXPECT_THROW(search_delay(data, options), InvalidArgument);
     options = {};

@@ -18,8 +18,10 @@ std::string verdict_text(const ModelEvidence& model) {
 }
 
 TEST(model_assessment, good_models_only_are_called_good) {
-    EXPECT_EQ(verdict_text({}), "The model explains everything that the data show, and its standard errors are valid.");
-    const auto not_good = Not(HasSubstr("explains everything that the data show"));
+    EXPECT_EQ(verdict_text({}),
+              "The residuals contain no further information about the system, and the standard errors of the model are "
+              "valid.");
+    const auto not_good = Not(HasSubstr("contain no further information about the system"));
     EXPECT_THAT(verdict_text({.unstable = true}), not_good);
     EXPECT_THAT(verdict_text({.fit_percent = 5}), not_good);
     EXPECT_THAT(verdict_text({.fit_percent = -30}), not_good);
@@ -31,8 +33,9 @@ TEST(model_assessment, good_models_only_are_called_good) {
 TEST(model_assessment, the_gravest_comes_first) {
     EXPECT_THAT(verdict_text({.fit_percent = 5, .unstable = true}), StartsWith("The model is unstable"));
     EXPECT_THAT(verdict_text({.fit_percent = 5, .white = false}), StartsWith("The model explains little"));
-    EXPECT_THAT(verdict_text({.fit_percent = 5, .independent = false}),
-                testing::AllOf(StartsWith("The model explains little"), HasSubstr("Dynamics are missing")));
+    EXPECT_THAT(
+        verdict_text({.fit_percent = 5, .independent = false}),
+        testing::AllOf(StartsWith("The model explains little"), HasSubstr("The model does not describe all dynamics")));
     EXPECT_THAT(verdict_text({.white = false, .doubts = {.undetermined = {"b0"}}}),
                 HasSubstr("do not reliably determine b0"));
     EXPECT_THAT(verdict_text({.white = false}), HasSubstr("the dynamics. The disturbance is colored:"));
@@ -50,7 +53,7 @@ TEST(model_assessment, known_causes_come_before_missing_dynamics) {
     EXPECT_EQ(verdict_text(start), "B.");
     EXPECT_THAT(verdict_text({.independent = false, .acts_at_once = true}), HasSubstr("direct feedthrough"));
     EXPECT_THAT(verdict_text({.independent = false, .acts_earlier = true}), HasSubstr("shorter delay"));
-    EXPECT_THAT(verdict_text({.independent = false}), StartsWith("Dynamics are missing"));
+    EXPECT_THAT(verdict_text({.independent = false}), StartsWith("The model does not describe all dynamics"));
 }
 
 // A remedy for one output, and its parameters, do not appear under another.

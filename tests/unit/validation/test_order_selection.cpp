@@ -208,7 +208,7 @@ TEST(order_selection, superfluous_poles_and_zeros_are_pointed_out) {  // oracle:
     const IdData data = record(kSecondOrder, prbs(7, 8), 0.05, 20, 1);
     const OrderSelection selection = select_order(data, order_grid({4, 4}, {2, 2}, {0.0}));
     EXPECT_FALSE(selection.candidates.front().sound());
-    EXPECT_THAT(message_text(choose_order(selection).explanation), HasSubstr("No structure gives a sound model"));
+    EXPECT_THAT(message_text(choose_order(selection).explanation), HasSubstr("No structure yields a reliable model"));
 }
 
 TEST(order_selection, structures_on_which_srivc_does_not_settle_come_as_close_as_those_inside_them) {

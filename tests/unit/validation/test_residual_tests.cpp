@@ -55,8 +55,8 @@ TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the
     EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
     EXPECT_TRUE(tests.outputs[0].inputs[0].without_feedback);
     EXPECT_THAT(message_text(tests.verdict), HasSubstr("y1: The output error is white"));
-    EXPECT_THAT(message_text(tests.verdict), HasSubstr("u1 explains no more of the error"));
-    EXPECT_THAT(message_text(tests.verdict), HasSubstr("explains everything that the data show"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("u1 is not correlated with the error"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("contain no further information about the system"));
 }
 
 TEST(residual_tests, colored_noise_on_the_true_model_is_distinguished_from_missing_dynamics) {
@@ -68,8 +68,8 @@ TEST(residual_tests, colored_noise_on_the_true_model_is_distinguished_from_missi
     const TransferFunction poor(Vector{{2.0 / 3}}, Vector{{1.0, 1.0}});
     const auto missing = plain_tests(record(y, u), poor);
     EXPECT_FALSE(missing.outputs[0].inputs[0].independent);
-    EXPECT_THAT(message_text(missing.verdict), HasSubstr("u1 still explains part of the error"));
-    EXPECT_THAT(message_text(missing.verdict), HasSubstr("Dynamics are missing"));
+    EXPECT_THAT(message_text(missing.verdict), HasSubstr("u1 is correlated with the error"));
+    EXPECT_THAT(message_text(missing.verdict), HasSubstr("The model does not describe all dynamics"));
 }
 
 // Oracle: how the records were made; each has one cause, which the verdict names in the place of missing poles.
@@ -79,7 +79,7 @@ TEST(residual_tests, known_causes_are_named) {
                                const ModelDoubts& doubts) {
         const std::string text = message_text(
             residual_tests(record(y, input), {G}, {InitialState::kZero, Offset::kNone}, {}, doubts).verdict);
-        EXPECT_EQ(text.find("Dynamics are missing"), std::string::npos) << text;
+        EXPECT_EQ(text.find("The model does not describe all dynamics"), std::string::npos) << text;
         return text;
     };
     const auto verdict = [&](const Vector& y, const TransferFunction& G, const ModelDoubts& doubts = {}) {
@@ -108,7 +108,7 @@ TEST(residual_tests, tests_do_not_make_poor_models_good) {  // oracle: how the r
     EXPECT_TRUE(explodes.outputs[0].whiteness.white && explodes.outputs[0].inputs[0].independent);
     EXPECT_THAT(message_text(explodes.verdict), HasSubstr("The model is unstable. Do not use it"));
     for (const ResidualTests* tests : {&poor, &explodes})
-        EXPECT_EQ(message_text(tests->verdict).find("standard errors are valid"), std::string::npos);
+        EXPECT_EQ(message_text(tests->verdict).find("standard errors of the model are valid"), std::string::npos);
 }
 
 TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the record was made
@@ -123,7 +123,7 @@ TEST(residual_tests, feedback_shows_at_negative_lags) {  // oracle: how the reco
     const auto tests = plain_tests(record(y, u), none);
     EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
     EXPECT_FALSE(tests.outputs[0].inputs[0].without_feedback);
-    EXPECT_THAT(message_text(tests.verdict), HasSubstr("act back on the input"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("affect the input through feedback"));
     Index most = 0;
     tests.outputs[0].inputs[0].correlation.cwiseAbs().maxCoeff(&most);
     EXPECT_EQ(most - 25, -1);

@@ -86,8 +86,9 @@ local db = idfrd({1*d.Gain, 1*d.Phase}, 2*math.pi*d.Frequency, {form = "dB"})
 print(db.magnitude[1], db.phase[1])
 )lua");
     ASSERT_FALSE(run.record.error) << run.record.error->text();
-    EXPECT_THAT(run.printed, AllOf(HasSubstr("w0 503 zeta 0.10 gain 2.0 delay 0.0020"),
-                                   HasSubstr("decibels and degrees"), HasSubstr("frequencies are in Hz")));
+    EXPECT_THAT(run.printed,
+                AllOf(HasSubstr("w0 503 zeta 0.10 gain 2.0 delay 0.0020"),
+                      HasSubstr("the magnitude in dB and the phase in degrees"), HasSubstr("frequencies are in Hz")));
 }
 
 TEST_F(field_records, even_instants_make_regular_data) {
@@ -137,8 +138,9 @@ TEST_F(field_records, sampling_time_that_contradicts_the_file_is_reported) {
     work_.write("wheel.csv", read_file(std::string(kFolder) + "wheel.csv"));
     const ScriptRun run = work_.run(
         "local d = load('wheel.csv') iddata(d.velocity, d.voltage, 0.05) iddata(d.velocity, d.voltage, 0.004)");
-    EXPECT_EQ(run.printed,
-              "iddata: the sampling time is 0.05 s, but according to the time 'time' of the file it is 0.004 s\n");
+    EXPECT_EQ(
+        run.printed,
+        "iddata: the sampling time is 0.05 s, but according to the time column 'time' of the file it is 0.004 s\n");
     IdentifyRequest request = of("wheel.csv", "voltage", "velocity");
     request.Ts = 0.05;
     EXPECT_THAT(identification_script(request),

@@ -30,7 +30,7 @@ TEST(script_answers, that_are_missing_unknown_repeated_or_of_the_wrong_kind_are_
     EXPECT_THAT(refusal("answer('gian', 2)\n"),
                 HasSubstr("a.lua:7: answer: the script's header declares no answer \"gian\"; did you mean \"gain\"?"));
     EXPECT_THAT(refusal("answer('gain', '2')\n"), HasSubstr("must be of the kind number, but a text was given"));
-    EXPECT_THAT(refusal("answer('gain', 2) answer('gain', 3)"), HasSubstr("was given before"));
+    EXPECT_THAT(refusal("answer('gain', 2) answer('gain', 3)"), HasSubstr("already has another value"));
     EXPECT_THAT(error_of([&] { parse_percent_script(header("--   gain: numbre\n"), "a.lua"); }),
                 HasSubstr("unknown kind \"numbre\"; the kinds are number, text"));
 }

@@ -98,16 +98,15 @@ Fit two_stage(const IdData& data, const TransferStructure& structure, const FitO
     Fit estimate = srivc(projected, structure, options);
     estimate.covariance = output_covariance(projected, structure, estimate.theta);
     estimate.warnings = {
-        Message("The standard errors treat the projection of the input as known. They can be several times too large, "
-                "or a quarter too small.")};
+        Message("The standard errors neglect the uncertainty of the projected input. They can be several times too "
+                "large or 25 % too small.")};
     measure_simulation(estimate, data);
     describe_models(estimate);
     estimate.message =
         has_settled(estimate)
-            ? Message(
-                  "SRIVC on the projection of the input on the reference (two-stage route), converged after {}: {}.",
-                  iteration_count(estimate), simulation_text(estimate))
-            : Message("SRIVC on the projection of the input on the reference (two-stage route), stopped after {}: {}.",
+            ? Message("SRIVC with the input projected onto the reference (two-stage route) converged after {}: {}.",
+                      iteration_count(estimate), simulation_text(estimate))
+            : Message("SRIVC with the input projected onto the reference (two-stage route) stopped after {}: {}.",
                       iteration_count(estimate), simulation_text(estimate));
     return estimate;
 }
@@ -118,8 +117,8 @@ Fit direct(const IdData& data, const TransferStructure& structure, const FitOpti
     estimate.warnings.clear();
     describe_models(estimate);
     estimate.warnings.push_back(
-        Message("This is the direct route: the controller makes the input depend on the noise, which biases the "
-                "estimate unless the noise is white."));
+        Message("The direct route ignores the controller: feedback correlates the input with the noise, which biases "
+                "the estimate unless the noise is white."));
     return estimate;
 }
 

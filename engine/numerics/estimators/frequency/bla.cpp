@@ -42,14 +42,14 @@ std::vector<Cut> cuts_of(const IdData& data, const BlaOptions& options, Index& r
     for (std::size_t e = 0; e < data.experiments.size(); ++e) {
         const Index N = data.sample_count(e), length = N / options.realizations;
         if (length * options.realizations != N)
-            throw InvalidArgument("bla: {} realizations do not divide the {} samples of the data evenly",
+            throw InvalidArgument("bla: the number of realizations, {}, must divide the number of samples, {}",
                                   options.realizations, N);
         const Index periods = length / options.period;
         if (periods < 1)
-            throw InvalidArgument("bla: a period of {} samples is longer than a realization of {}", options.period,
-                                  length);
+            throw InvalidArgument("bla: the period of {} samples is longer than a realization of {} samples",
+                                  options.period, length);
         if (options.transient >= periods)
-            throw InvalidArgument("bla: no data remain without {} of {}", options.transient,
+            throw InvalidArgument("bla: no data remain after {} of {} are omitted", options.transient,
                                   plural(periods, "{} period", "{} periods"));
         rest = length - periods * options.period;
         for (Index r = 0; r < options.realizations; ++r)
@@ -254,13 +254,13 @@ class Approximation {
         const double part = changing / (changing + all);
         if (part > kRepeatsNot)
             throw InvalidArgument(
-                "bla: the input does not repeat after {} samples: {} % of its power changes from period to period; "
-                "give the period of the excitation",
+                "bla: the input is not periodic with {} samples: {} % of its power varies from period to period. "
+                "Specify the period of the input",
                 options_.period, significant(100 * part, 3));
         if (part > kRepeatsRoughly)
             result_.warnings.push_back(
-                Message("The input repeats only roughly ({} % of its power changes from period to period): the period "
-                        "is wrong or the input is noisy, and leakage may bias the response.",
+                Message("The input is only approximately periodic ({} % of its power varies from period to period). "
+                        "The period is wrong or the input is noisy, and leakage may bias the response.",
                         significant(100 * part, 3)));
     }
 
@@ -270,9 +270,9 @@ class Approximation {
             for (const std::size_t other : {m - 1, std::size_t{0}})
                 if (shifted_correlation(all_[other].U, all_[m].U, options_.period) > kSameInput)
                     throw InvalidArgument(
-                        "bla: realizations {} and {} have the same input, but distortion shows only if the inputs "
-                        "differ: use different phases for each (as multisine does), or treat them as periods of one "
-                        "realization",
+                        "bla: realizations {} and {} have the same input, but the estimate of the distortion requires "
+                        "different inputs. Use different phases for each realization, as multisine does, or treat the "
+                        "realizations as periods of one realization",
                         other + 1, m + 1);
     }
 
@@ -284,27 +284,27 @@ class Approximation {
         const double chance = kChance / std::sqrt(count_ * static_cast<double>(all_.front().Y.size()));
         if (unsettled > kSeen * power && unsettled > (kMore + chance) * spread)
             result_.warnings.push_back(
-                Message("The first period differs from the others by more than noise explains: the system was not yet "
-                        "in steady state; omit this period with {} = {}.",
+                Message("The first period differs significantly from the other periods: the system was not yet in "
+                        "steady state. Omit this period with {} = {}.",
                         OptionName{"transient"}, options_.transient + 1));
     }
 
     void warn_of_record() {
         if (rest_ > 0)
             result_.warnings.push_back(
-                Message("The period does not divide the data: the first {} are omitted, so that whole periods remain.",
+                Message("The data do not contain a whole number of periods: the first {} are omitted.",
                         plural(rest_, "{} sample", "{} samples")));
         if (lines_.some_differ)
             result_.warnings.push_back(
                 Message("The realizations excite different lines; only the common lines are used."));
         if (periods_ < 2)
             result_.warnings.push_back(
-                Message("One period cannot separate noise from nonlinear distortion, or show whether the system was in "
-                        "steady state."));
+                Message("With only one period, noise and nonlinear distortion cannot be separated, and steady state "
+                        "cannot be verified."));
         if (all_.size() < 2)
             result_.warnings.push_back(
-                Message("One realization cannot reveal nonlinear distortion at the excited lines: the variance "
-                        "contains only noise."));
+                Message("With only one realization, nonlinear distortion at the excited lines cannot be detected: the "
+                        "variance includes only noise."));
     }
 
     void describe() {
@@ -319,10 +319,11 @@ class Approximation {
             return significant(10 * std::log10(std::max(part, 0.0) / sums.power), 3);
         };
         if (std::isfinite(sums.noise))
-            all.push_back(Message("The noise is at {} dB of the output, averaged over {}.", decibels(sums.noise),
-                                  plural(periods_, "{} period", "{} periods")));
+            all.push_back(Message("The noise level is {} dB relative to the output, averaged over {}.",
+                                  decibels(sums.noise), plural(periods_, "{} period", "{} periods")));
         if (std::isfinite(sums.distortion))
-            all.push_back(Message("The nonlinear distortion is at {} dB of the output.", decibels(sums.distortion)));
+            all.push_back(Message("The level of the nonlinear distortion is {} dB relative to the output.",
+                                  decibels(sums.distortion)));
         result_.message = sentences(std::move(all));
     }
 
@@ -342,12 +343,12 @@ void BlaOptions::validate() const {
     if (realizations < 1)
         throw InvalidArgument("bla: the number of realizations must be at least 1, but is {}", realizations);
     if (transient < 0)
-        throw InvalidArgument("bla: the number of omitted periods must not be negative, but is {}", transient);
+        throw InvalidArgument("bla: the number of omitted periods must be nonnegative, but is {}", transient);
     if (!(least_input > 0 && least_input < 1))
-        throw InvalidArgument("bla: the threshold for the input's amplitude must be between 0 and 1, but is {}",
+        throw InvalidArgument("bla: the threshold for the amplitude of the input must be between 0 and 1, but is {}",
                               least_input);
     if (smooth && *smooth < 0)
-        throw InvalidArgument("bla: the number of frequencies to smooth over must not be negative, but is {}", *smooth);
+        throw InvalidArgument("bla: the number of frequencies to smooth over must be nonnegative, but is {}", *smooth);
 }
 
 FrequencyData bla(const IdData& data, const BlaOptions& options) {

@@ -63,18 +63,19 @@ void describe(SpectralEstimate& estimate, const EtfeOptions& options, Index line
                                                  "amplitude, and the estimate would show only noise.",
                                                  significant(100 * options.least_input, 3))});
     if (estimate.w.size() < 3)
-        estimate.warnings.push_back(plural(estimate.w.size(),
-                                           "The input excites only {} frequency: the response is known only there.",
-                                           "The input excites only {} frequencies: the response is known only there."));
+        estimate.warnings.push_back(
+            plural(estimate.w.size(),
+                   "The input excites only {} frequency, so the response is estimated only at this frequency.",
+                   "The input excites only {} frequencies, so the response is estimated only at these frequencies."));
 }
 
 }  // namespace
 
 void EtfeOptions::validate() const {
     if (smooth < 0)
-        throw InvalidArgument("etfe: the number of frequencies to smooth over must not be negative, but is {}", smooth);
+        throw InvalidArgument("etfe: the number of frequencies to smooth over must be nonnegative, but is {}", smooth);
     if (!(least_input >= 0 && least_input < 1))
-        throw InvalidArgument("etfe: the threshold for the input's amplitude must be between 0 and 1, but is {}",
+        throw InvalidArgument("etfe: the threshold for the amplitude of the input must be between 0 and 1, but is {}",
                               least_input);
 }
 
@@ -90,8 +91,9 @@ SpectralEstimate etfe(const IdData& data, const EtfeOptions& options) {
     const ComplexVector U = fourier_transform(record.u.col(0)), Y = fourier_transform(record.y.col(0));
     const Index N = U.size(), lines = N / 2;
     if (2 * options.smooth + 1 > lines)
-        throw InvalidArgument("etfe: smoothing over {} frequencies leaves none of the {} frequencies of the data",
-                              2 * options.smooth + 1, lines);
+        throw InvalidArgument(
+            "etfe: smoothing over {} frequencies is not possible, because the data have only {} frequencies",
+            2 * options.smooth + 1, lines);
     const Vector amplitudes = U.segment(1, lines).cwiseAbs();
     const double least = options.least_input * amplitudes.maxCoeff();
     const Vector weights = hann_weights(options.smooth);

@@ -37,8 +37,8 @@ void check_fit(const std::string& method, const FrequencyData& data, const Trans
         throw InvalidArgument("{}: a frequency response has one input and one output, but the model has {} and {}",
                               method, structure.inputs, structure.outputs);
     if (data.w.size() < structure.parameter_count())
-        throw InvalidArgument("{}: {} parameters need at least as many frequencies, but the response has {}", method,
-                              structure.parameter_count(), data.w.size());
+        throw InvalidArgument("{}: the response must have at least as many frequencies as parameters ({}), but has {}",
+                              method, structure.parameter_count(), data.w.size());
 }
 
 Index pole_count(const TransferStructure& structure) {
@@ -99,7 +99,7 @@ std::vector<Start> starts_of(const FrequencyData& data, const TransferStructure&
         if (stable || !stable_alone) starts.push_back({found, delay});
     }
     if (starts.empty())
-        throw InvalidArgument("the response does not determine a model of {}: the equations have no solution",
+        throw InvalidArgument("the response does not determine a model with {}: the equations have no solution",
                               plural(pole_count(structure), "{} pole", "{} poles"));
     return starts;
 }
@@ -219,8 +219,8 @@ void describe(Fit& fit, const FrequencyData& data) {
     fit.offsets = Matrix::Zero(1, 1);
     if (data.neighbors_share_errors)
         fit.warnings.push_back(
-            Message("Neighboring values of a smoothed response share their errors. The standard errors are too small, "
-                    "and narrow peaks are lowered, which looks like damping."));
+            Message("The errors of neighboring values of a smoothed response are correlated. The standard errors are "
+                    "too small, and the damping of narrow peaks is overestimated."));
 }
 
 }  // namespace

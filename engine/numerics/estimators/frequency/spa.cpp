@@ -19,7 +19,8 @@ Index window_of(const SpaOptions& options, Index shortest) {
     if (options.window == 0) return std::max<Index>(2, std::min(shortest / 10, kDefaultWindow));
     if (options.window < 2 || options.window >= shortest)
         throw InvalidArgument(
-            "spa: the lag window must have at least 2 samples and fewer than the shortest experiment's {}, but has {}",
+            "spa: the lag window must have at least 2 samples and fewer samples than the shortest experiment ({}), but "
+            "has {}",
             shortest, options.window);
     return options.window;
 }
@@ -88,11 +89,13 @@ double real_share(double angle, Index M) {
 
 void describe(SpectralEstimate& estimate, Index M, double averages, double Ts) {
     estimate.message = Message(
-        "Spectral analysis with a lag window of {} samples: details narrower than {} rad per time unit are smoothed "
-        "away, and every value averages about {} independent values.",
+        "Spectral analysis with a lag window of {} samples: the frequency resolution is {} rad per time unit, and "
+        "every value is the average of about {} independent values.",
         M, significant(std::numbers::pi / (static_cast<double>(M) * Ts), 3), significant(averages, 2));
     if (averages < 4)
-        estimate.warnings.push_back(Message("The window is long for so few data: the errors are large and uncertain."));
+        estimate.warnings.push_back(
+            Message("The lag window is long for the number of samples: the errors are large, and their estimates are "
+                    "unreliable."));
 }
 
 }  // namespace
@@ -100,7 +103,7 @@ void describe(SpectralEstimate& estimate, Index M, double averages, double Ts) {
 void SpaOptions::validate() const {
     if (window < 0)
         throw InvalidArgument("spa: the lag window must be a positive number of samples, but is {}", window);
-    if (!w.allFinite()) throw InvalidArgument("spa: a frequency is not a finite number");
+    if (!w.allFinite()) throw InvalidArgument("spa: all frequencies must be finite numbers");
 }
 
 SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
@@ -132,8 +135,8 @@ SpectralEstimate spa(const IdData& data, const SpaOptions& options) {
     }
     describe(estimate, M, averages, data.Ts);
     if (poor)
-        estimate.warnings.push_back(
-            Message("At some frequencies the input has practically no power; the response there is meaningless."));
+        estimate.warnings.push_back(Message(
+            "At some frequencies the input has almost no power, so the response at these frequencies is unreliable."));
     return estimate;
 }
 

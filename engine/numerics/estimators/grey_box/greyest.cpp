@@ -55,11 +55,11 @@ Vector named_start(const GreyModel& model, const std::map<std::string, double>& 
     for (const auto& [name, value] : values) {
         const auto found = std::ranges::find(model.parameters, name, &GreyParameter::name);
         if (found == model.parameters.end())
-            throw InvalidArgument("greyest: {} name a parameter {}, which the model does not have",
+            throw InvalidArgument("greyest: the option {} contains the parameter {}, which the model does not have",
                                   OptionName{"starts"}, name);
         if (!(value >= found->lower && value <= found->upper))
-            throw InvalidArgument("greyest: {} set {} = {}, outside its bounds {} and {}", OptionName{"starts"}, name,
-                                  value, found->lower, found->upper);
+            throw InvalidArgument("greyest: the option {} contains {} = {}, which is outside the bounds {} and {}",
+                                  OptionName{"starts"}, name, value, found->lower, found->upper);
         start[found - model.parameters.begin()] = value;
     }
     return start;
@@ -289,8 +289,8 @@ void warn_of_bounds(Fit& fit, const GreyModel& model, const std::vector<Index>& 
         if (!end.at_bound[q]) continue;
         const GreyParameter& p = model.parameters[static_cast<std::size_t>(free[q])];
         fit.warnings.push_back(
-            Message("The parameter {} is at its bound {}, which stopped its search. Its standard error is unknown, and "
-                    "the other standard errors treat it as known.",
+            Message("The parameter {} ended at its bound {}. It has no standard error, and the other standard errors "
+                    "treat this parameter as known.",
                     p.name, end.theta[static_cast<Index>(q)]));
     }
 }
@@ -347,8 +347,8 @@ void set_measures(GreyFit& result, const GreyOutput& criterion, const Fit& end, 
     result.intervals << fit.theta - reach * fit.std, fit.theta + reach * fit.std;
     if (!rough.empty())
         fit.warnings.push_back(
-            Message("At t = {} no integration step was small enough: the equations are discontinuous there; use "
-                    "tanh(v/small) instead of sign(v) to make them smooth.",
+            Message("At t = {} no integration step was small enough, because the equations are discontinuous. Use "
+                    "smooth equations, such as tanh(v/small) instead of sign(v).",
                     rough.front()));
 }
 
@@ -379,7 +379,7 @@ GreyStart parse_grey_start(const std::string& text) {
 
 void GreyOptions::validate() const {
     if (max_iterations < 0)
-        throw InvalidArgument("{} must not be negative, but is {}", OptionName{"max_iterations"}, max_iterations);
+        throw InvalidArgument("{} must be nonnegative, but is {}", OptionName{"max_iterations"}, max_iterations);
     if (!(tolerance > 0)) throw InvalidArgument("{} must be positive, but is {}", OptionName{"tolerance"}, tolerance);
     if (!(relative_tolerance >= 1e-13 && relative_tolerance <= 1e-2))
         throw InvalidArgument("{} must be between 1e-13 and 0.01, but is {}", OptionName{"relative_tolerance"},
@@ -414,10 +414,10 @@ GreyFit greyest(const IdData& data, const GreyModel& model, const GreyOptions& o
     warn_of_bounds(result.fit, result.model, result.model.free_parameters(), end.fit);
     if (const auto missed = missed_initial_state(data, result, end.weights)) result.fit.warnings.push_back(*missed);
     if (!ambiguous) warn_of_doubtful_parameters(result.fit, SimplerModel::kFewerFreeParameters);
-    result.fit.message =
-        has_settled(result.fit)
-            ? Message("Grey box converged after {}: {}.", iteration_count(result.fit), simulation_text(result.fit))
-            : Message("Grey box stopped after {}: {}.", iteration_count(result.fit), simulation_text(result.fit));
+    result.fit.message = has_settled(result.fit) ? Message("The grey-box search converged after {}: {}.",
+                                                           iteration_count(result.fit), simulation_text(result.fit))
+                                                 : Message("The grey-box search stopped after {}: {}.",
+                                                           iteration_count(result.fit), simulation_text(result.fit));
     return result;
 }
 
@@ -436,7 +436,7 @@ Matrix grey_response(const GreyFit& grey, const GreyInputs& inputs, const Vector
         throw InvalidArgument("The model has {}, but {} were given", plural(grey.model.inputs, "{} input", "{} inputs"),
                               inputs.u.cols());
     if (inputs.u.rows() != inputs.t.size())
-        throw InvalidArgument("The inputs have {}, but the time has {}",
+        throw InvalidArgument("The inputs have {}, but the time vector has {}",
                               plural(inputs.u.rows(), "{} sample", "{} samples"),
                               plural(inputs.t.size(), "{} instant", "{} instants"));
     if (x0.size() != 0 && x0.size() != grey.model.order())

@@ -48,8 +48,7 @@ Snapshots neighboring_snapshots(const IdData& data, const Scale& scale, Index d)
     for (const Experiment& record : data.experiments) columns += std::max<Index>(0, record.y.rows() - d);
     if (columns <= rows + nu)
         throw InvalidArgument(
-            "dmdc: too few samples: {} unknowns per row need more snapshots than that, but the data have {}: use fewer "
-            "delays",
+            "dmdc: too few samples: more than {} snapshots are required, but the data have {}: use fewer delays",
             rows + nu, columns);
     Snapshots pairs{Matrix(rows + nu, columns), Matrix(rows, columns)};
     for (const Experiment& record : data.experiments) {
@@ -87,7 +86,7 @@ Reduced reduce(const Snapshots& pairs, const DmdcOptions& options) {
     const SingularValues of_next = jacobi_svd(next), of_now = jacobi_svd(now);
     const Index seen = distinguishable(of_next.s), r = rank > 0 ? rank : seen;
     if (r > seen)
-        throw InvalidArgument("dmdc: {} is {}, but the data show only {}", OptionName{"rank"}, rank,
+        throw InvalidArgument("dmdc: {} is {}, but the data support only {}", OptionName{"rank"}, rank,
                               plural(seen, "{} direction", "{} directions"));
     const Index p = std::min(r + nu, distinguishable(of_now.s));
     const Matrix U = of_next.U.leftCols(r);
@@ -124,7 +123,7 @@ void describe(DmdcFit& found) {
 }  // namespace
 
 void DmdcOptions::validate() const {
-    if (rank < 0) throw InvalidArgument("dmdc: {} must not be negative, but is {}", OptionName{"rank"}, rank);
+    if (rank < 0) throw InvalidArgument("dmdc: {} must be nonnegative, but is {}", OptionName{"rank"}, rank);
     if (delays < 1) throw InvalidArgument("dmdc: {} must be at least 1, but is {}", OptionName{"delays"}, delays);
 }
 

@@ -139,15 +139,15 @@ void check(const IdData& data, const NarxLags& lags, const NarxOptions& options,
         throw InvalidArgument("narx needs one output, but the data have {}: select one", data.output_count());
     const Index rows = equation_count(data, lags), least = std::max<Index>(options.terms, 1) + 1;
     if (options.terms > candidates)
-        throw InvalidArgument("narx: {} terms are requested, but the lags and the degree give only {}", options.terms,
+        throw InvalidArgument("narx: {} terms are requested, but the lags and the degree allow only {}", options.terms,
                               plural(candidates, "{} candidate", "{} candidates"));
     if (rows > least && rows <= candidates)
         throw InvalidArgument(
-            "narx: only {} samples have a complete recorded past, but {} candidate terms could explain any data of "
-            "that length: use more data, fewer lags or a lower degree",
+            "narx: only {} samples have all required past values, which is too few for {} candidate terms: use more "
+            "data, fewer lags or a lower degree",
             rows, candidates);
     if (rows <= least)
-        throw InvalidArgument("narx: too few samples: {} have a complete recorded past, but more than {} are needed",
+        throw InvalidArgument("narx: too few samples: {} have all required past values, but more than {} are needed",
                               std::max<Index>(rows, 0), least);
 }
 
@@ -155,11 +155,11 @@ void check(const IdData& data, const NarxLags& lags, const NarxOptions& options,
 
 void NarxLags::check(Index inputs) const {
     if (static_cast<Index>(nb.size()) != inputs || nb.size() != nk.size())
-        throw InvalidArgument("narx: the lags are for {}, but the data have {}",
+        throw InvalidArgument("narx: the lags are specified for {}, but the data have {}",
                               plural(static_cast<Index>(nb.size()), "{} input", "{} inputs"), inputs);
     bool negative = na < 0;
     for (std::size_t j = 0; j < nb.size(); ++j) negative = negative || nb[j] < 0 || nk[j] < 0;
-    if (negative) throw InvalidArgument("narx: the numbers of lags must not be negative");
+    if (negative) throw InvalidArgument("narx: the numbers of lags must be nonnegative");
     if (variables() == 0) throw InvalidArgument("narx: the model uses no past value: na or nb must be at least 1");
 }
 
@@ -220,7 +220,7 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
         throw InvalidArgument("narx: the simulation starts after {}, but the data have only {}",
                               plural(first, "{} sample", "{} samples"), N);
     if (x0.size() != 0 && x0.size() != first)
-        throw InvalidArgument("narx: x0 must have the first {} of the simulation, but has {}",
+        throw InvalidArgument("narx: x0 must contain the first {} of the simulation, but has {}",
                               plural(first, "{} output", "{} outputs"), plural(x0.size(), "{} value", "{} values"));
     FreeRun run{Matrix::Constant(N, 1, kNaN),
                 {},
@@ -252,7 +252,7 @@ FreeRun NarxModel::free_run(const IdData& data, std::size_t experiment, const Ve
 }
 
 void NarxOptions::validate() const {
-    if (terms < 0) throw InvalidArgument("narx: {} must not be negative, but is {}", OptionName{"terms"}, terms);
+    if (terms < 0) throw InvalidArgument("narx: {} must be nonnegative, but is {}", OptionName{"terms"}, terms);
 }
 
 NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& options) {
@@ -264,7 +264,7 @@ NarxFit narx(const IdData& data, const NarxLags& lags, const NarxOptions& option
     const Matrix R = candidates_and_output(data, lags, monomials, options.cancel);
     const Index most = options.terms > 0 ? options.terms : std::min({kMaxTerms, monomials.count(), rows - 2});
     const Choice choice = choose_forwards(R, rows, most, options.cancel);
-    if (choice.terms.empty()) throw InvalidArgument("narx: no candidate explains any of the output");
+    if (choice.terms.empty()) throw InvalidArgument("narx: no candidate term explains the output");
     const std::vector<Index> terms(choice.terms.begin(), choice.terms.begin() + number_of_terms(choice, options.terms));
     NarxFit found;
     solve_chosen(found, R, terms, rows);

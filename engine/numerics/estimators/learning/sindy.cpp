@@ -43,12 +43,13 @@ Rotated rotated_equations(const IdData& data, const FunctionLibrary& library, co
     }
     rotated.R = factor.R();
     if (rotated.rows > functions) return rotated;
-    throw InvalidArgument(width ? Message("sindy: too few samples: {} functions need more equations than that, but the "
-                                          "data give {}: use a smaller {} or fewer functions",
-                                          functions, rotated.rows, OptionName{"width"})
-                                : Message("sindy: too few samples: {} functions need more equations than that, but the "
-                                          "data give {}: use fewer functions, or {} if the input jumps often",
-                                          functions, rotated.rows, OptionName{"weak"}));
+    throw InvalidArgument(
+        width ? Message("sindy: too few samples: the number of equations must be greater than the number of functions, "
+                        "{}, but is {}: use a smaller {} or fewer functions",
+                        functions, rotated.rows, OptionName{"width"})
+              : Message("sindy: too few samples: the number of equations must be greater than the number of functions, "
+                        "{}, but is {}: use fewer functions, or {} if the input jumps often",
+                        functions, rotated.rows, OptionName{"weak"}));
 }
 
 /// The coefficients of one state, with those of small contributions at zero.
@@ -113,8 +114,8 @@ void judge(SindyFit& found, const IdData& data) {
     for (Index i = 0; i < fit.fit_percent.size(); ++i)
         if (fit.fit_percent[i] < kReproduces) {
             fit.warnings.push_back(
-                Message("These equations do not reproduce the data: the fit of {} in simulation is only {} %. Offer "
-                        "other functions, such as {} = 3.",
+                Message("The equations do not reproduce the data: the simulation fit of {} is only {} %. Use other "
+                        "functions, for example with {} = 3.",
                         data.output_names[static_cast<std::size_t>(i)], significant(fit.fit_percent[i], 3),
                         OptionName{"degree"}));
             break;
@@ -125,7 +126,7 @@ void check(const IdData& data, const FunctionLibrary& library, const SindyOption
     options.validate();
     if (library.count() == 0) throw InvalidArgument("sindy: the library contains no function");
     if (data.output_count() < 1 || data.output_count() > kMaxIntegratedStates)
-        throw InvalidArgument("sindy uses the outputs as states, 1 to {} of them, but the data have {}",
+        throw InvalidArgument("sindy uses the outputs as states and supports 1 to {} outputs, but the data have {}",
                               kMaxIntegratedStates, data.output_count());
     const Vector variations = output_variations(data);
     for (Index i = 0; i < variations.size(); ++i)
@@ -157,15 +158,15 @@ void describe(SindyFit& found, const IdData& data, const SindyOptions& options) 
         found.equations.push_back(equation_text(state, library, Xi.col(i)));
         if ((Xi.col(i).array() == 0).all())
             fit.warnings.push_back(
-                Message("No function of the library contributes to the rate of {}: lower the threshold, or offer other "
+                Message("No function of the library contributes to the rate of {}: lower the threshold, or use other "
                         "functions.",
                         state));
     }
     fit.theta = Vector::Map(theta.data(), static_cast<Index>(theta.size()));
     if (fit.condition_number > kAmbiguousCondition)
         fit.warnings.push_back(
-            Message("These data do not clearly distinguish the functions of the library (condition number {}): offer "
-                    "fewer functions.",
+            Message("The functions of the library are nearly linearly dependent on these data (condition number {}): "
+                    "use fewer functions.",
                     significant(fit.condition_number, 2)));
     judge(found, data);
     const Message equations = options.weak ? Message("in weak form") : Message("from derivatives");
@@ -237,7 +238,7 @@ FreeRun SindyModel::free_run(const IdData& data, std::size_t experiment, const V
 
 void SindyOptions::validate() const {
     if (!(threshold >= 0 && threshold < 1))
-        throw InvalidArgument("sindy: {} is a share of the rate, from 0 to less than 1, but is {}",
+        throw InvalidArgument("sindy: {}, a fraction of the rate, must be at least 0 and less than 1, but is {}",
                               OptionName{"threshold"}, threshold);
     if (window < 3 || window % 2 == 0)
         throw InvalidArgument("sindy: {} must be an odd number of samples, at least 3, but is {}", OptionName{"window"},

@@ -68,8 +68,8 @@ bool measure_in_loop(Fit& fit, const IdData& data, const LoopSignals& signals) {
     fit.fit_percent = Vector::Constant(1, fit_percent_of_sums(errors.squaredNorm(), output_variations(data)[0]));
     fit.noise_variance = Vector::Constant(1, errors.squaredNorm() / (N - d));
     fit.loss = errors.squaredNorm() / N;
-    fit.warnings.push_back(
-        Message("Fit and noise variance refer to the model in its loop, simulated from the reference."));
+    fit.warnings.push_back(Message(
+        "The fit and the noise variance refer to the closed loop with the model, simulated from the reference."));
     return true;
 }
 
@@ -82,17 +82,17 @@ void describe_loop(Fit& fit, const IdData& data, const LoopSignals& signals, boo
     if (signals.warning()) fit.warnings.push_back(*signals.warning());
     if (signals.controller() && !in_loop)
         fit.warnings.push_back(
-            Message("The loop of this model and the given controller is unstable, but the recorded loop was stable: "
-                    "one of the two is wrong."));
+            Message("The closed loop of this model and the specified controller is unstable, but the measured closed "
+                    "loop was stable: the model or the controller is wrong."));
 }
 
 Message instruments_text(const LoopSignals& signals, bool in_loop) {
-    if (!in_loop) return Message("with instruments from the projection of the input on the reference");
+    if (!in_loop) return Message("with instruments from the projection of the input onto the reference");
     const auto& controller = *signals.controller();
-    if (!controller.sampled()) return Message("with instruments from the reference through the loop");
+    if (!controller.sampled()) return Message("with instruments from the reference through the closed loop");
     if (controller.computing_delay == 0)
-        return Message("with instruments from the reference through the loop, with a controller without delay");
-    return Message("with instruments from the reference through the loop, with a controller delay of {}",
+        return Message("with instruments from the reference through the closed loop, with a controller without delay");
+    return Message("with instruments from the reference through the closed loop, with a controller delay of {}",
                    plural(controller.computing_delay, "{} sample", "{} samples"));
 }
 
@@ -103,8 +103,8 @@ Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const 
     Vector errors = model.errors(fit.theta);
     if (!errors.allFinite())
         throw InvalidArgument(
-            "clsrivc: the loop of the initial model and the given controller is unstable, so the indirect route cannot "
-            "start: check the controller, or give lambda");
+            "clsrivc: the closed loop of the initial model and the specified controller is unstable, so the indirect "
+            "route cannot start: check the controller, or specify lambda");
     fit.termination = Termination::kIterationLimit;
     const double count = static_cast<double>(errors.size());
     for (int pass = 0; pass < options.max_iterations; ++pass) {
@@ -143,9 +143,9 @@ Fit search_loop(Fit start, const IdData& data, const FitOptions& options, const 
     describe_loop(fit, data, signals, true);
     fit.loss = errors.squaredNorm() / count;
     fit.message = has_settled(fit)
-                      ? Message("Output error of the loop from the reference (indirect route) converged after {}: {}.",
+                      ? Message("The output-error search in closed loop (indirect route) converged after {}: {}.",
                                 iteration_count(fit), simulation_text(fit))
-                      : Message("Output error of the loop from the reference (indirect route) stopped after {}: {}.",
+                      : Message("The output-error search in closed loop (indirect route) stopped after {}: {}.",
                                 iteration_count(fit), simulation_text(fit));
     return fit;
 }

@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 /// `in_loop` those of the loop, which a warning says.
 void describe_loop(Fit& fit, const IdData& data, const LoopSignals& signals, bool in_loop);
 
-/// "with instruments from the reference through the loop", and what is known of the loop: half a sentence.
+/// "with instruments from the reference through the closed loop", and the known parts of the loop: half a sentence.
 Message instruments_text(const LoopSignals& signals, bool in_loop);
 
 /// The indirect route: least squares of y - x(r; theta), x simulated through the loop of model and known controller,

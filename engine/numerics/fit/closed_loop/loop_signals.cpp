@@ -120,8 +120,8 @@ void check_loop_data(const std::string& method, const IdData& data, const Transf
             method);
     if (structure.free_delays)
         throw InvalidArgument(
-            "{}: delays are fixed in this method, in samples; determine them in an open-loop experiment, or try "
-            "several",
+            "{}: this method does not estimate delays; determine the delay in samples in an open-loop experiment, or "
+            "compare several delays",
             method);
     const bool constant = std::all_of(data.experiments.begin(), data.experiments.end(),
                                       [](const Experiment& one) { return (one.r.array() == one.r(0, 0)).all(); });
@@ -152,8 +152,8 @@ void LoopSignals::check_controller(bool find_delay) {
     }
     if (!(explained > kBelievedController))
         warning_ = Message(
-            "The recorded input does not agree with this controller and reference minus output (it explains {} %): "
-            "check its sign, gain and sampling, and what was removed from the signals.",
+            "With this controller, reference minus output explains only {} % of the measured input. Check the sign, "
+            "gain and sampling time of the controller, and whether an offset or a trend was removed from the signals.",
             significant(std::max(explained, 0.0), 2));
 }
 
@@ -181,8 +181,8 @@ const std::vector<Vector>& LoopSignals::projected_inputs() const {
         kTimesChance * static_cast<double>(projection.weights.size()) / static_cast<double>(data_.sample_count());
     if (!(projection.explained > std::max(kLeastExplained, chance)))
         throw InvalidArgument(
-            "{}: the reference explains no more than {} % of the input, so it is useless for estimation: check whether "
-            "it belongs to this loop",
+            "{}: the reference explains no more than {} % of the input, so it cannot be used for estimation: check "
+            "that the reference belongs to this loop",
             method_, significant(100 * std::max(projection.explained, 0.0), 2));
     for (const Experiment& experiment : data_.experiments)
         projected_.push_back(projected(experiment.r.col(0), projection.weights));

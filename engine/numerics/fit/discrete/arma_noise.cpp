@@ -195,7 +195,7 @@ Matrix noise_sensitivities(const ArmaNoise& noise, const VectorView& v, const Ve
 }
 
 ArmaNoise estimate_arma(const std::vector<Vector>& records, int nc, int nd, double tolerance, const ArmaNoise* start) {
-    if (nc < 0 || nd < 0) throw InvalidArgument("nc and nd, the orders of the noise model, must not be negative");
+    if (nc < 0 || nd < 0) throw InvalidArgument("nc and nd, the orders of the noise model, must be nonnegative");
     double squares = 0;
     Index used = 0;
     Vector v(0);

@@ -62,7 +62,7 @@ Fit fit_condition(const DiscreteOutput& model, const IdData& data, const FitOpti
     warn_of_search(fit, options);
     if (solution.reflected)
         fit.warnings.push_back(
-            Message("Unstable poles occurred during the search and were mirrored into the unit circle."));
+            Message("Unstable poles occurred during the search and were reflected into the unit circle."));
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);
     const Number percent = significant(fit.fit_percent[0], 4);

@@ -95,7 +95,7 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
     const Vector y = model.target();
     if (y.size() <= model.parameter_count())
         throw InvalidArgument(
-            "{} needs more samples than the {} values it estimates, but only {} samples have a complete recorded past",
+            "{} needs more samples than the {} values it estimates, but only {} samples have all required past values",
             method, plural(model.parameter_count(), "{} value", "{} values"), y.size());
     std::vector<Vector> complete;
     for (const Vector& values : starts) complete.push_back(model.completed(values));
@@ -119,7 +119,7 @@ Fit fit_prediction(const std::string& method, const PredictionModel& model, cons
             fit.warnings.push_back(root->warning);
             if (letter == 'C' && model.orders().na > 0)  // the unknown errors before the record act on all of them
                 fit.warnings.push_back(
-                    Message("The standard errors of the other coefficients are up to a fifth too small."));
+                    Message("The standard errors of the other coefficients are up to 20 % too small."));
         }
     }
     warn_of_doubtful_parameters(fit);

@@ -329,8 +329,8 @@ Fit run_pass(AnyPass& pass, const RecursiveName& method, const IdData& data, con
     }
     if (!pass.known())
         throw InvalidArgument(
-            "{}: the samples do not determine the parameters: the input does not excite the system enough for {} of "
-            "them",
+            "{}: the samples do not determine the parameters: the input does not excite the system enough for {} "
+            "parameters",
             method.name, d);
     fit.theta = pass.theta();
     fit.covariance = pass.covariance();
@@ -338,8 +338,8 @@ Fit run_pass(AnyPass& pass, const RecursiveName& method, const IdData& data, con
     fit.history = std::move(history);
     if (pass.samples_not_followed() > N / 2)
         fit.warnings.push_back(
-            Message("At most samples, the estimate was unstable or too fast for the sampling. Filters and instruments "
-                    "then used the last suitable model."));
+            Message("At most samples, the estimate was unstable or too fast for the sampling time. The filters and "
+                    "instruments then used the last suitable model."));
     describe_models(fit);
     fit.message = Message("{}, recursive, {}.", method.title, memory_text(options));
     return fit;
@@ -370,7 +370,7 @@ std::unique_ptr<AnyPass> pass_of(RecursiveMethod kind, const Samples& samples, c
 
 void check_recursive_data(const RecursiveName& method, const IdData& data, const TransferStructure& structure) {
     if (structure.free_delays)
-        throw InvalidArgument("{}: delays are fixed in this method; srivc and coe estimate them", method.name);
+        throw InvalidArgument("{}: this method does not estimate delays; use srivc or coe", method.name);
     if (data.experiments.size() != 1)
         throw InvalidArgument("{}: the data must have one experiment, but they have {}", method.name,
                               data.experiments.size());
@@ -386,11 +386,12 @@ void check_recursive_data(const RecursiveName& method, const IdData& data, const
 void check_fixed_model(const RecursiveName& method, const TransferFunction& model, const TransferStructure& structure) {
     if (!model.continuous() || model.pole_count() != structure.poles.front() ||
         model.zero_count() > structure.channels.front().zeros)
-        throw InvalidArgument("{}: model must be in continuous time with {} and no more than {}, as the orders specify",
-                              method.name, plural(structure.poles.front(), "{} pole", "{} poles"),
-                              plural(structure.channels.front().zeros, "{} zero", "{} zeros"));
+        throw InvalidArgument(
+            "{}: model must be a continuous-time model with {} and no more than {}, as specified by the orders",
+            method.name, plural(structure.poles.front(), "{} pole", "{} poles"),
+            plural(structure.channels.front().zeros, "{} zero", "{} zeros"));
     if (!model.stable())
-        throw InvalidArgument("{}: model must be stable, because its output gives the instruments", method.name);
+        throw InvalidArgument("{}: model must be stable, because its simulated output is the instrument", method.name);
 }
 
 }  // namespace
@@ -398,19 +399,20 @@ void check_fixed_model(const RecursiveName& method, const TransferFunction& mode
 void RecursiveOptions::validate(const std::string& method, Index parameters) const {
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, slightly above the "
-            "bandwidth of the system, but is {}",
+            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, but is {}. Choose a "
+            "value slightly above the bandwidth of the system",
             lambda);
     if (!(forgetting > 0 && forgetting <= 1))
         throw InvalidArgument(
-            "{}: forgetting must be above 0 and at most 1 (1: no forgetting; 0.99: about 100 samples), but is {}",
+            "{}: forgetting must be greater than 0 and at most 1 (1: no forgetting; 0.99: about 100 samples), but is "
+            "{}",
             method, forgetting);
     if (drift.size() > 0 && drift.size() != parameters)
         throw InvalidArgument(
             "{}: drift must have one variance for each of the {} parameters, or one for all, but has {}", method,
             parameters, drift.size());
     if (!drift.allFinite() || (drift.array() < 0).any())
-        throw InvalidArgument("{}: drift consists of variances, which must not be negative", method);
+        throw InvalidArgument("{}: the variances in drift must be nonnegative", method);
     if (noise_variance && !(*noise_variance > 0 && std::isfinite(*noise_variance)))
         throw InvalidArgument("{}: {} must be positive, but is {}", method, OptionName{"noise_variance"},
                               *noise_variance);

@@ -28,7 +28,8 @@ Comparison compare_grey(const IdData& data, const GreyFit& grey, GreyStart initi
             result.fit_percent =
                 fit_percent_of_sums((y.col(i) - result.output).squaredNorm(), variation_about_mean(y.col(i)));
             result.start = {initial_state == GreyStart::kZero ? InitialState::kZero : InitialState::kEstimate, false};
-            result.message = Message("Simulated by its own equations: fit {} %.", significant(result.fit_percent, 4));
+            result.message =
+                Message("Simulated with the equations of the model: fit {} %.", significant(result.fit_percent, 4));
             row.push_back(std::move(result));
         }
     }

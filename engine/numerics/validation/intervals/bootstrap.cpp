@@ -193,8 +193,8 @@ Bootstrap bootstrap(const RefittedOutput& model, const BootstrapOptions& options
     if (const auto moved = model.moved(base)) study.warnings.push_back(*moved);
     if (!white && options.kind == BootstrapKind::kResidual)
         study.warnings.push_back(
-            Message("The residuals are not white, and residual bootstrap ignores their correlation: use the parametric "
-                    "bootstrap."));
+            Message("The residuals are not white, and the residual bootstrap ignores their correlation: use the "
+                    "parametric bootstrap."));
     if (study.failed > 0)
         study.warnings.push_back(plural(study.failed, "{} run could not be fitted and is excluded from all results.",
                                         "{} runs could not be fitted and are excluded from all results."));

@@ -129,7 +129,7 @@ void read_interval(Profile& profile, ProfileSearch& search, const std::vector<He
     if (last != fits.rbegin()) profile.high = search.crossing(*last, (last - 1)->value, least, profile.level);
     if (std::any_of(first, last.base(), [&](const HeldFit& one) { return !inside(one); }))
         profile.warnings.push_back(
-            Message("The confidence region consists of several intervals; the result gives the outermost limits."));
+            Message("The confidence region consists of several intervals; the result contains the outermost limits."));
 }
 
 Message interval_text(const Profile& profile) {
@@ -199,7 +199,7 @@ Profile profile_likelihood(const RefittedOutput& model, const std::string& name,
     }
     if (const auto moved = model.moved(base)) profile.warnings.push_back(*moved);
     if (search.rise(base.loss, least) > 0.01)
-        profile.warnings.push_back(Message("Another value of the parameter gave a better fit than the model."));
+        profile.warnings.push_back(Message("Another value of the parameter has a better fit than the estimate."));
     read_interval(profile, search, fits, least);
     profile.canceled = search.canceled();
     warn_of_color(profile, model, base);

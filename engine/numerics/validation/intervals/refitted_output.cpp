@@ -104,7 +104,7 @@ std::vector<Vector> RefittedOutput::starts_around(const OutputErrorModel& model,
 RefittedOutput::RefittedOutput(IdData data, FittedOutput fitted) : data_(std::move(data)), fitted_(std::move(fitted)) {
     if (data_.experiments.empty() || data_.input_count() != 1 || data_.output_count() != 1)
         throw InvalidArgument(
-            "Fits are repeated for one input and one output, but the data have {} and {}: select one of each",
+            "Repeated estimation requires one input and one output, but the data have {} and {}: select one of each",
             data_.input_count(), data_.output_count());
     if (!fitted_.theta.allFinite()) throw InvalidArgument("The parameters of the model are not all finite");
     check_sample_count("A repeated fit", data_.sample_count(), value_count());
@@ -140,8 +140,8 @@ std::optional<Message> RefittedOutput::moved(const Fit& fit) const {
     Index place = 0;
     if (!(errors.maxCoeff(&place) > kMostErrorsOff)) return std::nullopt;
     return Message(
-        "The model is not the best simulation of these data: {} = {} becomes {}, and the intervals refer to that "
-        "value.",
+        "The model does not minimize the simulation error on these data: {} = {} becomes {}, and the intervals refer "
+        "to the new value.",
         fit.names[static_cast<std::size_t>(place)], significant(fitted_.theta[place], 4),
         significant(fit.theta[place], 4));
 }

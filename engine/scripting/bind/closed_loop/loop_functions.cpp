@@ -35,8 +35,8 @@ constexpr OptionEntry kRoute = {"route",
                                 {.initial = "\"auxiliary\"", .choices = kRouteNames}};
 constexpr std::array kRouteOptions = {
     kRoute, option<&FitOptions::lambda>("lambda",
-                                        about("cut-off frequency of the filter of a first estimate by clivsvf; by "
-                                              "default the two-stage route gives the first estimate"),
+                                        about("cut-off frequency of the filter of an initial estimate by clivsvf; by "
+                                              "default, the two-stage route provides the initial estimate"),
                                         {.unit = "rad/s"})};
 constexpr std::array kLoopEquationFilter = {kHoldOfOutput<SvfOptions>}, kLoopOutputFilter = {kHoldOfOutput<FitOptions>};
 constexpr OptionTable kSimloop[] = {kSimloopOptions};
@@ -44,10 +44,10 @@ constexpr OptionTable kLoopEquation[] = {kLoopOptions, kLoopEquationFilter};
 constexpr OptionTable kLoopOutput[] = {kLoopOptions, kRouteOptions, kLoopOutputFilter, kLimitOptions};
 
 constexpr std::array kSimloopArguments = {
-    ArgumentEntry{"G", ValueKind::kModel, about("plant in continuous time")},
+    ArgumentEntry{"G", ValueKind::kModel, about("continuous-time model of the plant")},
     ArgumentEntry{
         "C", ValueKind::kModel,
-        about("controller, in discrete time with the sampling time Ts or in continuous time; a number is a gain")},
+        about("discrete-time controller with the sampling time Ts, or continuous-time controller; a number is a gain")},
     ArgumentEntry{"r", ValueKind::kVector, about("N samples of the reference")},
     ArgumentEntry{"Ts", ValueKind::kNumber, about("sampling time in seconds")}};
 constexpr ArgumentEntry kLoopData = {
@@ -71,15 +71,17 @@ int simulate_loop(Call& call) {
     options.read(controller);
     const VectorMap r = call.vector(3, "r");
     if (r.size() < 2)
-        throw InvalidArgument("r is the reference at every sample, such as prbs(7, 5) or ones(500), but has {}",
-                              plural(r.size(), "{} value", "{} values"));
+        throw InvalidArgument(
+            "r must contain the reference at every sample, such as prbs(7, 5) or ones(500), but has {}",
+            plural(r.size(), "{} value", "{} values"));
     const Hold hold = hold_option(options, Hold::kZoh);
     const Vector noise = options.has("noise") ? Vector(options.vector("noise")) : Vector::Zero(r.size());
     if (!controller.sampled())
         call.print(
-            localized(call, Message("simloop: with a continuous-time controller, u changes between the samples, but "
-                                    "the data contain it only at the samples. This biases models estimated from them. "
-                                    "A controller with the sampling time Ts holds u, which is exact.")) +
+            localized(call,
+                      Message("simloop: with a continuous-time controller, u changes between the samples, but the data "
+                              "contain it only at the samples. This biases models estimated from them. A controller "
+                              "with the sampling time Ts holds u between the samples, so its data are exact.")) +
             "\n");
     IdData data = ClosedLoop(plant, controller, call.number(4, "Ts"), hold).record(r, noise);
     const Vector x = data.experiments.front().y.col(0) - noise;
@@ -130,7 +132,7 @@ constexpr FunctionEntry kLoopFunctions[] = {
      marked("estimator", "Estimate a plant in closed loop, with the reference as instrument"),
      guarded<estimate_clivsvf>, kLoopEquation, kLoopEquationArguments},
     {"clsrivc", "continuous time", "clsrivc(data, {nb, nf, nk}, {options}) -> G",
-     marked("estimator", "Estimate a plant in closed loop by refined instrumental variables, in four ways"),
+     marked("estimator", "Estimate a plant in closed loop by refined instrumental variables, with one of four methods"),
      guarded<memoized_call<estimate_clsrivc>>, kLoopOutput, kLoopOutputArguments},
 };
 

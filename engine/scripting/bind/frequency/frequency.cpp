@@ -31,17 +31,19 @@ constexpr OptionEntry kResponseForm = {
     "form",
     ValueKind::kChoice,
     about("meaning of two vectors: real and imaginary part (\"complex\"), magnitude and phase in degrees (\"polar\"), "
-          "or decibels and degrees (\"dB\"); by default given by the units of `load` columns, otherwise \"complex\""),
+          "or decibels and degrees (\"dB\"). By default, the units of the columns returned by `load` determine the "
+          "meaning, otherwise \"complex\""),
     {.choices = kResponseForms}};
 constexpr std::array kResponseOptions = {
     kResponseForm,
     OptionEntry{"variance", ValueKind::kVector,
-                about("mean of |error|^2 of each value, half of it in the real and half in the imaginary part; one for "
-                      "all values or one per value")},
-    OptionEntry{"Ts",
-                ValueKind::kNumber,
-                about("sampling time, if the response was computed from samples; frequencies end at pi/Ts"),
-                {.unit = "s"}},
+                about("variance of each value, the mean of |error|^2, divided equally between real and imaginary part; "
+                      "one number for all values, or one per value")},
+    OptionEntry{
+        "Ts",
+        ValueKind::kNumber,
+        about("sampling time, if the response was computed from samples; the frequencies must not exceed pi/Ts"),
+        {.unit = "s"}},
     kInterSample,
     option<&FrequencyData::input_name>("InputName", about("name of the input"), {.initial = "\"u1\""}),
     option<&FrequencyData::output_name>("OutputName", about("name of the output"), {.initial = "\"y1\""}),
@@ -50,14 +52,14 @@ constexpr std::array kResponseOptions = {
 constexpr std::array kBlaOptions = {
     OptionEntry{"period", ValueKind::kCount, about("period of the input in samples; required")},
     option<&BlaOptions::realizations>("realizations", about("number of realizations in each experiment"), {.least = 1}),
-    option<&BlaOptions::transient>("transient", about("periods to omit at the beginning of every realization"),
-                                   {.member = "transient"}),
+    option<&BlaOptions::transient>(
+        "transient", about("number of periods to omit at the beginning of every realization"), {.member = "transient"}),
     option<&BlaOptions::smooth>(
         "smooth",
         about("number of frequencies on each side over which variances are averaged; by default chosen from the data")),
     option<&BlaOptions::least_input>(
         "least_input",
-        about("fraction of the largest amplitude of the input below which a line counts as not excited")),
+        about("fraction of the largest amplitude of the input below which a line is treated as not excited")),
     kInterSample};
 constexpr OptionTable kResponse[] = {kResponseOptions}, kBla[] = {kBlaOptions};
 
@@ -66,7 +68,7 @@ constexpr std::array kResponseArguments = {
                   about("response: a complex vector, {re, im} of two vectors, a list of pairs {{re, im}, ...}, or a "
                         "model with this response")},
     ArgumentEntry{"w", ValueKind::kVector,
-                  about("frequencies in rad/s, all different and above zero; a column of `load` in Hz is converted")}};
+                  about("positive, distinct frequencies in rad/s; a column in Hz returned by `load` is converted")}};
 constexpr std::array kBlaArguments = {
     ArgumentEntry{"data", ValueKind::kData,
                   about("data object with one input and one output, regularly sampled; each experiment contains one "
@@ -96,12 +98,17 @@ ResponseForm form_of(const Call& call, int index, const Options& options) {
     if (!decibels && !degrees) return ResponseForm::kComplex;
     if (!degrees)
         throw InvalidArgument(
-            "{}: the first vector is in dB, but the second has the unit \"{}\"; give the phase in degrees and option "
-            "form = \"dB\"",
+            "{}: the first vector is in dB, but the second has the unit \"{}\"; specify the phase in degrees and the "
+            "option form = \"dB\"",
             argument_label(index, "H"), angle);
     call.print(
-        localized(call, decibels ? Message("idfrd: according to their units, the columns are decibels and degrees")
-                                 : Message("idfrd: according to their units, the columns are magnitude and degrees")) +
+        localized(
+            call,
+            decibels
+                ? Message(
+                      "idfrd: according to the units, the columns contain the magnitude in dB and the phase in degrees")
+                : Message(
+                      "idfrd: according to the units, the columns contain the magnitude and the phase in degrees")) +
         "\n");
     return decibels ? ResponseForm::kDecibels : ResponseForm::kPolar;
 }

@@ -33,7 +33,7 @@ TransferStructure ordered_structure(const Call& call, const FrequencyData& respo
     const bool delayed = std::any_of(orders[2].begin(), orders[2].end(), [](int nk) { return nk > 0; });
     if (delayed && response.Ts == 0)
         throw InvalidArgument(
-            "nk counts samples of delay, which a response without Ts does not have: use 0, or tfsrivc with IODelay in "
+            "nk is a delay in samples, which is undefined for a response without Ts: use 0, or tfsrivc with IODelay in "
             "seconds");
     return structure_of_orders(entries, orders, Denominators::kPerOutput)(channels_of(response));
 }

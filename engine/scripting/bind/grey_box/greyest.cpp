@@ -27,17 +27,19 @@ constexpr std::array kGreyOptions = {
                                     {.initial = "1e-6", .member = "tolerance"}),
     option<&GreyOptions::relative_tolerance>(
         "RelTol",
-        about(
-            "relative error of an integration step; a parameter with little effect on the outputs needs a smaller one"),
+        about("relative tolerance of an integration step; parameters with little effect on the outputs need a smaller "
+              "value"),
         {.initial = "1e-7", .least = 1e-13, .most = 1e-2, .member = "relative_tolerance"}),
     option<&GreyOptions::output_weights>(
-        "OutputWeights", about("weight of the errors of each output; by default 1/(standard deviation of the errors)"),
+        "OutputWeights",
+        about("weights of the errors, one per output; by default 1/(standard deviation of the errors)"),
         {.member = "output_weights"})};
-constexpr std::array kStartsOption = {OptionEntry{
-    "starts",
-    ValueKind::kAny,
-    about("number of starts, the model's own first; or a list of further starts, {{k1 = 0.2}, {k1 = 2, k2 = 1}}"),
-    {.initial = "1", .member = "starts"}}};
+constexpr std::array kStartsOption = {
+    OptionEntry{"starts",
+                ValueKind::kAny,
+                about("number of starting points, the first from the model; or a list of further starting points, such "
+                      "as {{k1 = 0.2}, {k1 = 2, k2 = 1}}"),
+                {.initial = "1", .member = "starts"}}};
 constexpr OptionTable kGreyest[] = {kGreyOptions, kStartsOption}, kStartsAlone[] = {kStartsOption};
 constexpr std::array kGreyestArguments = {
     ArgumentEntry{"data", ValueKind::kData,
@@ -94,7 +96,7 @@ int parameter_named(Call& call) {
     for (std::size_t i = 0; i < fit.names.size(); ++i)
         if (fit.names[i] == name) return call.give(fit.theta[static_cast<Index>(i)]);
     throw InvalidArgument(
-        "this model has no parameter or field '{}'; its parameters are {}, its fields param, std, covariance, "
+        "this model has no parameter or field '{}'; its parameters are {}, and its fields are param, std, covariance, "
         "intervals, names, x0, noise_variance and report",
         name, listed(fit.names));
 }

@@ -18,11 +18,11 @@ constexpr std::array kIdgreyOptions = {
     OptionEntry{
         "outputs",
         ValueKind::kAny,
-        about("function(t, x, u, p) that returns a table of outputs; if absent, the outputs are the first states"),
+        about("function(t, x, u, p) that returns a table of outputs; by default, the outputs are the first states"),
         {.member = "outputs"}},
     OptionEntry{"x0",
                 ValueKind::kAny,
-                about("initial state: for each state a number, the name of a parameter or \"estimate\"; one of them "
+                about("initial state: for each state a number, the name of a parameter or \"estimate\"; one such value "
                       "for all states; or function(p) that returns a table"),
                 {.initial = "0"}},
     OptionEntry{
@@ -75,7 +75,7 @@ void check_fields(lua_State* L, const std::string& name) {
         const std::string key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : message_text(given_value(L, -2));
         if (key != "1" && key != "min" && key != "max" && key != "fixed")
             throw InvalidArgument(
-                "the parameter {} must be written as {start, min =, max =, fixed =}; '{}' is not an option", name, key);
+                "the parameter {} must be written as {start, min =, max =, fixed =}; '{}' is not valid", name, key);
     }
 }
 
@@ -88,11 +88,11 @@ GreyParameter parameter_on_top(lua_State* L, const std::string& name) {
     }
     if (!lua_istable(L, -1))
         throw InvalidArgument(
-            "the parameter {} must be {start, min =, max =, fixed =} or its start value, but {} was given", name,
+            "the parameter {} must be {start, min =, max =, fixed =} or its initial value, but {} was given", name,
             given_value(L, -1));
     check_fields(L, name);
     if (lua_rawgeti(L, -1, 1) != LUA_TNUMBER)
-        throw InvalidArgument("the parameter {} needs a start value, a number: {1.5, min = 0}", name);
+        throw InvalidArgument("the parameter {} needs a number as initial value, such as {1.5, min = 0}", name);
     parameter.start = lua_tonumber(L, -1);
     lua_pop(L, 1);
     parameter.lower = number_field(L, name, "min", parameter.lower);
@@ -108,7 +108,7 @@ std::vector<GreyParameter> parameters_argument(const Call& call, int index) {
     std::vector<GreyParameter> parameters;
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING)
-            throw InvalidArgument("{} must name them: {k1 = {0.5, min = 0}, k2 = 1}", argument_label(2, "parameters"));
+            throw InvalidArgument("{} must be named: {k1 = {0.5, min = 0}, k2 = 1}", argument_label(2, "parameters"));
         parameters.push_back(parameter_on_top(L, lua_tostring(L, -2)));
     }
     std::sort(parameters.begin(), parameters.end(),

@@ -200,8 +200,8 @@ class Tracer {
 
 Message more_than_rates() {
     return Message(
-        "f must return only the derivatives, in one table: return {dx1, dx2}, but it returned several values. Outputs "
-        "need a separate function, the option outputs = function(t, x, u, p) return {y1} end");
+        "f must return only the derivatives, in one table: return {dx1, dx2}, but it returned several values. Specify "
+        "the outputs with the option outputs = function(t, x, u, p) return {y1} end");
 }
 Message more_than_outputs() {
     return Message("h must return the outputs in one table: return {y1, y2}, but it returned several values");

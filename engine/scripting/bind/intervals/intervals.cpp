@@ -31,8 +31,8 @@ constexpr OptionEntry kProfileOptions[] = {
     option<&ProfileOptions::points>("points", about("number of points of the grid"), {.least = 5, .member = "points"}),
     {"range",
      ValueKind::kVector,
-     about("ends {low, high} of the grid; by default four standard errors to each side, or more if the interval ends "
-           "farther out"),
+     about("limits {low, high} of the grid; by default, four standard errors on each side of the estimate, or more if "
+           "the interval is wider"),
      {.member = "range"}}};
 constexpr OptionTable kBootstrapTables[] = {kBootstrapOptions, kSimulationStart},
                       kProfileTables[] = {kProfileOptions, kSimulationStart};
@@ -46,7 +46,7 @@ constexpr std::array kBootstrapArguments = {kEstimateArgument, kItsDataArgument}
 constexpr ArgumentEntry kProfileArguments[] = {
     kEstimateArgument,
     kItsDataArgument,
-    {"name", ValueKind::kText, about("name of one of its parameters, such as \"Td\"; `G.names` lists them")}};
+    {"name", ValueKind::kText, about("name of a parameter of the model, such as \"Td\"; `G.names` lists them")}};
 
 /// A model that an output-error method left, or a sentence why it is none.
 const Model& output_error_argument(const Call& call, int index) {
@@ -54,8 +54,7 @@ const Model& output_error_argument(const Call& call, int index) {
     const char* const function = call.function_name();
     if (model == nullptr) wrong_argument(call.state(), index, "G", with_article("model"));
     const Message instead = Message(
-        "{} refits with the smallest simulation error: estimate the model with procsrivc, tfsrivc, srivc or coe",
-        function);
+        "{} minimizes the simulation error: estimate the model with procsrivc, tfsrivc, srivc or coe", function);
     if (!model->estimate) throw InvalidArgument("the model was specified, not estimated; {}", instead);
     const Estimate& estimate = *model->estimate;
     if (!model->single_channel())

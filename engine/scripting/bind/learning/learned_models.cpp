@@ -31,26 +31,27 @@ constexpr std::array kSindyOptions = {
         about(
             "function(x, u) that returns a list of vectors, the candidates, instead of products of states and inputs")},
     OptionEntry{"names", ValueKind::kAny,
-                about("names of the functions of the library in the equations, otherwise f1, f2 and so on")},
+                about("names of the library functions in the equations; by default, f1, f2, ...")},
     OptionEntry{"degree",
                 ValueKind::kCount,
-                about("without a library, maximum number of factors in a product of states and inputs"),
+                about("maximum number of factors in a product of states and inputs; only without a library"),
                 {.initial = "2", .member = "degree"}},
     option<&SindyOptions::threshold>("threshold",
-                                     about("fraction of the rate, from 0 to less than 1, below which the contribution "
-                                           "of a function (root mean square) is removed"),
+                                     about("threshold as a fraction of the rate, at least 0 and less than 1; functions "
+                                           "with a smaller root-mean-square contribution are removed"),
                                      {.member = "threshold"}),
     option<&SindyOptions::weak>("weak",
-                                about("weak form: integrals of both sides with smooth test functions, which average "
-                                      "noise, instead of derivatives"),
+                                about("true uses the weak form: integrals with smooth test functions, which average "
+                                      "the noise, instead of derivatives"),
                                 {.member = "weak"}),
     option<&SindyOptions::window>(
-        "window", about("without weak, odd number of samples over which a polynomial gives state and derivative"),
+        "window",
+        about("odd number of samples of the polynomial fit that provides state and derivative; only if weak is false"),
         {.member = "window"}),
     option<&SindyOptions::width>("width", about("half the width of a test function; by default chosen from the data"),
                                  {.unit = "s", .member = "width"})};
 constexpr std::array kDmdcOptions = {
-    option<&DmdcOptions::rank>("rank", about("number of states; 0 for the numerical rank of the singular values"),
+    option<&DmdcOptions::rank>("rank", about("number of states; 0 for the numerical rank of the snapshots"),
                                {.member = "rank"}),
     option<&DmdcOptions::delays>("delays", about("number of samples in a snapshot; 1 for the outputs of one instant"),
                                  {.least = 1, .member = "delays"})};
@@ -58,8 +59,8 @@ constexpr OptionTable kNarx[] = {kNarxOptions}, kSindy[] = {kSindyOptions}, kDmd
 
 constexpr std::array kNarxArguments = {
     kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
-                                  about("na past outputs, nb values of the input, delay of nk samples; with several "
-                                        "inputs nb and nk can be tables, {2, {1, 2}, {1, 3}}")}};
+                                  about("na past outputs, nb values of the input, delay of nk samples. With several "
+                                        "inputs, nb and nk can be tables, such as {2, {1, 2}, {1, 3}}")}};
 constexpr std::array kSindyArguments = {
     ArgumentEntry{"data", ValueKind::kData,
                   about("data object with all states as outputs, 1 to 8; any number of inputs and experiments, "
@@ -105,7 +106,7 @@ int estimate_narx(Call& call) {
 FunctionLibrary library_option(const Call& call, const Options& options, const IdData& data) {
     const bool own = options.has("library");
     if (own && options.has("degree"))
-        throw InvalidArgument("options 'library' and 'degree' cannot be combined: degree is for polynomials");
+        throw InvalidArgument("options 'library' and 'degree' cannot be combined: degree is only for polynomials");
     if (!own && options.has("names")) throw InvalidArgument("option 'names' requires a library");
     if (!own)
         return polynomial_library(data.output_names, data.input_names, static_cast<int>(options.size("degree", 2)));

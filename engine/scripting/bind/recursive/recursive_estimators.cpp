@@ -29,7 +29,7 @@ constexpr std::array kRecursiveOptions = {
                 about("variances of the random steps of the parameters from one sample to the next, one number for all "
                       "or one per parameter")},
     option<&RecursiveOptions::noise_variance>(
-        "NoiseVariance", about("variance of the noise, relative to drift; by default computed from the errors so far"),
+        "NoiseVariance", about("variance of the noise, relative to drift; by default computed from the past errors"),
         {.member = "noise_variance"}),
     option<&RecursiveOptions::history_points>(
         "HistoryPoints", about("maximum number of equally spaced instants in the history, including the last sample"),
@@ -58,7 +58,7 @@ constexpr std::array kRecursiveOutputArguments = {
                   about("nb coefficients of B (at most nf + 1), nf poles (at most 8), nk samples of delay")},
     kFilterFrequency};
 constexpr std::array kHistoryArguments = {
-    ArgumentEntry{"G", ValueKind::kModel, about("model of rlssvf, rivsvf or rsrivc")}};
+    ArgumentEntry{"G", ValueKind::kModel, about("model returned by rlssvf, rivsvf or rsrivc")}};
 
 /// One number for all parameters or one for each, taken as variances of steps from sample to sample.
 Vector drift_of(const Options& options) {
@@ -119,7 +119,7 @@ std::map<std::string, Vector> truth_of(const Options& options) {
         throw InvalidArgument("option 'truth' must be a table such as {a1 = 4, b0 = v}");
     for (lua_pushnil(L); lua_next(L, index) != 0; lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING)
-            throw InvalidArgument("option 'truth' must name its values, such as {a1 = 4, b0 = v}");
+            throw InvalidArgument("option 'truth' must contain named values, such as {a1 = 4, b0 = v}");
         const std::string name = lua_tostring(L, -2);
         if (lua_type(L, -1) == LUA_TNUMBER)
             truth[name] = Vector::Constant(1, lua_tonumber(L, -1));

@@ -41,7 +41,7 @@ TEST(clsrivc, the_direct_route_is_srivc) {  // oracle: srivc
     const IdData data = loop_record(0.05, 2);
     const Fit direct = clsrivc(data, kPlant, {}, {}, LoopRoute::kDirect);
     EXPECT_EQ(direct.theta, srivc(data, kPlant).theta);
-    EXPECT_THAT(message_text(direct.full_message()), HasSubstr("This is the direct route"));
+    EXPECT_THAT(message_text(direct.full_message()), HasSubstr("The direct route ignores the controller"));
 }
 
 TEST(clsrivc, errors_do_not_go_with_the_instruments) {  // oracle: residual of the definition, by lsim
@@ -114,7 +114,7 @@ TEST(clsrivc, refuses_what_it_cannot_use) {  // oracle: the sentence names metho
     EXPECT_THAT(thrown_message([&] { clsrivc(data, kPlant, {}, {unstable}, LoopRoute::kIndirect); }),
                 HasSubstr("is unstable, so the indirect route cannot start"));
     EXPECT_THAT(message_text(clsrivc(data, kPlant, {}, {unstable}).full_message()),
-                HasSubstr("one of the two is wrong"));
+                HasSubstr("the model or the controller is wrong"));
 }
 
 }  // namespace test_clsrivc

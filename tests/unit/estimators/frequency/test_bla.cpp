@@ -139,7 +139,7 @@ TEST(bla, levels_sum_up_to_the_output) {  // oracle: Parseval; no line at zero o
     const double power = mean_periods.squaredNorm() / (4 * kPeriod);
     EXPECT_NEAR(sums.power, power, 1e-3 * power);
     EXPECT_NEAR(sums.noise, 0.05 * 0.05 / 3, 0.1 * 0.05 * 0.05 / 3);
-    EXPECT_THAT(message_text(found.message), HasSubstr("dB of the output, averaged over 3 periods."));
+    EXPECT_THAT(message_text(found.message), HasSubstr("dB relative to the output, averaged over 3 periods."));
 }
 
 TEST(bla, reports_what_is_wrong_with_a_record) {
@@ -156,18 +156,18 @@ TEST(bla, reports_what_is_wrong_with_a_record) {
     one.realizations = 1;
     const FrequencyData cut = bla(whole.range(101, 3 * kPeriod), one);
     EXPECT_THAT(texts_of(cut.warnings), Contains(HasSubstr("the first 412 samples are omitted")));
-    EXPECT_THAT(texts_of(cut.warnings), Contains(HasSubstr("One realization cannot reveal")));
+    EXPECT_THAT(texts_of(cut.warnings), Contains(HasSubstr("With only one realization")));
     EXPECT_LT(largest_error(cut), 1e-2);
     EXPECT_EQ(cut.distortion.size(), 0);
     const FrequencyData single = bla(whole.range(1, kPeriod), one);
-    EXPECT_THAT(texts_of(single.warnings), Contains(HasSubstr("One period cannot separate noise")));
+    EXPECT_THAT(texts_of(single.warnings), Contains(HasSubstr("With only one period")));
     EXPECT_EQ(single.variance.size(), 0);
 
     Matrix u = whole.experiments[0].u;
     RandomStream random(2);
     u.col(0) += 0.25 * random.normal(u.rows());
     EXPECT_THAT(texts_of(bla(IdData(whole.experiments[0].y, u, kTs), options_of(how)).warnings),
-                Contains(HasSubstr("repeats only roughly")));
+                Contains(HasSubstr("is only approximately periodic")));
 }
 
 TEST(bla, refuses_what_it_cannot_use) {
@@ -177,14 +177,14 @@ TEST(bla, refuses_what_it_cannot_use) {
     BlaOptions options;
     EXPECT_THAT(refusal(options), HasSubstr("the period must be"));
     options.period = 500;
-    EXPECT_THAT(refusal(options), HasSubstr("does not repeat after 500 samples"));
+    EXPECT_THAT(refusal(options), HasSubstr("is not periodic with 500 samples"));
     options.period = 10000;
     EXPECT_THAT(refusal(options), HasSubstr("longer than a realization of 6144"));
     options = options_of(how);
     options.realizations = 5;
-    EXPECT_THAT(refusal(options), HasSubstr("5 realizations do not divide the 6144 samples"));
+    EXPECT_THAT(refusal(options), HasSubstr("the number of realizations, 5, must divide the number of samples, 6144"));
     options.realizations = 4, options.transient = 3;
-    EXPECT_THAT(refusal(options), HasSubstr("no data remain without 3 of 3 periods"));
+    EXPECT_THAT(refusal(options), HasSubstr("no data remain after 3 of 3 periods are omitted"));
     options.transient = 0, options.least_input = 1;
     EXPECT_THAT(refusal(options), HasSubstr("between 0 and 1"));
 }

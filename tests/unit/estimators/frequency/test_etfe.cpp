@@ -104,7 +104,7 @@ TEST(etfe, says_what_it_needs) {
     const IdData data = periodic(100, 0.1, 1);
     EtfeOptions wide;
     wide.smooth = 30;
-    EXPECT_THAT(thrown_message([&] { etfe(data, wide); }), HasSubstr("leaves none of the 50"));
+    EXPECT_THAT(thrown_message([&] { etfe(data, wide); }), HasSubstr("the data have only 50"));
     EXPECT_THAT(thrown_message([&] { etfe(IdData::merge({data, data})); }), HasSubstr("or use spa"));
     wide.smooth = -1;
     EXPECT_THROW(etfe(data, wide), InvalidArgument);

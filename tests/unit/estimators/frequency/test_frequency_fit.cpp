@@ -161,11 +161,11 @@ TEST(frequency_fit, refuses_what_it_cannot_use) {
     const TransferFunction G(Vector{{2.0}}, Vector{{1.0, 4.0}});
     const FrequencyData data = noise_free(G, Vector{{1.0, 2.0}});
     EXPECT_THAT(thrown_message([&] { frequency_fit("coe", data, TransferStructure::single(2, 0)); }),
-                HasSubstr("coe: 3 parameters need at least as many frequencies, but the response has 2"));
+                HasSubstr("coe: the response must have at least as many frequencies as parameters (3), but has 2"));
     FrequencyData zero = data;
     zero.w[0] = 0;
     EXPECT_THAT(thrown_message([&] { frequency_fit("coe", zero, TransferStructure::single(1, 0)); }),
-                HasSubstr("must be above zero"));
+                HasSubstr("must be positive"));
     const TransferStructure two = TransferStructure::grid(1, 2, Denominators::kPerOutput, {1}, {0}, {0.0});
     EXPECT_THAT(thrown_message([&] { frequency_fit("coe", data, two); }), HasSubstr("the model has 2 and 1"));
 }
@@ -210,7 +210,8 @@ TEST(frequency_lssvf, refuses_free_delays_and_cutoffs_below_zero) {
     EXPECT_THAT(thrown_message([&] { frequency_lssvf(data, structure, options); }), HasSubstr("cut-off"));
     options.lambda = 3;
     structure.free_delays = true;
-    EXPECT_THAT(thrown_message([&] { frequency_lssvf(data, structure, options); }), HasSubstr("delays are fixed"));
+    EXPECT_THAT(thrown_message([&] { frequency_lssvf(data, structure, options); }),
+                HasSubstr("this method does not estimate delays"));
 }
 
 }  // namespace test_frequency_fit

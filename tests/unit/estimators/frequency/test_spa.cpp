@@ -123,7 +123,7 @@ TEST(spa, says_what_it_needs) {
     SpaOptions wide, high;
     wide.window = 100;
     high.w = Vector{{7.0}};
-    EXPECT_THAT(message(data, wide), HasSubstr("fewer than the shortest experiment's 100, but has 100"));
+    EXPECT_THAT(message(data, wide), HasSubstr("fewer samples than the shortest experiment (100), but has 100"));
     EXPECT_THAT(message(data, high), HasSubstr("between 0 and pi/Ts = 6.2832"));
     EXPECT_THAT(message(data.range(1, 7)), HasSubstr("at least 8 samples"));
     EXPECT_THAT(message(data.select({1}, {})), HasSubstr("no input"));
@@ -139,7 +139,7 @@ TEST(spa, poor_excitation_is_reported) {
     options.window = 200;
     const SpectralEstimate estimate = spa(IdData(Matrix(2 * u), Matrix(u), 1), options);
     ASSERT_EQ(estimate.warnings.size(), 2u);  // few independent values; no power beside the sine
-    EXPECT_THAT(message_text(estimate.warnings[1]), HasSubstr("practically no power"));
+    EXPECT_THAT(message_text(estimate.warnings[1]), HasSubstr("almost no power"));
     EXPECT_TRUE(estimate.response.allFinite());
 }
 

@@ -141,7 +141,7 @@ TEST(greyest, keeps_to_bounds_and_fixed_values) {  // oracle: definition, and th
     EXPECT_EQ(bounded.fit.theta[2], 0.45);
     EXPECT_TRUE(bounded.fit.at_bound[2]);
     EXPECT_EQ(bounded.fit.std[2], 0);
-    EXPECT_THAT(message_text(bounded.fit.full_message()), HasSubstr("The parameter c is at its bound 0.45"));
+    EXPECT_THAT(message_text(bounded.fit.full_message()), HasSubstr("The parameter c ended at its bound 0.45"));
     model.parameters[2] = {"c", 0.45, -kInfinity, kInfinity, true};
     const GreyFit fixed = greyest(data, model, tight());
     EXPECT_LT((fixed.fit.theta - bounded.fit.theta).cwiseAbs().maxCoeff(), 1e-6);
@@ -224,15 +224,15 @@ TEST(greyest, refuses_what_it_cannot_fit) {  // oracle: definitions
     };
     GreyModel model = pendulum(1, 1, 1);
     model.parameters[0].lower = 2;
-    EXPECT_THAT(refusal(model), HasSubstr("a starts from 1, outside its bounds 2 and Inf"));
+    EXPECT_THAT(refusal(model), HasSubstr("a has the initial value 1, which is outside the bounds 2 and Inf"));
     model.parameters[0].upper = 1;
-    EXPECT_THAT(refusal(model), HasSubstr("the first must not exceed the second"));
+    EXPECT_THAT(refusal(model), HasSubstr("the lower bound must not exceed the upper bound"));
     model = pendulum(1, 1, 1);
     model.parameters[1].start = kNaN;
-    EXPECT_THAT(refusal(model), HasSubstr("The parameter b starts from NaN"));
+    EXPECT_THAT(refusal(model), HasSubstr("The initial value of the parameter b must be finite, but is NaN"));
     GreyOptions options;
     options.further_starts = {{{"q", 1}}};
-    EXPECT_THAT(refusal(pendulum(1, 1, 1), options), HasSubstr("name a parameter q"));
+    EXPECT_THAT(refusal(pendulum(1, 1, 1), options), HasSubstr("contains the parameter q"));
     options = {};
     options.output_weights = Vector::Ones(3);
     EXPECT_THAT(refusal(pendulum(1, 1, 1), options),
@@ -242,7 +242,7 @@ TEST(greyest, refuses_what_it_cannot_fit) {  // oracle: definitions
     });
     EXPECT_THAT(refusal(growing), HasSubstr("the state x becomes infinite"));
     EXPECT_THAT(thrown_message([&] { greyest(data.select({1}, {1}).range(10, 11), pendulum(1, 1, 1)); }),
-                HasSubstr("The data have 2 samples, but more than 3 are needed"));
+                HasSubstr("The number of samples, 2, must be greater than the number of parameters, 3"));
 }
 
 }  // namespace test_greyest

@@ -97,14 +97,14 @@ TEST(dmdc, joins_experiments) {  // oracle: the system put in
 
 TEST(dmdc, refuses_what_cannot_be_fitted) {
     const IdData data = record(system_of_three(), 30, 0.1, 8);
-    EXPECT_THAT(thrown_message([&] { dmdc(data, {-1, 1}); }), HasSubstr("`rank` must not be negative"));
+    EXPECT_THAT(thrown_message([&] { dmdc(data, {-1, 1}); }), HasSubstr("`rank` must be nonnegative"));
     EXPECT_THAT(thrown_message([&] { dmdc(data, {3, 1}); }), HasSubstr("a snapshot has only 2 values"));
     EXPECT_THAT(thrown_message([&] { dmdc(data, {2, 0}); }), HasSubstr("`delays` must be at least 1"));
     EXPECT_THAT(thrown_message([&] { dmdc(data, {2, 10}); }), HasSubstr("too few samples"));
     EXPECT_THAT(thrown_message([&] { dmdc(data, {2, 40}); }), HasSubstr("too few samples"));
     IdData twins = record(system_of_three(), 100, 0, 9);
     twins.experiments[0].y.col(1) = twins.experiments[0].y.col(0);
-    EXPECT_THAT(thrown_message([&] { dmdc(twins, {2, 1}); }), HasSubstr("the data show only 1 direction"));
+    EXPECT_THAT(thrown_message([&] { dmdc(twins, {2, 1}); }), HasSubstr("the data support only 1 direction"));
 }
 
 }  // namespace test_dmdc

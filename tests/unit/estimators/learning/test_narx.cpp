@@ -136,19 +136,19 @@ TEST(narx, joins_experiments_and_inputs) {  // oracle: the equation put in
 TEST(narx, refuses_what_cannot_be_fitted) {
     const IdData data = record(50, 0, 1);
     EXPECT_THAT(thrown_message([&] { narx(data, {0, {0}, {1}}); }), HasSubstr("uses no past value"));
-    EXPECT_THAT(thrown_message([&] { narx(data, {-1, {1}, {1}}); }), HasSubstr("must not be negative"));
+    EXPECT_THAT(thrown_message([&] { narx(data, {-1, {1}, {1}}); }), HasSubstr("must be nonnegative"));
     EXPECT_THAT(thrown_message([&] { narx(data, {1, {1, 1}, {1, 1}}); }), HasSubstr("for 2 inputs"));
     EXPECT_THAT(thrown_message([&] {
                     narx(data, kLags, {2, 16});
                 }),
-                HasSubstr("the lags and the degree give only 15 candidates"));
+                HasSubstr("the lags and the degree allow only 15 candidates"));
     EXPECT_THAT(thrown_message([&] { narx(data, {49, {1}, {1}}, {1, 0}); }), HasSubstr("too few samples: 1"));
     EXPECT_THAT(thrown_message([&] { narx(data, {60, {1}, {1}}, {1, 0}); }), HasSubstr("too few samples: 0"));
     EXPECT_THAT(thrown_message([&] { narx(data, kLags, {2, -1}); }), HasSubstr("`terms`"));
     EXPECT_THAT(thrown_message([&] {
                     narx(data, kLags, {4, 0});
                 }),
-                HasSubstr("48 samples have a complete recorded past, but 70 candidate terms"));
+                HasSubstr("48 samples have all required past values, which is too few for 70 candidate terms"));
     EXPECT_THAT(thrown_message([&] { narx(data, kLags, {2, 0, [] { return true; }}); }), HasSubstr("interrupted"));
     const NarxFit found = narx(data, kLags);
     IdData faster = data;
@@ -156,7 +156,7 @@ TEST(narx, refuses_what_cannot_be_fitted) {
     EXPECT_THAT(thrown_message([&] { found.model->free_run(faster, 0, Vector()); }),
                 HasSubstr("the sampling time 0.5 s"));
     EXPECT_THAT(thrown_message([&] { found.model->free_run(data, 0, Vector::Ones(3)); }),
-                HasSubstr("x0 must have the first 2"));
+                HasSubstr("x0 must contain the first 2"));
     const IdData two(Matrix::Random(50, 2), Matrix::Random(50, 1), 1);
     EXPECT_THAT(thrown_message([&] { narx(two, kLags); }), HasSubstr("needs one output"));
 }

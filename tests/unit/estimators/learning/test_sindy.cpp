@@ -187,13 +187,15 @@ TEST(sindy, warns_of_a_state_without_terms) {
 
 TEST(sindy, refuses_what_cannot_be_fitted) {
     const IdData data = lotka_volterra_record(0.05, 30);
-    EXPECT_THAT(thrown_message([&] { polynomials(data.range(1, 8), 3); }), HasSubstr("too few samples: 10 functions"));
+    EXPECT_THAT(thrown_message([&] { polynomials(data.range(1, 8), 3); }),
+                HasSubstr("greater than the number of functions, 10"));
     EXPECT_THAT(thrown_message([&] { polynomials(data.range(1, 4), 1); }),
                 HasSubstr("over 5 samples need at least as many"));
     EXPECT_THAT(thrown_message([&] { sindy(data, {}); }), HasSubstr("contains no function"));
     SindyOptions options;
     options.threshold = 1;
-    EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }), HasSubstr("`threshold` is a share"));
+    EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }),
+                HasSubstr("`threshold`, a fraction of the rate, must be at least 0"));
     options = {};
     options.window = 4;
     EXPECT_THAT(thrown_message([&] { polynomials(data, 1, options); }), HasSubstr("`window` must be an odd number"));

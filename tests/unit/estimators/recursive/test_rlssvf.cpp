@@ -96,13 +96,13 @@ TEST(rlssvf, refuses_what_it_cannot_use) {  // oracle: the sentence names method
     RecursiveOptions options = recursive(3);
     for (const double forgetting : {0.0, -0.5, 1.01, std::nan("")}) {
         options.forgetting = forgetting;
-        EXPECT_THAT(refused(data, structure, options), HasSubstr("rlssvf: forgetting must be above 0"));
+        EXPECT_THAT(refused(data, structure, options), HasSubstr("rlssvf: forgetting must be greater than 0"));
     }
     options = recursive(3);
     options.drift = values({1, 2});
     EXPECT_THAT(refused(data, structure, options), HasSubstr("each of the 3 parameters"));
     options.drift = values({1, -2, 1});
-    EXPECT_THAT(refused(data, structure, options), HasSubstr("must not be negative"));
+    EXPECT_THAT(refused(data, structure, options), HasSubstr("must be nonnegative"));
     EXPECT_THAT(refused(data, structure, recursive(-1)), HasSubstr("lambda"));
     EXPECT_THAT(refused(data.range(1, 5), structure, recursive(3)), HasSubstr("at least 9 samples"));
     EXPECT_THAT(refused(IdData::merge({data, data}), structure, recursive(3)),

@@ -44,7 +44,7 @@ TEST(refitted_output, reports_models_that_these_data_move) {  // oracle: coe of 
     EXPECT_FALSE(own.moved(own.fit()));
     const auto reported = others.moved(others.fit());
     ASSERT_TRUE(reported);
-    EXPECT_THAT(message_text(*reported), HasSubstr("the intervals refer to that"));
+    EXPECT_THAT(message_text(*reported), HasSubstr("the intervals refer to the new value"));
 }
 
 TEST(refitted_output, fits_processes_with_start_and_offset) {  // oracle: procsrivc
