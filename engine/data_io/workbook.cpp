@@ -294,7 +294,8 @@ class SheetReader {
             if (c < 'A' || c > 'Z' || column > kMaxSheetColumns) break;
             column = column * 26 + static_cast<std::size_t>(c - 'A' + 1);
         }
-        if (column == 0) throw EnvironmentError("{} is damaged: \"{}\" is not a cell", file_, place.substr(0, 20));
+        if (column == 0)
+            throw EnvironmentError("{} is damaged: \"{}\" is not a cell reference", file_, place.substr(0, 20));
         return column - 1;
     }
 

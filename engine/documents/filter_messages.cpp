@@ -67,7 +67,7 @@ Message wrong_in_diagram(const std::string& code, const std::string& first, cons
     if (code == "arrow") return Message("an arrow goes from a node to a node, as in u -> G");
     if (code == "not-straight")
         return Message("{} and {} are neither in the same row nor in the same column; write -| or |-", first, second);
-    return Message("names, numbers and arrows come first, then a colon and the label");
+    return Message("write names, numbers and arrows first, then a colon and the label");
 }
 
 /// What report_templates/filters/choice.lua reports.
@@ -103,7 +103,7 @@ class Sentences {
             return Message("the label \"{}\" must start with \"{}\", as in {#{}:name}", first, second + ":", second);
         if (code == "reference-kind")
             return Message(
-                "the cross reference @{} must start with @fig:, @tbl:, @eq: or @sec:. A literature key with a colon "
+                "the cross-reference @{} must start with @fig:, @tbl:, @eq: or @sec:. A literature key with a colon "
                 "must be in the bibliography that the header names",
                 first);
         if (code == "no-bibliography")
@@ -239,11 +239,13 @@ class Sentences {
             labels.push_back(markdown_.text.substr(at + 2, end == std::string::npos ? end : end - at - 2));
         }
         if (std::find(labels.begin(), labels.end(), label) != labels.end())
-            return Message("the cross reference @{} has no target: {#{}} labels nothing that is shown", label, label);
+            return Message(
+                "the cross-reference @{} has no target: the label {#{}} does not belong to an element that is shown",
+                label, label);
         if (const auto near = nearest_word(label, labels))
-            return Message("the cross reference @{} has no target: {#{}} is missing; did you mean \"{}\"?", label,
+            return Message("the cross-reference @{} has no target: {#{}} is missing; did you mean \"{}\"?", label,
                            label, *near);
-        return Message("the cross reference @{} has no target: {#{}} is missing", label, label);
+        return Message("the cross-reference @{} has no target: {#{}} is missing", label, label);
     }
 
     static Message unknown_class(const std::string& code, const std::string& name, const std::string& text) {
@@ -265,7 +267,7 @@ class Sentences {
         if (code == "block-class") return Message("unknown language \"{}\" of a code block", name);
         if (code == "span-class")
             return Message("unknown class \"{}\" of a bracketed text; write the text without it", name);
-        return Message("the document filter reports {} {}", code, name);
+        return Message("the document filter reports an unknown problem: {} {}", code, name);
     }
 
     const MarkdownText& markdown_;

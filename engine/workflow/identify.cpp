@@ -178,8 +178,8 @@ std::string reported_inputs(const std::vector<std::string>& inputs) {
 }  // namespace
 
 void IdentifyRequest::validate() const {
-    if (outputs.empty()) throw InvalidArgument("at least one output is needed");
-    if (inputs.empty()) throw InvalidArgument("at least one input is needed");
+    if (outputs.empty()) throw InvalidArgument("at least one output is required");
+    if (inputs.empty()) throw InvalidArgument("at least one input is required");
     for (auto input = inputs.begin(); input != inputs.end(); ++input)
         if (std::find(inputs.begin(), input, *input) != input)
             throw InvalidArgument("the input '{}' is given twice", *input);
@@ -191,23 +191,25 @@ void IdentifyRequest::validate() const {
     }
     if (poles && *poles < 1) throw InvalidArgument("the number of poles must be at least 1, not {}", *poles);
     if (zeros && poles && (*zeros < 0 || *zeros > *poles))
-        throw InvalidArgument("the number of zeros must be from 0 to the number of poles, {}, but is {}", *poles,
+        throw InvalidArgument("the number of zeros must be from 0 to the number of poles, {}, but it is {}", *poles,
                               *zeros);
     if (zeros && *zeros < 0)
-        throw InvalidArgument("the number of zeros must be from 0 to the number of poles, but is {}", *zeros);
+        throw InvalidArgument("the number of zeros must be from 0 to the number of poles, but it is {}", *zeros);
     if (!poles && inputs.size() > 1)
         throw InvalidArgument(
-            "the number of poles can be determined for one input only; with several inputs, give the number");
+            "the number of poles can be determined automatically for one input only; for several inputs, specify the "
+            "number");
     if (!poles && zeros && *zeros > 3)
-        throw InvalidArgument("the number of poles is determined up to 4, and must exceed the number of zeros");
+        throw InvalidArgument(
+            "at most 4 poles can be determined automatically, and the number of poles must exceed the number of zeros");
     if (!poles && delay && *delay > 0)
         throw InvalidArgument(
-            "the number of poles can be determined without delay or with an estimated delay; give the number, or the "
-            "delay auto");
+            "the number of poles can be determined automatically only without delay or with an estimated delay; "
+            "specify the number, or set the delay to auto");
     if (delay && !(std::isfinite(*delay) && *delay >= 0))
-        throw InvalidArgument("the delay must be at least 0 s, not {}", *delay);
+        throw InvalidArgument("the delay must be nonnegative, but it is {} s", *delay);
     if (Ts && !time.empty()) throw InvalidArgument("give either Ts or the time column, not both");
-    if (Ts && !(std::isfinite(*Ts) && *Ts > 0)) throw InvalidArgument("Ts must be greater than 0 s, not {}", *Ts);
+    if (Ts && !(std::isfinite(*Ts) && *Ts > 0)) throw InvalidArgument("Ts must be positive, but it is {} s", *Ts);
 }
 
 std::string identification_script(const IdentifyRequest& request) {

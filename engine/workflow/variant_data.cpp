@@ -51,7 +51,7 @@ VariableTable variables_of_record(const PlantValues& record) {
 
 void write_variant_data(const std::string& data_set, const PlantChoice& choice, const fs::path& folder) {
     const Plant* plant = find_plant(data_set);
-    if (!plant) throw InvalidArgument("no simulated plant makes the data set '{}'", data_set);
+    if (!plant) throw InvalidArgument("no simulated plant generates the data set '{}'", data_set);
     write_mat_file(folder / (data_set + ".mat"), variables_of_record(plant->record(choice)), kStoredDigits);
 }
 

@@ -82,7 +82,7 @@ TEST(course_marks, the_instructor_has_the_last_word_and_gives_a_reason) {
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "reviews", "201", "--force", "--reason", "x"}).error_output,
                 HasSubstr("from 0 to 200 percent, but 201 was given"));
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "voice", "75", "--reason", "x"}).error_output,
-                HasSubstr("crane has marks of work and reviews, but \"voice\" was given"));
+                HasSubstr("crane has marks for work and reviews only, but \"voice\" was given"));
     EXPECT_EQ(bench.dump(), before);
     CourseBench::expect_done(bench.course({"mark", "crane", "group-04", "reviews", "70", "--reason", "too hard"}));
     CourseBench::expect_done(
@@ -109,7 +109,7 @@ TEST(course_marks, wrong_scores_are_refused_with_their_line) {
             "s.csv, line 1: unknown columns: beauty; the criteria of crane are data, steps, conclusions, strength, "
             "suggestions");
     refused("reviewer,report,data,workflow,style\ngroup-01,,3,3,3\n", "unknown columns: workflow, style;");
-    refused("reviewer,report\ngroup-01,\n", "no column is named like a criterion; the criteria of crane are data, ");
+    refused("reviewer,report\ngroup-01,\n", "no column has the name of a criterion; the criteria of crane are data, ");
     refused(good + "group-01,report-1000,3,3,3,3,3\n", "s.csv, line 14: ");
     refused(good + "gruop-01,,3,3,3,3,3\n", "group-01");
     refused("reviewer,data\ngroup-01,3\n", "s.csv, line 2: ");  // which of its three?

@@ -81,7 +81,7 @@ TEST(custom_checks, marked_by_hand_wait_for_their_points) {
     EXPECT_THAT(bench.bench().read("out/results/a/feedback.md"), HasSubstr("one reason of two"));
     bench.bench().write("out/marks.csv", "who,check,points\na,text,9\n");
     EXPECT_THAT(bench.grade({"--checks", "own"}).error_output,
-                HasSubstr("gets 9 points for the check \"text\", which has 4"));
+                HasSubstr("gets 9 points for the check \"text\", but the maximum is 4"));
     EXPECT_FALSE(bench.result("a").contains("score"));
     EXPECT_EQ(bench.grade({"--checks", "own", "--force"}).exit_code, 0);
     EXPECT_EQ(bench.result("a").at("score"), 14);

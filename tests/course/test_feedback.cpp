@@ -68,7 +68,7 @@ TEST(feedback, is_titled_after_the_group_and_not_after_the_folder_of_a_platform)
                            ContainsRegex("Leçon 99_small, points *(\u202F)? *: 0 sur 2,5[.]"),
                            Not(HasSubstr("assignsubmission"))));
     const std::string english = work.shell("pdftotext -layout out/results/Ida*/feedback.pdf -").output;
-    EXPECT_THAT(english, AllOf(HasSubstr("Feedback for group-04"), HasSubstr("Checks"), HasSubstr("tell your")));
+    EXPECT_THAT(english, AllOf(HasSubstr("Feedback for group-04"), HasSubstr("Checks"), HasSubstr("contact your")));
     work.write("roster.csv", "id,name,language\n1,Zoé Lefèvre,français\n");
     EXPECT_THAT(work.dynlab(words).error_output,
                 HasSubstr("roster.csv, line 2: the language must be en or fr, but \"français\" was given"));

@@ -254,7 +254,7 @@ TEST(written_answers, of_an_unknown_question_are_refused_with_those_that_are_kno
         collect_answers(bench.request());
         FAIL();
     } catch (const EnvironmentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("99_words has no question \"3\"; it has 1, 2"));
+        EXPECT_THAT(error.what(), HasSubstr("99_words has no question \"3\"; the questions are 1, 2"));
     }
     bench.request().question = "Conclusion";
     EXPECT_THROW(collect_answers(bench.request()), EnvironmentError);

@@ -49,7 +49,7 @@ TEST(program_errors, script_that_fails_is_reported_even_where_no_report_can_be_m
     const Workbench bench;
     write_folder(bench, "error('on purpose')\n", "![A](absent.png)\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
-    expect_failure(result, 1, "on purpose\n    error('on purpose')\nThe report up to this point cannot be made: ");
+    expect_failure(result, 1, "on purpose\n    error('on purpose')\nThe report up to this point cannot be created: ");
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
 

@@ -30,20 +30,20 @@ addWords({
   yes: tr("Yes"), no: tr("No"), all: tr("All"),
 
   // What is handed in
-  handIn: tr("Submit"), makeReport: tr("Make report.pdf"), makePack: tr("Pack the folder"),
-  handInAbout: tr("dynlab makes the report from the saved script, then packs the folder with the report into one file."),
-  makingReport: tr("the report is being made …"), makingPack: tr("the folder is being packed …"),
-  notMade: tr("not made: save the text in the editor first"),
+  handIn: tr("Submit"), makeReport: tr("Create report.pdf"), makePack: tr("Pack the folder"),
+  handInAbout: tr("dynlab creates the report from the saved script, then packs the folder with the report into one file."),
+  makingReport: tr("creating the report …"), makingPack: tr("packing the folder …"),
+  notMade: tr("not created: save the text in the editor first"),
 
   // What dynlab check finds
-  found: tr("Findings of dynlab check"), onPage: tr("page {}"), checked: tr("checked"), checking: tr("checking: {} %"),
+  found: tr("Issues found by dynlab check"), onPage: tr("page {}"), checked: tr("checked"), checking: tr("checking: {} %"),
   openAnswers: trPlural("{} answer open", "{} answers open"), brokenRules: trPlural("{} rule violated", "{} rules violated"),
   hints: trPlural("{} hint", "{} hints"), points: tr("{} of {} points"),
   older: tr("of the files before the last change; checking again"),
   notGiven: tr("Missing answers"), toMend: tr("To fix"), remarks: tr("Hints"),
   checksOfLesson: tr("Checks of the lesson: {}"), nothingToMend: tr("dynlab check finds no problem."),
   // The kinds of answers, as a script's header names them
-  number: trIn("kind of answer", "number"), text: trIn("kind of answer", "text"), truth: trIn("kind of answer", "truth"),
+  number: trIn("kind of answer", "number"), text: trIn("kind of answer", "text"), truth: trIn("kind of answer", "true or false"),
   vector: trIn("kind of answer", "vector"), matrix: trIn("kind of answer", "matrix"), data: trIn("kind of answer", "data"),
   model: trIn("kind of answer", "model"), response: trIn("kind of answer", "response"), table: trIn("kind of answer", "table"),
 

@@ -64,7 +64,7 @@ int restore_files(Course& course, const Assignment& a, const CorrectionArguments
 
 int extend_for_one(Course& course, const Assignment& a, const CorrectionArguments& args) {
     if (args.time.empty() != args.end)
-        throw InvalidArgument("give the new end date, or --end to return to the deadline of the class");
+        throw InvalidArgument("give the new deadline, or --end to return to the deadline of the class");
     std::optional<Instant> due;
     if (!args.end) due = course.clock().parse(args.time, "TIME");
     extend(course, a, args.requested.group, args.requested.stage, due, args.reason, time_of(course, args.at));

@@ -113,7 +113,7 @@ int pairs(const CourseArguments& where, const PeerArguments& args) {
     if (constraints == 0 && args.reviewer.empty()) return show_pairs(where, args);
     if (constraints != 1 || args.author.empty() || args.reason.empty())
         throw InvalidArgument(
-            "name a pair and an action: review pairs ASSIGNMENT REVIEWER AUTHOR with --set, --forbid or --free, and "
+            "specify a pair and an action: review pairs ASSIGNMENT REVIEWER AUTHOR with --set, --forbid or --free, and "
             "--reason");
     return constraint(where, args, args.set ? "set" : args.forbid ? "forbid" : "free");
 }

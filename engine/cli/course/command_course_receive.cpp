@@ -49,7 +49,7 @@ Message remark(const Received& r) {
     if (!r.twin.empty()) clauses.items.push_back(Message("the same file as {}", r.twin));
     if (!r.earlier.empty()) clauses.items.push_back(Message("the same file as {}", r.earlier));
     if (r.marked_late) clauses.items.push_back(Message("marked late by the platform: see --times"));
-    if (r.made) clauses.items.push_back(Message("made by dynlab, because the pack contains no PDF"));
+    if (r.made) clauses.items.push_back(Message("created by dynlab, because the pack contains no PDF"));
     if (r.scores > 0) clauses.items.push_back(plural(r.scores, "{} score read", "{} scores read"));
     if (r.rules_broken > 0)
         clauses.items.push_back(r.names ? plural(r.rules_broken, "{} rule violated: a name was found",
@@ -122,10 +122,10 @@ fs::path file_not_taken(Course& course, const Assignment& assignment, const std:
         return one.name != name && (name.size() < kShortest || !one.hash.starts_with(name));
     });
     if (found.size() != 1)
-        throw found.empty() ? InvalidArgument("{} has no file \"{}\" that was not taken", assignment.name, name)
+        throw found.empty() ? InvalidArgument("{} has no file \"{}\" that was not accepted", assignment.name, name)
                             : InvalidArgument(
-                                  "{} has {} files \"{}\" that were not taken; give the first digits of "
-                                  "its SHA-256 instead of the name",
+                                  "{} has {} files \"{}\" that were not accepted; give the first digits of the SHA-256 "
+                                  "instead of the name",
                                   assignment.name, found.size(), name);
     at = found.front().received_at;
     fs::path file = folder / fs::path(found.front().name).filename();

@@ -95,9 +95,9 @@ fs::path task_sheet(const Lesson& lesson, const std::string& language, const fs:
     try {
         const ReportResult made = make_report(sheet_of(lesson.folder.string(), sheet, translated ? language : ""));
         if (!made.error) return sheet;
-        complain(Message("without the task sheet: {}", *made.error));
+        complain(Message("the task sheet is left out: {}", *made.error));
     } catch (const std::runtime_error& error) {
-        complain(Message("without the task sheet: {}", message_of(error)));
+        complain(Message("the task sheet is left out: {}", message_of(error)));
     }
     return {};
 }

@@ -23,7 +23,7 @@ int make_editor_files(const std::string& folder) {
     if (!std::filesystem::is_directory(folder)) throw EnvironmentError("folder not found: {}", folder);
     for (const std::string& kept : write_editor_files(folder))
         say(Message("{} exists already and was not changed", kept));
-    say(Message("{}: lets editors complete and check dynlab functions", folder));
+    say(Message("{}: editors can now complete and check dynlab functions", folder));
     return kDone;
 }
 
@@ -43,8 +43,8 @@ int make_new(const NewArguments& args) {
     if (args.lesson == "review") {
         make_review_folder(args.folder, args.language);
         say(
-            Message("{}: report.md contains the five questions, analysis.lua the scores.\nNext:  dynlab report {}    "
-                    "and    dynlab check {}",
+            Message("{}: report.md contains the five questions, and analysis.lua contains the scores.\nNext:  dynlab "
+                    "report {}    and    dynlab check {}",
                     args.folder, folder, folder));
         return kDone;
     }

@@ -42,7 +42,7 @@ class SelectedFiles {
         const std::vector<std::string> parts = parts_of(assignment_, requested_.stage);
         if (!requested_.part.empty()) {
             if (requested_.part != kUnreadable && std::ranges::find(parts, requested_.part) == parts.end())
-                throw InvalidArgument("{} has no part {}: its parts are {}", assignment_.name, requested_.part,
+                throw InvalidArgument("{} has no part {}; the parts are {}", assignment_.name, requested_.part,
                                       listed(parts));
             return {one(requested_.part, withdrawn)};
         }

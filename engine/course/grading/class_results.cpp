@@ -297,7 +297,7 @@ Attention what_needs_attention(const ClassResults& results) {
             else if (!whole(grade) && some_whole)
                 add(Message("\"{}\" is not graded completely", name));
             if (grade.error_reason.empty() && grade.silent)
-                add(Message("\"{}\" ran to completion but gave no answer", name));
+                add(Message("\"{}\" ran to completion but submitted no answer", name));
             if (!grade.error_reason.empty())
                 add(grade.began ? Message("the script of \"{}\" stopped: {}", name, grade.error_reason)
                                 : Message("the script of \"{}\" could not be started: {}", name, grade.error_reason));

@@ -62,7 +62,7 @@ class FeedbackText {
 
     std::string error_reason() const {
         if (grade_.error_reason.empty())
-            return words(grade_.silent ? Message("Your script ran to completion but gave no answer.")
+            return words(grade_.silent ? Message("Your script ran to completion but submitted no answer.")
                                        : Message("Your script ran to completion."));
         const std::string why = shown_trouble();
         if (grade_.unreadable && grade_.whole())
@@ -80,9 +80,9 @@ class FeedbackText {
     }
 
     std::string closing() const {
-        return words(
-            Message("Programs give the points. They compare your answers with your data and with data sets that you "
-                    "have not seen. If you think that a check is wrong, tell your instructor which one and why."));
+        return words(Message(
+            "Points are awarded automatically. dynlab compares your answers with your data and with data sets that you "
+            "have not seen. If you think that a check is wrong, contact your instructor and explain why."));
     }
 
   private:

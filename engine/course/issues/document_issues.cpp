@@ -31,13 +31,13 @@ Issue file_finding(const PdfRefusal& refusal) {
                     0,
                     "",
                     refusal.message(),
-                    Message("Make the file smaller: draw figures as vector graphics, not as screenshots.")};
+                    Message("Reduce the file size: use vector graphics instead of screenshots.")};
         case PdfFault::kNotThere:
         case PdfFault::kDamaged:
             break;
     }
     return {"damaged", Severity::kRule,   0,
-            "",        refusal.message(), Message("Make the file again, or copy it again from the original.")};
+            "",        refusal.message(), Message("Create the file again, or copy it again from the original.")};
 }
 
 /// Without those that are others in another language, such as slides.fr.md.

@@ -83,7 +83,8 @@ class CopySender {
                                .next();
         if (named || sha256_of(copy) != hash)
             throw EnvironmentError(
-                "the copy for {} was altered after dynlab made it; nothing more was sent: run dynlab course verify",
+                "the copy for {} was altered after dynlab created it; no further copies were sent. Run dynlab course "
+                "verify",
                 file.string());
         kept_[file] = pair.id;
         fs::create_directories(file.parent_path());

@@ -84,7 +84,7 @@ class ScoreReader {
             if (!others.contains(name)) unknown.push_back(name);
         const Message known = Message("the criteria of {} are {}", a_.name, listed(criteria));
         if (!unknown.empty()) fail(1, Message("unknown columns: {}; {}", listed(unknown), known));
-        if (!any) fail(1, Message("no column is named like a criterion; {}", known));
+        if (!any) fail(1, Message("no column has the name of a criterion; {}", known));
     }
 
     [[noreturn]] void fail(int line, const Message& what) const {
@@ -227,7 +227,7 @@ void drop_scores(Course& course, const Assignment& a, const std::string& reviewe
         }
     if (enter_marks(course, a, dropped, now) == 0)
         throw InvalidArgument("{} has given no scores for {}", reviewer, report);
-    course.note(fmt::format("{}: the scores of {} for {} are taken back; reason: {}", a.name, reviewer, report, reason),
+    course.note(fmt::format("{}: the scores of {} for {} are withdrawn; reason: {}", a.name, reviewer, report, reason),
                 now);
     transaction.commit();
 }

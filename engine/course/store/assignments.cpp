@@ -104,14 +104,15 @@ bool only_later(Assignment a, const Assignment& b, const CourseClock& clock) {
 /// What submissions and scores depend on does not change after them.
 void refuse_change_of_form(Course& course, const Assignment& known, const Assignment& requested, bool has_work) {
     if (has_work && requested.kind != known.kind)
-        throw InvalidArgument("files were submitted for {} already: its kind stays {}", known.name, known.kind);
+        throw InvalidArgument("files were already submitted for {}, so its kind must remain {}", known.name,
+                              known.kind);
     if (criteria_text(requested.criteria) == criteria_text(known.criteria)) return;
     Rows scored = course.database().query(
         "SELECT 1 FROM marks m JOIN criteria c ON c.assignment = m.assignment AND c.name = m.item WHERE c.assignment = "
         "?",
         known.id);
     if (scored.next())
-        throw InvalidArgument("scores were entered for {} already: its criteria stay {}", known.name,
+        throw InvalidArgument("scores were already entered for {}, so its criteria must remain {}", known.name,
                               criteria_text(known.criteria));
 }
 
@@ -153,8 +154,8 @@ bool set_assignment(Course& course, Assignment requested, const std::string& rea
         refuse_change_of_form(course, known, requested, has_work);
         if (has_work && reason.empty() && !only_later(known, requested, course.clock()))
             throw InvalidArgument(
-                "files were submitted for {} already: you can only postpone deadlines and increase the grace; give "
-                "--reason to change more",
+                "files were already submitted for {}: you can only postpone deadlines and increase the grace period; "
+                "give --reason to change more",
                 known.name);
         requested.name = known.name;
         note = fmt::format("assignment {} changed: {}", known.name, fmt::join(changes, ", "));
@@ -277,8 +278,8 @@ Costs costs_of(const std::string& text) {
         const auto value = read_number<double>(points);
         if (known == std::end(kCosts) || !value || !(*value >= 0 && *value <= 100))
             throw InvalidArgument(
-                "penalties are late-day, late-most, missing-final, late-review and missing-review with percent points "
-                "from 0 to 100, such as late-day:10,missing-review:25, but \"{}:{}\" was given",
+                "penalties are late-day, late-most, missing-final, late-review and missing-review, each from 0 to 100 "
+                "percentage points, such as late-day:10,missing-review:25, but \"{}:{}\" was given",
                 name, points);
         costs.*(known->second) = *value;
     }

@@ -22,6 +22,6 @@ addWords({
   checksRun: tr("The script runs for the checks …"), pointsOf: tr("{} of {} points"), hintOf: tr("Hint"), moreHint: tr("Next hint"),
   checkedLater: tr("dynlab checks this during grading."), scriptStopped: tr("The script stopped: {}"), noChecks: tr("This lesson has no checks that can run here."),
   questionHints: tr("Hints for question {}"), packReady: tr("{} is in your downloads: submit this file."), packSays: tr("SHA-256 {}"),
-  packMissing: tr("It contains no PDF of the report: dynlab creates it from the same files."), runExample: tr("Run"),
+  packMissing: tr("The file contains no PDF of the report; dynlab creates the PDF from the same files."), runExample: tr("Run"),
 });
 export * from "./words.js";

@@ -337,7 +337,7 @@ NotebookScript read_notebook(const std::filesystem::path& file) {
                                       kMaxNotebookBytes >> 20));
     NotebookScript script = script_of_notebook(read_text(file), file);
     if (script.source.size() > kMaxSourceSize)
-        refuse_notebook(file, Message("its cells have {} MB of text, but the limit for a script is {} MB",
+        refuse_notebook(file, Message("the cells have {} MB of text, but the limit for a script is {} MB",
                                       (script.source.size() + (1 << 20) - 1) >> 20, kMaxSourceSize >> 20));
     return script;
 }

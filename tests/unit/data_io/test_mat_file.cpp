@@ -404,7 +404,7 @@ TEST_F(mat_file, no_place_where_a_disk_fills_up_is_passed_over) {
             message = error.what();
         }
         setrlimit(RLIMIT_FSIZE, &before);
-        EXPECT_THAT(message, HasSubstr("no space for the draft in")) << bytes;
+        EXPECT_THAT(message, HasSubstr("no space for the temporary file in")) << bytes;
         EXPECT_TRUE(equal(read_mat_file(file_), plain_variables())) << bytes;
     }
     std::signal(SIGXFSZ, signal_before);
