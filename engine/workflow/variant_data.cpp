@@ -19,9 +19,9 @@ namespace {
 constexpr int kStoredDigits = 7;
 constexpr std::string_view kVariantKey = "Specimen:";
 constexpr char kOwnRecord[] = R"(
-**Your group's own record.** It was made as is said above, but on another specimen of the apparatus, whose parameters
-are others, and with other noise: `rig("{name}", {{specimen = {seed}, seed = {seed}}})` makes it again, and
-`rig_truth("{name}", {{specimen = {seed}}})` tells what theory says of it.
+**Your group's own data set.** It was generated as described above, but for another unit of the plant, which has
+different parameters, and with different noise. `rig("{name}", {{specimen = {seed}, seed = {seed}}})` generates it
+again, and `rig_truth("{name}", {{specimen = {seed}}})` returns the true values.
 
 {key} {seed}
 )";

@@ -135,7 +135,7 @@ TEST_F(own_course, texts_with_faults_are_named_with_file_and_line) {
               "checks.lua:6: unknown function or variable 'naer'"},
              {"wrong_compliance.lua", "load(\"record\")", "load(\"record\"", "wrong_compliance.lua:4: "},
              {"hints.md", "2. With", "3. With", "hints.md:4: expected hint 2, starting"},
-             {"checks.fr.po", "msgid \"The measuring errors\"", "msgid The measuring errors",
+             {"checks.fr.po", "msgid \"The measurement errors\"", "msgid The measurement errors",
               "checks.fr.po: line 19: expected text in quotation marks"},
              {"tasks.fr.lua", "-- %% [markdown]\n-- # Ce qu'on a appris", "-- # Ce qu'on a appris", "tasks.fr.lua: "},
          })

@@ -130,7 +130,7 @@ TEST_F(receipts, are_for_one_file) {
     write("other.pdf", small_pdf("other"));
     const ChildResult wrong = verify({"mine/r.txt", "other.pdf"});
     EXPECT_EQ(wrong.exit_code, 1);
-    EXPECT_THAT(wrong.output, HasSubstr("genuine, but NOT for other.pdf: that file has another SHA-256"));
+    EXPECT_THAT(wrong.output, HasSubstr("genuine, but NOT for other.pdf: that file has a different SHA-256"));
 }
 
 TEST_F(receipts, bad_keys_and_words_are_reported) {

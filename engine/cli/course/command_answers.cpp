@@ -111,7 +111,8 @@ void add_answers(CLI::App& app, Action& action) {
     CLI::App* command =
         app.add_subcommand("answers", "Collect all written answers to a question on one anonymous page");
     command
-        ->add_option("FOLDER", args->submissions, "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
+        ->add_option("FOLDER", args->submissions,
+                     "Submissions: folders, packs, zip files, or an export of Moodle or Canvas")
         ->required()
         ->check(CLI::ExistingPath);
     command->add_option("--lesson", args->lesson, "Lesson of the question")->type_name("NN")->required();

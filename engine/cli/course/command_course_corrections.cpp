@@ -161,7 +161,7 @@ void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
 
 void add_correction_commands(CLI::App& course, CourseArguments& where, Action& action) {
     const auto time =
-        add_correction(course, "set-received", "Correct when a file was received", where, action, correct_time);
+        add_correction(course, "set-received", "Correct the time of receipt of a file", where, action, correct_time);
     time.app
         ->add_option("TIME", time.args->time,
                      "Time of receipt, such as \"2026-03-01 17:30\", in the course's time zone")
@@ -180,8 +180,8 @@ void add_correction_commands(CLI::App& course, CourseArguments& where, Action& a
     longer.app->add_flag("--end", longer.args->end, "Return to the deadline of the class");
     add_reason(longer);
     longer.app->footer(
-        "Applies also to files that were received before. The grace of the assignment is added.\nExample:  dynlab "
-        "course extend crane group-05 \"2026-03-03 13:00\" --reason \"illness\"");
+        "The deadline also applies to files that were received before. The grace of the assignment is added.\nExample: "
+        " dynlab course extend crane group-05 \"2026-03-03 13:00\" --reason \"illness\"");
 
     const auto kept =
         add_correction(course, "withhold", "Withhold a report from its reviewers, or a review from the authors", where,

@@ -101,7 +101,7 @@ void add_hint(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 999));
     CLI::Option* next = command->add_flag("--next", args->next, "Show one hint beyond those already seen");
     command->add_flag("--all", args->all, "Show all hints for the question")->excludes(next);
-    add_language(*command, args->language, "Language, if the lesson has hints in it");
+    add_language(*command, args->language, "Language of the hints, if the lesson has hints in this language");
     command->footer("Examples:  dynlab hint 04 4     dynlab hint 04 4 --next     dynlab hint my-work");
     command->callback([args, &action] { action = [args] { return give_hint(*args); }; });
 }
