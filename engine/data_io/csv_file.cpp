@@ -215,7 +215,7 @@ class CsvReader {
         else if (layout_.passed_over > 1)
             note(Message("the table starts in line {}; {} lines above it are skipped", layout_.table_line,
                          layout_.passed_over));
-        if (layout_.named_by_comment) note(Message("the column names come from the comment above the numbers"));
+        if (layout_.named_by_comment) note(Message("the column names are read from the comment above the numbers"));
         if (layout_.units_line > 0) {
             MessageList reported;
             for (const auto& [name, unit] : table_.units) reported.items.push_back(Message("{} in {}", name, unit));

@@ -64,7 +64,7 @@ Message wrong_in_diagram(const std::string& code, const std::string& first, cons
     if (code == "most-nodes") return Message("a diagram has at most {} nodes", first);
     if (code == "sign") return Message("between two nodes, write ->, -| or |-, not {}", first);
     if (code == "no-node") return Message("no node {} is defined above this line", first);
-    if (code == "arrow") return Message("an arrow goes from a node to a node, as in u -> G");
+    if (code == "arrow") return Message("an arrow must connect two nodes, as in u -> G");
     if (code == "not-straight")
         return Message("{} and {} are neither in the same row nor in the same column; write -| or |-", first, second);
     return Message("write names, numbers and arrows first, then a colon and the label");
@@ -74,11 +74,12 @@ Message wrong_in_diagram(const std::string& code, const std::string& first, cons
 Message wrong_in_choice(const std::string& code) {
     if (code == "list")
         return Message(
-            "a choice consists of a question and a list of options: - [x] for a correct option, - [ ] for a wrong one");
+            "a choice must consist of a question and a list of options: - [x] for a correct option, - [ ] for a wrong "
+            "option");
     if (code == "option")
         return Message(
-            "each option starts with [x] or [ ]; a separate, indented paragraph says why the option is correct or "
-            "wrong");
+            "each option must start with [x] or [ ]; a separate, indented paragraph explains why the option is correct "
+            "or wrong");
     return Message("a choice needs at least two options, including a correct one");
 }
 
@@ -134,7 +135,7 @@ class Sentences {
                 first);
         if (code == "pasted-picture")
             return Message(
-                "the picture \"{}\" was pasted into the notebook, where a report cannot read it. Save it as a file "
+                "the picture \"{}\" was pasted into the notebook, and a report cannot read it there. Save it as a file "
                 "next to the notebook and give the file name in the text",
                 first);
         if (code == "mathematics") return refused_in_formula(first, second, third);

@@ -47,8 +47,9 @@ class HintsReader {
         const std::size_t point = line.find(". ");
         const std::size_t next = stages_->size() + 1;
         if (point == std::string::npos || read_number<int>(line.substr(0, point)) != static_cast<int>(next))
-            fail(Message("expected hint {}, starting with \"{}. \", not \"{}\" (indent further lines of a hint)", next,
-                         next, trimmed(line).substr(0, 30)));
+            fail(Message(
+                "expected hint {}, starting with \"{}. \", not \"{}\" (indent the continuation lines of a hint)", next,
+                next, trimmed(line).substr(0, 30)));
         stages_->push_back(trimmed(line.substr(point + 2)));
     }
 

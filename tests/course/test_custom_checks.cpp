@@ -245,7 +245,7 @@ TEST(custom_checks, mistakes_in_them_are_reported_with_file_and_line) {
                 HasSubstr("a test returned 5; expected a share from 0 to 1"));
     EXPECT_THAT(complaint("check{id = 'y', document = true, test = function(a) return no_finding() end}\n"),
                 HasSubstr("lesson 99_small has none"));
-    EXPECT_THAT(complaint("check{id = 'y', by_hand = true, test = function() end}\n"), HasSubstr("is marked by hand"));
+    EXPECT_THAT(complaint("check{id = 'y', by_hand = true, test = function() end}\n"), HasSubstr("is marked manually"));
     EXPECT_THAT(complaint("check{id = 'y', rubric = 'x', test = function() end}\n"), HasSubstr("by_hand = true"));
     std::filesystem::remove(bench.bench().path("own/mine.lua"));
     EXPECT_THAT(bench.grade({"--checks", "own", "--again"}).error_output, HasSubstr("it has no file *.lua"));

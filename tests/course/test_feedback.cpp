@@ -119,10 +119,8 @@ TEST(feedback, of_a_submission_that_does_not_count_says_so) {
         return work.read("out/results/" + name + "_assignsubmission_file_/feedback.md");
     };
     bench.grade({"--roster", "roster.csv"});
-    EXPECT_THAT(
-        feedback("Zoé Lefèvre_900001"),
-        HasSubstr(
-            "**This submission does not count.** Of your submissions, the better one counts: Ida Rhodes (900003)."));
+    EXPECT_THAT(feedback("Zoé Lefèvre_900001"), HasSubstr("**This submission does not count.** Of your submissions, "
+                                                          "the best submission counts: Ida Rhodes (900003)."));
     EXPECT_THAT(feedback("Ida Rhodes_900003"), Not(HasSubstr("ne compte pas")));
     // A mark by hand turns it round.
     work.write("out/marks.csv",

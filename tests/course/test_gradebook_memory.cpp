@@ -127,7 +127,7 @@ TEST(gradebook_memory, the_terminal_lists_what_the_summary_lists) {
     const ChildResult graded = bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv"});
     for (const char* sentence :
          {"the script of \"group-1\" stopped: ", "\"group-3\" cannot be read: ",
-          "\"group-2\" was late and loses 0.2 points: ", "group-2 has several submissions; the better one counts"})
+          "\"group-2\" was late and loses 0.2 points: ", "group-2 has several submissions; the best submission counts"})
         EXPECT_THAT(graded.output, HasSubstr(sentence));
     const std::string listed = work.shell("sed -n '/needs attention/,/^# /p' out/summary.md | grep -c '^- '").output;
     EXPECT_THAT(graded.output, HasSubstr(listed.substr(0, listed.find('\n')) + " notes need attention"));
@@ -362,7 +362,7 @@ TEST(gradebook_memory, one_run_at_a_time_and_results_are_no_submissions) {
     EXPECT_THAT(inside("in/marks").output, HasSubstr("1 submission: 0 graded now, 1 unchanged"));
     const ChildResult second = inside("in/marks2");
     EXPECT_THAT(second.output, HasSubstr("1 submission: 1 graded now"));
-    EXPECT_THAT(second.error_output, HasSubstr("\"marks\" contains the results of dynlab grade; it was left out"));
+    EXPECT_THAT(second.error_output, HasSubstr("\"marks\" contains the results of dynlab grade; left out"));
 }
 
 // oracle: what a killed run had made until then, in a folder that was moved since

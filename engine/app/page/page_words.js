@@ -10,7 +10,7 @@ addWords({
   ended: tr("dynlab has exited; this is the last page"),
   lost: tr("dynlab does not respond: restart it and open its new address; your text is still here"),
   asked: tr("This document runs programs. Run it?"),
-  askedAbout: tr("Its text is shown below. Answer yes only if you know its origin."),
+  askedAbout: tr("Its text is shown below. Answer yes only if you trust its source."),
   askedAboutOwn: tr("dynlab new created its folder on this computer. Its text is shown below."),
   notPrinted: tr("{}: code that is not printed"), asInScript: tr("Reset"),
 
@@ -20,7 +20,7 @@ addWords({
   notSaved: tr("not saved: {}"),
   conflict: tr("was also changed by another program. Your version is in the editor; these lines differ in the file:"),
   takeTheirs: tr("Use the file's text"), keepMine: tr("Overwrite with my text"), draft: tr("A draft of {} was not saved."),
-  takeDraft: tr("Restore"), dropDraft: tr("Discard"), notInIt: tr("(your lines are not in it)"),
+  takeDraft: tr("Restore"), dropDraft: tr("Discard"), notInIt: tr("(your lines are not in the file)"),
   outline: tr("Go to …"), runCell: tr("Run this cell (Ctrl-Enter; Shift-Enter: run and go to the next)"),
   runAbove: tr("Run the changed cells above this one"), find: tr("Find and replace (Ctrl-F, Shift-Ctrl-F)"),
   editText: tr("Click to edit"), variables: tr("Variables of the script"), noVariables: tr("The script has no variables yet."),

@@ -31,7 +31,7 @@ addWords({
   validationPart: tr("validation"), edgeFrom: trIn("part of a record", "start"), edgeTo: trIn("part of a record", "end"),
   saveAs: tr("Save as"), help: tr("Help page of {}"), helpPage: tr("Help page"), step: tr("step"),
   estimateHere: tr("Estimate from here"), tooFew: tr("This file does not contain two signals."),
-  asked: tr("This script runs programs. Run it? Answer yes only if you know its origin."), shapeFirst: tr("First order"),
+  asked: tr("This script runs programs. Run it? Answer yes only if you trust its source."), shapeFirst: tr("First order"),
   shapeSecond: tr("Second order"), shapeDelayed: tr("First order with dead time"), argument: tr("argument"),
   slider: tr("slider"), methodOf: tr("Method of {}"), labeled: trIn("label", "{}: {}"), controls: tr("Controls"),
   bar: tr("Session"), language: tr("Language"), giveUp: tr("Cancel"), newName: tr("new name"),

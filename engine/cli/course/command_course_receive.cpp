@@ -44,7 +44,7 @@ Message remark(const Received& r) {
     if (r.known) return Message("already received; nothing changed");
     MessageList clauses{{}, Join::kSemicolon};
     if (r.voluntary)
-        clauses.items.push_back(Message("voluntary: the author withdrew the report; the review gets no marks"));
+        clauses.items.push_back(Message("voluntary: the author withdrew the report, so the review receives no marks"));
     if (!r.remark.empty()) clauses.items.push_back(r.remark);
     if (!r.twin.empty()) clauses.items.push_back(Message("the same file as {}", r.twin));
     if (!r.earlier.empty()) clauses.items.push_back(Message("the same file as {}", r.earlier));

@@ -71,7 +71,7 @@ class AnswerCollection {
             }
         }
         for (const Message& clause : submissions.left_out())
-            outcome.complaints.push_back(Message("{}; it was left out", clause));
+            outcome.complaints.push_back(Message("{}; left out", clause));
         outcome.submissions = submissions.all().size();
         outcome.answers = static_cast<std::size_t>(
             std::ranges::count_if(answers_, [](const Answer& answer) { return !answer.text.empty(); }));

@@ -58,7 +58,7 @@ FilledWorksheet fill_worksheet(Course& course, const std::optional<Assignment>& 
                                            "{} rows of {} match no student and were not changed", worksheet.string()));
     for (const Student& student : students)
         if (percent.contains(student.id) && !entered[student.id])
-            filled.complaints.push_back(Message("{} has marks, but no row in {}; enter them by hand",
+            filled.complaints.push_back(Message("{} has marks, but no row in {}; enter the marks manually",
                                                 student.name.empty() ? student.id : student.name, worksheet.string()));
     filled.text = sheet.text();
     return filled;

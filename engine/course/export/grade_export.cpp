@@ -233,7 +233,7 @@ class Outbox {
                                            request_.worksheet->string()));
         for (std::size_t i = 0; i < students_.size(); ++i)
             if (has_marks(students_[i]) && !rows_.contains(i))
-                result_.complaints.push_back(Message("{} has marks, but no row in {}; enter them by hand",
+                result_.complaints.push_back(Message("{} has marks, but no row in {}; enter the marks manually",
                                                      students_[i].shown(), request_.worksheet->string()));
     }
 

@@ -113,9 +113,9 @@ std::vector<Message> several_of_one(const ClassResults& results) {
         }
         const std::string counting_name = shown_name(counts->item->submission);
         sentences.push_back(results.work->newest_counts
-                                ? Message("{} has several submissions; the newest one counts, \"{}\": {}", owner,
+                                ? Message("{} has several submissions; the newest submission counts, \"{}\": {}", owner,
                                           counting_name, listed(names))
-                                : Message("{} has several submissions; the better one counts, \"{}\": {}", owner,
+                                : Message("{} has several submissions; the best submission counts, \"{}\": {}", owner,
                                           counting_name, listed(names)));
     }
     return sentences;

@@ -49,14 +49,12 @@ class FeedbackText {
                                         points_number(grade_.penalty), grade_.lateness));
         const std::string other = escape_(grade_.counts_instead);
         if (!other.empty())
-            text +=
-                "\n\n" +
-                words(
-                    grade_.newest_counts
-                        ? Message("**This submission does not count.** Of your submissions, the newest one counts: {}.",
-                                  other)
-                        : Message("**This submission does not count.** Of your submissions, the better one counts: {}.",
-                                  other));
+            text += "\n\n" + words(grade_.newest_counts ? Message("**This submission does not count.** Of your "
+                                                                  "submissions, the newest submission counts: {}.",
+                                                                  other)
+                                                        : Message("**This submission does not count.** Of your "
+                                                                  "submissions, the best submission counts: {}.",
+                                                                  other));
         return text;
     }
 
@@ -67,7 +65,7 @@ class FeedbackText {
         const std::string why = shown_trouble();
         if (grade_.unreadable && grade_.whole())
             return words(
-                Message("**The program could not read your work, so your instructor marked it by hand:** {}", why));
+                Message("**The program could not read your work, so your instructor marked it manually:** {}", why));
         return words(grade_.unreadable ? Message("**Your work could not be read, so it has no marks yet:** {}", why)
                      : grade_.began    ? Message("**Your script stopped with an error:** {}", why)
                                        : Message("**Your script could not be started:** {}", why));

@@ -182,7 +182,7 @@ CheckResult check_pdf(const fs::path& file, const CheckOptions& check_options, c
         if (layout.protected_by_password) {
             result.findings.push_back(
                 {"protected", Severity::kHint, 0, "", Message("A password protects the file against changes."),
-                 Message("Save the PDF again without protection, so that review copies can be made.")});
+                 Message("Save the PDF again without protection, so that review copies can be created.")});
         }
     } catch (const PdfRefusal& refusal) {
         if (refusal.fault() == PdfFault::kNotThere) throw;

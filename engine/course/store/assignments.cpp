@@ -25,11 +25,11 @@ void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
         if (a.review_due || a.final_due)
             throw a.is_talk() ? InvalidArgument("a talk has one deadline: omit --review and --final")
                               : InvalidArgument("a lab has one deadline: omit --review and --final");
-        if (a.is_talk() && a.first_due == kNoDeadline) throw InvalidArgument("a talk needs a deadline: --first");
+        if (a.is_talk() && a.first_due == kNoDeadline) throw InvalidArgument("a talk needs a deadline: give --first");
         return;
     }
     if (!a.review_due || !a.final_due || a.first_due == kNoDeadline)
-        throw InvalidArgument("a report needs three deadlines: --first, --review and --final");
+        throw InvalidArgument("a report needs three deadlines: give --first, --review and --final");
     const auto in_order = [&](Instant before, Instant after, const char* first, const char* second) {
         if (before < after) return;
         throw InvalidArgument("the deadline of the {} ({}) must be after the deadline of the {} ({})", second,
@@ -37,7 +37,7 @@ void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
     };
     in_order(a.first_due, *a.review_due, "first version", "reviews");
     in_order(*a.review_due, *a.final_due, "reviews", "final version");
-    if (a.reviews < 1) throw InvalidArgument("each group must write at least one review: --reviews 1");
+    if (a.reviews < 1) throw InvalidArgument("each group must write at least one review: give --reviews 1 or more");
 }
 
 constexpr std::pair<const char*, double Costs::*> kCosts[] = {{"late-day", &Costs::late_day},

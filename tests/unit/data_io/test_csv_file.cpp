@@ -188,7 +188,7 @@ TEST_F(csv_file, passes_over_what_is_around_a_table) {
     EXPECT_THAT(texts_of(read("A\nB\n\nt;y\n0;1\n1;2\n").notes),
                 ElementsAre("the table starts in line 4; 2 lines above it are skipped"));
     EXPECT_THAT(texts_of(read("# t,y\n0,1\n1,2\n").notes),
-                ElementsAre("the column names come from the comment above the numbers"));
+                ElementsAre("the column names are read from the comment above the numbers"));
 }
 
 TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
@@ -518,7 +518,7 @@ TEST_F(csv_file, many_cells_take_a_memory_with_a_limit) {
     EXPECT_LT(peak_of(commas, "line 2: the row has more than 100000 cells") - before, kMax);
     std::string words = "name\n";
     for (int i = 0; i < 16 << 20; ++i) words += "ab\n";
-    EXPECT_LT(peak_of(words, "the table has too many cells: reading it takes more than 512 MB") - before, kMax);
+    EXPECT_LT(peak_of(words, "the table has too many cells: reading it requires more than 512 MB") - before, kMax);
 }
 
 // Oracle: eight bytes for a number, and the text.

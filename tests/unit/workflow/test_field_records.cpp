@@ -116,7 +116,7 @@ TEST_F(field_records, two_records_side_by_side_keep_their_clocks) {
 
 TEST_F(field_records, cells_of_switches_percents_and_thousands_are_numbers) {
     EXPECT_NEAR(time_constant(of("onoff.csv", "heater", "temp")), 4, 0.2);
-    EXPECT_THAT(printed_, HasSubstr("column heater contains the words on and off, read as 1 and 0"));
+    EXPECT_THAT(printed_, HasSubstr("column heater contains the words on and off, which are read as 1 and 0"));
     EXPECT_NEAR(time_constant(of("percent.csv", "valve", "level")), 4, 0.2);
     EXPECT_NEAR(time_constant(of("milliers.csv", "d\u00E9bit", "pression")), 4, 0.2);
     EXPECT_THAT(look("monitor.txt"), HasSubstr("every 0.5 s"));
