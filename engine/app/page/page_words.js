@@ -43,7 +43,7 @@ addWords({
   notGiven: tr("Missing answers"), toMend: tr("To fix"), remarks: tr("Hints"),
   checksOfLesson: tr("Checks of the lesson: {}"), nothingToMend: tr("dynlab check finds no problem."),
   // The kinds of answers, as a script's header names them
-  number: trIn("kind of answer", "number"), text: trIn("kind of answer", "text"), truth: trIn("kind of answer", "true or false"),
+  number: trIn("kind of answer", "number"), text: trIn("kind of answer", "text"), truth: trIn("kind of answer", "truth"),
   vector: trIn("kind of answer", "vector"), matrix: trIn("kind of answer", "matrix"), data: trIn("kind of answer", "data"),
   model: trIn("kind of answer", "model"), response: trIn("kind of answer", "response"), table: trIn("kind of answer", "table"),
 

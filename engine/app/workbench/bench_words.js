@@ -24,7 +24,7 @@ addWords({
   ended: tr("dynlab has exited; this is its last state"), running: tr("computing"), ready: tr("up to date"),
   stopped: tr("stopped; the results before the stop are shown"), again: tr("Run again"), system: tr("system"), inputSignal: tr("input"),
   noise: tr("noise, sigma"), runs: tr("runs"), begin: tr("Start study"), parameter: tr("parameter"),
-  truth: trIn("column of a study", "true value"), meanOf: trIn("column of a study", "mean"),
+  truth: trIn("column of a study", "truth"), meanOf: trIn("column of a study", "mean"),
   scatter: trIn("column of a study", "std"), bound: trIn("column of a study", "Cramér–Rao"),
   reported: trIn("column of a study", "reported std"), value: tr("estimate"), error: tr("std. error"), model: tr("model"),
   poles: tr("poles"), zeros: tr("zeros"), takeOrders: tr("estimate this structure"), estimationPart: tr("estimation"),
