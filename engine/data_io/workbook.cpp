@@ -78,7 +78,7 @@ WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
             if (total > most) throw EnvironmentError("{} unpacks to more than {} MB", file, most >> 20);
             part.append(block, static_cast<std::size_t>(size));
         }
-        if (size < 0) throw EnvironmentError("{} is damaged: a part of it cannot be unpacked", file);
+        if (size < 0) throw EnvironmentError("{} is damaged: one of its parts cannot be unpacked", file);
     }
     if (result != ARCHIVE_EOF && parts.by_path.empty()) fail_as_no_archive(file);
     if (result != ARCHIVE_EOF)

@@ -163,7 +163,7 @@ class Sentences {
         if (code == "unknown-drawing") {
             const std::vector<std::string> known = split_at(second, ' ');
             const auto near = nearest_word(first, known);
-            return near ? Message("unknown drawing \"{}\"; did you mean \"{}\"?; the drawings are {}", first, *near,
+            return near ? Message("unknown drawing \"{}\"; did you mean \"{}\"? The drawings are {}", first, *near,
                                   listed(known))
                         : Message("unknown drawing \"{}\"; the drawings are {}", first, listed(known));
         }
@@ -172,9 +172,10 @@ class Sentences {
         if (code == "unknown-measure") {
             const auto near = nearest_word(first, split_at(second, ' '));
             return near ? Message(
-                              "unknown measure \"{}\"; did you mean \"{}\"?; dynlab help measures lists the measures",
+                              "unknown measure \"{}\"; did you mean \"{}\"? Use dynlab help measures for a list of the "
+                              "measures",
                               first, *near)
-                        : Message("unknown measure \"{}\"; dynlab help measures lists the measures", first);
+                        : Message("unknown measure \"{}\"; use dynlab help measures for a list of the measures", first);
         }
         if (code == "figure-not-alone")
             return Message("the figure \"{}\" must be separate, with an empty line before and after it", first);
@@ -259,7 +260,7 @@ class Sentences {
                 "table",  "text",          "cells",  "note",    "warning",    "exercise", "columns",
                 "column", "block-diagram", "choice", "drawing", "references", "measures", "pagebreak"};
             const auto near = nearest_word(name, kKnown);
-            return near ? Message("unknown block class \"{}\"; did you mean \"{}\"?; the classes are {}", name, *near,
+            return near ? Message("unknown block class \"{}\"; did you mean \"{}\"? The classes are {}", name, *near,
                                   listed(kKnown))
                         : Message("unknown block class \"{}\"; the classes are {}", name, listed(kKnown));
         }

@@ -38,7 +38,7 @@ class HintsReader {
             line.starts_with(begin) ? read_number<int>(trimmed(line.substr(begin.size()))) : std::nullopt;
         if (!question) fail(Message("write the heading of hints as \"# Question 4\", not \"{}\"", trimmed(line)));
         const auto [place, is_new] = hints_.try_emplace(*question);
-        if (!is_new) fail(Message("question {} has hints already", *question));
+        if (!is_new) fail(Message("question {} already has hints", *question));
         stages_ = &place->second;
     }
 

@@ -56,7 +56,7 @@ TEST(returns, bring_what_is_new_for_whom) {
     EXPECT_EQ(shell("find wednesday -name '*.txt' | wc -l"), "1\n");
     done({"deliver", "crane", "--out", "all", "--all"});
     EXPECT_EQ(shell("find all -name '*.pdf' | wc -l"), "3\n");
-    EXPECT_THAT(course.course({"deliver", "crane", "--out", "all"}).error_output, HasSubstr("exists already"));
+    EXPECT_THAT(course.course({"deliver", "crane", "--out", "all"}).error_output, HasSubstr("already exists"));
     done({"verify"});
 }
 

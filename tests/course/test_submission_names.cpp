@@ -266,7 +266,7 @@ TEST(submission_names, the_instructors_list_goes_before_names) {
          {std::pair("name,group\n", "the columns submission and group"),
           std::pair("submission,group\nx,group-77\n", "line 2: unknown group \"group-77\""),
           std::pair("submission,id\nx,9\n", "line 2: no student has the id \"9\""),
-          std::pair("submission,id\nx,1001\nx.zip,1002\n", "line 3: \"x\" has an owner already")}) {
+          std::pair("submission,id\nx,1001\nx.zip,1002\n", "line 3: \"x\" already has an owner")}) {
         bench.write("bad.csv", table);
         try {
             Owners(students).read_list(bench.path("bad.csv"));

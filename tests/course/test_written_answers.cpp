@@ -210,7 +210,7 @@ TEST(written_answers, of_a_class_are_on_one_page_without_names) {
     for (const fs::path& file : {outcome.page, outcome.text}) {
         const std::string page = read_file(file);
         EXPECT_THAT(page, AllOf(HasSubstr("how do you know it?"), HasSubstr("The reference."), HasSubstr("CARX"),
-                                HasSubstr("same in 1 other"), HasSubstr("No answer from:")));
+                                HasSubstr("identical in 1 other submission"), HasSubstr("No answer from:")));
         for (const char* name : {"Lovelace", "Ada", "Hopper", "Mustermann", "4711", "Post"})
             EXPECT_THAT(page, Not(HasSubstr(name))) << file;
     }
@@ -219,7 +219,7 @@ TEST(written_answers, of_a_class_are_on_one_page_without_names) {
     EXPECT_EQ(bench.mark("Ada Lovelace_4711", "points"), "");
     const std::string shown = bench.mark("Grace Hopper_4712", "same_as");
     EXPECT_EQ(bench.mark("Max Mustermann_4713", "same_as"), shown);
-    EXPECT_THAT(read_file(outcome.text), HasSubstr("Answer " + shown + " (same in 1 other)"));
+    EXPECT_THAT(read_file(outcome.text), HasSubstr("Answer " + shown + " (identical in 1 other submission)"));
 }
 
 // oracle: what the instructor filled in

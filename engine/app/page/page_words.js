@@ -8,10 +8,10 @@ addWords({
   ofBeforeRunning: tr("of the previous run; running again"), cellOf: tr("cell {} of {}"),
   stoppedAfter: tr("stopped: {} of {} cells were run"), cells: trPlural("{} cell, {} s", "{} cells, {} s"),
   ended: tr("dynlab has exited; this is the last page"),
-  lost: tr("dynlab does not respond: restart it and open its new address; your text is still here"),
+  lost: tr("dynlab does not respond: restart dynlab and open the new address; your text is still here"),
   asked: tr("This document runs programs. Run it?"),
-  askedAbout: tr("Its text is shown below. Answer yes only if you trust its source."),
-  askedAboutOwn: tr("dynlab new created its folder on this computer. Its text is shown below."),
+  askedAbout: tr("The text of the document is shown below. Answer yes only if you trust its source."),
+  askedAboutOwn: tr("dynlab new created the folder of this document on this computer. The text of the document is shown below."),
   notPrinted: tr("{}: code that is not printed"), asInScript: tr("Reset"),
 
   // The editor
@@ -39,7 +39,7 @@ addWords({
   found: tr("Issues found by dynlab check"), onPage: tr("page {}"), checked: tr("checked"), checking: tr("checking: {} %"),
   openAnswers: trPlural("{} answer open", "{} answers open"), brokenRules: trPlural("{} rule violated", "{} rules violated"),
   hints: trPlural("{} hint", "{} hints"), points: tr("{} of {} points"),
-  older: tr("of the files before the last change; checking again"),
+  older: tr("results for the files before the last change; checking again"),
   notGiven: tr("Missing answers"), toMend: tr("To fix"), remarks: tr("Hints"),
   checksOfLesson: tr("Checks of the lesson: {}"), nothingToMend: tr("dynlab check finds no problem."),
   // The kinds of answers, as a script's header names them

@@ -91,7 +91,8 @@ int answers_of_course(const CourseArguments& where, const AnswersArguments& args
         Course course(where.folder);
         const Assignment assignment = assignment_named(course, args.assignment);
         const std::string lesson = args.lesson.empty() ? assignment.lesson : args.lesson;
-        if (lesson.empty()) throw EnvironmentError("{} does not name a lesson; give --lesson NN", assignment.name);
+        if (lesson.empty())
+            throw EnvironmentError("the assignment {} does not specify a lesson; give --lesson NN", assignment.name);
         request.lesson = find_lesson(lesson);
         request.submissions = work.path() / "submissions";
         request.roster = students_of(course);

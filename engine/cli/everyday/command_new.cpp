@@ -22,7 +22,7 @@ struct NewArguments {
 int make_editor_files(const std::string& folder) {
     if (!std::filesystem::is_directory(folder)) throw EnvironmentError("folder not found: {}", folder);
     for (const std::string& kept : write_editor_files(folder))
-        say(Message("{} exists already and was not changed", kept));
+        say(Message("{} already exists and was not changed", kept));
     say(Message("{}: editors can now complete and check dynlab functions", folder));
     return kDone;
 }

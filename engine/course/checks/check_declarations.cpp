@@ -75,7 +75,7 @@ int check(Call& call) {
     if (check.by_hand && (options.has("test") || options.has("rerun") || options.has("mistakes")))
         throw InvalidArgument("\"{}\" is marked manually and cannot have test, rerun or mistakes", check.id);
     if (!check.by_hand && options.has("rubric"))
-        throw InvalidArgument("\"{}\" has a rubric: it needs by_hand = true", check.id);
+        throw InvalidArgument("the check \"{}\" has a rubric and therefore needs by_hand = true", check.id);
     const Message owner = Message("the check \"{}\"", check.id);
     check.test = kept_option(options, "test", LUA_TFUNCTION, owner, Message("a function"), !check.by_hand);
     check.mistakes =

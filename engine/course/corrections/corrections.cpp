@@ -190,7 +190,7 @@ void hold(Course& course, const Assignment& a, const SubmissionSelection& reques
     Transaction transaction(course.database());
     const SelectedFiles files(course, a, requested);
     if (is_held(course, a, files.group().id, files.pair()) == held)
-        throw held ? InvalidArgument("the {} is withheld already", files.what())
+        throw held ? InvalidArgument("the {} is already withheld", files.what())
                    : InvalidArgument("the {} is not withheld", files.what());
     course.database().run(
         "INSERT INTO holds (assignment, group_id, pair, held, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)", a.id,

@@ -280,8 +280,8 @@ class Outbox {
         const fs::path zip = folder_ / "moodle-feedback.zip";
         if (feedback.empty()) {
             fs::remove(zip);
-            result_.notes.push_back(
-                Message("moodle-feedback.zip was not written: all feedback was delivered; --all writes it again"));
+            result_.notes.push_back(Message(
+                "moodle-feedback.zip was not written: all feedback was delivered; use --all to write it again"));
         } else {
             feedback.write(zip);
             result_.files.push_back(zip);

@@ -38,7 +38,7 @@ class Returner {
 
     ReturnOutcome run() {
         if (fs::exists(request_.folder))
-            throw InvalidArgument("{} exists already; give the name of a new folder", request_.folder.string());
+            throw InvalidArgument("{} already exists; give the name of a new folder", request_.folder.string());
         for (const Group& group : groups_of(course_)) collect(group);
         if (outcome_.files.empty()) return std::move(outcome_);
         lay_out();

@@ -147,7 +147,7 @@ class FolderCheck {
         const FolderCopy outcome = copy_folder(folder_, copy(), limits_.folder_bytes, limits_.files);
         for (const std::string& name : outcome.left_out) {
             add("link-left-out", Severity::kHint, name,
-                Message("This is a link or not a regular file; it is not submitted."),
+                Message("The file is a link or is not a regular file, and is not submitted."),
                 Message("Replace it with the file itself."));
         }
         if (!outcome.too_large) return scripts_made();

@@ -93,8 +93,7 @@ void GradingRules::read_checks() {
         for (const auto& entry : fs::directory_iterator(*setup_.more_checks))
             if (entry.path().extension() == ".lua") more.push_back(entry.path());
         if (more.empty())
-            throw EnvironmentError("the folder '{}' contains no checks: it has no file *.lua",
-                                   setup_.more_checks->string());
+            throw EnvironmentError("the folder '{}' contains no checks (files *.lua)", setup_.more_checks->string());
         std::ranges::sort(more);
         for (const fs::path& file : more) files_.push_back({file.filename().string(), read_text(file), false});
     }

@@ -160,7 +160,7 @@ class Stager {
         const std::optional<FoundScript> newest = newest_of(found);
         if (!newest)
             throw SubmissionError(
-                "Several folders contain an analysis.lua, and it is unknown which one is the newest: {}. Submit one of "
+                "Several folders contain an analysis.lua, and dynlab cannot determine the newest: {}. Submit one of "
                 "them.",
                 listed_places(found));
         return staged(*newest, Message("of {}, \"{}\" was used as the newest", listed_places(found), newest->shown));

@@ -21,7 +21,7 @@ Issue file_finding(const PdfRefusal& refusal) {
     switch (refusal.fault()) {
         case PdfFault::kNotPdf:
             return {"not-pdf", Severity::kRule,   0,
-                    "",        refusal.message(), Message("Submit the PDF that dynlab report writes.")};
+                    "",        refusal.message(), Message("Submit the PDF that dynlab report creates.")};
         case PdfFault::kEncrypted:
             return {"encrypted", Severity::kRule,   0,
                     "",          refusal.message(), Message("Save the PDF again without a password.")};
@@ -174,7 +174,7 @@ CheckResult check_pdf(const fs::path& file, const CheckOptions& check_options, c
             result.findings.push_back(
                 {"scanned", Severity::kRule, 0, "",
                  Message("The document has no text: its pages are pictures, such as a scan or photographs."),
-                 Message("Submit the PDF that dynlab report writes, not a scan of a printout.")});
+                 Message("Submit the PDF that dynlab report creates, not a scan of a printout.")});
             sort_issues(result.findings);
             return result;
         }

@@ -167,7 +167,7 @@ Issues page_findings(const DocumentText& text, int pages, const DocumentRules& r
     return {{"pages", Severity::kRule, most + 1, "",
              too_many(text.is_slides() ? slides : pages_of_paper, pages, allowed, in_appendix),
              in_appendix > 0 && appendix == 0
-                 ? Message("Shorten the text, or move parts beyond the limit below a heading \"Appendix\".")
+                 ? Message("Shorten the text, or move the excess parts to a section with the heading \"Appendix\".")
                  : Message("Shorten the text, or remove figures that add no information.")}};
 }
 

@@ -136,7 +136,7 @@ std::map<std::string, DeadlineRow> read_deadlines(const fs::path& file) {
         read.grace = table.duration(row, "grace").value_or(read.grace);
         read.percent_per_day = table.number(row, "percent_per_day", read.percent_per_day);
         read.most_percent = table.number(row, "most_percent", read.most_percent);
-        if (!rows.emplace(who, read).second) table.fail(row, Message("\"{}\" has a deadline already", who));
+        if (!rows.emplace(who, read).second) table.fail(row, Message("\"{}\" already has a deadline", who));
     }
     return rows;
 }

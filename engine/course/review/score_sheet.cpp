@@ -131,7 +131,7 @@ class ScoreReader {
     }
 
     GivenMark of_group(const Group& group) const {
-        if (has_points() && group.dropped_out) throw InvalidArgument("{} dropped out: it has no scores", group.name);
+        if (has_points() && group.dropped_out) throw InvalidArgument("{} dropped out and has no scores", group.name);
         GivenMark owner;
         owner.group = group.id;
         return owner;

@@ -184,8 +184,9 @@ void remove_assignment(Course& course, const Assignment& assignment, const std::
     Transaction transaction(db);
     for (const char* table : {"versions", "pairs", "extensions", "marks"})
         if (db.query(fmt::format("SELECT 1 FROM {} WHERE assignment = ?", table), assignment.id).next())
-            throw InvalidArgument("{} cannot be removed, because other data depend on it (its {}); nothing was changed",
-                                  assignment.name, table);
+            throw InvalidArgument(
+                "{} cannot be removed, because other data depend on the assignment (its {}); nothing was changed",
+                assignment.name, table);
     for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations"})
         db.run(fmt::format("DELETE FROM {} WHERE assignment = ?", table), assignment.id);
     db.run("DELETE FROM assignments WHERE id = ?", assignment.id);
@@ -243,8 +244,8 @@ std::vector<std::string> parts_of(const Assignment& assignment, const std::strin
 }
 
 void refuse_without_reviews(const Assignment& assignment) {
-    if (assignment.is_talk()) throw InvalidArgument("{} is a talk: it has no reviews", assignment.name);
-    if (assignment.is_lab()) throw InvalidArgument("{} is a lab: it has no reviews", assignment.name);
+    if (assignment.is_talk()) throw InvalidArgument("{} is a talk and has no reviews", assignment.name);
+    if (assignment.is_lab()) throw InvalidArgument("{} is a lab and has no reviews", assignment.name);
 }
 
 std::vector<Criterion> criteria_of(const std::string& text) {
@@ -305,8 +306,8 @@ Instant due_for(Course& course, const Assignment& a, std::int64_t group, const s
                                                               : a.final_due;
     if (!common) {
         if (stage == "review") refuse_without_reviews(a);
-        throw a.is_talk() ? InvalidArgument("{} is a talk: it has no final version", a.name)
-                          : InvalidArgument("{} is a lab: it has no final version", a.name);
+        throw a.is_talk() ? InvalidArgument("{} is a talk and has no final version", a.name)
+                          : InvalidArgument("{} is a lab and has no final version", a.name);
     }
     Rows own = course.database().query(
         "SELECT due_at FROM extensions WHERE assignment = ? AND group_id = ? AND stage = ? ORDER BY id DESC LIMIT 1",

@@ -285,8 +285,8 @@ void set_group_dropped_out(Course& course, const std::string& name, bool dropped
     Transaction transaction(course.database());
     const Group group = group_named(course, name);
     if (group.dropped_out == dropped_out)
-        throw dropped_out ? InvalidArgument("{} has dropped out already", group.name)
-                          : InvalidArgument("{} is in the course already", group.name);
+        throw dropped_out ? InvalidArgument("{} has already dropped out", group.name)
+                          : InvalidArgument("{} is already in the course", group.name);
     const Instant now = CourseClock::now();
     course.database().run("UPDATE groups SET left_at = ?, left_reason = ? WHERE id = ?",
                           dropped_out ? std::optional(now) : std::nullopt,

@@ -157,8 +157,8 @@ class RowReader {
                     Message("column {} contains thousands separators, as in {}", names_[j], format.example));
             else if (is_text(j) && !columns_[j].texts.empty() && begins_with_digit(columns_[j].texts.front()))
                 rows_.notes.push_back(
-                    Message("column {} contains text, not numbers, such as \"{}\"; to use it as a signal, write only "
-                            "numbers with a decimal point",
+                    Message("column {} contains text, not numbers, such as \"{}\"; to use the column as a signal, "
+                            "write only numbers with a decimal point",
                             names_[j], columns_[j].texts.front()));
         }
         if (!first_comma_.empty())

@@ -33,7 +33,8 @@ void check_channels(const std::vector<const IdData*>& data, const std::vector<st
         if (object->output_count() != data.front()->output_count() ||
             object->input_count() != data.front()->input_count())
             throw InvalidArgument(
-                "data in one plot need the same channels, but one object has {} and {} and another has {} and {}",
+                "data objects in one plot must have the same channels, but one object has {} and {} and another has {} "
+                "and {}",
                 plural(data.front()->output_count(), "{} output", "{} outputs"),
                 plural(data.front()->input_count(), "{} input", "{} inputs"), object->output_count(),
                 object->input_count());

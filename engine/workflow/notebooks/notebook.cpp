@@ -318,7 +318,7 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
         if (kind == "raw" && read.marked) {  // a comment in its place, by which later cells keep their numbers
             read.source = "<!-- A raw cell of the notebook was here. -->";
             script.losses.push_back(placed(
-                {name}, Message("cell {} is a raw cell, which a script cannot contain; it is left out", number)));
+                {name}, Message("cell {} is a raw cell, which a script cannot contain; the cell is left out", number)));
         }
         if (!read.text) add_losses_of_code(read.source, number, name, script.losses);
         std::string written = saved_entry(cell, read);
