@@ -85,7 +85,7 @@ Program::Program(const Commands& commands, FigureView view) : view_(std::move(vi
     app_.set_version_flag("--version", "dynlab " DYNLAB_VERSION);
     app_.set_help_flag("-h,--help", "Show this text");
     app_.require_subcommand(0, 1);
-    app_.add_flag("--view", shows_figures_, "Show the prompt's figures in the browser as they are made");
+    app_.add_flag("--view", shows_figures_, "Show the prompt's figures in the browser as they are drawn");
     app_.add_option_function<std::string>(
             "--course",
             [](const std::string& folder) { ::setenv("DYNLAB_COURSE", std::filesystem::absolute(folder).c_str(), 1); },

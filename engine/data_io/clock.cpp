@@ -61,8 +61,8 @@ class Column {
         for (Index i = 0; i < clock_.t.size(); ++i)
             if (!std::isfinite(clock_.t[i]))
                 return asks(
-                    Message("the time '{}' has no number in sample {}; remove the rows without a time. If another "
-                            "column belongs to a separate time column, make two files",
+                    Message("the time column '{}' has no number in sample {}. Remove the rows without a time. If the "
+                            "file has a second time column, split it into two files",
                             name_, i + 1));
         return true;
     }
@@ -84,36 +84,37 @@ class Column {
         if (!stated.empty()) {
             const auto known = seconds_of(stated, true);
             if (!known)
-                return asks(Message("the time '{}' has the unit {}, which is not a unit of time; {}", name_, stated,
-                                    remedy("ms")));
+                return asks(Message("the time column '{}' has the unit {}, which is not a unit of time; {}", name_,
+                                    stated, remedy("ms")));
             seconds = *known;
             calendar_ = clock_.t[0] * seconds > 1e8;  // since 1970, or days of a spreadsheet
         } else {
             const Counted counted = counted_unit(clock_.t, stated_Ts(), name.is_time || !given_);
             const double step = median_step(clock_.t);
             if (counted.rival && step > 0)  // else its order is wrong in any unit
-                return asks(
-                    Message("the time '{}' has no unit: {} (a sample every {}) is as likely as {} (every {}); {}",
-                            name_, counted.unit.name, shown_step(step * counted.unit.seconds), counted.rival->name,
-                            shown_step(step * counted.rival->seconds), remedy(counted.unit.name)));
+                return asks(Message(
+                    "the time column '{}' has no unit: {} (a sample every {}) is as likely as {} (every {}); {}", name_,
+                    counted.unit.name, shown_step(step * counted.unit.seconds), counted.rival->name,
+                    shown_step(step * counted.rival->seconds), remedy(counted.unit.name)));
             seconds = counted.unit.seconds, calendar_ = counted.calendar;
             const bool convention = name_ == "t" && seconds == 1;
             if (counted.assumed && !convention)
-                clock_.notes.push_back(Message("the time '{}' has no unit; dynlab assumes {}, a sample every {}; {}",
-                                               name_, counted.unit.name, shown_step(step * seconds), remedy("ms")));
+                clock_.notes.push_back(
+                    Message("the time column '{}' has no unit; dynlab assumes {}, a sample every {}; {}", name_,
+                            counted.unit.name, shown_step(step * seconds), remedy("ms")));
         }
         constexpr double k16 = 65536, k24 = 16777216, k32 = 4294967296;
         const std::array ranges = {k16, k24, k32, k32 / 1e3, k32 / 1e6, kSecondsOfDay / seconds};
         if (const double range = count_on(clock_.t, ranges); range > 0)
             clock_.notes.push_back(
-                Message("the time '{}' wraps around at {}; dynlab unwraps it", name_, significant(range, 10)));
+                Message("the time column '{}' wraps around at {}; dynlab unwraps it", name_, significant(range, 10)));
         clock_.t *= seconds;
         seconds_ = seconds;
         return true;
     }
     static Message remedy(const char* unit) {
         return Message(
-            "give its unit: load(file, {time_unit = \"{}\"}), --time-unit {} of a command, or the unit next to the "
+            "specify the unit with load(file, {time_unit = \"{}\"}), with --time-unit {} of a command, or next to the "
             "column in the workbench",
             unit, unit);
     }
@@ -124,10 +125,11 @@ class Column {
         const std::string& stated = options_.time_unit;
         if (forms.dated) return order_of_day_and_month(forms);
         if (forms.two_fields && stated != "h" && stated != "min")
-            return asks(Message(
-                "the time '{}' has two numbers with a colon: hours and minutes, or minutes and seconds. Give the unit "
-                "of the first, load(file, {time_unit = \"h\"}) or \"min\", or --time-unit h of a command",
-                name_));
+            return asks(
+                Message("the time column '{}' has two numbers with a colon: hours and minutes, or minutes and seconds. "
+                        "Specify the unit of the first number with load(file, {time_unit = \"h\"}) or \"min\", or with "
+                        "--time-unit h of a command",
+                        name_));
         if (forms.two_fields && stated == "min") clock_.t /= 60;
         const std::array ranges = {kSecondsOfDay, kSecondsOfDay / 2};
         if (count_on(clock_.t, ranges) > 0) clock_.notes.push_back(Message("the times in '{}' pass midnight", name_));
@@ -137,7 +139,7 @@ class Column {
     bool order_of_day_and_month(const ClockForms& forms) {
         constexpr const char *kDayFirst = "dd/mm/yyyy", *kMonthFirst = "mm/dd/yyyy";
         if (forms.day_first && forms.month_first)
-            return asks(Message("some days of '{}' have the day first and some have the month first", name_));
+            return asks(Message("some dates in '{}' have the day first, and some have the month first", name_));
         if (!forms.either_first && !forms.month_first) return true;
         Vector swapped = clock_.t;
         for (double& seconds : swapped)
@@ -153,13 +155,13 @@ class Column {
             const int day = rank(clock_.t), month = rank(swapped);
             if (day == month)
                 return asks(
-                    Message("the days of '{}' are ambiguous: day first or month first. Give the order: load(file, "
-                            "{time_unit = \"{}\"}) or \"{}\", or --time-unit of a command",
+                    Message("the dates in '{}' are ambiguous: day first or month first. Specify the order with "
+                            "load(file, {time_unit = \"{}\"}) or \"{}\", or with --time-unit of a command",
                             name_, kDayFirst, kMonthFirst));
             month_first = month > day;
             clock_.notes.push_back(
-                Message("the days of '{}' are read as {}, because the samples are then closer in time. load(file, "
-                        "{time_unit = \"{}\"}), or --time-unit of a command, overrides this",
+                Message("the dates in '{}' are read as {}, because the samples are then closer in time. To change the "
+                        "order, use load(file, {time_unit = \"{}\"}), or --time-unit of a command",
                         name_, month_first ? kMonthFirst : kDayFirst, month_first ? kDayFirst : kMonthFirst));
         }
         if (month_first) clock_.t = std::move(swapped);
@@ -168,7 +170,7 @@ class Column {
 
     Message disorder(Index i) const {
         const Message place =
-            Message("the time '{}' must increase, but sample {} is {} and the next sample is {}", name_, i + 1,
+            Message("the time column '{}' must increase, but sample {} is {} and the next sample is {}", name_, i + 1,
                     significant(original(i), kInstantDigits), significant(original(i + 1), kInstantDigits));
         Index equal = 0, back = 0;
         for (Index k = 0; k + 1 < clock_.t.size(); ++k) {
@@ -177,15 +179,16 @@ class Column {
         }
         if (back == 0 && 2 * equal >= clock_.t.size() - 1 && clock_.t.size() % 2 == 0 && in_pairs())
             return Message(
-                "{}: every time occurs twice. If the rows are the minimum and the maximum of an interval, take their "
-                "mean. If the clock is too coarse, give the sampling time: --Ts of a command, or iddata(y, u, Ts)",
+                "{}: every time occurs twice. If the rows are the minimum and the maximum of an interval, average "
+                "them. If the clock is too coarse, specify the sampling time with --Ts of a command or with iddata(y, "
+                "u, Ts)",
                 place);
         if (back == 0)
             return Message(
                 "{}: {} rows have the same time as the row before. If rows were written twice, delete the copies. If "
-                "the clock is too coarse, give the sampling time: --Ts of a command, or iddata(y, u, Ts)",
+                "the clock is too coarse, specify the sampling time with --Ts of a command or with iddata(y, u, Ts)",
                 place, equal);
-        return Message("{}: if the recording restarts or the clock was set, make a file of each part", place);
+        return Message("{}: if the recording restarts or the clock was set, save each part in a separate file", place);
     }
     bool in_pairs() const {
         for (Index k = 0; k + 1 < clock_.t.size(); k += 2)
@@ -210,8 +213,8 @@ class Column {
         const double step = clock_.spacing.step;
         if (Ts && std::abs(*Ts - step) > kClose * step)
             clock_.notes.push_back(
-                Message("the file gives Ts = {} s, but its time '{}' advances by {} s; dynlab uses the time. To use "
-                        "another sampling time, give --Ts to a command, or Ts to iddata",
+                Message("the file specifies Ts = {} s, but its time column '{}' advances by {} s; dynlab uses the time "
+                        "column. To use another sampling time, give --Ts to a command, or Ts to iddata",
                         significant(*Ts, kStepDigits), name_, significant(step, kStepDigits)));
     }
 
@@ -278,7 +281,8 @@ ClockSearch find_clock(const LoadedData& data, Index samples, const ImportOption
         const std::string& name = header == data.headers.end() ? options.time : header->second;
         const Vector* values = numbers_of(data, name);
         if (values == nullptr || values->size() < 2)
-            throw EnvironmentError("{}: the time '{}' is not a column of numbers", data.file.string(), options.time);
+            throw EnvironmentError("{}: '{}' is not a numeric column and cannot be the time column", data.file.string(),
+                                   options.time);
         return Column(data, name, options, true).settle();
     }
     std::vector<std::string> called, by_unit;
@@ -301,8 +305,8 @@ ClockSearch find_clock(const LoadedData& data, Index samples, const ImportOption
     ClockSearch best;
     if (different.size() > 1) {
         best.question = Message(
-            "the columns {} are two clocks, and each signal belongs to one of them. Interpolate the signals to the "
-            "instants of one clock, for example an output with interp1(t_y, y, t_u)",
+            "the columns {} are two time columns, and each signal belongs to one of them. Interpolate the signals to "
+            "the instants of one time column, for example an output with interp1(t_y, y, t_u)",
             listed(different));
         best.rivals = std::move(different), best.likely = true;
         return best;

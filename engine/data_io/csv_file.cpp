@@ -126,7 +126,7 @@ class CsvReader {
         std::vector<std::string> units(columns());
         if (!options_.names.empty()) {
             if (options_.names.size() != columns())
-                throw EnvironmentError("{}: option names has {}, but the table has {}", file_.string(),
+                throw EnvironmentError("{}: the option names has {}, but the table has {}", file_.string(),
                                        plural(std::ssize(options_.names), "{} name", "{} names"),
                                        plural(static_cast<std::int64_t>(columns()), "{} column", "{} columns"));
             table_.names = options_.names;
@@ -180,9 +180,9 @@ class CsvReader {
                                          : Message("column {} is named {}", j + 1, table_.names[j]));
         }
         if (reported.items.empty()) return;
-        note(all ? Message(
-                       "the file has no line of names, so the columns are named {}; {names = {...}} sets their names",
-                       first_of(reported))
+        note(all ? Message("the file has no line of column names, so the columns are named {}; the option {names = "
+                           "{...}} sets their names",
+                           first_of(reported))
                  : Message("columns without a name in the header: {}", first_of(reported)));
     }
 
@@ -215,7 +215,7 @@ class CsvReader {
         else if (layout_.passed_over > 1)
             note(Message("the table starts in line {}; {} lines above it are skipped", layout_.table_line,
                          layout_.passed_over));
-        if (layout_.named_by_comment) note(Message("the column names come from the comment above the numbers"));
+        if (layout_.named_by_comment) note(Message("the column names are read from the comment above the numbers"));
         if (layout_.units_line > 0) {
             MessageList reported;
             for (const auto& [name, unit] : table_.units) reported.items.push_back(Message("{} in {}", name, unit));
@@ -229,7 +229,7 @@ class CsvReader {
             const std::string& name = table_.names[j];
             TableColumn& column = rows.columns[j];
             if (name == "Ts" && is_one_number(column)) {
-                note(Message("the only number in column Ts, in its first row, is the sampling time"));
+                note(Message("the only number in column Ts, in its first row, is used as the sampling time"));
                 column.numbers.conservativeResize(1), column.missing = 0;
             }
             using Kind = ColumnFormat::Kind;
@@ -266,8 +266,8 @@ class CsvReader {
                                                  table_.names[j], column.first_missing_line));
         if (!reported.items.empty())
             note(
-                Message("missing numbers were replaced with NaN: {}; fillmissing(u, {method = \"previous\"}) holds an "
-                        "input that is logged when it changes, fillmissing(y) interpolates an output",
+                Message("missing numbers were replaced with NaN: {}; use fillmissing(u, {method = \"previous\"}) for "
+                        "an input that is logged only when it changes, and fillmissing(y) for an output",
                         first_of(reported)));
     }
 

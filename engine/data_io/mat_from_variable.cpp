@@ -28,7 +28,7 @@ void check_name(const std::string& name) {
 }
 
 MatVariable created(matvar_t* variable) {
-    if (!variable) throw EnvironmentError("cannot make a MATLAB variable: not enough memory");
+    if (!variable) throw EnvironmentError("cannot create a MATLAB variable: not enough memory");
     return MatVariable(variable);
 }
 

@@ -21,7 +21,7 @@ constexpr double kBytesOfValue = 2 * sizeof(double);
 
 void refuse_unsupported(const matvar_t& variable, const std::string& name, int depth) {
     if (depth > kMaxDepth)
-        throw EnvironmentError("variable {} has more than {} levels of structs and cells", name, kMaxDepth);
+        throw EnvironmentError("variable {} has more than {} levels of structures and cell arrays", name, kMaxDepth);
     switch (variable.class_type) {
         case MAT_C_OBJECT:
         case MAT_C_OPAQUE:
@@ -105,13 +105,14 @@ void check_header(const matvar_t& variable, const std::string& name, std::size_t
     }
     const bool sparse = variable.class_type == MAT_C_SPARSE;  // the file holds few of its values
     if (!is_empty && !links && !sparse && values > kLargestDeflateRatio * static_cast<double>(file_bytes))
-        throw EnvironmentError("variable {} is damaged: it claims {} values, more than a file of its size has", name,
-                               significant(values, 6));
+        throw EnvironmentError(
+            "variable {} is damaged: it declares {} values, more than a file of its size can contain", name,
+            significant(values, 6));
     if (!is_empty && kBytesOfValue * values > static_cast<double>(memory_for_reading(file_bytes))) {
         const ReadingMegabytes megabytes = megabytes_for_reading(file_bytes);
         throw EnvironmentError(
-            "variable {} has {} values: reading it takes more than {} MB of memory, too much for a file of {} MB", name,
-            significant(values, 6), megabytes.most, megabytes.of_file);
+            "variable {} has {} values: reading it requires more than {} MB of memory, too much for a file of {} MB",
+            name, significant(values, 6), megabytes.most, megabytes.of_file);
     }
     for (const matvar_t* part : parts_of(variable)) {
         if (part) check_header(*part, part->name ? name + "." + part->name : name + "{}", file_bytes, links, depth + 1);

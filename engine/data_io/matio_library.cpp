@@ -14,8 +14,9 @@ void* matio_function(const char* name) {
     void* const function = library != nullptr ? ::dlsym(library, name) : nullptr;
     if (function == nullptr) {
         const char* reason = ::dlerror();
-        throw EnvironmentError("MATLAB files need libmatio, which cannot be loaded: {}",
-                               reason != nullptr ? Message::verbatim(reason) : Message("the library lacks {}", name));
+        throw EnvironmentError(
+            "MATLAB files need libmatio, which cannot be loaded: {}",
+            reason != nullptr ? Message::verbatim(reason) : Message("the library does not contain {}", name));
     }
     return function;
 }

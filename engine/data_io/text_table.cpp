@@ -53,7 +53,7 @@ class Reader {
             table.lines.push_back(line);
         }
         if (table.names.empty())
-            throw EnvironmentError("{}, line 1: the file is empty; its first line must name the columns",
+            throw EnvironmentError("{}, line 1: the file is empty; its first line must contain the column names",
                                    file_.string());
         return table;
     }

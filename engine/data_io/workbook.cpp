@@ -78,7 +78,7 @@ WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
             if (total > most) throw EnvironmentError("{} unpacks to more than {} MB", file, most >> 20);
             part.append(block, static_cast<std::size_t>(size));
         }
-        if (size < 0) throw EnvironmentError("{} is damaged: a part of it cannot be unpacked", file);
+        if (size < 0) throw EnvironmentError("{} is damaged: one of its parts cannot be unpacked", file);
     }
     if (result != ARCHIVE_EOF && parts.by_path.empty()) fail_as_no_archive(file);
     if (result != ARCHIVE_EOF)
@@ -294,7 +294,8 @@ class SheetReader {
             if (c < 'A' || c > 'Z' || column > kMaxSheetColumns) break;
             column = column * 26 + static_cast<std::size_t>(c - 'A' + 1);
         }
-        if (column == 0) throw EnvironmentError("{} is damaged: \"{}\" is not a cell", file_, place.substr(0, 20));
+        if (column == 0)
+            throw EnvironmentError("{} is damaged: \"{}\" is not a cell reference", file_, place.substr(0, 20));
         return column - 1;
     }
 
@@ -358,8 +359,8 @@ SheetText read_sheet(const std::filesystem::path& file, const std::string& sheet
         } catch (const std::bad_alloc&) {
             const ReadingMegabytes megabytes = megabytes_for_reading(bytes);
             return cbor_of(SheetOutcome{{},
-                                        Message("{}: reading it takes more than {} MB of memory, too much for a file "
-                                                "of {} MB; save the sheet as CSV",
+                                        Message("{}: reading it requires more than {} MB of memory, too much for a "
+                                                "file of {} MB; save the sheet as CSV",
                                                 name, megabytes.most, megabytes.of_file)});
         }
     };

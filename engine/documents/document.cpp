@@ -253,13 +253,14 @@ class DocumentBuilder {
     void add_notes(const LatexDocument& document) const {
         if (!document.first_beyond) return;
         const char32_t first = *document.first_beyond;
-        add_note(first,
-                 document.by_lualatex
-                     ? Message("LuaLaTeX makes this PDF, which takes longer, because pdflatex cannot print \"{}\" ({})",
-                               shown(first), code_of(first))
-                     : Message("pdflatex cannot print these letters, and LuaLaTeX is not installed. They are printed "
-                               "as \"?\": {}. To print them, run sudo apt install {}",
-                               with_lines(document.replaced), kLualatexPackages));
+        add_note(
+            first,
+            document.by_lualatex
+                ? Message("LuaLaTeX creates this PDF, which takes longer, because pdflatex cannot print \"{}\" ({})",
+                          shown(first), code_of(first))
+                : Message("pdflatex cannot print these letters, and LuaLaTeX is not installed. They are printed "
+                          "as \"?\": {}. To print them, run sudo apt install {}",
+                          with_lines(document.replaced), kLualatexPackages));
         if (!document.by_lualatex || document.replaced.empty()) return;
         add_note(*document.replaced.begin(), Message("no installed font has these letters. They are printed as \"?\": "
                                                      "{}. To add fonts, run sudo apt install {}",

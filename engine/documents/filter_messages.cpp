@@ -64,21 +64,22 @@ Message wrong_in_diagram(const std::string& code, const std::string& first, cons
     if (code == "most-nodes") return Message("a diagram has at most {} nodes", first);
     if (code == "sign") return Message("between two nodes, write ->, -| or |-, not {}", first);
     if (code == "no-node") return Message("no node {} is defined above this line", first);
-    if (code == "arrow") return Message("an arrow goes from a node to a node, as in u -> G");
+    if (code == "arrow") return Message("an arrow must connect two nodes, as in u -> G");
     if (code == "not-straight")
         return Message("{} and {} are neither in the same row nor in the same column; write -| or |-", first, second);
-    return Message("names, numbers and arrows come first, then a colon and the label");
+    return Message("write names, numbers and arrows first, then a colon and the label");
 }
 
 /// What report_templates/filters/choice.lua reports.
 Message wrong_in_choice(const std::string& code) {
     if (code == "list")
         return Message(
-            "a choice consists of a question and a list of options: - [x] for a correct option, - [ ] for a wrong one");
+            "a choice must consist of a question and a list of options: - [x] for a correct option, - [ ] for a wrong "
+            "option");
     if (code == "option")
         return Message(
-            "each option starts with [x] or [ ]; a separate, indented paragraph says why the option is correct or "
-            "wrong");
+            "each option must start with [x] or [ ]; a separate, indented paragraph explains why the option is correct "
+            "or wrong");
     return Message("a choice needs at least two options, including a correct one");
 }
 
@@ -103,7 +104,7 @@ class Sentences {
             return Message("the label \"{}\" must start with \"{}\", as in {#{}:name}", first, second + ":", second);
         if (code == "reference-kind")
             return Message(
-                "the cross reference @{} must start with @fig:, @tbl:, @eq: or @sec:. A literature key with a colon "
+                "the cross-reference @{} must start with @fig:, @tbl:, @eq: or @sec:. A literature key with a colon "
                 "must be in the bibliography that the header names",
                 first);
         if (code == "no-bibliography")
@@ -134,7 +135,7 @@ class Sentences {
                 first);
         if (code == "pasted-picture")
             return Message(
-                "the picture \"{}\" was pasted into the notebook, where a report cannot read it. Save it as a file "
+                "the picture \"{}\" was pasted into the notebook, and a report cannot read it there. Save it as a file "
                 "next to the notebook and give the file name in the text",
                 first);
         if (code == "mathematics") return refused_in_formula(first, second, third);
@@ -162,7 +163,7 @@ class Sentences {
         if (code == "unknown-drawing") {
             const std::vector<std::string> known = split_at(second, ' ');
             const auto near = nearest_word(first, known);
-            return near ? Message("unknown drawing \"{}\"; did you mean \"{}\"?; the drawings are {}", first, *near,
+            return near ? Message("unknown drawing \"{}\"; did you mean \"{}\"? The drawings are {}", first, *near,
                                   listed(known))
                         : Message("unknown drawing \"{}\"; the drawings are {}", first, listed(known));
         }
@@ -171,9 +172,10 @@ class Sentences {
         if (code == "unknown-measure") {
             const auto near = nearest_word(first, split_at(second, ' '));
             return near ? Message(
-                              "unknown measure \"{}\"; did you mean \"{}\"?; dynlab help measures lists the measures",
+                              "unknown measure \"{}\"; did you mean \"{}\"? Use dynlab help measures for a list of the "
+                              "measures",
                               first, *near)
-                        : Message("unknown measure \"{}\"; dynlab help measures lists the measures", first);
+                        : Message("unknown measure \"{}\"; use dynlab help measures for a list of the measures", first);
         }
         if (code == "figure-not-alone")
             return Message("the figure \"{}\" must be separate, with an empty line before and after it", first);
@@ -239,11 +241,13 @@ class Sentences {
             labels.push_back(markdown_.text.substr(at + 2, end == std::string::npos ? end : end - at - 2));
         }
         if (std::find(labels.begin(), labels.end(), label) != labels.end())
-            return Message("the cross reference @{} has no target: {#{}} labels nothing that is shown", label, label);
+            return Message(
+                "the cross-reference @{} has no target: the label {#{}} does not belong to an element that is shown",
+                label, label);
         if (const auto near = nearest_word(label, labels))
-            return Message("the cross reference @{} has no target: {#{}} is missing; did you mean \"{}\"?", label,
+            return Message("the cross-reference @{} has no target: {#{}} is missing; did you mean \"{}\"?", label,
                            label, *near);
-        return Message("the cross reference @{} has no target: {#{}} is missing", label, label);
+        return Message("the cross-reference @{} has no target: {#{}} is missing", label, label);
     }
 
     static Message unknown_class(const std::string& code, const std::string& name, const std::string& text) {
@@ -256,7 +260,7 @@ class Sentences {
                 "table",  "text",          "cells",  "note",    "warning",    "exercise", "columns",
                 "column", "block-diagram", "choice", "drawing", "references", "measures", "pagebreak"};
             const auto near = nearest_word(name, kKnown);
-            return near ? Message("unknown block class \"{}\"; did you mean \"{}\"?; the classes are {}", name, *near,
+            return near ? Message("unknown block class \"{}\"; did you mean \"{}\"? The classes are {}", name, *near,
                                   listed(kKnown))
                         : Message("unknown block class \"{}\"; the classes are {}", name, listed(kKnown));
         }
@@ -265,7 +269,7 @@ class Sentences {
         if (code == "block-class") return Message("unknown language \"{}\" of a code block", name);
         if (code == "span-class")
             return Message("unknown class \"{}\" of a bracketed text; write the text without it", name);
-        return Message("the document filter reports {} {}", code, name);
+        return Message("the document filter reports an unknown problem: {} {}", code, name);
     }
 
     const MarkdownText& markdown_;

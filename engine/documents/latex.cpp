@@ -139,11 +139,12 @@ void check_nothing_overflows(const std::string& log, int lines_before_body) {
         const double excess = points / kPointsPerMm;
         if (excess < kUnseen || !RE2::PartialMatch(rest, page, &number)) continue;
         if (slides.items.empty()) first = line - lines_before_body;
-        slides.items.push_back(Message("slide {} is {} mm too high", number, std::ceil(excess)));
+        slides.items.push_back(Message("the content of slide {} is {} mm too high", number, std::ceil(excess)));
     }
     if (!slides.items.empty())
-        throw LatexRefusal(Message("{}; shorten the text, make a figure less high, or split the slide in two", slides),
-                           first, "");
+        throw LatexRefusal(
+            Message("{}; shorten the text, reduce the height of a figure, or split the slide in two", slides), first,
+            "");
 }
 
 class LatexRun {

@@ -94,11 +94,9 @@ class CellReader {
         const std::string& line = lines_[index];
         if (cell.kind == Cell::Kind::kCode || is_blank(line)) return line;
         if (!line.starts_with("--"))
-            fail(
-                index,
-                Message(
-                    "\"{}\" is in a text cell, where lines start with \"-- \"; start a code cell with a line \"-- %%\"",
-                    trimmed(line)));
+            fail(index, Message("\"{}\" is in a text cell, in which lines start with \"-- \"; start a code cell with a "
+                                "line \"-- %%\"",
+                                trimmed(line)));
         return line.substr(line.starts_with("-- ") ? 3 : 2);
     }
 

@@ -87,7 +87,7 @@ std::string without_solutions(const std::string& source, const std::filesystem::
     for (std::string_view line : lines_with_ends(source)) {
         ++number;
         if (is_cell_marker(line)) {
-            if (begun) fail(begun, Message("this solution is not closed with \"-- END SOLUTION\" in its cell"));
+            if (begun) fail(begun, Message("this solution is not closed with \"-- END SOLUTION\" in the same cell"));
             in_text = is_text_cell_marker(line);
             asked = asked && !in_text;
             hidden = line.find("echo=false") != std::string_view::npos;
@@ -103,7 +103,8 @@ std::string without_solutions(const std::string& source, const std::filesystem::
                 result += end_of(line);
                 break;
             case SolutionLine::kEnd:
-                if (!begun) fail(number, Message("\"-- END SOLUTION\" without a \"-- BEGIN SOLUTION\" in its cell"));
+                if (!begun)
+                    fail(number, Message("\"-- END SOLUTION\" without a \"-- BEGIN SOLUTION\" in the same cell"));
                 begun = 0;
                 break;
             case SolutionLine::kStarter:
@@ -117,7 +118,7 @@ std::string without_solutions(const std::string& source, const std::filesystem::
                 result += line;
         }
     }
-    if (begun) fail(begun, Message("this solution is not closed with \"-- END SOLUTION\" in its cell"));
+    if (begun) fail(begun, Message("this solution is not closed with \"-- END SOLUTION\" in the same cell"));
     return in_one_language(std::move(result), language);
 }
 

@@ -86,7 +86,8 @@ void check_metadata(const std::string& key, const std::string& value, const Plac
         if (key == "author" || key == "authors")
             throw DocumentError(
                 where,
-                Message("documents name no author, because reports are reviewed anonymously; remove \"{}\"", key));
+                Message("a document must not name an author, because reports are reviewed anonymously; remove \"{}\"",
+                        key));
         if (const auto near = nearest_word(key, kAllowedKeys))
             throw DocumentError(where, Message("metadata key \"{}\" is not allowed; did you mean \"{}\"?", key, *near));
         throw DocumentError(where,

@@ -12,7 +12,7 @@ std::string text_of_source(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > kMaxSourceSize)
-        throw DocumentError(Place{file}, Message("a script or template may have at most {} MB, but this file has {} MB",
+        throw DocumentError(Place{file}, Message("a script or template can have at most {} MB, but this file has {} MB",
                                                  kMaxSourceSize >> 20, (bytes + (1 << 20) - 1) >> 20));
     return read_text(file);
 }

@@ -39,7 +39,7 @@ void check_curve(const Curve& curve, const Panel& panel, const Message& name_of_
                               name_of_panel, name, plural(curve.x.size(), "{} value", "{} values"), curve.y.size());
     if (curve.style == CurveStyle::kBand && curve.y_upper.size() != curve.y.size())
         throw InvalidArgument(
-            "panel {}, curve {}: the upper edge of a band needs as many values as the lower edge, {}, not {}",
+            "panel {}, curve {}: the upper edge of a band must have as many values as the lower edge, {}, not {}",
             name_of_panel, name, curve.y.size(), curve.y_upper.size());
     if (!std::isfinite(curve.line_width) || curve.line_width <= 0)
         throw InvalidArgument("panel {}, curve {}: the line width must be a positive number of points, not {}",
@@ -49,14 +49,14 @@ void check_curve(const Curve& curve, const Panel& panel, const Message& name_of_
     const Message samples = plural(curve.x.size(), "{} sample", "{} samples");
     if (panel.log_x || panel.log_y)
         throw InvalidArgument(
-            "panel {}, curve {}: nothing to draw: of {} none is finite and positive on the logarithmic axis",
+            "panel {}, curve {}: nothing to draw: none of {} is finite and positive on the logarithmic axis",
             name_of_panel, name, samples);
-    throw InvalidArgument("panel {}, curve {}: nothing to draw: of {} none is finite", name_of_panel, name, samples);
+    throw InvalidArgument("panel {}, curve {}: nothing to draw: none of {} is finite", name_of_panel, name, samples);
 }
 
 void check_tick_step(const std::optional<double>& step, const char* axis, const Message& panel) {
     if (step && !(std::isfinite(*step) && *step > 0))
-        throw InvalidArgument("panel {}: the step of the numbers on {} must be positive, not {}", panel, axis,
+        throw InvalidArgument("panel {}: the tick spacing on {} must be positive, not {}", panel, axis,
                               as_given(*step));
 }
 

@@ -51,7 +51,7 @@ HistogramBins histogram_bins(const VectorView& values, Index bins) {
 
 HistogramBins histogram_bins(const VectorView& values, const Vector& edges) {
     check_finite(values);
-    if (edges.size() < 2) throw InvalidArgument("a histogram needs at least two edges, not {}", edges.size());
+    if (edges.size() < 2) throw InvalidArgument("a histogram needs at least two bin edges, not {}", edges.size());
     const Index bins = edges.size() - 1;
     HistogramBins result{edges, Vector::Zero(bins)};
     for (const double value : values) {

@@ -15,7 +15,7 @@ void PlantDrawing::validate() const {
     const int count = static_cast<int>(parts.size());
     for (int i = 0; i < count; ++i)
         if (const int on = parts[static_cast<std::size_t>(i)].on; on < -1 || on >= i)
-            throw InvalidArgument("the part that carries a part of the drawing must be defined before it");
+            throw InvalidArgument("a part that carries another part of the drawing must be defined before that part");
     for (const PlantShape& piece : pieces) {
         if (piece.x.size() != piece.y.size() || piece.x.size() != piece.part.size())
             throw InvalidArgument("a shape of the drawing needs equal numbers of x, y and parts");

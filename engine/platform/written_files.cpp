@@ -132,16 +132,16 @@ void WrittenFiles::refuse(const fs::path& file, bool was_ours) const {
     const std::string name = file.filename().string();
     if (ledger_.empty())
         throw EnvironmentError(
-            "'{}' exists already and its origin is unknown (neither HOME nor XDG_STATE_HOME is set). Save under "
+            "'{}' already exists, and its origin is unknown (neither HOME nor XDG_STATE_HOME is set). Save under "
             "another name, move the file elsewhere, or replace it (dynlab run --force)",
             name);
     if (!was_ours)
         throw EnvironmentError(
-            "'{}' exists already and was not written by dynlab. Save under another name, move the file elsewhere, or "
+            "'{}' already exists and was not written by dynlab. Save under another name, move the file elsewhere, or "
             "replace it (dynlab run --force)",
             name);
     throw EnvironmentError(
-        "'{}' exists already and was changed after dynlab wrote it. Save under another name, move the file elsewhere, "
+        "'{}' already exists and was changed after dynlab wrote it. Save under another name, move the file elsewhere, "
         "or replace it (dynlab run --force)",
         name);
 }

@@ -135,7 +135,7 @@ class DataLooker {
             row.push_back(text(data_.columns.empty() ? Message("{} entries", (*list)->size())
                                                      : Message("{} texts", (*list)->size())));
         } else if (std::holds_alternative<std::shared_ptr<VariableTable>>(variable.value)) {
-            row.push_back(text(Message("a struct")));
+            row.push_back(text(Message("a structure")));
         } else if (const auto* words = std::get_if<std::string>(&variable.value)) {
             row.push_back(text(Message("the text \"{}\"", *words)));
         } else {

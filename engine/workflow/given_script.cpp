@@ -28,7 +28,7 @@ Message kind_of(const std::string& ending) {
         {{".tex"}, Message("a LaTeX text")},
         {{".txt"}, Message("a plain text")},
         {{".pdf"}, Message("a PDF")},
-        {{".html"}, Message("a page")},
+        {{".html"}, Message("a web page")},
         {{".docx", ".odt"}, Message("a document")},
         {{".csv", ".xlsx"}, Message("a data table")},
         {{".mat"}, Message("a data file")},
@@ -77,12 +77,12 @@ Message nearly_called(const fs::path& folder, const std::string& name) {
     }
     if (near.empty())
         return fs::is_regular_file(folder / (stem + ".ipynb"), none) && ending == ".lua"
-                   ? Message("but {}: give that file", stem + ".ipynb")
+                   ? Message("but there is {}: give that file", stem + ".ipynb")
                    : Message();
     std::sort(near.begin(), near.end());
     constexpr std::size_t kMax = 3;
     near.resize(std::min(near.size(), kMax));
-    return Message("but {}: rename it to {}", listed(near), name);
+    return Message("but there is {}: rename it to {}", listed(near), name);
 }
 
 fs::path meant_script(const fs::path& given) {

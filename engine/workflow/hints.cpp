@@ -38,7 +38,7 @@ class HintsReader {
             line.starts_with(begin) ? read_number<int>(trimmed(line.substr(begin.size()))) : std::nullopt;
         if (!question) fail(Message("write the heading of hints as \"# Question 4\", not \"{}\"", trimmed(line)));
         const auto [place, is_new] = hints_.try_emplace(*question);
-        if (!is_new) fail(Message("question {} has hints already", *question));
+        if (!is_new) fail(Message("question {} already has hints", *question));
         stages_ = &place->second;
     }
 
@@ -47,8 +47,9 @@ class HintsReader {
         const std::size_t point = line.find(". ");
         const std::size_t next = stages_->size() + 1;
         if (point == std::string::npos || read_number<int>(line.substr(0, point)) != static_cast<int>(next))
-            fail(Message("expected hint {}, starting with \"{}. \", not \"{}\" (indent further lines of a hint)", next,
-                         next, trimmed(line).substr(0, 30)));
+            fail(Message(
+                "expected hint {}, starting with \"{}. \", not \"{}\" (indent the continuation lines of a hint)", next,
+                next, trimmed(line).substr(0, 30)));
         stages_->push_back(trimmed(line.substr(point + 2)));
     }
 

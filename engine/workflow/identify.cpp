@@ -31,7 +31,7 @@ constexpr const char* kData = R"(
 --
 -- `samples{s}`{{.value}} samples of `file`{{.value}}.
 --
--- ![Output and input as they were recorded](figure:data{s})
+-- ![Measured output and input](figure:data{s})
 
 -- %% id=data{s} echo=false
 local data{s} = {data}
@@ -63,8 +63,8 @@ constexpr const char* kModel = R"(
 -- ## The model
 --
 -- {structure}
--- The parameters are those with which the simulated output comes closest to the measured one. Behind each stands its
--- standard error.
+-- The parameters minimize the difference between the simulated and the measured output. Each parameter is followed by
+-- its standard error.
 
 -- %% id=model{s} echo=false
 local G{s} = {estimate}
@@ -73,10 +73,10 @@ present(G{s})
 
 constexpr const char* kFit = R"(
 -- %% [markdown]
--- ## How well it simulates
+-- ## Fit of the simulation
 --
--- The model is simulated on the input alone. A fit of 100 % means equal curves, 0 % that the mean of the output
--- would do as well; noise keeps every honest fit below 100 %.{remark}
+-- The simulation uses only the measured input. A fit of 100 % means equal outputs; a fit of 0 % means that the model
+-- is no better than the mean output. Noise keeps the fit of a correct model below 100 %.{remark}
 
 -- %% id=fit{s} echo=false output=false
 print(string.format("fit to the estimation data: %.2f %%", fit(data{s}, G{s})))
@@ -100,9 +100,9 @@ report.figure("fit{s}", subplot(2, 1, {{
 
 constexpr const char* kRest = R"(
 -- %% [markdown]
--- ## What it leaves unexplained
+-- ## Residual analysis
 --
--- The simulation error (here on the {record} data) should be white, and the input should explain nothing more of it.
+-- The simulation error (here on the {record} data) should be white and uncorrelated with the input.
 
 -- %% id=residuals{s} echo=false
 local errors{s} = resid({tested}{s}, G{s})
@@ -114,7 +114,7 @@ constexpr const char* kResponses = R"(
 -- %% [markdown]
 -- ## Step and frequency response{from}
 --
--- ![The bands hold the true response with a probability of 99 %, if the structure is right](figure:responses{s})
+-- ![Responses with 99 % confidence bands, which are valid if the model structure is correct](figure:responses{s})
 
 -- %% id=responses{s} echo=false
 local responses{s} = subplot(1, 3, {{step({m}), bode({m})}})
@@ -123,7 +123,7 @@ report.figure("responses{s}", responses{s}, "")
 )";
 
 constexpr const char* kNoValidation = R"( No
--- validation record was given: a record that the model has not seen would say more.)";
+-- validation data were given. Validate the model on data that were not used for the estimation.)";
 
 std::string structure_of(const IdentifyRequest& request) {
     if (!request.poles) return message_text(request.delay ? Message("No delay.") : Message("An estimated delay."));
@@ -178,8 +178,8 @@ std::string reported_inputs(const std::vector<std::string>& inputs) {
 }  // namespace
 
 void IdentifyRequest::validate() const {
-    if (outputs.empty()) throw InvalidArgument("at least one output is needed");
-    if (inputs.empty()) throw InvalidArgument("at least one input is needed");
+    if (outputs.empty()) throw InvalidArgument("at least one output is required");
+    if (inputs.empty()) throw InvalidArgument("at least one input is required");
     for (auto input = inputs.begin(); input != inputs.end(); ++input)
         if (std::find(inputs.begin(), input, *input) != input)
             throw InvalidArgument("the input '{}' is given twice", *input);
@@ -191,23 +191,25 @@ void IdentifyRequest::validate() const {
     }
     if (poles && *poles < 1) throw InvalidArgument("the number of poles must be at least 1, not {}", *poles);
     if (zeros && poles && (*zeros < 0 || *zeros > *poles))
-        throw InvalidArgument("the number of zeros must be from 0 to the number of poles, {}, but is {}", *poles,
+        throw InvalidArgument("the number of zeros must be from 0 to the number of poles, {}, but it is {}", *poles,
                               *zeros);
     if (zeros && *zeros < 0)
-        throw InvalidArgument("the number of zeros must be from 0 to the number of poles, but is {}", *zeros);
+        throw InvalidArgument("the number of zeros must be from 0 to the number of poles, but it is {}", *zeros);
     if (!poles && inputs.size() > 1)
         throw InvalidArgument(
-            "the number of poles can be determined for one input only; with several inputs, give the number");
+            "the number of poles can be determined automatically for one input only; for several inputs, specify the "
+            "number");
     if (!poles && zeros && *zeros > 3)
-        throw InvalidArgument("the number of poles is determined up to 4, and must exceed the number of zeros");
+        throw InvalidArgument(
+            "at most 4 poles can be determined automatically, and the number of poles must exceed the number of zeros");
     if (!poles && delay && *delay > 0)
         throw InvalidArgument(
-            "the number of poles can be determined without delay or with an estimated delay; give the number, or the "
-            "delay auto");
+            "the number of poles can be determined automatically only without delay or with an estimated delay; "
+            "specify the number, or set the delay to auto");
     if (delay && !(std::isfinite(*delay) && *delay >= 0))
-        throw InvalidArgument("the delay must be at least 0 s, not {}", *delay);
+        throw InvalidArgument("the delay must be nonnegative, but it is {} s", *delay);
     if (Ts && !time.empty()) throw InvalidArgument("give either Ts or the time column, not both");
-    if (Ts && !(std::isfinite(*Ts) && *Ts > 0)) throw InvalidArgument("Ts must be greater than 0 s, not {}", *Ts);
+    if (Ts && !(std::isfinite(*Ts) && *Ts > 0)) throw InvalidArgument("Ts must be positive, but it is {} s", *Ts);
 }
 
 std::string identification_script(const IdentifyRequest& request) {

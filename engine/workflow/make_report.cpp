@@ -167,15 +167,14 @@ ReportRequest report_of_script(const PercentScript& script, const fs::path& outp
 ReportRequest report_of(const std::string& subject, const fs::path& output, const std::string& language) {
     const fs::path folder = subject;
     if (fs::is_regular_file(folder)) {
-        if (!language.empty())
-            throw EnvironmentError("the header of {} sets the language, with \"language:\"", subject);
+        if (!language.empty()) throw EnvironmentError("the header of {} sets the language with \"language:\"", subject);
         return report_of_script(read_script_or_notebook(folder),
                                 output.empty() ? fs::path(folder).replace_extension(".pdf") : output);
     }
     if (!fs::is_directory(folder) || (lesson_in(folder) && !fs::exists(folder / "analysis.lua")))
         return report_of_lesson(find_lesson(subject), output, language);
     if (!language.empty())
-        throw EnvironmentError("the report.md of {} sets the language in its header, with \"lang:\"", subject);
+        throw EnvironmentError("the report.md of {} sets the language in its header with \"lang:\"", subject);
     return report_of_folder(subject, output);
 }
 
@@ -283,7 +282,7 @@ ReportResult make_report(const ReportRequest& request) {
         watch.note(kRunStep);
     }
 
-    begin(Message("making the document"));
+    begin(Message("creating the document"));
     const DocumentSource source = document_source(request, record);
     if (!record.error && !request.of_lesson)
         result.unplaced = unplaced_entries(record, text_of_document(request.template_file, source.cells));
@@ -311,7 +310,7 @@ ReportResult make_report(const ReportRequest& request) {
     } catch (const DocumentError& complaint) {
         if (!result.error) throw;
         throw DocumentError(
-            Message("{}\nThe report up to this point cannot be made: {}", *result.error, complaint.message()));
+            Message("{}\nThe report up to this point cannot be created: {}", *result.error, complaint.message()));
     }
     if (!result.error && result.gaps.empty()) reports.save_entry(record);
     return result;

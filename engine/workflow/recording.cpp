@@ -56,9 +56,9 @@ void Recording::find_sampling(std::optional<double> given, const std::string& ti
         const auto& clock = loaded_.time.clock;
         constexpr double kClose = 0.01;
         if (clock && clock->spacing.even && std::abs(*given - clock->spacing.step) > kClose * clock->spacing.step)
-            doubt_ =
-                message_text(Message("The sampling time {} s was given, but according to the time '{}' it is {} s.",
-                                     significant(*given, 6), clock->name, significant(clock->spacing.step, 6)));
+            doubt_ = message_text(
+                Message("The sampling time {} s was given, but according to the time column '{}' it is {} s.",
+                        significant(*given, 6), clock->name, significant(clock->spacing.step, 6)));
         return;
     }
     const std::string column = time.empty() ? "" : signal(time).name;
@@ -80,7 +80,7 @@ void Recording::take_clock(const std::string& time) {
     ClockSearch& found = loaded_.time;
     if (!time.empty() && found.name != time) {
         if (signal(time).numbers.size() != samples)
-            throw EnvironmentError("{}: the time '{}' has {}, but the input '{}' has {}", name_, time,
+            throw EnvironmentError("{}: the time column '{}' has {}, but the input '{}' has {}", name_, time,
                                    plural(signal(time).numbers.size(), "{} sample", "{} samples"), inputs_.front(),
                                    samples);
         options_.time = time;
@@ -120,13 +120,13 @@ void Recording::take_struct_time(const std::string& time) {
     const Vector t = signal(time).numbers;
     if (t.size() < 2) throw EnvironmentError("{} has fewer than two samples", name_);
     if (t.size() != signal(inputs_.front()).numbers.size())
-        throw EnvironmentError("{}: the time '{}' has {}, but the input '{}' has {}", name_, time,
+        throw EnvironmentError("{}: the time column '{}' has {}, but the input '{}' has {}", name_, time,
                                plural(t.size(), "{} sample", "{} samples"), inputs_.front(),
                                signal(inputs_.front()).numbers.size());
     const InstantSpacing spacing = spacing_of(t);
     if (spacing.disorder)
-        throw EnvironmentError("{}: the time '{}' must increase, but sample {} is {} and the next {}", name_, time,
-                               *spacing.disorder + 1, significant(t[*spacing.disorder], kDigitsOfInstants),
+        throw EnvironmentError("{}: the time column '{}' must increase, but sample {} is {} and the next sample is {}",
+                               name_, time, *spacing.disorder + 1, significant(t[*spacing.disorder], kDigitsOfInstants),
                                significant(t[*spacing.disorder + 1], kDigitsOfInstants));
     if (spacing.even) {
         sampling_ = fmt::format("{}", written_step(spacing.step, t.size()));
@@ -159,10 +159,12 @@ std::string Recording::filled() const {
             code += fmt::format(
                 "print({})\n",
                 lua_text(message_text(
-                    input ? Message("{}: {} of {} samples are missing; the input holds the previous value.", name,
-                                    missing, numbers.size())
-                          : Message("{}: {} of {} samples are missing; the output is linearly interpolated.", name,
-                                    missing, numbers.size()))));
+                    input
+                        ? Message("{}: {} of {} samples are missing; missing input samples are replaced with the "
+                                  "previous value.",
+                                  name, missing, numbers.size())
+                        : Message("{}: {} of {} samples are missing; missing output samples are linearly interpolated.",
+                                  name, missing, numbers.size()))));
         }
     };
     tell(inputs_, true), tell(outputs_, false);
@@ -207,12 +209,13 @@ Recording::Signal Recording::signal(const std::string& name) const {
     if (auto member = struct_member(name)) return *std::move(member);
     if (signals().empty())
         throw EnvironmentError(
-            "{} contains no columns of numbers, so no '{}'; a script can read its tables or texts: load({}).NAME",
+            "{} contains no numeric columns, and therefore no column '{}'; a script can read its tables or texts with "
+            "load({}).NAME",
             name_, name, lua_text(name_));
     if (const auto near = nearest_word(name, signals()))
-        throw EnvironmentError("{} has no column of numbers '{}' (did you mean '{}'?); the columns are {}", name_, name,
+        throw EnvironmentError("{} has no numeric column '{}' (did you mean '{}'?); the columns are {}", name_, name,
                                *near, listed(signals()));
-    throw EnvironmentError("{} has no column of numbers '{}'; the columns are {}", name_, name, listed(signals()));
+    throw EnvironmentError("{} has no numeric column '{}'; the columns are {}", name_, name, listed(signals()));
 }
 
 std::optional<Recording::Signal> Recording::matrix_column(const std::string& name) const {

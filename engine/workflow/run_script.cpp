@@ -73,7 +73,7 @@ void check_sliders(const RunRequest& request, const RunRecord& record) {
         for (const auto& [other, slider] : record.sliders) known.push_back(other);
         const std::string script = request.script.file.string();
         throw DocumentError(known.empty()
-                                ? Message("{} has no slider \"{}\", because it has no sliders", script, name)
+                                ? Message("{} has no slider \"{}\", because the script has no sliders", script, name)
                                 : Message("{} has no slider \"{}\"; the sliders are {}", script, name, listed(known)));
     }
 }

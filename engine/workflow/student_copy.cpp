@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 std::string group_file(std::uint32_t seed, const std::string& language) {
     const Reader reader{catalog_of(language)};
     return fmt::format("# {}\nmembers = []        # {}\nseed = {}            # {}\n",
-                       message_text(Message("Your group. A report never shows anything from this file."), reader),
+                       message_text(Message("Your group. Reports never show the contents of this file."), reader),
                        message_text(Message("for example [\"Ada Lovelace\", \"Rudolf Kalman\"]"), reader), seed,
-                       message_text(Message("of your group's random numbers"), reader));
+                       message_text(Message("seed of your group's random numbers"), reader));
 }
 
 void put(std::string& text, const std::string& slot, const std::string& value) {
@@ -106,7 +106,7 @@ PercentScript lesson_script(const Lesson& lesson, const std::string& language) {
     std::vector<std::string> lines = lines_of(source);
     const std::vector<const Cell*> texts = text_cells(script), translated = text_cells(tasks);
     if (texts.size() != translated.size())
-        throw DocumentError(Message("{} has {}, but the lesson has {} of text", file.string(),
+        throw DocumentError(Message("{} has {} of text, but the lesson has {}", file.string(),
                                     plural(translated.size(), "{} cell", "{} cells"),
                                     plural(texts.size(), "{} cell", "{} cells")));
     for (std::size_t i = texts.size(); i-- > 0;) {

@@ -19,9 +19,9 @@ namespace {
 constexpr int kStoredDigits = 7;
 constexpr std::string_view kVariantKey = "Specimen:";
 constexpr char kOwnRecord[] = R"(
-**Your group's own record.** It was made as is said above, but on another specimen of the apparatus, whose parameters
-are others, and with other noise: `rig("{name}", {{specimen = {seed}, seed = {seed}}})` makes it again, and
-`rig_truth("{name}", {{specimen = {seed}}})` tells what theory says of it.
+**Your group's own data set.** It was generated as described above, but for another unit of the plant, which has
+different parameters, and with different noise. `rig("{name}", {{specimen = {seed}, seed = {seed}}})` generates it
+again, and `rig_truth("{name}", {{specimen = {seed}}})` returns the true values.
 
 {key} {seed}
 )";
@@ -51,7 +51,7 @@ VariableTable variables_of_record(const PlantValues& record) {
 
 void write_variant_data(const std::string& data_set, const PlantChoice& choice, const fs::path& folder) {
     const Plant* plant = find_plant(data_set);
-    if (!plant) throw InvalidArgument("no simulated plant makes the data set '{}'", data_set);
+    if (!plant) throw InvalidArgument("no simulated plant generates the data set '{}'", data_set);
     write_mat_file(folder / (data_set + ".mat"), variables_of_record(plant->record(choice)), kStoredDigits);
 }
 

@@ -284,7 +284,7 @@ TEST_F(kernel, a_message_that_comes_again_is_not_answered) {
     const auto frames = ours.write(ours.made("execute_request", {{"code", "times = times + 1"}}, {}));
     for (int i = 0; i < 3; ++i) client().send(frames);
     EXPECT_EQ(client().run("print(times)").printed, "1\n");
-    EXPECT_THAT(client().complaints(), HasSubstr("a repeated message is not answered"));
+    EXPECT_THAT(client().complaints(), HasSubstr("not answered: a message was received twice"));
 }
 
 // oracle: the kernel's memory; nobody needs the key to send

@@ -269,7 +269,7 @@ TEST_F(office_page, every_action_is_a_command_that_the_page_shows) {
     ASSERT_TRUE(click("Reviews"));
     ASSERT_TRUE(browser.becomes_true("document.querySelector('.matrix .review.outlier')"));
     browser.evaluate("document.querySelector('.matrix .review.outlier').click()");
-    ASSERT_TRUE(click("Drop the scores"));
+    ASSERT_TRUE(click("Withdraw the scores"));
     browser.evaluate("document.querySelector('#ask input').value = 'zeros'; document.getElementById('ask-do').click()");
     ASSERT_TRUE(browser.becomes_true("document.getElementById('last').textContent.includes('--drop group-001')"));
     ASSERT_TRUE(settles(browser));

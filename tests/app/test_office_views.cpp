@@ -141,7 +141,7 @@ TEST(office_views, reviews_are_those_of_the_commands_and_scores_can_be_dropped) 
     reviews = json::parse(views.reviews("crane"));
     for (const json& one : reviews["reports"]) EXPECT_EQ(one["scored"], one["report"] == report ? 1 : 2);
     EXPECT_THAT(course.run({"marks", "crane"}).output, HasSubstr("is based on one review."));
-    EXPECT_THAT(course.run({"history"}).output, HasSubstr("are taken back; reason: zeros"));
+    EXPECT_THAT(course.run({"history"}).output, HasSubstr("are withdrawn; reason: zeros"));
 }
 
 TEST(office_views, what_is_to_be_done_is_what_status_says) {

@@ -26,7 +26,7 @@ TEST_F(workbench, a_file_that_no_one_has_seen_becomes_a_validated_model_with_its
     ASSERT_TRUE(view_appears(browser, "record"));
     EXPECT_THAT(text_of("plant_session.lua"), HasSubstr("iddata("));
     int clicks = 0;
-    for (const char* words : {"Divide 60 : 40", "+ Level", "New model"}) {
+    for (const char* words : {"Split 60 : 40", "+ Level", "New model"}) {
         ASSERT_TRUE(press(browser, words)) << words;
         ++clicks;
         ASSERT_TRUE(is_ready(browser));

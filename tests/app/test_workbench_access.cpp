@@ -53,11 +53,11 @@ TEST_F(workbench_access, keys_alone_lead_from_a_file_to_a_model_and_its_figure_i
     key(browser, kEnter);
     ASSERT_TRUE(view_appears(browser, "record"));
     wait(browser);
-    ASSERT_TRUE(tab_to(browser, "Divide 60 : 40"));
+    ASSERT_TRUE(tab_to(browser, "Split 60 : 40"));
     key(browser, kSpace);
     ASSERT_TRUE(script_has(browser, "prepared:range(1, 480)"));
     wait(browser);
-    EXPECT_TRUE(browser.becomes_true("document.activeElement.textContent === 'Divide 60 : 40'")) << "focus stays";
+    EXPECT_TRUE(browser.becomes_true("document.activeElement.textContent === 'Split 60 : 40'")) << "focus stays";
     ASSERT_TRUE(tab_to(browser, "New model"));
     key(browser, kEnter);
     ASSERT_TRUE(script_has(browser, "G1 = tfsrivc(estimation, 2, 0)"));

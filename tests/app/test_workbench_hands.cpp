@@ -184,7 +184,7 @@ TEST_F(workbench_hands, lines_that_others_change_while_they_are_typed_are_report
         "const { session } = await import('./bench_session.js'); mirror.replaceRange('-- mine\\n', {line: 0, ch: 0}, "
         "{line: 1, ch: 0}); "
         "await order(session.revision, 1, 1, '-- theirs');");
-    EXPECT_TRUE(says(browser, "edited: your lines"));
+    EXPECT_TRUE(says(browser, "edited. Your lines"));
     EXPECT_THAT(script(), AllOf(HasSubstr("-- mine\n"), Not(HasSubstr("-- theirs"))));
     undo();
     EXPECT_THAT(script(), AllOf(HasSubstr("-- theirs\n"), Not(HasSubstr("-- mine"))));
@@ -234,7 +234,7 @@ TEST_F(workbench_hands, parts_find_an_id_beside_cells_that_are_called_so) {
         "'x = 1\\n\\n-- %% id=estimation\\nx = 2\\n'));");
     ASSERT_TRUE(file_contains({"id=estimation"}));
     ASSERT_TRUE(is_ready(browser));
-    ASSERT_TRUE(press(browser, "Divide 60 : 40"));
+    ASSERT_TRUE(press(browser, "Split 60 : 40"));
     EXPECT_TRUE(file_contains({"-- %% id=parts1\nestimation = prepared:range(1, 480)\n"})) << script();
     EXPECT_TRUE(says(browser, "(480)")) << "its samples, once it has run";
     EXPECT_TRUE(is_ready(browser));

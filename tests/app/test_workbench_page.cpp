@@ -63,7 +63,7 @@ TEST_F(workbench_page_parts, a_phone_scrolls_the_page_and_has_all_of_the_bar) {
 TEST_F(workbench_page_parts, titles_and_the_table_of_models_are_whole) {
     Browser browser(1280, 900);
     const auto program = open(browser);
-    press_all(browser, {"Divide 60 : 40", "New model", "New model"});
+    press_all(browser, {"Split 60 : 40", "New model", "New model"});
     const std::string cut =
         "return [...document.querySelectorAll('.tile h2')].filter((one) => one.scrollWidth > "
         "one.clientWidth + 1).map((one) => one.textContent)";
@@ -107,7 +107,7 @@ TEST_F(workbench_page_parts, buttons_of_views_show_what_is_shown_and_bring_it_in
 TEST_F(workbench_page_parts, a_misspelt_method_keeps_table_controls_and_pictures) {
     Browser browser;
     const auto program = open(browser);
-    press_all(browser, {"Divide 60 : 40", "New model"});
+    press_all(browser, {"Split 60 : 40", "New model"});
     ASSERT_TRUE(view_appears(browser, "bode"));
     const std::string fit = browser.evaluate("return document.querySelectorAll('.models td.number')[3].textContent");
     type(browser, "G1 = tfsrivc", "G1 = tfsirvc");
@@ -132,12 +132,12 @@ TEST_F(workbench_page_parts, a_misspelt_method_keeps_table_controls_and_pictures
 TEST_F(workbench_page_parts, a_step_of_preparation_that_fails_keeps_the_parts_and_all_pictures) {
     Browser browser;
     const auto program = open(browser);
-    press_all(browser, {"Divide 60 : 40", "+ Level", "New model"});
+    press_all(browser, {"Split 60 : 40", "+ Level", "New model"});
     ASSERT_TRUE(view_appears(browser, "bode"));
     type(browser, "\"mean\"", "\"meen\"");
     ASSERT_TRUE(stops(browser));
     EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('.tile.older canvas').length >= 4"));
-    EXPECT_TRUE(browser.becomes_true("document.body.innerText.includes('Divide 60 : 40')"));
+    EXPECT_TRUE(browser.becomes_true("document.body.innerText.includes('Split 60 : 40')"));
     EXPECT_TRUE(browser.becomes_true("document.querySelector('.models td.number')"));
     browser.evaluate(
         "const list = document.querySelector('.preparing select'); list.value = '\"linear\"'; "
@@ -160,7 +160,7 @@ TEST_F(workbench_page_parts, a_bracket_that_is_open_is_marked_where_it_was_opene
     EXPECT_TRUE(browser.becomes_true("document.querySelectorAll('.chosen input[type=number]').length >= 2"))
         << "the controls of what it was";
     ASSERT_TRUE(press(browser, "Report (PDF)"));
-    EXPECT_TRUE(says(browser, "A report cannot be made from a script with an error"));
+    EXPECT_TRUE(says(browser, "A report cannot be created from a script with an error"));
 }
 
 TEST_F(workbench_page_parts, a_field_with_an_open_bracket_stays_and_writes_nothing) {
@@ -244,7 +244,7 @@ TEST_F(workbench_page_parts, a_cell_of_the_map_becomes_the_model_whose_controls_
 TEST_F(workbench_page_parts, parts_keep_their_place_in_time_when_the_record_is_resampled_or_shortened) {
     Browser browser;
     const auto program = open(browser);
-    press_all(browser, {"Divide 60 : 40", "+ Resample"});
+    press_all(browser, {"Split 60 : 40", "+ Resample"});
     ASSERT_TRUE(script_has(browser, "resample(prepared, 1, 2)"));
     EXPECT_THAT(script(), HasSubstr("estimation = prepared:range(1, 240)\nvalidation = prepared:range(241, 400)\n"));
     browser.evaluate("document.querySelector('.preparing input[type=checkbox]').click()");
@@ -281,7 +281,7 @@ TEST_F(workbench_page_parts, a_second_record_is_prepared_alike_and_shown) {
     press_all(browser, {"+ Resample"});
     ASSERT_TRUE(script_has(browser, "validation = resample(validation, 1, 2)\n"));
     ASSERT_TRUE(is_ready(browser));
-    press_all(browser, {"Divide 60 : 40 (without second1)"});
+    press_all(browser, {"Split 60 : 40 (without second1)"});
     EXPECT_THAT(script(), Not(HasSubstr("second")));
     EXPECT_THAT(script(), HasSubstr("validation = prepared:range(241, 400)\n"));
     EXPECT_TRUE(browser.becomes_true("document.getElementById('state').textContent === 'up to date'"));

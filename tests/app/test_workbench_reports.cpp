@@ -153,7 +153,7 @@ TEST_F(workbench_reports, a_session_goes_through_run_report_check_and_pack_as_it
         const auto program = app("plant.csv");
         Browser browser;
         browser.open(program->address());
-        ASSERT_TRUE(press(browser, "Divide 60 : 40"));
+        ASSERT_TRUE(press(browser, "Split 60 : 40"));
         ASSERT_TRUE(is_ready(browser));
         ASSERT_TRUE(press(browser, "New model"));
         ASSERT_TRUE(view_appears(browser, "compare"));

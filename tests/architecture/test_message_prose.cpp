@@ -40,7 +40,6 @@ constexpr Exception kExceptions[] = {
     {"record", "record.json"},  // the name of a file
     {"record", "record.csv"},
     {"guess", "write guess("},  // the name of a function
-    {"tell", "tell your instructor"},
     {"is no", "is no longer"},
 };
 

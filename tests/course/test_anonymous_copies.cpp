@@ -325,10 +325,10 @@ TEST_F(anonymous_copies, copies_are_made_again_from_the_source) {
     EXPECT_EQ(fallen_back.findings.front().id, "name-in-text");
     std::filesystem::remove(file("work/report.pdf"));
     EXPECT_THAT(message_text(anonymous_copy(file("work"), file("other.pdf"), setup).error_reason),
-                HasSubstr("cannot be made again"));
+                HasSubstr("cannot be created again"));
     write("work/analysis.lua", "x = 1\nprint(meen({1, 2}))\n");
     EXPECT_THAT(message_text(anonymous_copy(file("work"), file("other.pdf"), setup).error_reason),
-                testing::AllOf(testing::StartsWith("The report cannot be made again: analysis.lua:2: "),
+                testing::AllOf(testing::StartsWith("The report cannot be created again: analysis.lua:2: "),
                                testing::EndsWith("did you mean 'mean'?")));
 }
 
@@ -367,7 +367,7 @@ TEST_F(anonymous_copies, why_a_report_was_not_made_again_is_reported) {
     EXPECT_TRUE(copy.made);
     EXPECT_FALSE(copy.rebuilt);
     EXPECT_THAT(message_text(copy.not_rebuilt),
-                AllOf(HasSubstr("The report cannot be made again: "), HasSubstr("analysis.lua:1")));
+                AllOf(HasSubstr("The report cannot be created again: "), HasSubstr("analysis.lua:1")));
 }
 
 TEST_F(anonymous_copies, a_report_made_again_fills_no_disk) {

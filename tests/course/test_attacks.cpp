@@ -111,7 +111,7 @@ TEST(attacks, none_leaves_its_sandbox_stops_the_batch_or_changes_a_mark) {
         EXPECT_EQ(GradingBench::score(bench.result(name)), 1) << name << bench.result(name).dump(1);
     for (const auto& [name, reported] :
          {std::pair("two of them", "Several folders"), std::pair("no script", "contains no analysis.lua"),
-          std::pair("bytecode", "not a text"), std::pair("damaged", "cannot be unpacked"),
+          std::pair("bytecode", "not text"), std::pair("damaged", "cannot be unpacked"),
           std::pair("empty", "cannot be unpacked"), std::pair("script is a folder", "contains no analysis.lua"),
           std::pair("linked", "secret"), std::pair("linked_script", "analysis.lua is missing"),
           std::pair("bomb", "exceeds 200 MB when unpacked"), std::pair("many_files", "contains more than")}) {

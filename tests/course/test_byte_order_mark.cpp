@@ -49,7 +49,7 @@ TEST(byte_order_mark, of_utf_16_costs_no_points_either) {
     bench.grade();
     for (const char* order : {"LE", "BE"}) EXPECT_EQ(GradingBench::score(bench.result(order)), 1) << order;
     EXPECT_FALSE(bench.result("half").contains("score"));
-    EXPECT_THAT(GradingBench::error_reason(bench.result("half")), HasSubstr("analysis.lua is not a text"));
+    EXPECT_THAT(GradingBench::error_reason(bench.result("half")), HasSubstr("analysis.lua is not text"));
 }
 
 /// A student's folder, each of its texts with `start` before it.

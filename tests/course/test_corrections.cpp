@@ -103,7 +103,7 @@ TEST_F(corrections, times_come_from_the_platform_s_worksheet) {
                       ContainsRegex("group-03 .* late by 7 h")));
     course_.bench().write("bad.csv", "Identifier,Grade\nParticipant 1,3\n");
     EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output,
-                HasSubstr("bad.csv: required are a column"));
+                HasSubstr("bad.csv: a column identifier"));
     course_.bench().write("bad.csv", "group,time\ngroup-01,tomorrow\n");
     EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output, HasSubstr("bad.csv, line 2: the time"));
 }
@@ -196,7 +196,7 @@ TEST_F(corrections, an_assignment_is_removed_while_nothing_hangs_on_it) {
     EXPECT_THAT(done({"history"}), HasSubstr("assignment talk removed"));
     course_.submit_file("group-01.pdf", small_pdf("one"), "2026-03-01 10:00", {"--no-checks"});
     EXPECT_THAT(course({"assignment", "--remove", "crane", "--reason", "x"}).error_output,
-                HasSubstr("other data depend on it (its versions)"));
+                HasSubstr("other data depend on the assignment (its versions)"));
 }
 
 // oracle: the settings before and after, in the history
@@ -210,11 +210,11 @@ TEST_F(corrections, changes_of_an_assignment_are_recorded_or_refused) {
                 AllOf(HasSubstr("reviews 1 instead of 3"), HasSubstr("criteria form:10,method:20 instead of data:5,"),
                       HasSubstr("; reason: few came")));
     EXPECT_THAT(course({"assignment", "crane", "--kind", "talk", "--reason", "x"}).error_output,
-                HasSubstr("files were submitted for crane already: its kind stays report"));
+                HasSubstr("files were already submitted for crane, so its kind must remain report"));
     course_.bench().write("s.csv", "reviewer,report,form\ninstructor,group-01,8\n");
     done({"scores", "crane", "s.csv"});
     EXPECT_THAT(course({"assignment", "crane", "--criteria", "form:20", "--reason", "x"}).error_output,
-                HasSubstr("scores were entered for crane already: its criteria stay form:10,method:20"));
+                HasSubstr("scores were already entered for crane, so its criteria must remain form:10,method:20"));
     EXPECT_THAT(done({"marks", "crane"}), HasSubstr("80.0"));
 }
 

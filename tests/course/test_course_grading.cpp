@@ -159,7 +159,7 @@ TEST_F(course_grading, a_row_above_the_maximum_does_not_reach_the_total) {
     std::string rows = work().read("k/marks/lab4/marks.csv");
     rows.replace(rows.find("group-01,q,,"), 12, "group-01,q,40,");
     work().write("k/marks/lab4/marks.csv", rows);
-    EXPECT_THAT(grade().error_output, HasSubstr("gets 40 points for the check \"q\", which has 4"));
+    EXPECT_THAT(grade().error_output, HasSubstr("gets 40 points for the check \"q\", but the maximum is 4"));
     EXPECT_THAT(done({"marks", "lab4"}), Not(HasSubstr("42 of 6")));
     EXPECT_THAT(work().read("k/marks/lab4/marks.csv"), HasSubstr("group-01,q,40,")) << "nothing typed is lost";
 }

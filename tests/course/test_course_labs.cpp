@@ -373,7 +373,7 @@ TEST(course_labs, pdf_of_a_lab_is_no_report) {
         withdraw(course.course(), course.lab(), expected, true, "wrong file", course.at("2026-02-28 13:00"));
         FAIL() << "a lab has no report";
     } catch (const InvalidArgument& error) {
-        EXPECT_EQ(message_text(error.message()), "lab4 has no part report: its parts are script, pack");
+        EXPECT_EQ(message_text(error.message()), "lab4 has no part report; the parts are script, pack");
     }
 }
 

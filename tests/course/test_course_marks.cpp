@@ -82,7 +82,7 @@ TEST(course_marks, the_instructor_has_the_last_word_and_gives_a_reason) {
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "reviews", "201", "--force", "--reason", "x"}).error_output,
                 HasSubstr("from 0 to 200 percent, but 201 was given"));
     EXPECT_THAT(bench.course({"mark", "crane", "group-04", "voice", "75", "--reason", "x"}).error_output,
-                HasSubstr("crane has marks of work and reviews, but \"voice\" was given"));
+                HasSubstr("crane has marks for work and reviews only, but \"voice\" was given"));
     EXPECT_EQ(bench.dump(), before);
     CourseBench::expect_done(bench.course({"mark", "crane", "group-04", "reviews", "70", "--reason", "too hard"}));
     CourseBench::expect_done(
@@ -109,7 +109,7 @@ TEST(course_marks, wrong_scores_are_refused_with_their_line) {
             "s.csv, line 1: unknown columns: beauty; the criteria of crane are data, steps, conclusions, strength, "
             "suggestions");
     refused("reviewer,report,data,workflow,style\ngroup-01,,3,3,3\n", "unknown columns: workflow, style;");
-    refused("reviewer,report\ngroup-01,\n", "no column is named like a criterion; the criteria of crane are data, ");
+    refused("reviewer,report\ngroup-01,\n", "no column has the name of a criterion; the criteria of crane are data, ");
     refused(good + "group-01,report-1000,3,3,3,3,3\n", "s.csv, line 14: ");
     refused(good + "gruop-01,,3,3,3,3,3\n", "group-01");
     refused("reviewer,data\ngroup-01,3\n", "s.csv, line 2: ");  // which of its three?
@@ -135,13 +135,13 @@ TEST(course_marks, of_a_talk_come_from_the_sheet_of_the_oral) {
                 AllOf(HasSubstr("script"), Not(HasSubstr("final version"))));
     for (const char* stage : {"review", "final"})
         EXPECT_THAT(bench.course({stage, "receive", "group-03.pdf", "--assignment", "talk"}).error_output,
-                    HasSubstr("talk is a talk: it has no "));
+                    HasSubstr("talk is a talk and has no "));
     EXPECT_THAT(bench.course({"review", "assign", "talk", "--at", "2026-04-02 10:00"}).error_output, HasSubstr("talk"));
     for (const std::vector<std::string>& words : {std::vector<std::string>{"review", "send", "talk"},
                                                   {"review", "pairs", "talk"},
                                                   {"review", "release", "talk"},
                                                   {"mark", "talk", "group-01", "reviews", "80", "--reason", "x"}})
-        EXPECT_THAT(bench.course(words).error_output, HasSubstr("talk is a talk: it has no reviews"));
+        EXPECT_THAT(bench.course(words).error_output, HasSubstr("talk is a talk and has no reviews"));
     EXPECT_THAT(bench.course({"scores", "--sheet", "crane"}).error_output, HasSubstr("crane is a report: "));
     EXPECT_EQ(bench.course({"scores", "--sheet", "talk"}).output,
               "group,content,figures,answers,comment\r\ngroup-01,,,,\r\ngroup-02,,,,\r\ngroup-03,,,,\r\n");
@@ -197,11 +197,12 @@ TEST(course_marks, what_is_late_or_missing_costs_what_the_course_says) {
     EXPECT_THAT(marks("2026-03-07 12:00"), AllOf(ContainsRegex("group-01 .* 70\\.0 "), Not(HasSubstr("missing"))));
     const std::string reviewed = marks("2026-03-10 12:00"), all = marks("2026-03-20 12:00");
     EXPECT_THAT(reviewed,
-                AllOf(ContainsRegex("group-02 .* 60\\.0 +63\\.3"), HasSubstr("30 off for 3 missing reviews")));
-    EXPECT_THAT(all,
-                AllOf(ContainsRegex("group-01 .* 55\\.0 "), ContainsRegex("group-02 .* 45\\.0 "),
-                      HasSubstr("10 off for a first version late by 1 d 1 h, 15 off for a missing final version")));
-    EXPECT_THAT(bench.course({"export", "crane"}).output, HasSubstr("15 off for a missing final version"));
+                AllOf(ContainsRegex("group-02 .* 60\\.0 +63\\.3"), HasSubstr("30 deducted for 3 missing reviews")));
+    EXPECT_THAT(
+        all,
+        AllOf(ContainsRegex("group-01 .* 55\\.0 "), ContainsRegex("group-02 .* 45\\.0 "),
+              HasSubstr("10 deducted for a first version late by 1 d 1 h, 15 deducted for a missing final version")));
+    EXPECT_THAT(bench.course({"export", "crane"}).output, HasSubstr("15 deducted for a missing final version"));
 }
 
 // oracle: the sheet
@@ -268,7 +269,7 @@ TEST(course_marks, students_have_points_of_their_own_at_the_oral) {
                 HasSubstr("content must be a number from 0 to 5, but \"x\" was given"));
     EXPECT_EQ(bench.dump(), before);
     EXPECT_THAT(bench.course({"assignment", "--remove", "talk", "--reason", "x"}).error_output,
-                HasSubstr("depend on it"));
+                HasSubstr("depend on the assignment"));
 }
 
 // oracle: a permutation, the same each time, of groups that are neither all in the order of their names

@@ -253,7 +253,8 @@ TEST(course_store, refuses_other_versions_of_the_store) {
     bench.bench().shell("sqlite3 k/course.db 'PRAGMA user_version = 99'");
     const ChildResult newer = bench.course({"status"});
     EXPECT_EQ(newer.exit_code, 1);
-    EXPECT_THAT(newer.error_output, HasSubstr("a newer dynlab made this course (its tables have version 99"));
+    EXPECT_THAT(newer.error_output,
+                HasSubstr("a newer version of dynlab created this course (its tables have version 99"));
     bench.bench().shell("mkdir x && sqlite3 x/course.db 'CREATE TABLE other (a)'");
     EXPECT_THAT(bench.bench().dynlab({"course", "--course", "x", "status"}).error_output, HasSubstr("is not a course"));
     bench.bench().shell("mkdir y && echo 'no database at all, but long enough to be read' > y/course.db");

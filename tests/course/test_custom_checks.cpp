@@ -81,7 +81,7 @@ TEST(custom_checks, marked_by_hand_wait_for_their_points) {
     EXPECT_THAT(bench.bench().read("out/results/a/feedback.md"), HasSubstr("one reason of two"));
     bench.bench().write("out/marks.csv", "who,check,points\na,text,9\n");
     EXPECT_THAT(bench.grade({"--checks", "own"}).error_output,
-                HasSubstr("gets 9 points for the check \"text\", which has 4"));
+                HasSubstr("gets 9 points for the check \"text\", but the maximum is 4"));
     EXPECT_FALSE(bench.result("a").contains("score"));
     EXPECT_EQ(bench.grade({"--checks", "own", "--force"}).exit_code, 0);
     EXPECT_EQ(bench.result("a").at("score"), 14);
@@ -244,11 +244,12 @@ TEST(custom_checks, mistakes_in_them_are_reported_with_file_and_line) {
     EXPECT_THAT(complaint("check{id = 'y', test = function(a) return 5 end}\n"),
                 HasSubstr("a test returned 5; expected a share from 0 to 1"));
     EXPECT_THAT(complaint("check{id = 'y', document = true, test = function(a) return no_finding() end}\n"),
-                HasSubstr("lesson 99_small has none"));
-    EXPECT_THAT(complaint("check{id = 'y', by_hand = true, test = function() end}\n"), HasSubstr("is marked by hand"));
+                HasSubstr("lesson 99_small has no document"));
+    EXPECT_THAT(complaint("check{id = 'y', by_hand = true, test = function() end}\n"), HasSubstr("is marked manually"));
     EXPECT_THAT(complaint("check{id = 'y', rubric = 'x', test = function() end}\n"), HasSubstr("by_hand = true"));
     std::filesystem::remove(bench.bench().path("own/mine.lua"));
-    EXPECT_THAT(bench.grade({"--checks", "own", "--again"}).error_output, HasSubstr("it has no file *.lua"));
+    EXPECT_THAT(bench.grade({"--checks", "own", "--again"}).error_output,
+                HasSubstr("contains no checks (files *.lua)"));
 }
 
 // oracle: the checks' definition: 'x' bears no change of x, 'always' none at all, 'loose' every one

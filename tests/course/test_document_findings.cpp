@@ -233,10 +233,10 @@ TEST_F(document_findings, a_passage_in_the_other_language_is_a_hint_with_its_pag
     const CheckResult result = check_report(english_report(kFrenchProse));
     const Issue issue = only(result, "language-mixed");
     EXPECT_EQ(issue.severity, Severity::kHint);
-    EXPECT_THAT(message_text(issue.what), HasSubstr("looks French: \""));
+    EXPECT_THAT(message_text(issue.what), HasSubstr("seems to be in French: \""));
     EXPECT_TRUE(result.passed());
     EXPECT_THAT(message_text(only(check_report(french_report() + kProse), "language-mixed").what),
-                HasSubstr("looks English"));
+                HasSubstr("seems to be in English"));
     EXPECT_THAT(
         ids(check_report(english_report("A term such as *mise en \u0153uvre* or *coup de force* is none, nor is the "
                                         "title *Identification des syst\u00E8mes* in a reference."))),

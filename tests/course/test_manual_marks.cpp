@@ -95,7 +95,7 @@ TEST(manual_marks, of_doubtful_rows_are_complained_of_with_their_line) {
                 AllOf(HasSubstr("marks.csv, line 3: \"Wei Li\" is ambiguous"),
                       HasSubstr("marks.csv, line 4: no submission, group or student is named \"group-7\""),
                       HasSubstr("marks.csv, line 5: unknown check \"z\" (for \"221\")"),
-                      HasSubstr("line 6: \"group-01\" gets 7 points for the check \"y\", which has 6")));
+                      HasSubstr("line 6: \"group-01\" gets 7 points for the check \"y\", but the maximum is 6")));
     EXPECT_EQ(marked.points("02-final"), 3);
     EXPECT_EQ(marked.points("weili-224"), 2);
     EXPECT_EQ(marked.points("Anh_901_assignsubmission_file_"), 2);

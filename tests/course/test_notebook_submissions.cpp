@@ -50,7 +50,8 @@ TEST(notebook_submissions, are_graded_compared_and_reported_by_cells) {
     EXPECT_EQ(GradingBench::score(bench.result("newer")), 2);
     EXPECT_THAT(bench.result("stopped").dump(),
                 AllOf(HasSubstr("analysis.ipynb, cell 2, line 2: "), Not(HasSubstr(".lua:"))));
-    EXPECT_THAT(GradingBench::error_reason(bench.result("both")), HasSubstr("it is unknown which one is newer"));
+    EXPECT_THAT(GradingBench::error_reason(bench.result("both")),
+                HasSubstr("dynlab cannot determine which file is newer"));
     EXPECT_THAT(GradingBench::error_reason(bench.result("broken")),
                 HasSubstr("analysis.ipynb cannot be read: the file is not a Jupyter"));
     EXPECT_THAT(GradingBench::error_reason(bench.result("named")), HasSubstr("under the name analysis.ipynb"));

@@ -135,7 +135,7 @@ TEST_F(own_course, texts_with_faults_are_named_with_file_and_line) {
               "checks.lua:6: unknown function or variable 'naer'"},
              {"wrong_compliance.lua", "load(\"record\")", "load(\"record\"", "wrong_compliance.lua:4: "},
              {"hints.md", "2. With", "3. With", "hints.md:4: expected hint 2, starting"},
-             {"checks.fr.po", "msgid \"The measuring errors\"", "msgid The measuring errors",
+             {"checks.fr.po", "msgid \"The measurement errors\"", "msgid The measurement errors",
               "checks.fr.po: line 19: expected text in quotation marks"},
              {"tasks.fr.lua", "-- %% [markdown]\n-- # Ce qu'on a appris", "-- # Ce qu'on a appris", "tasks.fr.lua: "},
          })
@@ -159,7 +159,7 @@ TEST_F(own_course, checks_that_do_not_do_what_they_are_for_are_reported) {
              {"lesson.lua",
               "-- BEGIN SOLUTION\nanswer(\"noise\", std(record.y - compliance*record.u))\n-- END SOLUTION",
               "answer(\"noise\", std(record.y - 0.4*record.u))\n",
-              "lesson.lua: the untouched starter gets points by the check \"noise\""},
+              "lesson.lua: the untouched starter gets points for the check \"noise\""},
              {"checks.lua", "return near(a.noise,", "return near(nil,",
               "lesson.lua: the reference solution does not pass the check \"noise\""},
          })
@@ -182,7 +182,7 @@ TEST_F(own_course, a_report_of_more_pages_than_its_header_allows_is_reported) {
     bench().write("long/08_springs/report.en.md", report);
     const ChildResult tested = bench().dynlab({"test-lesson", "long/08_springs", "--part", "documents"});
     EXPECT_EQ(tested.exit_code, 1);
-    EXPECT_THAT(tested.output, testing::ContainsRegex("long/08_springs/report.en.md: its report, page [0-9]+: .*page"));
+    EXPECT_THAT(tested.output, testing::ContainsRegex("long/08_springs/report.en.md: the report, page [0-9]+: .*page"));
 }
 
 }  // namespace test_own_course

@@ -51,7 +51,7 @@ TEST(packed_submissions, the_report_of_a_pack_counts) {
     EXPECT_THAT(taken.output,
                 AllOf(ContainsRegex("group-01 +pack +v1"), ContainsRegex("group-01 +report \\(from the pack\\) +v1"),
                       ContainsRegex("group-02 +report \\(from the pack\\) +v1 +in time +[1-9][0-9]* rule"),
-                      ContainsRegex("group-03 +pack .*the pack contains no PDF, and none can be made from it "
+                      ContainsRegex("group-03 +pack .*the pack contains no PDF, and none can be created from it "
                                     "\\(.*stopped.*\\): ask for this file"),
                       ContainsRegex("group-04 +pack .*the pack contains 2 PDF files; exactly one must be named "
                                     "report.pdf: ask for this file"),
@@ -82,7 +82,7 @@ TEST(packed_submissions, of_a_pack_without_a_pdf_the_report_is_made) {
     EXPECT_THAT(
         taken.output,
         AllOf(ContainsRegex(
-                  "group-01 +report \\(from the pack\\) +v1 .*made by dynlab, because the pack contains no PDF"),
+                  "group-01 +report \\(from the pack\\) +v1 .*created by dynlab, because the pack contains no PDF"),
               HasSubstr("2 files accepted")));
     const std::string hash = report_hash(bench, "group-01").substr(0, 64);
     EXPECT_THAT(bench.bench().shell("pdftotext $(find k/files -name '*" + hash.substr(2) + "') -").output,
@@ -169,15 +169,17 @@ TEST(packed_submissions, a_first_version_after_the_reviews_is_asked_about) {
     const std::string before = bench.dump();
     const ChildResult late = bench.submit_file("group-02.pdf", small_pdf("last"), "2026-03-09 10:00");
     EXPECT_EQ(late.exit_code, 1);
-    EXPECT_THAT(late.error_output, HasSubstr("the reviews of group-02 are due: did you mean dynlab course submit "
-                                             "--stage final? --first submits a first version anyway"));
+    EXPECT_THAT(late.error_output,
+                HasSubstr("the reviews of group-02 are already due: did you mean dynlab course submit "
+                          "--stage final? --first submits a first version anyway"));
     EXPECT_EQ(bench.dump(), before);
     bench.bench().shell(
         "sqlite3 k/course.db \"INSERT INTO sendings (pair, way, version, hash, made_at) SELECT pair, 'to author', "
         "version, "
         "hash, 0 FROM sendings\"");
-    EXPECT_THAT(bench.submit_file("group-02.pdf", small_pdf("last"), "2026-03-07 10:00").error_output,
-                HasSubstr("the reviews of group-02 are released: did you mean dynlab course submit --stage final?"));
+    EXPECT_THAT(
+        bench.submit_file("group-02.pdf", small_pdf("last"), "2026-03-07 10:00").error_output,
+        HasSubstr("the reviews of group-02 are already released: did you mean dynlab course submit --stage final?"));
     EXPECT_THAT(bench.course({"status", "crane", "--at", "2026-03-09 12:00"}).output,
                 HasSubstr("Next: dynlab course scores crane FILE.csv, then dynlab course marks crane"));
     CourseBench::expect_done(bench.submit_file("group-02.pdf", small_pdf("again"), "2026-03-09 10:00"));  // known

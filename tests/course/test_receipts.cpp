@@ -130,7 +130,7 @@ TEST_F(receipts, are_for_one_file) {
     write("other.pdf", small_pdf("other"));
     const ChildResult wrong = verify({"mine/r.txt", "other.pdf"});
     EXPECT_EQ(wrong.exit_code, 1);
-    EXPECT_THAT(wrong.output, HasSubstr("genuine, but NOT for other.pdf: that file has another SHA-256"));
+    EXPECT_THAT(wrong.output, HasSubstr("genuine, but NOT for other.pdf: that file has a different SHA-256"));
 }
 
 TEST_F(receipts, bad_keys_and_words_are_reported) {
@@ -190,7 +190,7 @@ TEST_F(receipts, of_courses_of_before_are_still_known_to_the_course) {
     EXPECT_EQ(verify({"new.txt", "--key", "mine/course.pub"}).exit_code, 0);
     EXPECT_THAT(course_.course({"verify"}).output, HasSubstr("2 files, 2 versions: complete and unaltered"));
     CourseBench::expect_done(shell("sqlite3 k/course.db \"UPDATE versions SET late = 7 WHERE id = 1\""));
-    EXPECT_THAT(course_.course({"verify"}).error_output, HasSubstr("version 1: its data differ from the"));
+    EXPECT_THAT(course_.course({"verify"}).error_output, HasSubstr("version 1: the data differ from the"));
 }
 
 }  // namespace test_receipts

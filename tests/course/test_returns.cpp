@@ -35,7 +35,7 @@ TEST(returns, bring_what_is_new_for_whom) {
     done({"review", "send", "--at", "2026-03-02 11:00"});
     const std::string reported = done({"deliver", "crane", "--out", "monday", "--moodle"});
     EXPECT_THAT(reported, AllOf(HasSubstr("group-01: 00001-group-01-first-report.txt, report-"),
-                                HasSubstr("For 3 groups, in monday"), HasSubstr("the mail address of group-02")));
+                                HasSubstr("For 3 groups, in monday"), HasSubstr("the email address of group-02")));
     EXPECT_EQ(shell("ls monday/*/report-*.pdf | wc -l"), "3\n");
     EXPECT_EQ(
         shell("for f in monday/*/report-*.pdf; do cmp $f k/outbox/crane/to-review/${f#monday/} || echo differs; done"),
@@ -56,7 +56,7 @@ TEST(returns, bring_what_is_new_for_whom) {
     EXPECT_EQ(shell("find wednesday -name '*.txt' | wc -l"), "1\n");
     done({"deliver", "crane", "--out", "all", "--all"});
     EXPECT_EQ(shell("find all -name '*.pdf' | wc -l"), "3\n");
-    EXPECT_THAT(course.course({"deliver", "crane", "--out", "all"}).error_output, HasSubstr("exists already"));
+    EXPECT_THAT(course.course({"deliver", "crane", "--out", "all"}).error_output, HasSubstr("already exists"));
     done({"verify"});
 }
 
@@ -146,8 +146,9 @@ TEST(returns, reviews_are_known_by_the_names_that_people_give) {
         reviewed_pair(pairs, reviewer, "review-report-12.pdf");
         FAIL();
     } catch (const EnvironmentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("it is a review of report-12, which group-01 did not receive; the reports "
-                                            "to review are report-07 and report-68"));
+        EXPECT_THAT(error.what(),
+                    HasSubstr("the file is a review of report-12, which group-01 did not receive; the reports "
+                              "to review are report-07 and report-68"));
     }
 }
 

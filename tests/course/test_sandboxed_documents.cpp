@@ -37,8 +37,9 @@ TEST_F(sandboxed_documents, print_names_in_all_scripts_and_say_so_once) {
         EXPECT_THAT(page, HasSubstr("Élise Lefèvre, Björn Åström: 3 of 4 – good."));
     }
     ASSERT_EQ(documents_.notes().size(), 1u);
-    EXPECT_THAT(message_text(documents_.notes().front()),
-                HasSubstr("LuaLaTeX makes this PDF, which takes longer, because pdflatex cannot print \"Д\" (U+0414)"));
+    EXPECT_THAT(
+        message_text(documents_.notes().front()),
+        HasSubstr("LuaLaTeX creates this PDF, which takes longer, because pdflatex cannot print \"Д\" (U+0414)"));
 }
 
 // The fonts of all scripts of a class are read at once, which takes more memory than those of one document.

@@ -72,7 +72,7 @@ TEST_F(store_seal, a_copy_that_was_swapped_for_the_original_is_not_sent) {
         "&& rm -r k/outbox/crane"));
     const ChildResult sent = course_.course({"review", "send", "--at", "2026-03-02 12:00"});
     EXPECT_EQ(sent.exit_code, 1);
-    EXPECT_THAT(sent.error_output, HasSubstr("was altered after dynlab made it; nothing more was sent"));
+    EXPECT_THAT(sent.error_output, HasSubstr("was altered after dynlab created it; no further copies were sent"));
     EXPECT_EQ(shell("find k/outbox -name '*.pdf' | wc -l").output, "0\n");
     EXPECT_THAT(course_.course({"verify"}).error_output, HasSubstr("the table sendings was changed"));
 }

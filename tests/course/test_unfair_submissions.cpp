@@ -52,7 +52,7 @@ TEST(unfair_submissions, no_student_submits_for_another_by_the_name_of_a_file) {
     EXPECT_THAT(row_of(bench, "1003"), HasSubstr("Eve Evil_503"));
 }
 
-// oracle: the instructor's view; of two submissions the better one counts, and that there are two is said
+// oracle: the instructor's view; of two submissions the best submission counts, and that there are two is said
 TEST(unfair_submissions, two_of_one_student_are_reported_and_typed_text_is_passed_over) {
     GradingBench bench(kAnswers, kChecks, kSolution);
     const Workbench& work = bench.bench();

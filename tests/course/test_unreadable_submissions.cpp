@@ -67,8 +67,8 @@ TEST(unreadable_submissions, have_no_marks_and_are_reported_by_name) {
     const std::string book = work.read("out/gradebook.csv");
     for (const auto& [name, reported] :
          {std::pair("crane", "the script of lesson 03_crane, not of 99_small"), std::pair("pdf", "only \"report.pdf\""),
-          std::pair("disguised", "Its analysis.lua is a PDF with another file extension"),
-          std::pair("bytes", "Its analysis.lua is not a text"),
+          std::pair("disguised", "The file analysis.lua is a PDF, despite its extension"),
+          std::pair("bytes", "The file analysis.lua is not text"),
           std::pair("two", "no analysis.lua, but \"analysis (1).lua\", \"analysis (2).lua\""),
           std::pair("seven", ".7z archives cannot be opened"),
           std::pair("notebook", "the file is JSON, but not a Jupyter notebook"),
@@ -89,7 +89,7 @@ TEST(unreadable_submissions, have_no_marks_and_are_reported_by_name) {
         EXPECT_EQ(bench.result(name).at("score"), bench.result("right").at("score")) << name;
         EXPECT_THAT(work.read("out/summary.md"), HasSubstr(fmt::format("{}\u201D was used as analysis.lua", file)));
     }
-    EXPECT_THAT(graded.output, HasSubstr("  \"silent\" ran to completion but gave no answer\n"));
+    EXPECT_THAT(graded.output, HasSubstr("  \"silent\" ran to completion but submitted no answer\n"));
     EXPECT_THAT(graded.output, Not(HasSubstr("right")));
     const std::string summary = work.read("out/summary.md");
     EXPECT_THAT(summary, HasSubstr("11 unreadable"));

@@ -164,7 +164,7 @@ TEST_F(version_changes, say_when_nothing_can_be_compared) {
     EXPECT_THAT(document("group-01"), HasSubstr("Final version: The pack’s analysis cannot be run"));
     EXPECT_THAT(document("group-01"), HasSubstr("Values can be compared if both versions have a pack"));
     CourseBench::expect_done(bench_.course({"assignment", "talk", "--kind", "talk", "--first", "2026-04-01 12:00"}));
-    EXPECT_THAT(changes({"--assignment", "talk"}).error_output, HasSubstr("talk is a talk: it has no final version"));
+    EXPECT_THAT(changes({"--assignment", "talk"}).error_output, HasSubstr("talk is a talk and has no final version"));
 }
 
 }  // namespace test_version_changes

@@ -210,7 +210,7 @@ TEST(written_answers, of_a_class_are_on_one_page_without_names) {
     for (const fs::path& file : {outcome.page, outcome.text}) {
         const std::string page = read_file(file);
         EXPECT_THAT(page, AllOf(HasSubstr("how do you know it?"), HasSubstr("The reference."), HasSubstr("CARX"),
-                                HasSubstr("same in 1 other"), HasSubstr("No answer from:")));
+                                HasSubstr("identical in 1 other submission"), HasSubstr("No answer from:")));
         for (const char* name : {"Lovelace", "Ada", "Hopper", "Mustermann", "4711", "Post"})
             EXPECT_THAT(page, Not(HasSubstr(name))) << file;
     }
@@ -219,7 +219,7 @@ TEST(written_answers, of_a_class_are_on_one_page_without_names) {
     EXPECT_EQ(bench.mark("Ada Lovelace_4711", "points"), "");
     const std::string shown = bench.mark("Grace Hopper_4712", "same_as");
     EXPECT_EQ(bench.mark("Max Mustermann_4713", "same_as"), shown);
-    EXPECT_THAT(read_file(outcome.text), HasSubstr("Answer " + shown + " (same in 1 other)"));
+    EXPECT_THAT(read_file(outcome.text), HasSubstr("Answer " + shown + " (identical in 1 other submission)"));
 }
 
 // oracle: what the instructor filled in
@@ -254,7 +254,7 @@ TEST(written_answers, of_an_unknown_question_are_refused_with_those_that_are_kno
         collect_answers(bench.request());
         FAIL();
     } catch (const EnvironmentError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("99_words has no question \"3\"; it has 1, 2"));
+        EXPECT_THAT(error.what(), HasSubstr("99_words has no question \"3\"; the questions are 1, 2"));
     }
     bench.request().question = "Conclusion";
     EXPECT_THROW(collect_answers(bench.request()), EnvironmentError);

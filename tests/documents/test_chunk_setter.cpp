@@ -110,7 +110,7 @@ TEST_F(chunk_setter, references_follow_labels) {
     set(kText);
     const std::string renamed = changed(kText, "{#eq:three}", "{#eq:other}");
     EXPECT_THAT(texts_of(set(renamed).complaints),
-                ElementsAre(HasSubstr("report.md:7: the cross reference @eq:three has no target")));
+                ElementsAre(HasSubstr("report.md:7: the cross-reference @eq:three has no target")));
     EXPECT_THAT(set(kText).complaints, IsEmpty());
     expect_as_at_once(kText);
 }

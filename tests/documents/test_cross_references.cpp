@@ -72,7 +72,7 @@ TEST_F(cross_references, sections_are_referred_to_by_number_or_title) {
 
 TEST_F(cross_references, a_dangling_reference_is_an_error_with_line_and_suggestion) {
     EXPECT_THAT(refusal("$$ x $$ {#eq:model}\n\nSee @eq:modle.\n"),
-                HasSubstr("report.md:3: the cross reference @eq:modle has no target: {#eq:modle} is missing; did you "
+                HasSubstr("report.md:3: the cross-reference @eq:modle has no target: {#eq:modle} is missing; did you "
                           "mean \"eq:model\"?"));
     EXPECT_THAT(refusal("See @figure:raw.\n"), HasSubstr("must start with @fig:, @tbl:, @eq: or @sec:"));
 }
@@ -84,7 +84,7 @@ TEST_F(cross_references, a_draft_shows_question_marks_where_something_is_missing
         "name=models}\n:::\n";
     const std::string gap = "<strong>?\?</strong>";
     const auto [gaps, page] = draft(text);
-    EXPECT_THAT(gaps, HasSubstr("report.md:1: the cross reference @fig:raw has no target"));
+    EXPECT_THAT(gaps, HasSubstr("report.md:1: the cross-reference @fig:raw has no target"));
     EXPECT_THAT(gaps, HasSubstr("report.md:1: the script reported no value \"fti\"; did you mean \"fit\"?"));
     EXPECT_THAT(gaps, HasSubstr("report.md:1: @ljung cites literature"));
     EXPECT_THAT(gaps, HasSubstr("report.md:3: the script reported no figure \"raw\""));
@@ -95,9 +95,8 @@ TEST_F(cross_references, a_draft_shows_question_marks_where_something_is_missing
     EXPECT_THAT(refusal(text), HasSubstr("has no target")) << "no draft was asked for";
     EXPECT_THROW(draft("See @fig:raw and $ \\inputt $.\n"), DocumentError) << "what cannot be set";
     const std::string missing = draft("See @fig:raw.\n\n![](figure:raw){#fig:raw}\n").first;
-    EXPECT_THAT(
-        missing,
-        HasSubstr("report.md:1: the cross reference @fig:raw has no target: {#fig:raw} labels nothing that is shown"));
+    EXPECT_THAT(missing, HasSubstr("report.md:1: the cross-reference @fig:raw has no target: the label {#fig:raw} does "
+                                   "not belong to an element that is shown"));
     const auto [none, whole] = draft("The fit is `fit`{.value}.\n");
     EXPECT_EQ(none, "");
     EXPECT_THAT(whole, Not(HasSubstr(gap)));

@@ -136,7 +136,7 @@ TEST_F(names_in_all_scripts, each_name_is_text_of_its_font_and_ink) {
         EXPECT_GT(dark, all / 40) << name.text;
     }
     EXPECT_EQ(notes(),
-              "report.md:7: LuaLaTeX makes this PDF, which takes longer, because pdflatex cannot print \"◌̀\" "
+              "report.md:7: LuaLaTeX creates this PDF, which takes longer, because pdflatex cannot print \"◌̀\" "
               "(U+0300)\n");
     EXPECT_EQ(producer_of(pdf), "LuaTeX");
 }

@@ -66,7 +66,7 @@ TEST(hints, that_cannot_be_read_are_reported_with_their_line) {
     EXPECT_THAT(complaint("## Question 2\n"), AllOf(HasSubstr("hints.md:1"), HasSubstr("# Question 4")));
     EXPECT_THAT(complaint("1. Look.\n"), AllOf(HasSubstr("hints.md:1"), HasSubstr("heading")));
     EXPECT_THAT(complaint("# Question 1\n1. a\n3. b\n"), AllOf(HasSubstr("hints.md:3"), HasSubstr("hint 2")));
-    EXPECT_THAT(complaint("# Question 1\n1. a\nb\n"), HasSubstr("indent further lines"));
+    EXPECT_THAT(complaint("# Question 1\n1. a\nb\n"), HasSubstr("indent the continuation lines"));
     EXPECT_THAT(complaint("# Question 1\n   a\n"), HasSubstr("hints.md:2"));
     EXPECT_THAT(complaint("# Question 1\n1. a\n# Question 1\n"), AllOf(HasSubstr("hints.md:3"), HasSubstr("already")));
 }

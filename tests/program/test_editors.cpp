@@ -90,7 +90,7 @@ TEST(editors, keep_what_a_user_has_changed) {
     bench.write("work/.dynlab/types.lua", "of an older program");
     const ChildResult again = bench.dynlab({"new", "editor", "work"});
     EXPECT_EQ(again.exit_code, 0);
-    EXPECT_THAT(again.output, HasSubstr(".editorconfig exists already and was not changed\n"));
+    EXPECT_THAT(again.output, HasSubstr(".editorconfig already exists and was not changed\n"));
     EXPECT_THAT(again.output, testing::Not(HasSubstr(".luarc.json")));
     EXPECT_EQ(bench.read("work/.editorconfig"), "root = false\n");
     EXPECT_THAT(bench.read("work/.dynlab/types.lua"), testing::StartsWith("---@meta\n"));

@@ -73,7 +73,7 @@ TEST(program, a_script_replaces_its_own_files_only) {
         const ChildResult kept = bench.dynlab({"run", "b.lua"});
         EXPECT_EQ(kept.exit_code, 1);
         EXPECT_THAT(kept.error_output,
-                    HasSubstr("b.lua:3: save_csv: 'marks.csv' exists already and was not written by dynlab. Save under "
+                    HasSubstr("b.lua:3: save_csv: 'marks.csv' already exists and was not written by dynlab. Save under "
                               "another name, move the file elsewhere, or replace it (dynlab run --force)"));
     }
     EXPECT_EQ(bench.read("marks.csv"), "somebody's");
@@ -121,7 +121,7 @@ TEST(program, students_copy_has_no_solutions_and_its_report_works) {
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
     const ChildResult again = bench.dynlab({"new", "02", "mine"});
     EXPECT_EQ(again.exit_code, 1);
-    EXPECT_THAT(again.error_output, HasSubstr("exists already"));
+    EXPECT_THAT(again.error_output, HasSubstr("already exists"));
 }
 
 // oracle: the lesson's source

@@ -49,7 +49,7 @@ TEST(program_errors, script_that_fails_is_reported_even_where_no_report_can_be_m
     const Workbench bench;
     write_folder(bench, "error('on purpose')\n", "![A](absent.png)\n");
     const ChildResult result = bench.dynlab({"report", "mine"});
-    expect_failure(result, 1, "on purpose\n    error('on purpose')\nThe report up to this point cannot be made: ");
+    expect_failure(result, 1, "on purpose\n    error('on purpose')\nThe report up to this point cannot be created: ");
     EXPECT_THAT(bench.files(), ElementsAre("mine"));
 }
 
@@ -149,7 +149,7 @@ TEST(program_errors, wrong_words_are_reported_in_all_programs_and_nothing_is_wri
     bench.write("capital/Analysis.lua", "print(1)\n");
     expect_failure(bench.dynlab({"run"}), 2, "a script FILE or -e CODE");
     expect_failure(bench.dynlab({"raport", "mine"}), 2,
-                   "dynlab: unknown command 'raport'; did you mean 'report'?\nRun with --help");
+                   "dynlab: unknown command 'raport'; did you mean 'report'?\nFor more information, run with --help");
     expect_failure(bench.dynlab({"course", "statu", "here"}), 2,
                    "dynlab: dynlab course has no command 'statu'; did you mean 'status'?\n");
     for (const std::string command : {"report", "check"})
@@ -158,7 +158,7 @@ TEST(program_errors, wrong_words_are_reported_in_all_programs_and_nothing_is_wri
     expect_failure(bench.dynlab({"run", "absent.lua"}), 1, "absent.lua");
     expect_failure(bench.dynlab({"report", "miner"}), 1,
                    "unknown lesson or folder 'miner'; did you mean 'mine'? The lessons are ");
-    expect_failure(bench.dynlab({"lint", "capital"}), 2, "in the folder capital, but Analysis.lua: rename it");
+    expect_failure(bench.dynlab({"lint", "capital"}), 2, "in the folder capital, but there is Analysis.lua: rename it");
     EXPECT_EQ(bench.read("mine/report.pdf"), "%PDF the good one");
     EXPECT_THAT(bench.files(), ElementsAre("capital", "mine"));
 }

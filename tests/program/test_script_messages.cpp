@@ -122,7 +122,7 @@ TEST(script_messages, a_reference_to_nothing_leaves_a_draft) {
     const ChildResult draft = bench.dynlab({"report", "A"});
     EXPECT_EQ(draft.exit_code, 1);
     EXPECT_THAT(draft.output, HasSubstr("report.pdf (draft: ?? marks missing parts)"));
-    EXPECT_THAT(draft.error_output, HasSubstr("A/report.md:7: the cross reference @fig:step has no target"));
+    EXPECT_THAT(draft.error_output, HasSubstr("A/report.md:7: the cross-reference @fig:step has no target"));
     EXPECT_THAT(draft.error_output, HasSubstr("A/report.md:7: the script reported no value \"gain\""));
     EXPECT_THAT(bench.shell("pdftotext A/report.pdf -").output, HasSubstr("As ?? shows, ?? s."));
     EXPECT_THAT(bench.dynlab({"pack", "A"}).error_output, HasSubstr("report.pdf is a draft and contains ??; run"));
@@ -130,7 +130,7 @@ TEST(script_messages, a_reference_to_nothing_leaves_a_draft) {
     EXPECT_EQ(checked.exit_code, 1);
     EXPECT_THAT(checked.output, HasSubstr("analysis-fails"));
     EXPECT_THAT(std::regex_replace(checked.output, std::regex("\\s+"), " "),
-                HasSubstr("the cross reference @fig:step has no target"));
+                HasSubstr("the cross-reference @fig:step has no target"));
     // French puts spaces before question marks, but not between these.
     bench.write("A/report.md", "---\ntitle: A\nlang: fr\n---\n\nPar k=`gain`{.value}m, ou `gain`{.value}%.\n");
     EXPECT_THAT(bench.dynlab({"report", "A"}).error_output, HasSubstr("A/report.md:6: le script n'a"));

@@ -30,8 +30,9 @@ TEST_F(script_load, reports_what_was_assumed_and_feeds_fillmissing) {
     EXPECT_EQ(
         says("local d = load(\"a.txt\") print(fillmissing(d.u)[2], d[\"u [V]\"][3], d.units.u)"),
         "a.txt: units from the headers: time in ms, u in V\na.txt: missing numbers were replaced with NaN: 1 of 3 in u "
-        "(first in line 3); fillmissing(u, {method = \"previous\"}) holds an input that is logged when it changes, "
-        "fillmissing(y) interpolates an output\na.txt: the numbers have a decimal comma, as in 3,5\n2.25\t3.5\tV\n");
+        "(first in line 3); use fillmissing(u, {method = \"previous\"}) for an input that is logged only when it "
+        "changes, "
+        "and fillmissing(y) for an output\na.txt: the numbers have a decimal comma, as in 3,5\n2.25\t3.5\tV\n");
     EXPECT_THAT(complains("print(load(\"a.txt\").y)"), HasSubstr("have no variable 'y'; they have time, u"));
 }
 
@@ -73,7 +74,7 @@ TEST_F(script_load, does_as_the_options_say) {
         says("local d = load(\"a.dat\", {skip = 1, delimiter = \" \", names = {\"clock\", \"y\"}, units = {clock = "
              "\"min\", y = \"m\"}, time = \"clock\"}) print(d.t, d.Ts, d.y, d.units.y)"),
         "[0 60 120]\t60\t[5 6 7]\tm\n");
-    EXPECT_THAT(complains("load(\"a.dat\", {skip = 1, time = \"c3\"})"), HasSubstr("the time 'c3' is not a column"));
+    EXPECT_THAT(complains("load(\"a.dat\", {skip = 1, time = \"c3\"})"), HasSubstr("'c3' is not a numeric column"));
     EXPECT_THAT(complains("load(\"a.dat\", {delimiter = \"--\"})"), HasSubstr("must be one character"));
     EXPECT_THAT(complains("load(\"a.dat\", {units = {\"V\"}})"), HasSubstr("must be a table such as"));
     EXPECT_THAT(complains("load(\"a.dat\", {unit = {}})"), HasSubstr("'unit'"));

@@ -64,7 +64,7 @@ TEST(script_studies, print_shows_truth_scatter_bias_and_failures) {
 TEST(script_studies, figures_need_parameters_that_exist) {
     EXPECT_THAT(printed(kStudy + "local M = study{lssvf = {{2, 1, 0}, 3}}\nM:histograms()\nM:scatter('a1', 'b0')\n"
                                  "print(pcall(function() return M:scatter('a1', 'b7') end))"),
-                HasSubstr("lssvf has no parameter 'b7'; its parameters are a1, a2, b0"));
+                HasSubstr("lssvf has no parameter 'b7'; the parameters are a1, a2, b0"));
     EXPECT_THAT(error_of(kStudy + "print(study{lssvf = {{2, 1, 0}, 3}}.ivsvf)"),
                 HasSubstr("unknown estimator or field of this study: 'ivsvf'; the estimators are lssvf"));
 }

@@ -79,7 +79,7 @@ CellProcess::~CellProcess() {
 void CellProcess::start() {
     std::optional<Channel::Message> answer;
     if (keeper_.send("start")) answer = keeper_.receive();
-    if (!answer) throw EnvironmentError("the process that starts cell processes has exited");
+    if (!answer) throw EnvironmentError("the process that starts cell processes has exited; restart the kernel");
     const auto news = from_cbor<CellNews>(answer->bytes);
     const std::lock_guard lock(mutex_);
     line_ = Channel(std::move(answer->file));

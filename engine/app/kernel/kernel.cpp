@@ -86,7 +86,7 @@ class Kernel {
             try {
                 socket->bind(connection.address(port));
             } catch (const zmq::error_t& error) {
-                throw EnvironmentError("the kernel cannot listen at {}: {}", connection.address(port),
+                throw EnvironmentError("the kernel cannot listen on {}: {}", connection.address(port),
                                        message_of(error));
             }
         }
@@ -155,7 +155,7 @@ class Kernel {
         try {
             return wire_.read(frames);
         } catch (const BadMessage& error) {
-            std::cerr << "dynlab: " << terminal_text(error.what()) << " is not answered" << std::endl;
+            std::cerr << "dynlab: not answered: " << terminal_text(error.what()) << std::endl;
             return {};
         }
     }

@@ -32,7 +32,9 @@ fs::path kernels_folder(const std::string& prefix) {
 }
 
 fs::path install_kernel(const fs::path& folder, const fs::path& program) {
-    if (folder.empty()) throw EnvironmentError("cannot find Jupyter's kernel folder: HOME is not set. Give --prefix");
+    if (folder.empty())
+        throw EnvironmentError(
+            "cannot find Jupyter's kernel folder, because HOME is not set. Set HOME, or give --prefix");
     const fs::path ours = folder / kKernelName;
     fs::create_directories(ours);
     const json description = {{"argv", {program.string(), "kernel", "run", "{connection_file}"}},

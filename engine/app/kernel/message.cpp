@@ -23,11 +23,11 @@ constexpr std::size_t kPartsBehind = 5;  // signature, header, parent, metadata,
 json object_of(const std::string& frame, const char* what) {
     const auto shallow = [what](int depth, json::parse_event_t, const json&) {
         if (depth > kMaxNesting)
-            throw BadMessage("a message in which {} is nested more than {} deep", what, kMaxNesting);
+            throw BadMessage("the {} of a message is nested more than {} levels deep", what, kMaxNesting);
         return true;
     };
     json object = json::parse(frame, shallow, false);
-    if (!object.is_object()) throw BadMessage("a message in which {} is not a JSON object", what);
+    if (!object.is_object()) throw BadMessage("the {} of a message is not a JSON object", what);
     return object;
 }
 
@@ -48,10 +48,10 @@ MessageWire::MessageWire(std::string key) : key_(std::move(key)), session_(secur
 KernelMessage MessageWire::read(const std::vector<std::string>& frames) {
     const auto delimiter = std::find(frames.begin(), frames.end(), kDelimiter);
     if (frames.end() - delimiter < static_cast<std::ptrdiff_t>(kPartsBehind + 1))
-        throw BadMessage("a message with too few parts");
+        throw BadMessage("a message has too few parts");
     const std::string *const signature = &delimiter[1], *const parts = &delimiter[2];
     if (!equal_in_constant_time(*signature, hmac_sha256(key_, {parts[0], parts[1], parts[2], parts[3]})))
-        throw BadMessage("a message that is not signed with this kernel's key");
+        throw BadMessage("a message is not signed with this kernel's key");
     refuse_repetition(*signature);
     KernelMessage message;
     message.identities.assign(frames.begin(), delimiter);
@@ -59,14 +59,14 @@ KernelMessage MessageWire::read(const std::vector<std::string>& frames) {
     message.parent = object_of(parts[1], "parent header");
     message.content = object_of(parts[3], "content");
     if (!message.header.contains("msg_type") || !message.header["msg_type"].is_string())
-        throw BadMessage("a message without a type");
+        throw BadMessage("a message has no type");
     return message;
 }
 
 /// A header has a name of its own, so that no two messages have the same signature.
 void MessageWire::refuse_repetition(const std::string& signature) {
     const std::lock_guard lock(reading_);
-    if (!read_.insert(signature).second) throw BadMessage("a repeated message");
+    if (!read_.insert(signature).second) throw BadMessage("a message was received twice");
     order_.push_back(signature);
     if (order_.size() <= kMostRemembered) return;
     read_.erase(order_.front());

@@ -25,7 +25,7 @@ SourceFiles::SourceFiles(const std::vector<fs::path>& files) {
 }
 
 std::optional<SourceText> SourceFiles::read(std::size_t number) const {
-    if (number >= files_.size()) throw EnvironmentError("the document does not have this file");
+    if (number >= files_.size()) throw EnvironmentError("this file is not part of the document");
     try {
         SourceText source{number, files_[number].filename(), read_file(files_[number]), {}, files_[number]};
         if (in_utf8(source.text) != source.text) return {};
@@ -56,7 +56,7 @@ SourceFiles::Outcome SourceFiles::save(const SourceText& saved) {
     if (there && there->digest != saved.digest) return {false, *std::move(there)};
     const fs::path& file = files_[saved.number];
     if (!there && fs::exists(file))
-        throw EnvironmentError("{} was not saved: another program changed it, and it is not UTF-8 text now",
+        throw EnvironmentError("{} was not saved: another program changed the file, and it is no longer UTF-8 text",
                                file.string());
     if (in_utf8(saved.text) != saved.text)
         throw EnvironmentError("{} was not saved: the text is not UTF-8", file.string());

@@ -73,18 +73,19 @@ OfficeCommand office_command(const Words& words) {
     constexpr std::size_t kMaxWords = 20, kMaxBytes = 4000;
     const AllowedCommand* const allowed = command_of(words);
     if (allowed == nullptr || words.size() > kMaxWords)
-        throw EnvironmentError("this page does not have the command \"{}\"; type it in a terminal",
+        throw EnvironmentError("the command \"{}\" is not available on this page; run it in a terminal",
                                words.size() > 1 ? words[1] : "");
     OfficeCommand command{{}, kProgram};
     Names given;
     for (const std::string& word : words) {
         if (word.size() > kMaxBytes || word.empty() || terminal_text(word) != word ||
             word.find_first_of("\n\t") != word.npos)
-            throw EnvironmentError("a word of a command has 1 to {} bytes and no control characters", kMaxBytes);
+            throw EnvironmentError(
+                "a word of a command must have 1 to {} bytes and must not contain control characters", kMaxBytes);
         if (word.starts_with('-')) {
             const std::string name = name_of_option(word);
             if (!allowed->options.contains(name))
-                throw EnvironmentError("this page does not have the option \"{}\"; type the command in a terminal",
+                throw EnvironmentError("the option \"{}\" is not available on this page; run the command in a terminal",
                                        name);
             given.insert(name);
             refuse_foreign_file(word);
@@ -93,7 +94,7 @@ OfficeCommand office_command(const Words& words) {
         command.line += " " + shell_word(word);
     }
     if (!allowed->needed.empty() && !given.contains(allowed->needed))
-        throw EnvironmentError("this page has the command with {} only", allowed->needed);
+        throw EnvironmentError("on this page, the command requires the option {}", allowed->needed);
     return command;
 }
 

@@ -8,10 +8,10 @@ addWords({
   ofBeforeRunning: tr("of the previous run; running again"), cellOf: tr("cell {} of {}"),
   stoppedAfter: tr("stopped: {} of {} cells were run"), cells: trPlural("{} cell, {} s", "{} cells, {} s"),
   ended: tr("dynlab has exited; this is the last page"),
-  lost: tr("dynlab does not respond: restart it and open its new address; your text is still here"),
+  lost: tr("dynlab does not respond: restart dynlab and open the new address; your text is still here"),
   asked: tr("This document runs programs. Run it?"),
-  askedAbout: tr("Its text is shown below. Answer yes only if you know its origin."),
-  askedAboutOwn: tr("dynlab new created its folder on this computer. Its text is shown below."),
+  askedAbout: tr("The text of the document is shown below. Answer yes only if you trust its source."),
+  askedAboutOwn: tr("dynlab new created the folder of this document on this computer. The text of the document is shown below."),
   notPrinted: tr("{}: code that is not printed"), asInScript: tr("Reset"),
 
   // The editor
@@ -20,7 +20,7 @@ addWords({
   notSaved: tr("not saved: {}"),
   conflict: tr("was also changed by another program. Your version is in the editor; these lines differ in the file:"),
   takeTheirs: tr("Use the file's text"), keepMine: tr("Overwrite with my text"), draft: tr("A draft of {} was not saved."),
-  takeDraft: tr("Restore"), dropDraft: tr("Discard"), notInIt: tr("(your lines are not in it)"),
+  takeDraft: tr("Restore"), dropDraft: tr("Discard"), notInIt: tr("(your lines are not in the file)"),
   outline: tr("Go to …"), runCell: tr("Run this cell (Ctrl-Enter; Shift-Enter: run and go to the next)"),
   runAbove: tr("Run the changed cells above this one"), find: tr("Find and replace (Ctrl-F, Shift-Ctrl-F)"),
   editText: tr("Click to edit"), variables: tr("Variables of the script"), noVariables: tr("The script has no variables yet."),
@@ -30,16 +30,16 @@ addWords({
   yes: tr("Yes"), no: tr("No"), all: tr("All"),
 
   // What is handed in
-  handIn: tr("Submit"), makeReport: tr("Make report.pdf"), makePack: tr("Pack the folder"),
-  handInAbout: tr("dynlab makes the report from the saved script, then packs the folder with the report into one file."),
-  makingReport: tr("the report is being made …"), makingPack: tr("the folder is being packed …"),
-  notMade: tr("not made: save the text in the editor first"),
+  handIn: tr("Submit"), makeReport: tr("Create report.pdf"), makePack: tr("Pack the folder"),
+  handInAbout: tr("dynlab creates the report from the saved script, then packs the folder with the report into one file."),
+  makingReport: tr("creating the report …"), makingPack: tr("packing the folder …"),
+  notMade: tr("not created: save the text in the editor first"),
 
   // What dynlab check finds
-  found: tr("Findings of dynlab check"), onPage: tr("page {}"), checked: tr("checked"), checking: tr("checking: {} %"),
+  found: tr("Issues found by dynlab check"), onPage: tr("page {}"), checked: tr("checked"), checking: tr("checking: {} %"),
   openAnswers: trPlural("{} answer open", "{} answers open"), brokenRules: trPlural("{} rule violated", "{} rules violated"),
   hints: trPlural("{} hint", "{} hints"), points: tr("{} of {} points"),
-  older: tr("of the files before the last change; checking again"),
+  older: tr("results for the files before the last change; checking again"),
   notGiven: tr("Missing answers"), toMend: tr("To fix"), remarks: tr("Hints"),
   checksOfLesson: tr("Checks of the lesson: {}"), nothingToMend: tr("dynlab check finds no problem."),
   // The kinds of answers, as a script's header names them

@@ -65,7 +65,7 @@ const FIGURES = {
     tr("Measured output and simulated outputs of the models, with the fit of each"),
     tr("measured and simulated outputs")],
   residuals: [({ validation }, models) => `(resid(${partOf(validation, models.at(-1))}, ${models.at(-1)}))`,
-    tr("Autocorrelation of the simulation error, and its correlation with the input; the gray bands are chance bounds"),
+    tr("Autocorrelation of the simulation error, and its correlation with the input; the gray bands are confidence bounds"),
     tr("the residual of the model")],
   step: [(_, models) => together("step", models),
     tr("Step response, with its confidence band if known"),
@@ -84,7 +84,7 @@ const FIGURES = {
     const parts = models.map((model) => [channelsOf([model]).find((one) => !one.output || (one.output === i && one.input === j))?.code, model]).filter(([code]) => code);
     return `(impulseest(${[`${estimation}${pair}`, ...parts.map(([code]) => code), ...(parts.length > 0 ? [labels(parts.map(([, model]) => model))] : [])].join(", ")}))`;
   })),
-    tr("Impulse response by correlation; the gray band shows the chance bounds"),
+    tr("Impulse response estimated by correlation; the gray band shows the confidence bounds"),
     tr("the impulse response estimated from the data without a model")],
   reading: [({ raw, reading }) => `compare(${raw}, ${reading}_model, ${labels([told(BY_HAND)])})`,
     tr("The data and the model determined by hand"), tr("the model determined by hand")],

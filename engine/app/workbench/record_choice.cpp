@@ -217,7 +217,7 @@ RecordOrder suggested_order(const RecordChoice& choice) {
         if (column.role == "time") order.time = column.name;
     }
     if (order.inputs.empty() || order.outputs.empty())
-        throw EnvironmentError("{} does not contain two signals of equal length that vary", choice.data);
+        throw EnvironmentError("{} does not contain two signals of equal length that are not constant", choice.data);
     return order;
 }
 

@@ -105,9 +105,10 @@ void take_script_orders(WebServer& server, WorkbenchSession& bench) {
     server.on_post("/script", [&](const PageRequest& asked) {
         constexpr int kConflict = 409;
         const auto revision = bench.change(from_json<ScriptOrder>(asked.body));
-        return revision ? PageReply{std::to_string(*revision), kJson}
-                        : PageReply{bench.translated(Message("The script has changed in the meantime.")), kPlainText,
-                                    kConflict};
+        return revision
+                   ? PageReply{std::to_string(*revision), kJson}
+                   : PageReply{bench.translated(Message("The script has changed in the meantime. Reload the page.")),
+                               kPlainText, kConflict};
     });
     server.on_post("/look", [&](const PageRequest& asked) {
         return PageReply{std::to_string(bench.look(from_json<ViewOrder>(asked.body))), kJson};
@@ -198,7 +199,7 @@ void serve_documents(WebServer& server, WorkbenchSession& bench, BackgroundWork&
                              kForbidden};
         if (const auto mistake = bench.mistake())
             return PageReply{
-                bench.translated(Message("A report cannot be made from a script with an error: {}", *mistake)),
+                bench.translated(Message("A report cannot be created from a script with an error: {}", *mistake)),
                 kPlainText, kConflict};
         background.document_changed({});
         const BackgroundWork::Pdf pdf = background.pdf();

@@ -91,7 +91,8 @@ int answers_of_course(const CourseArguments& where, const AnswersArguments& args
         Course course(where.folder);
         const Assignment assignment = assignment_named(course, args.assignment);
         const std::string lesson = args.lesson.empty() ? assignment.lesson : args.lesson;
-        if (lesson.empty()) throw EnvironmentError("{} does not name a lesson; give --lesson NN", assignment.name);
+        if (lesson.empty())
+            throw EnvironmentError("the assignment {} does not specify a lesson; give --lesson NN", assignment.name);
         request.lesson = find_lesson(lesson);
         request.submissions = work.path() / "submissions";
         request.roster = students_of(course);
@@ -111,7 +112,8 @@ void add_answers(CLI::App& app, Action& action) {
     CLI::App* command =
         app.add_subcommand("answers", "Collect all written answers to a question on one anonymous page");
     command
-        ->add_option("FOLDER", args->submissions, "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
+        ->add_option("FOLDER", args->submissions,
+                     "Submissions: folders, packs, zip files, or an export of Moodle or Canvas")
         ->required()
         ->check(CLI::ExistingPath);
     command->add_option("--lesson", args->lesson, "Lesson of the question")->type_name("NN")->required();

@@ -129,7 +129,7 @@ void add_check(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("check", "Check a report for problems before submission");
     command
         ->add_option("FOLDER|FILE.lua|FILE.ipynb|FILE.pdf", args->subject,
-                     "Folder made by dynlab new, single script or notebook, or any PDF")
+                     "Folder created by dynlab new, a script or notebook, or any PDF")
         ->required();
     command->add_option("--template", args->template_name, "Template to check against, such as lab_report or slides")
         ->type_name("NAME|FILE.md");
@@ -139,23 +139,19 @@ void add_check(CLI::App& app, Action& action) {
         ->type_name("N")
         ->check(CLI::Range(1, 1000));
     command->add_flag("--document-only", args->document_only, "Skip the lesson's checks of the answers");
-    command->add_flag("--json", args->as_json, "Print the findings as JSON");
+    command->add_flag("--json", args->as_json, "Print the issues found as JSON");
     command->footer(
         "dynlab runs the analysis in a clean copy of the folder and does not write into the folder. A single script, "
-        "such\n"
-        "as a session of dynlab app, is checked as a folder with the files that it names.\n"
-        "The template that analysis.lua names sets the rules. For a PDF alone, wide pages are slides, the headings of "
-        "a\n"
-        "review make it a peer_review, and other documents are a lab_report. dynlab checks pages, sections, figures "
-        "that\n"
-        "the text does not mention, unfilled slots, languages, text size and margins. It searches for the members in\n"
-        "group.toml and the people of a roster, and for home folders: in the text, bookmarks, link targets, document\n"
-        "information and the file name (see dynlab help names).\n"
-        "Examples:  dynlab check my-crane     dynlab check report.pdf     dynlab check talk.pdf --template slides "
-        "--json\n"
-        "Exit codes: 0 no rule is violated (there may be hints), 1 a rule is violated, 2 wrong usage.\n"
-        "JSON: {subject, template, language, pages, passed, checked: [text],\n"
-        "       findings: [{id, severity: \"rule\"|\"hint\", page, place, what, remedy}]}; unknown values are null.");
+        "such\nas a session of dynlab app, is checked as a folder with the files that it names.\nThe template that "
+        "analysis.lua specifies sets the rules. For a PDF alone, dynlab uses slides for wide pages,\npeer_review for "
+        "the headings of a review, and lab_report for other documents. dynlab checks pages, sections, figures "
+        "that\nthe text does not mention, unfilled slots, languages, text size and margins. It searches for the "
+        "members in\ngroup.toml and the people of a roster, and for home folders: in the text, bookmarks, link "
+        "targets, document\ninformation and the file name (see dynlab help names).\nExamples:  dynlab check my-crane   "
+        "  dynlab check report.pdf     dynlab check talk.pdf --template slides --json\nExit codes: 0 no rule is "
+        "violated (there may be hints), 1 a rule is violated, 2 wrong usage.\nJSON: {subject, template, language, "
+        "pages, passed, checked: [text],\n       findings: [{id, severity: \"rule\"|\"hint\", page, place, what, "
+        "remedy}]}; unknown values are null.");
     command->callback([args, &action] {
         if (ending_of(args->subject) != ".pdf") expect_script(args->subject, "check");
         action = [args] { return check(*args); };

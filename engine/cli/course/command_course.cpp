@@ -28,7 +28,7 @@ void add_init(CLI::App& course, Action& action) {
         std::string folder, name, zone = "UTC";
     };
     auto args = std::make_shared<Arguments>();
-    CLI::App* command = course.add_subcommand("init", "Make a course: a folder with its store and its key");
+    CLI::App* command = course.add_subcommand("init", "Create a course: a folder with a store and a key");
     command->add_option("DIR", args->folder, "Folder of the course; it may exist")->required();
     command->add_option("--name", args->name, "Name of the course, for receipts. Default: the name of the folder.");
     command->add_option("--timezone", args->zone, "Time zone for all times of the course")
@@ -41,10 +41,9 @@ void add_init(CLI::App& course, Action& action) {
             const std::string own = (folder.has_filename() ? folder : folder.parent_path()).filename();
             Course::create(folder, args->name.empty() ? own : args->name, args->zone);
             std::cout << fmt::format(
-                "Course made in {}, times in {}.\n"
-                "course.key signs the receipts: keep a copy of the whole folder, and keep the key secret.\n"
-                "course.pub verifies them: give it to your students, who need only dynlab verify.\n"
-                "Next: cd {} and dynlab course import roster.csv\n",
+                "Course created in {}, times in {}.\ncourse.key signs the receipts: keep a copy of the whole folder, "
+                "and keep the key secret.\ncourse.pub verifies them: give it to your students, who need only dynlab "
+                "verify.\nNext: cd {} and dynlab course import roster.csv\n",
                 folder.string(), args->zone, args->folder);
             return kDone;
         };
@@ -114,7 +113,7 @@ void add_import(CLI::App& course, CourseArguments& where, Action& action) {
             if (!args->assignment.empty()) return import_table(where, args->assignment, args->file);
             if (args->folder.empty()) return import_people(where, args->file, args->no_groups);
             import_course(args->file, args->from, args->folder);
-            std::cout << fmt::format("Course made in {} from {}.\n", args->folder, args->file);
+            std::cout << fmt::format("Course created in {} from {}.\n", args->folder, args->file);
             return kDone;
         };
     });
@@ -224,9 +223,10 @@ void add_settings(CLI::App& command, AssignmentArguments& args) {
     command.add_option("--grace", args.grace, "Grace period after a deadline: 15min, 2h, 1d. Default: 0.")
         ->type_name("DURATION");
     command
-        .add_option("--costs", args.costs,
-                    "Penalties in percent points: late-day:10 of the work for each day or part of a day, late-most:50 "
-                    "in total, missing-final:30; late-review:5,missing-review:25 of the reviews. Default: none.")
+        .add_option(
+            "--costs", args.costs,
+            "Penalties in percentage points: late-day:10 of the work for each day or part of a day, late-most:50 in "
+            "total, missing-final:30; late-review:5,missing-review:25 of the reviews. Default: none.")
         ->type_name("NAME:POINTS,...");
     command
         .add_option("--final-weight", args.final_weight,
@@ -255,26 +255,24 @@ void add_assignment_command(CLI::App& course, CourseArguments& where, Action& ac
         ->type_name("lab|report|talk")
         ->check(CLI::IsMember({"lab", "report", "talk", "presentation"}));
     add_settings(*command, *args);
-    command->add_option("--reviews", args->reviews, "Number of reviews that each group writes and gets. Default: 2.")
+    command
+        ->add_option("--reviews", args->reviews, "Number of reviews that each group writes and receives. Default: 2.")
         ->check(CLI::Range(1, 20));
     command->add_option(
         "--criteria", args->criteria,
-        "Criteria that reviewers score (at a talk, you): name:points,... Default: data, steps, conclusions, strength, "
-        "suggestions; for a talk content, slides, delivery, answers; 5 points each.");
+        "Criteria that reviewers score (for a talk, that you score): name:points,... Default: data, steps, "
+        "conclusions, strength, suggestions; for a talk content, slides, delivery, answers; 5 points each.");
     command->add_option(
         "--reason", args->reason,
         "Reason; recorded in the history. Required to change an assignment with submissions, and to remove one.");
     command->add_flag("--remove", args->remove, "Remove the assignment if nothing depends on it");
     command->footer(
         "Times are in the course's time zone. Options that you omit keep their values. Once files were submitted, "
-        "--reason is\n"
-        "required to move a deadline to an earlier time. Lateness and marks follow immediately.\n"
-        "Examples:\n"
-        "  dynlab course assignment lab4 --kind lab --lesson 04 --first \"2026-03-09 18:00\" --secret secret.txt "
-        "--weight 10\n"
-        "  dynlab course assignment crane --lesson 03_crane --first \"2026-02-28 13:00\" \\\n            --review "
-        "\"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews 2\n"
-        "  dynlab course assignment crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
+        "--reason is\nrequired to move a deadline to an earlier time. dynlab updates lateness and marks "
+        "immediately.\nExamples:\n  dynlab course assignment lab4 --kind lab --lesson 04 --first \"2026-03-09 18:00\" "
+        "--secret secret.txt --weight 10\n  dynlab course assignment crane --lesson 03_crane --first \"2026-02-28 "
+        "13:00\" \\\n            --review \"2026-03-04 13:00\" --final \"2026-03-07 14:00\" --grace 15min --reviews "
+        "2\n  dynlab course assignment crane --final \"2026-03-08 14:00\" --reason \"strike on Friday\"");
     command->callback([&where, args, &action] { action = [&where, args] { return enter_assignment(where, *args); }; });
 }
 

@@ -52,18 +52,16 @@ CLI::App* add_changes(CLI::App& course, CourseArguments& where, Action& action) 
         ->type_name("NAME");
     command->add_option("--out", args->out, "Folder for GROUP.pdf and GROUP.md of each final version")
         ->type_name("DIR");
-    command->add_option("--isolation", args->isolation, "Isolation of the work on the groups' files")
+    command->add_option("--isolation", args->isolation, "Isolation while the groups' files are processed")
         ->type_name("full|process")
         ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
     command->footer(
-        "Compares each final version with the version that its reviewers read. If both versions have a pack with an\n"
-        "analysis that runs, dynlab compares report.md, otherwise the text of the PDFs. The documents show deleted and "
-        "inserted words, the\n"
-        "changed values, answers and table cells, and the released reviews.\n"
-        "Examples:\n"
-        "  dynlab course changes --assignment crane\n"
-        "  dynlab course changes group-03 group-07 --assignment crane --out changes");
+        "Compares each final version with the version that its reviewers read. If both versions have a pack with "
+        "an\nanalysis that runs, dynlab compares report.md; otherwise, it compares the text of the PDFs. The documents "
+        "show\ndeleted and inserted words, the changed values, answers and table cells, and the released "
+        "reviews.\nExamples:\n  dynlab course changes --assignment crane\n  dynlab course changes group-03 group-07 "
+        "--assignment crane --out changes");
     command->callback([&where, args, &action] { action = [&where, args] { return changes(where, *args); }; });
     return command;
 }

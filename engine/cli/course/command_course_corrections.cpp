@@ -64,7 +64,7 @@ int restore_files(Course& course, const Assignment& a, const CorrectionArguments
 
 int extend_for_one(Course& course, const Assignment& a, const CorrectionArguments& args) {
     if (args.time.empty() != args.end)
-        throw InvalidArgument("give the new end date, or --end to return to the deadline of the class");
+        throw InvalidArgument("give the new deadline, or --end to return to the deadline of the class");
     std::optional<Instant> due;
     if (!args.end) due = course.clock().parse(args.time, "TIME");
     extend(course, a, args.requested.group, args.requested.stage, due, args.reason, time_of(course, args.at));
@@ -161,7 +161,7 @@ void add_withdrawals(CLI::App& course, CourseArguments& where, Action& action) {
 
 void add_correction_commands(CLI::App& course, CourseArguments& where, Action& action) {
     const auto time =
-        add_correction(course, "set-received", "Correct when a file was received", where, action, correct_time);
+        add_correction(course, "set-received", "Correct the time of receipt of a file", where, action, correct_time);
     time.app
         ->add_option("TIME", time.args->time,
                      "Time of receipt, such as \"2026-03-01 17:30\", in the course's time zone")
@@ -180,8 +180,8 @@ void add_correction_commands(CLI::App& course, CourseArguments& where, Action& a
     longer.app->add_flag("--end", longer.args->end, "Return to the deadline of the class");
     add_reason(longer);
     longer.app->footer(
-        "Applies also to files that were received before. The grace of the assignment is added.\nExample:  dynlab "
-        "course extend crane group-05 \"2026-03-03 13:00\" --reason \"illness\"");
+        "The deadline also applies to files that were received before. The grace of the assignment is added.\nExample: "
+        " dynlab course extend crane group-05 \"2026-03-03 13:00\" --reason \"illness\"");
 
     const auto kept =
         add_correction(course, "withhold", "Withhold a report from its reviewers, or a review from the authors", where,

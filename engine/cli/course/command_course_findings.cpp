@@ -65,7 +65,7 @@ int show_findings(const CourseArguments& where, const FindingsArguments& args) {
 
 void add_findings_command(CLI::App& course, CourseArguments& where, Action& action) {
     auto args = std::make_shared<FindingsArguments>();
-    CLI::App* command = course.add_subcommand("findings", "Show the findings in a group's files at their receipt");
+    CLI::App* command = course.add_subcommand("findings", "Show the issues found in a group's files at their receipt");
     command->add_option("GROUP", args->group)->required();
     command->add_option("--assignment", args->assignment, "Assignment. Required if there are several.")
         ->type_name("NAME");
@@ -76,9 +76,8 @@ void add_findings_command(CLI::App& course, CourseArguments& where, Action& acti
     command->add_option("--version", args->version, "Number of an earlier submission. Default: the newest.")
         ->type_name("N");
     command->footer(
-        "The output is the same as for dynlab check.\n"
-        "Example:  dynlab course findings group-07 --stage review\n"
-        "Exit codes: 0 no rule is violated, 1 a rule is violated, or nothing was received.");
+        "The output has the format of dynlab check.\nExample:  dynlab course findings group-07 --stage review\nExit "
+        "codes: 0 no rule is violated, 1 a rule is violated, or nothing was received.");
     command->callback([&where, args, &action] { action = [&where, args] { return show_findings(where, *args); }; });
 }
 

@@ -107,12 +107,13 @@ int set_mark(const CourseArguments& where, const MarkArgs& args) {
 
 void add_mark(CLI::App& course, CourseArguments& where, Action& action) {
     auto args = std::make_shared<MarkArgs>();
-    CLI::App* command = course.add_subcommand("mark", "Set a manual mark, which takes precedence");
+    CLI::App* command = course.add_subcommand("mark", "Set a manual mark, which overrides the computed mark");
     command->add_option("ASSIGNMENT", args->assignment)->required();
     command->add_option("WHO", args->who, "Group, a student by name or id, or answer-NAME of course page")->required();
     command
-        ->add_option("MARK", args->mark,
-                     "For a lab [CHECK] POINTS, without CHECK for the complete lab; otherwise [work|reviews] PERCENT")
+        ->add_option(
+            "MARK", args->mark,
+            "For a lab, [CHECK] POINTS (without CHECK for the complete lab); otherwise, [work|reviews] PERCENT")
         ->required()
         ->expected(1, 2);
     command->add_option("--reason", args->reason,
@@ -149,13 +150,12 @@ void add_grade_commands(CLI::App& course, CourseArguments& where, Action& action
         ->type_name("full|process")
         ->capture_default_str()
         ->check(CLI::IsMember({"full", "process"}));
-    command->add_flag("--force", args->force, "Accept marks above the points of their check");
+    command->add_flag("--force", args->force, "Accept marks above the maximum points of their check");
     command->add_flag("--no-pdf", args->no_pdf, "Write feedback and summary as Markdown only");
     command->footer(
         "The assignment determines lesson, checks and secret (dynlab course assignment). The results are in "
-        "marks/ASSIGNMENT\n"
-        "of the course's folder: gradebook.csv, summary.pdf, feedback, and marks.csv for manual marks.\n"
-        "Example:  dynlab course grade lab4");
+        "marks/ASSIGNMENT\nof the course's folder: gradebook.csv, summary.pdf, feedback, and marks.csv for manual "
+        "marks.\nExample:  dynlab course grade lab4");
     command->callback([&where, args, &action] { action = [&where, args] { return grade(where, *args); }; });
     add_mark(course, where, action);
 }

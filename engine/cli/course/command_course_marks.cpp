@@ -51,7 +51,7 @@ int drop(const CourseArguments& where, const MarkArguments& args) {
     const Assignment a = assignment_named(course, args.assignment);
     drop_scores(course, a, args.dropped[0], args.dropped[1], args.reason, time_of(course, args.at));
     std::cout << terminal_text(
-        fmt::format("{}: the scores of {} for {} are taken back.\n", a.name, args.dropped[0], args.dropped[1]));
+        fmt::format("{}: the scores of {} for {} are withdrawn.\n", a.name, args.dropped[0], args.dropped[1]));
     return kDone;
 }
 
@@ -222,8 +222,8 @@ MarkCommand add_one(CLI::App& course, const char* name, const char* about, Cours
 }  // namespace
 
 void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action) {
-    const auto scored = add_one(course, "scores", "Read scores of reviewers or of a talk, or make a score sheet", where,
-                                action, scores);
+    const auto scored = add_one(course, "scores", "Read scores of reviewers or of a talk, or create a score sheet",
+                                where, action, scores);
     scored.app->add_option("ASSIGNMENT", scored.args->assignment)->required();
     scored.app->add_option("CSV", scored.args->file,
                            "Columns reviewer, report (for a talk group, student, comment), and criteria");
@@ -232,7 +232,7 @@ void add_mark_commands(CLI::App& course, CourseArguments& where, Action& action)
         ->expected(2)
         ->excludes("CSV");
     scored.app->add_option("--reason", scored.args->reason, "Reason; recorded in the history")->needs("--drop");
-    scored.app->add_flag("--sheet", scored.args->make_sheet, "For a talk: make an empty score sheet");
+    scored.app->add_flag("--sheet", scored.args->make_sheet, "For a talk: create an empty score sheet");
     scored.app->add_option("-o,--out", scored.args->out, "File of the sheet. Default: standard output.")
         ->type_name("CSV");
     scored.app->add_flag("--students", scored.args->sheet.students, "Add a row for each student to the sheet");

@@ -113,7 +113,7 @@ int pairs(const CourseArguments& where, const PeerArguments& args) {
     if (constraints == 0 && args.reviewer.empty()) return show_pairs(where, args);
     if (constraints != 1 || args.author.empty() || args.reason.empty())
         throw InvalidArgument(
-            "name a pair and an action: review pairs ASSIGNMENT REVIEWER AUTHOR with --set, --forbid or --free, and "
+            "specify a pair and an action: review pairs ASSIGNMENT REVIEWER AUTHOR with --set, --forbid or --free, and "
             "--reason");
     return constraint(where, args, args.set ? "set" : args.forbid ? "forbid" : "free");
 }
@@ -152,7 +152,7 @@ int give_back(const CourseArguments& where, const ReturnArguments& args) {
               << '\n';
     if (!done.without_mail.empty())
         std::cerr << terminal_text(
-            fmt::format("dynlab: the mail address of {} is unknown; add it in the roster's column mail\n",
+            fmt::format("dynlab: the email address of {} is unknown; add it in the roster's column mail\n",
                         fmt::join(done.without_mail, ", ")));
     if (!done.without_number.empty())
         std::cerr << terminal_text(
@@ -195,7 +195,7 @@ CLI::App* add_one(CLI::App& parent, const char* name, const char* about, CourseA
         command->add_option("REVIEWER", args->reviewer, "A group");
         command->add_option("AUTHOR", args->author, "Another group");
         command->add_flag("--set", args->set, "Let the group review the report of the other group");
-        command->add_flag("--forbid", args->forbid, "Keep the two groups from reviewing each other");
+        command->add_flag("--forbid", args->forbid, "Prevent the two groups from reviewing each other");
         command->add_flag("--free", args->free, "Undo --set or --forbid");
         command->add_option("--reason", args->reason, "Reason; recorded in the history");
     }
@@ -221,20 +221,17 @@ void add_peer_commands(CLI::App& course, CourseArguments& where, Action& action)
     add_one(*peer, "assign", "Allocate the reviews at random, or adjust them after late submissions and drop-outs",
             where, action, assign)
         ->footer(
-            "Each group writes, and gets, the same number of reviews. Existing reviews and sent copies are kept. You "
-            "can repeat\n"
-            "the command.\n"
-            "Example:  dynlab course review assign crane");
-    add_one(*peer, "send", "Make anonymized copies of the reports for their reviewers", where, action, send_reports)
+            "Each group writes and receives the same number of reviews. Existing reviews and sent copies are kept. You "
+            "can repeat\nthe command.\nExample:  dynlab course review assign crane");
+    add_one(*peer, "send", "Create anonymized copies of the reports for their reviewers", where, action, send_reports)
         ->footer(
-            "A copy that contains a name is not sent; dynlab prints where the name is. If the text means no person, "
-            "--accept\n"
-            "sends the copy. If you repeat the command, it makes only new copies.\n"
-            "Examples:  dynlab course review send crane\n"
-            "           dynlab course review send crane --accept group-01 --reason \"Page is a word there\"");
-    add_one(*peer, "release", "Make anonymized copies of the reviews for the authors", where, action, release)
+            "A copy that contains a name is not sent; dynlab prints where the name is. If the text does not refer to a "
+            "person,\n--accept sends the copy. If you repeat the command, it creates only new copies.\nExamples:  "
+            "dynlab course review send crane\n           dynlab course review send crane --accept group-01 --reason "
+            "\"Page is a word there\"");
+    add_one(*peer, "release", "Create anonymized copies of the reviews for the authors", where, action, release)
         ->footer(
-            "A review that contains a name is not sent, like a report. If you repeat the command, it makes only new "
+            "A review that contains a name is not sent. If you repeat the command, it creates only new "
             "copies.\nExample:  dynlab course review release crane");
     add_return(course, where, action);
     add_one(*peer, "pairs", "Show the pairs with their pseudonyms (confidential), or set or forbid a pair", where,

@@ -44,12 +44,12 @@ Message remark(const Received& r) {
     if (r.known) return Message("already received; nothing changed");
     MessageList clauses{{}, Join::kSemicolon};
     if (r.voluntary)
-        clauses.items.push_back(Message("voluntary: the author withdrew the report; the review gets no marks"));
+        clauses.items.push_back(Message("voluntary: the author withdrew the report, so the review receives no marks"));
     if (!r.remark.empty()) clauses.items.push_back(r.remark);
     if (!r.twin.empty()) clauses.items.push_back(Message("the same file as {}", r.twin));
     if (!r.earlier.empty()) clauses.items.push_back(Message("the same file as {}", r.earlier));
     if (r.marked_late) clauses.items.push_back(Message("marked late by the platform: see --times"));
-    if (r.made) clauses.items.push_back(Message("made by dynlab, because the pack contains no PDF"));
+    if (r.made) clauses.items.push_back(Message("created by dynlab, because the pack contains no PDF"));
     if (r.scores > 0) clauses.items.push_back(plural(r.scores, "{} score read", "{} scores read"));
     if (r.rules_broken > 0)
         clauses.items.push_back(r.names ? plural(r.rules_broken, "{} rule violated: a name was found",
@@ -122,10 +122,10 @@ fs::path file_not_taken(Course& course, const Assignment& assignment, const std:
         return one.name != name && (name.size() < kShortest || !one.hash.starts_with(name));
     });
     if (found.size() != 1)
-        throw found.empty() ? InvalidArgument("{} has no file \"{}\" that was not taken", assignment.name, name)
+        throw found.empty() ? InvalidArgument("{} has no file \"{}\" that was not accepted", assignment.name, name)
                             : InvalidArgument(
-                                  "{} has {} files \"{}\" that were not taken; give the first digits of "
-                                  "its SHA-256 instead of the name",
+                                  "{} has {} files \"{}\" that were not accepted; give the first digits of the SHA-256 "
+                                  "instead of the name",
                                   assignment.name, found.size(), name);
     at = found.front().received_at;
     fs::path file = folder / fs::path(found.front().name).filename();
@@ -199,7 +199,7 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
         command
             ->add_option(
                 "--of", args->of,
-                "Reviewed report. Default: determined from the file name. Repeat it for each of several files.")
+                "Reviewed report. Default: determined from the file name. Repeat the option for each of several files.")
             ->type_name("report-NN")
             ->allow_extra_args(false);
     add_time_option(*command, args->at);
@@ -217,13 +217,9 @@ void add_receive(CLI::App& parent, const char* name, const char* about, const st
     command->add_flag("--no-checks", args->no_checks, "Do not check the PDFs");
     command->footer(
         "dynlab identifies the owner of a file by the name of the file or its folder: a group, a student's name or id, "
-        "or a\n"
-        "name from the platform. It never uses the content. A pack's report.pdf (slides.pdf, review.pdf), or its only "
-        "PDF,\n"
-        "counts like a separate PDF; if a pack has no PDF, dynlab makes it. dynlab keeps every version and signs a "
-        "receipt\n"
-        "for it. It keeps and flags a file that cannot be read. Example:\n"
-        "  " +
+        "or a\nname from the platform. dynlab never uses the content. A pack's report.pdf (slides.pdf, review.pdf), or "
+        "its only PDF,\ncounts like a separate PDF; if a pack has no PDF, dynlab creates it. dynlab keeps every "
+        "version and signs a receipt\nfor it. It keeps and flags a file that cannot be read. Example:\n  " +
         example);
     command->callback(
         [&where, args, &action] { action = [&where, args] { return receive_files(where, *args, args->stage); }; });
@@ -264,13 +260,12 @@ void add_course_verify(CLI::App& course, CourseArguments& where, Action& action)
     auto receipts = std::make_shared<std::vector<std::string>>();
     auto key = std::make_shared<bool>(false);
     CLI::App* command = course.add_subcommand("verify", "Check receipts, or the complete store");
-    command->add_flag("--key", *key, "Show the public key, with which students verify receipts");
+    command->add_flag("--key", *key, "Show the public key that students use to verify receipts");
     command->add_option("RECEIPT", *receipts, "Receipts from students");
     command->footer(
-        "Students verify their receipts without the course: dynlab verify.\n"
-        "The command also lists temporary files and folders of interrupted commands; the next course command removes "
-        "them.\n"
-        "Example:  dynlab course verify 00012-group-07-first-report.txt");
+        "Students verify their receipts with dynlab verify, without the course.\nThe command also lists temporary "
+        "files and folders of interrupted commands; the next course command removes them.\nExample:  dynlab course "
+        "verify 00012-group-07-first-report.txt");
     command->callback([&where, receipts, key, &action] {
         action = [&where, receipts, key] { return *key ? show_key(where) : verify_course(where, *receipts); };
     });

@@ -50,7 +50,7 @@ int remind(const CourseArguments& where, const RemindArguments& args) {
     if (!without.empty())
         std::cerr << "dynlab: "
                   << terminal_text(message_text(Message(
-                         "the mail address of {} is unknown; add it in the roster's column mail", listed(without))))
+                         "the email address of {} is unknown; add it in the roster's column mail", listed(without))))
                   << '\n';
     return without.empty() ? kDone : kFailed;
 }

@@ -61,17 +61,16 @@ void add_export_grades(CLI::App& app, Action& action) {
     command->add_flag("--all", args->all, "Include feedback in the zip file that was delivered before");
     command->add_flag("--delivered", args->delivered, "Mark the files of the last run as delivered");
     command->footer(
-        "In OUT/handed_back: moodle-grades.csv (upload as grading worksheet), moodle-feedback.zip (upload as feedback\n"
-        "files), canvas-grades.csv (import into the gradebook), and mail.csv, which lists new files for each student.\n"
-        "--worksheet keeps the language, columns, separator and order of the platform's file and fills in marks and\n"
-        "comments, also for a partner who submitted nothing. Without it, participant numbers come from the names of "
-        "the\n"
-        "submissions, otherwise from the roster's columns moodle and canvas. Moodle numbers participants for each\n"
-        "assignment: a number in a submission's name takes precedence over the roster's.\n"
-        "Feedback remains new until you give --delivered. The zip file contains only new feedback; --all includes the "
-        "rest.\n"
-        "Example:  dynlab export-grades marks --roster roster.csv --worksheet Grades-Lab4.csv\n"
-        "Exit codes: 0 done, 1 some marks could not be entered (none, if neither platform has a file), 2 wrong usage.");
+        "In OUT/handed_back: moodle-grades.csv (upload as grading worksheet), moodle-feedback.zip (upload as "
+        "feedback\nfiles), canvas-grades.csv (import into the gradebook), and mail.csv, which lists new files for each "
+        "student.\n--worksheet keeps the language, columns, separator and order of the platform's file and fills in "
+        "marks and\ncomments, also for a partner who submitted nothing. Without this option, participant numbers come "
+        "from the names of\nthe submissions, or else from the roster's columns moodle and canvas. Moodle numbers "
+        "participants for each\nassignment: a number in a submission's name takes precedence over the "
+        "roster.\nFeedback remains new until you give --delivered. The zip file contains only new feedback; --all "
+        "includes the rest.\nExample:  dynlab export-grades marks --roster roster.csv --worksheet "
+        "Grades-Lab4.csv\nExit codes: 0 done, 1 some marks could not be entered (none, if neither platform has a "
+        "file), 2 wrong usage.");
     command->callback([args, &action] { action = [args] { return export_grades(*args); }; });
 }
 

@@ -82,7 +82,8 @@ void add_grade(CLI::App& app, Action& action) {
     auto args = std::make_shared<GradeArguments>();
     CLI::App* command = app.add_subcommand("grade", "Grade the submissions of a class: marks, feedback, summary");
     command
-        ->add_option("FOLDER", args->submissions, "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
+        ->add_option("FOLDER", args->submissions,
+                     "Submissions: folders, packs, zip files, or an export of Moodle or Canvas")
         ->required();
     command
         ->add_option("--lesson", args->request.lesson,
@@ -153,43 +154,30 @@ void add_grade(CLI::App& app, Action& action) {
         ->check(CLI::IsMember({"full", "process"}));
     command->add_flag(
         "--answers", args->answers,
-        "Make OUT/model_answers.pdf with the text of the reference solution; dynlab export-grades adds it for all");
+        "Create OUT/model_answers.pdf with the text of the reference solution; dynlab export-grades adds it for all");
     command->add_flag("--force", args->request.grading.above_maximum,
-                      "Accept marks in marks.csv above the points of their check");
+                      "Accept marks in marks.csv above the maximum points of their check");
     command->add_flag("--accept-late", args->request.accept_late, "Apply penalties of half the points or more");
     command->add_flag("--no-pdf", args->no_pdf, "Write feedback and summary as Markdown only");
     command->footer(
         "Each submission runs in its own sandbox and cannot affect the others. An interrupted run resumes where it "
-        "stopped.\n"
-        "Manual marks in OUT/marks.csv (who,check,points,reason) survive every regrade: who is a group, an id, a name "
-        "or a\n"
-        "submission, check is a check or * for the complete submission. dynlab adds rows for checks that need a manual "
-        "mark,\n"
-        "and never removes rows.\n"
-        "In OUT: gradebook.csv, summary.pdf, and for each submission results/NAME/results.json (Gradescope),\n"
-        "feedback.md and feedback.pdf.\n"
-        "Example:  dynlab grade submissions --lesson 04 --out marks --secret secret.txt --roster roster.csv\n"
-        "OUT/course keeps every version of each submission, the roster, deadlines, owners and options: a later call "
-        "needs\n"
-        "only FOLDER and --out. dynlab refuses other checks, secrets and deadlines unless you give --again; --checks "
-        "none and\n"
-        "--secret none remove them. dynlab keeps the results of the scripts, so --again takes seconds.\n"
-        "A script that exceeds --timeout in processor time, or five times --timeout in elapsed time, is stopped. "
-        "Answers that\n"
-        "it gave before count.\n"
-        "Deadlines: submission, deadline, and optionally extra (\"2 d\" after the deadline of *) and received; in the "
-        "row of *\n"
-        "also grace (\"15 min\"), percent_per_day and most_percent, for all.\n"
-        "A penalty of half the points or more is applied only after --accept-late was given once, or if the row "
-        "contains\n"
-        "received.\n"
-        "A submission that cannot be read (a single PDF, a .rar, another lesson's script) is \"unreadable\": it has no "
-        "marks\n"
-        "until you enter some in marks.csv. The output and the summary list what needs attention: unreadable and "
-        "unmatched\n"
-        "submissions, scripts that stop, late submissions with a penalty, several submissions of one student.\n"
-        "Exit codes: 0 all submissions are graded, 1 some are ungraded, unreadable, unconfirmed or unmatched, 2 wrong "
-        "usage.");
+        "stopped.\nManual marks in OUT/marks.csv (who,check,points,reason) survive every regrade: who is a group, an "
+        "id, a name or a\nsubmission, check is a check or * for the complete submission. dynlab adds rows for checks "
+        "that need a manual mark,\nand never removes rows.\nIn OUT: gradebook.csv, summary.pdf, and for each "
+        "submission results/NAME/results.json (Gradescope),\nfeedback.md and feedback.pdf.\nExample:  dynlab grade "
+        "submissions --lesson 04 --out marks --secret secret.txt --roster roster.csv\nOUT/course keeps every version "
+        "of each submission, the roster, deadlines, owners and options: a later call needs\nonly FOLDER and --out. "
+        "dynlab refuses other checks, secrets and deadlines unless you give --again; --checks none and\n--secret none "
+        "remove them. dynlab keeps the results of the scripts, so --again takes seconds.\nA script that exceeds "
+        "--timeout in processor time, or five times --timeout in elapsed time, is stopped. Answers that\nit submitted "
+        "before count.\nDeadlines: submission, deadline, and optionally extra (\"2 d\" after the deadline of *) and "
+        "received; in the row of *\nalso grace (\"15 min\"), percent_per_day and most_percent, for all.\nA penalty of "
+        "half the points or more is applied only after --accept-late was given once, or if the row "
+        "contains\nreceived.\nA submission that cannot be read (a single PDF, a .rar, another lesson's script) is "
+        "\"unreadable\": it has no marks\nuntil you enter some in marks.csv. The output and the summary list what "
+        "needs attention: unreadable and unmatched\nsubmissions, scripts that stop, late submissions with a penalty, "
+        "several submissions of one student.\nExit codes: 0 all submissions are graded, 1 some are ungraded, "
+        "unreadable, unconfirmed or unmatched, 2 wrong usage.");
     command->callback([args, &action] {
         if (args->request.lesson.empty() && !is_graded_folder(args->out)) throw CLI::RequiredError("--lesson");
         action = [args] { return grade(*args); };

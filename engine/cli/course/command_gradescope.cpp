@@ -35,24 +35,22 @@ int make_autograder(const GradescopeArguments& args) {
 void add_gradescope(CLI::App& app, Action& action) {
     auto args = std::make_shared<GradescopeArguments>();
     CLI::App* command =
-        app.add_subcommand("gradescope", "Make the autograder of a lesson for Gradescope, as one zip file");
+        app.add_subcommand("gradescope", "Create the Gradescope autograder of a lesson as one zip file");
     command->add_option("LESSON", args->lesson, "Number, name or folder of the lesson")->required();
     add_secret_option(*command, args->secret)->required();
     command
         ->add_option("-o,--output", args->output,
-                     "Zip file to make. Default: NN_name-autograder.zip in the current folder.")
+                     "Zip file to create. Default: NN_name-autograder.zip in the current folder.")
         ->type_name("FILE.zip");
     command->add_option("--checks", args->checks, "Folder with your own checks (*.lua), which students never see")
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory);
     add_timeout_option(*command, args->timeout);
     command->footer(
-        "The zip file contains setup.sh, run_autograder and all they need. Upload it, and choose a base image that is "
-        "at least\n"
-        "as new as this machine (x86-64). Students submit analysis.lua, or the zip file from dynlab pack, and see the "
-        "same\n"
-        "points, messages and hints as from dynlab grade; for your own checks, they see only points and hints.\n"
-        "Example:  dynlab gradescope 04 --secret secret.txt --checks my-checks");
+        "The zip file contains setup.sh, run_autograder and all files that they need. Upload it, and choose a base "
+        "image that is\nat least as new as this machine (x86-64). Students submit analysis.lua, or the zip file from "
+        "dynlab pack, and see the\nsame points, messages and hints as from dynlab grade; for your own checks, they see "
+        "only points and hints.\nExample:  dynlab gradescope 04 --secret secret.txt --checks my-checks");
     command->callback([args, &action] { action = [args] { return make_autograder(*args); }; });
 }
 

@@ -95,9 +95,9 @@ fs::path task_sheet(const Lesson& lesson, const std::string& language, const fs:
     try {
         const ReportResult made = make_report(sheet_of(lesson.folder.string(), sheet, translated ? language : ""));
         if (!made.error) return sheet;
-        complain(Message("without the task sheet: {}", *made.error));
+        complain(Message("the task sheet is left out: {}", *made.error));
     } catch (const std::runtime_error& error) {
-        complain(Message("without the task sheet: {}", message_of(error)));
+        complain(Message("the task sheet is left out: {}", message_of(error)));
     }
     return {};
 }
@@ -150,12 +150,12 @@ void add_pack(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("pack", "Pack your folder into one file for submission");
     command
         ->add_option("DIR|FILE.lua", words->subject,
-                     "Folder made by dynlab new, or a script, which becomes analysis.lua in the pack")
+                     "Folder created by dynlab new, or a script, which becomes analysis.lua in the pack")
         ->required()
         ->check(CLI::ExistingPath);
     command
         ->add_option("-o,--output", words->output,
-                     "Zip file to make. Default: DIR.zip or FILE.zip in the current folder.")
+                     "Zip file to create. Default: DIR.zip or FILE.zip in the current folder.")
         ->type_name("FILE.zip");
     command->footer(
         "The data link and the figures that dynlab run saved (analysis_out) are left out. Equal folders give identical "
@@ -168,20 +168,21 @@ void add_pack(CLI::App& app, Action& action) {
 
 void add_bundle(CLI::App& app, Action& action) {
     auto words = std::make_shared<PackArguments>();
-    CLI::App* command = app.add_subcommand("bundle", "Make the students' zip file of a lesson, without solutions");
+    CLI::App* command = app.add_subcommand("bundle", "Create the students' zip file of a lesson, without solutions");
     command->add_option("LESSON", words->subject, "Number, name or folder of the lesson")->required();
     command
-        ->add_option("-o,--output", words->output, "Zip file to make, or with --roster the folder. Default: NN_name.")
+        ->add_option("-o,--output", words->output,
+                     "Zip file to create or, with --roster, the folder. Default: NN_name.")
         ->type_name("FILE.zip|FOLDER");
     CLI::Option* seed = command
                             ->add_option("--group-seed", words->group_seed,
-                                         "Seed of the group's own data: another unit of each plant, other noise")
+                                         "Seed of the group's own data: another unit of each plant, and other noise")
                             ->type_name("N")
                             ->check(CLI::Range(1u, 4294967295u));
     command
         ->add_option("--roster", words->roster,
-                     "Make a zip file for each group, with data from the roster's column seed, in the language of its "
-                     "column language")
+                     "Create a zip file for each group, with data from the roster's column seed, in the language of "
+                     "its column language")
         ->type_name("CSV")
         ->check(CLI::ExistingFile)
         ->excludes(seed);
@@ -190,9 +191,9 @@ void add_bundle(CLI::App& app, Action& action) {
         ->check(CLI::IsMember(languages()));
     command->footer(
         "A zip file contains the starter, the visible checks, the data, the task sheet and a file with the first "
-        "steps.\n"
-        "Groups without a seed get a random one: FOLDER/roster.csv is the roster with all seeds, for dynlab grade.\n"
-        "Examples:  dynlab bundle 04 -o lesson-4.zip     dynlab bundle 03_crane --roster roster.csv -o bundles");
+        "steps.\nGroups without a seed get a random seed: FOLDER/roster.csv is the roster with all seeds, for dynlab "
+        "grade.\nExamples:  dynlab bundle 04 -o lesson-4.zip     dynlab bundle 03_crane --roster roster.csv -o "
+        "bundles");
     command->callback([words, &action] { action = [words] { return bundle(*words); }; });
 }
 

@@ -5,7 +5,7 @@
 namespace dynlab::inline cli {
 
 void add_sandboxed_version(CLI::App& app, Action& action) {
-    CLI::App* command = app.add_subcommand("boxed", "Internal: make the report of a pack in a sandbox")->group("");
+    CLI::App* command = app.add_subcommand("boxed", "Internal: create the report of a pack in a sandbox")->group("");
     command->add_option("work", "version")->required()->check(CLI::IsMember({VersionJob::kWork}));
     command->callback([&action] {
         action = [] {

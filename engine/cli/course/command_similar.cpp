@@ -44,7 +44,8 @@ void add_similar(CLI::App& app, Action& action) {
     auto args = std::make_shared<SimilarArguments>();
     CLI::App* command = app.add_subcommand("similar", "List similar scripts in a class for you to review");
     command
-        ->add_option("FOLDER", args->submissions, "Submissions: folders, packs, zips, or what Moodle or Canvas exports")
+        ->add_option("FOLDER", args->submissions,
+                     "Submissions: folders, packs, zip files, or an export of Moodle or Canvas")
         ->required()
         ->check(CLI::ExistingPath);
     command->add_option("--lesson", args->lesson, "Lesson. Code of its starter does not count.")

@@ -51,15 +51,11 @@ void add_study(CLI::App& app, Action& action) {
     command->add_flag("--force", args->run.force, "Let the script replace files that dynlab did not write");
     args->run.seed.add_to(*command);
     command->footer(
-        "The results are the same as with dynlab run, to the last bit, but the calls of montecarlo are computed in "
-        "parts. Each\n"
-        "part runs the script up to the call, so your own functions can be estimators. The code before the call should "
-        "be\n"
-        "fast and must not depend on the time. A script with two montecarlo calls needs its parts twice. Existing "
-        "parts are\n"
-        "not computed again.\n"
-        "Example:  dynlab study bias.lua --on processes:8\n"
-        "Exit codes: 0 done, 1 the script failed or parts are missing, 2 wrong usage.");
+        "The results are identical to the results of dynlab run, bit for bit, but the calls of montecarlo are computed "
+        "in\nparts. Each part runs the script up to the call, so your own functions can be\nestimators. The code "
+        "before the call should be fast and must not depend on the time. A script with two montecarlo calls needs its "
+        "parts twice. Existing parts are\nnot computed again.\nExample:  dynlab study bias.lua --on processes:8\nExit "
+        "codes: 0 done, 1 the script failed or parts are missing, 2 wrong usage.");
     command->callback([args, &action] {
         expect_script(args->run.file, "study");
         if (!args->parts.any())

@@ -51,7 +51,7 @@ int test_lesson(const TestLessonArguments& args) {
         LessonFaults found;
         {
             ActivityLine activity;
-            activity.begin_step("making reports and students' copies");
+            activity.begin_step("creating reports and students' copies");
             found = faults_of_documents(lesson);
         }
         tell(found, "documents");
@@ -82,15 +82,13 @@ void add_test_lesson(CLI::App& app, Action& action) {
     add_secret_option(*command, args->secret);
     add_timeout_option(*command, args->timeout);
     command->footer(
-        "texts: headers, cells, Lua, names and options, hints, tasks in other languages; no script runs.\n"
-        "checks: the reference solution and right_*.lua get full marks, the untouched starter none; each wrong_*.lua\n"
-        "fails exactly what its lines \"-- expects: CHECK: words\" name, with these words.\n"
-        "Students read checks.lua: dynlab warns if it contains a number that passes a check when entered as the "
-        "answer.\n"
-        "documents: in each language the report is complete and fits its pages, and the student's copy runs and has "
-        "one.\n"
-        "Example:  dynlab new lesson lessons/08_springs && dynlab test-lesson lessons/08_springs\n"
-        "Exit codes: 0 no errors, 1 errors were found, 2 wrong usage.");
+        "texts: headers, cells, Lua, names and options, hints, tasks in other languages; no script runs.\nchecks: the "
+        "reference solution and right_*.lua get full marks, and the untouched starter gets none; each\nwrong_*.lua "
+        "fails exactly the checks that its lines \"-- expects: CHECK: words\" name, with these words.\nStudents read "
+        "checks.lua: dynlab warns if it contains a number that passes a check when entered as the answer.\ndocuments: "
+        "in each language the report is complete and fits its pages, and the student's copy runs and gives a "
+        "report.\nExample:  dynlab new lesson lessons/08_springs && dynlab test-lesson lessons/08_springs\nExit codes: "
+        "0 no errors, 1 errors were found, 2 wrong usage.");
     command->callback([args, &action] { action = [args] { return test_lesson(*args); }; });
 }
 

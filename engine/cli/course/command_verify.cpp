@@ -33,7 +33,7 @@ int verify(const VerifyArgs& args) {
     const std::string own = key_in_receipt(text);
     ReceiptCheck verdict = verify_receipt(text, known ? known->digits : own);
     if (verdict.genuine && !args.file.empty() && !is_receipt_for(text, args.file))
-        verdict = {false, fmt::format("genuine, but NOT for {}: that file has another SHA-256", args.file)};
+        verdict = {false, fmt::format("genuine, but NOT for {}: that file has a different SHA-256", args.file)};
     std::string signer;
     if (verdict.genuine)
         signer = known ? fmt::format(", signed by the course \"{}\"", known->course)

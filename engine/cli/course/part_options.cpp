@@ -33,8 +33,8 @@ bool done_on(const std::string& on, const std::filesystem::path& folder,
     for (MissingParts left = missing(machines.parts), before; !left.parts.empty(); left = missing(machines.parts)) {
         if (left == before)
             throw EnvironmentError(
-                "the parts were processed, but their results are not in {}; all hosts must see that folder under the "
-                "same name",
+                "the parts were processed, but their results are not in {}; this folder must have the same path on all "
+                "hosts",
                 folder.parent_path().string());
         if (machines.kind == Machines::Kind::kSlurm) {
             std::cout << terminal_text(message_text(submit_to_slurm(machines, {folder, left.parts})));
@@ -52,10 +52,10 @@ void refuse_missing_parts(const std::set<int>& missing, int parts) {
     std::vector<std::string> commands;
     for (const int index : missing) commands.push_back(shown_command("--part " + WorkPart{index, parts}.text()));
     throw EnvironmentError("{}", plural(static_cast<std::int64_t>(missing.size()),
-                                        "{} part of {} cannot be joined: it is missing, or was made from other files "
-                                        "or by another version of dynlab. Make it with\n{}",
-                                        "{} parts of {} cannot be joined: they are missing, or were made from other "
-                                        "files or by another version of dynlab. Make them with\n{}",
+                                        "{} part of {} cannot be joined: it is missing, or was computed from other "
+                                        "files or by another version of dynlab. Compute it with\n{}",
+                                        "{} parts of {} cannot be joined: they are missing, or were computed from "
+                                        "other files or by another version of dynlab. Compute them with\n{}",
                                         parts, listed(commands, Join::kLines)));
 }
 

@@ -39,7 +39,7 @@ void add_help(CLI::App& app, Action& action) {
                             "checks, names, review_marks) or command (course page). Default: the list of all.");
     CLI::Option* search =
         command->add_option("--search", *word, "List the pages that mention a term")->type_name("WORD")->excludes(page);
-    command->add_option("--sheet", *sheet, "Write all functions and MATLAB's phrases on two pages (.pdf)")
+    command->add_option("--sheet", *sheet, "Write a two-page summary of all functions and MATLAB equivalents (.pdf)")
         ->type_name("FILE")
         ->excludes(page)
         ->excludes(search);

@@ -31,7 +31,7 @@ Lesson lesson_to_help(HintArguments& args) {
     if (args.language.empty()) args.language = language_of_work(folder);
     speak(args.language);
     const std::string name = read_percent_script(folder / "analysis.lua").header.lesson;
-    if (name.empty()) throw EnvironmentError("{} does not name its lesson", (folder / "analysis.lua").string());
+    if (name.empty()) throw EnvironmentError("{} does not specify a lesson", (folder / "analysis.lua").string());
     args.lesson = name;
     return find_lesson(name);
 }
@@ -73,7 +73,7 @@ int give_hint(HintArguments args) {
     const std::vector<std::string>& stages = found->second;
     const HintsSeen seen(lesson.slug, args.question);
     if (args.next && !seen.lasting())
-        throw EnvironmentError("--next cannot work here, because dynlab cannot store which hints were seen; use --all");
+        throw EnvironmentError("--next is not available, because dynlab cannot store which hints were seen; use --all");
     const std::size_t before = std::min(seen.count(), stages.size());
     const std::size_t shown = args.all    ? stages.size()
                               : args.next ? std::min(before + 1, stages.size())
@@ -101,7 +101,7 @@ void add_hint(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 999));
     CLI::Option* next = command->add_flag("--next", args->next, "Show one hint beyond those already seen");
     command->add_flag("--all", args->all, "Show all hints for the question")->excludes(next);
-    add_language(*command, args->language, "Language, if the lesson has hints in it");
+    add_language(*command, args->language, "Language of the hints, if the lesson has hints in this language");
     command->footer("Examples:  dynlab hint 04 4     dynlab hint 04 4 --next     dynlab hint my-work");
     command->callback([args, &action] { action = [args] { return give_hint(*args); }; });
 }

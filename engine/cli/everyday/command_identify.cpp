@@ -56,7 +56,7 @@ void add_identify(CLI::App& app, Action& action) {
     auto args = std::make_shared<IdentifyArguments>();
     IdentifyRequest& request = args->request;
     CLI::App* command =
-        app.add_subcommand("identify", "Estimate a model and make a report from a data file, without Lua");
+        app.add_subcommand("identify", "Estimate a model and create a report from a data file, without Lua");
     command
         ->add_option("DATA", request.data,
                      "Data: a .mat file, a table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or the name of a data set")
@@ -101,26 +101,23 @@ void add_identify(CLI::App& app, Action& action) {
     command
         ->add_option_function<std::string>(
             "--inter-sample", [&request](const std::string& text) { request.moving_input = text == "foh"; },
-            "Input between the samples: zoh (held) or foh (linear interpolation). Default: zoh")
+            "Input between the samples: zoh (zero-order hold) or foh (linear interpolation). Default: zoh")
         ->type_name("zoh|foh")
         ->check(CLI::IsMember({"zoh", "foh"}));
     command->add_option("--validate", request.validation, "Validation data with the same names")->type_name("FILE");
     auto* report = command->add_option("-o,--output-file", args->report,
-                                       "Report to make (.pdf, .html or .md). Default: DATA_model.pdf.");
+                                       "Report to create (.pdf, .html or .md). Default: DATA_model.pdf.");
     report->type_name("FILE");
     command->add_flag("--script", args->script, "Only print the Lua script")->excludes(report);
     command->footer(
         "The sampling time comes from the column --time, or from the column with a name (t, time_ms, ...) or unit of "
-        "time. The\n"
-        "steps may differ, and dynlab converts ms, min and h to seconds. Without a time column, the sampling time "
-        "comes from\n"
-        "# Ts: 0.01 in a CSV file, or from the variable Ts of a MAT file. The columns of a matrix y are named y1, y2, "
-        "...;\n"
-        "dynlab inspect DATA lists the names. Missing samples of inputs hold the previous value; those of outputs are "
-        "linearly\n"
-        "interpolated. dynlab prints the summary; the report also contains figures.\n"
-        "A message such as identify.lua:35 refers to line 35 of the output of --script.\n"
-        "Example:  dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate second.csv");
+        "time. The\nsteps may differ, and dynlab converts ms, min and h to seconds. Without a time column, the "
+        "sampling time comes from\n# Ts: 0.01 in a CSV file, or from the variable Ts of a MAT file. The columns of a "
+        "matrix y are named y1, y2, ...;\ndynlab inspect DATA lists the names. Missing input samples are replaced with "
+        "the previous value; missing output\nsamples are linearly interpolated. dynlab prints the summary; the report "
+        "also contains figures.\nA message such as identify.lua:35 refers to line 35 of the output of "
+        "--script.\nExample:  dynlab identify crane.csv --input u --output x,theta --poles 2 --zeros 0 --validate "
+        "second.csv");
     command->callback([args, &action] {
         try {
             args->request.validate();

@@ -41,7 +41,7 @@ void add_inspect(CLI::App& app, Action& action) {
                      ".mat file, table (.csv, .txt, .dat, .tsv, .lvm, .xlsx), or name of a data set")
         ->required();
     auto* picture = command->add_option("-o,--output-file", args->picture,
-                                        "Picture to make (.pdf, .svg or .png). Default: DATA_look.pdf.");
+                                        "Picture to create (.pdf, .svg or .png). Default: DATA_look.pdf.");
     picture->type_name("FILE");
     command->add_flag("--no-picture", args->no_picture, "Print the text without a picture")->excludes(picture);
     command->add_option("--skip", args->import.skip, "Number of lines to skip before the table")->type_name("N");

@@ -46,9 +46,8 @@ void add_lsp(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("lsp", "Run the language server for an editor");
     command->footer(
         "Editors start this command. It reports errors while you type, completes names and shows help. See dynlab "
-        "help\n"
-        "guide-editors.\n"
-        "Exit codes: 0 the editor has shut it down, 1 the connection ended before, 2 wrong usage.");
+        "help\nguide-editors.\nExit codes: 0 the editor shut down the server, 1 the connection ended earlier, 2 wrong "
+        "usage.");
     command->callback([&action] { action = serve; });
 }
 

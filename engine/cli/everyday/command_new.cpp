@@ -22,8 +22,8 @@ struct NewArguments {
 int make_editor_files(const std::string& folder) {
     if (!std::filesystem::is_directory(folder)) throw EnvironmentError("folder not found: {}", folder);
     for (const std::string& kept : write_editor_files(folder))
-        say(Message("{} exists already and was not changed", kept));
-    say(Message("{}: lets editors complete and check dynlab functions", folder));
+        say(Message("{} already exists and was not changed", kept));
+    say(Message("{}: editors can now complete and check dynlab functions", folder));
     return kDone;
 }
 
@@ -43,8 +43,8 @@ int make_new(const NewArguments& args) {
     if (args.lesson == "review") {
         make_review_folder(args.folder, args.language);
         say(
-            Message("{}: report.md contains the five questions, analysis.lua the scores.\nNext:  dynlab report {}    "
-                    "and    dynlab check {}",
+            Message("{}: report.md contains the five questions, and analysis.lua contains the scores.\nNext:  dynlab "
+                    "report {}    and    dynlab check {}",
                     args.folder, folder, folder));
         return kDone;
     }
@@ -68,22 +68,21 @@ int make_new(const NewArguments& args) {
 void add_new(CLI::App& app, Action& action) {
     auto args = std::make_shared<NewArguments>();
     CLI::App* command =
-        app.add_subcommand("new", "Make your own copy of a lesson, without its solutions, or a folder for a review");
+        app.add_subcommand("new", "Create your own copy of a lesson, without its solutions, or a folder for a review");
     command->add_option("LESSON", args->lesson, "Number, name or folder of the lesson; or review, lesson, or editor")
         ->required();
-    command->add_option("DIR", args->folder, "Folder to make")->required();
+    command->add_option("DIR", args->folder, "Folder to create")->required();
     command
         ->add_option("--group-seed", args->group_seed,
-                     "Seed of the group's own data: another unit of each simulated plant, other noise")
+                     "Seed of the group's own data: another unit of each simulated plant, and other noise")
         ->type_name("N")
         ->check(CLI::Range(1u, 4294967295u));
     add_language(*command, args->language, "Language of the report. Default: the lesson's language.");
     command->footer(
-        "Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr\n"
-        "dynlab new lesson DIR makes a small lesson with checks, for you to change: see dynlab help guide-own-course.\n"
-        "dynlab new editor DIR adds files for editors to an existing folder: .luarc.json with all functions "
-        "(completion,\n"
-        "signatures), tasks for VS Code, .editorconfig. A student's copy contains them.");
+        "Examples:  dynlab new 02 my-work     dynlab new review my-review --lang fr\ndynlab new lesson DIR creates a "
+        "small lesson with checks, which you can change: see dynlab help guide-own-course.\ndynlab new editor DIR adds "
+        "files for editors to an existing folder: .luarc.json with all functions (completion,\nsignatures), tasks for "
+        "VS Code, .editorconfig. A student's copy contains them.");
     command->callback([args, &action] { action = [args] { return make_new(*args); }; });
 }
 

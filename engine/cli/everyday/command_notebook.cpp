@@ -78,15 +78,14 @@ void add_notebook(CLI::App& app, Action& action) {
     CLI::App* command =
         app.add_subcommand("notebook", "Convert a script to a Jupyter notebook, or a notebook to a script");
     command->add_option("FILE.lua|FILE.ipynb", args->file, "Script, or notebook in Lua")->required();
-    command->add_option("-o", args->output, "File to make. Default: in the same folder, with the other extension.")
+    command->add_option("-o", args->output, "File to create. Default: in the same folder, with the other extension.")
         ->type_name("FILE");
     command->add_flag("--run", args->run, "Run the script, and add its output and figures to the notebook");
     command->add_flag("--force", args->force, "Replace a file that dynlab did not write, or that was changed");
     command->footer(
-        "An unchanged notebook becomes the same script again, byte for byte. Jupyter runs the notebook with the kernel "
-        "that\n"
-        "dynlab kernel install registers; see dynlab help guide-notebook.\n"
-        "Examples:  dynlab notebook my-crane/analysis.lua     dynlab notebook analysis.ipynb");
+        "An unchanged notebook is converted back to the same script, byte for byte. Jupyter runs the notebook with the "
+        "kernel that\ndynlab kernel install registers; see dynlab help guide-notebook.\nExamples:  dynlab notebook "
+        "my-crane/analysis.lua     dynlab notebook analysis.ipynb");
     command->callback([args, &action] { action = [args] { return convert(*args); }; });
 }
 

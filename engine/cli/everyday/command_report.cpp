@@ -25,15 +25,15 @@ int report(const ReportArguments& args) {
 
 void add_report(CLI::App& app, Action& action) {
     auto args = std::make_shared<ReportArguments>();
-    CLI::App* command = app.add_subcommand("report", "Make the PDF of a lesson, your folder or your script");
+    CLI::App* command = app.add_subcommand("report", "Create the PDF of a lesson, your folder or your script");
     command
         ->add_option("LESSON|FOLDER|FILE.lua", args->subject,
-                     "Number or name of a lesson, folder made by dynlab new, or script")
+                     "Number or name of a lesson, folder created by dynlab new, or script")
         ->required();
     command
         ->add_option("-o,--output", args->output,
-                     "Document to make (.pdf, .html or .md). Default: in the folder, in the script's folder, or for a "
-                     "lesson in the current folder.")
+                     "Document to create (.pdf, .html or .md). Default: in the folder, in the script's folder, or for "
+                     "a lesson in the current folder.")
         ->type_name("FILE");
     command->add_option("--record", args->record, "File for the run results (.json)")->type_name("FILE");
     add_language(*command, args->language, "Language of the report, if the lesson has several");

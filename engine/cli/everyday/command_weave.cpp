@@ -25,7 +25,8 @@ int weave(const WeaveArguments& args) {
 
 void add_weave(CLI::App& app, Action& action) {
     auto args = std::make_shared<WeaveArguments>();
-    CLI::App* command = app.add_subcommand("weave", "Run a script and make a document of its text, code and results");
+    CLI::App* command =
+        app.add_subcommand("weave", "Run a script and create a document from its text, code and results");
     command->add_option("FILE", args->script, "Script (percent format: -- %% starts a cell)")->required();
     command->add_option("-o,--output", args->output, "Document: .pdf, .html or .md")->type_name("FILE")->required();
     command->add_flag("--timings", args->timings, "Print the time of each step");

@@ -16,7 +16,7 @@ struct CoursePageArgs {
 int show_office(CoursePageArgs args) {
     DesktopBrowser browser;
     args.options.opened = [&](const std::string& address, Visit visit) {
-        std::cout << address << "\n(Ctrl-C ends it)" << std::endl;
+        std::cout << address << "\n(Ctrl-C to stop)" << std::endl;
         if (visit != Visit::kLate && !args.no_browser) browser.open(address);
     };
     try {
@@ -33,9 +33,9 @@ int show_office(CoursePageArgs args) {
 void add_course_page(CLI::App& course, CourseArguments& where, Action& action) {
     auto args = std::make_shared<CoursePageArgs>();
     CLI::App* command = course.add_subcommand("page", "Mark answers and manage the course in the browser");
-    command->add_option("--port", args->options.port, "Port of the page. Default: any free port.")
+    command->add_option("--port", args->options.port, "Port of the page. Default: a free port.")
         ->check(CLI::Range(1, 65535));
-    command->add_flag("--no-browser", args->no_browser, "Print the address and open no browser");
+    command->add_flag("--no-browser", args->no_browser, "Print the address without opening the browser");
     command->footer(
         "Five views: Marking (all answers to one question, without names, by keyboard), Today (what is missing, late,\n"
         "unreadable or blocked), Student, Reviews, Marks. Each action is a dynlab course command: the page shows it "

@@ -82,7 +82,7 @@ void check_isolation() {
 /// Whether copies for peer review can be made.
 void check_copies() {
     const bool there = find_program("gs").has_value();
-    show("gs", there ? "makes copies for peer review" : "not installed (ghostscript): copies for peer review only",
+    show("gs", there ? "creates copies for peer review" : "not installed (ghostscript): copies for peer review only",
          true);
 }
 

@@ -19,19 +19,16 @@ void add_site(CLI::App& app, Action& action) {
     };
     auto args = std::make_shared<SiteArguments>();
     CLI::App* command = app.add_subcommand(
-        "site", "Make a static site of the course: lessons with cells that run in the browser, data and help");
+        "site", "Create a static site of the course: lessons with cells that run in the browser, data and help");
     command->add_option("FOLDER", args->request.folder, "New or empty folder, or an older site, which is replaced")
         ->required();
     command->add_option("--engine", args->engine,
-                        "Folder with dynlab.js and dynlab.wasm. Default: the installed engine, or that of "
-                        "scripts/build web");
+                        "Folder with dynlab.js and dynlab.wasm. Default: the installed engine, or the engine that "
+                        "scripts/build web built");
     command->add_flag("--timings", args->timings, "Print the time of each step");
     command->footer(
-        "Copy FOLDER to any web server (dynlab help guide-site). Without an engine the pages show results, but no "
-        "cell\n"
-        "runs.\n"
-        "\n"
-        "Examples:  dynlab site site     python3 -m http.server --directory site");
+        "Copy FOLDER to any web server (dynlab help guide-site). Without an engine, the pages show results, but "
+        "cells\ndo not run.\n\nExamples:  dynlab site site     python3 -m http.server --directory site");
     command->callback([args, &action] {
         action = [args]() -> int {
             SiteRequest& request = args->request;

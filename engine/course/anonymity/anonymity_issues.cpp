@@ -152,7 +152,7 @@ const PlaceText& text_about(TextPlace place) {
     static const std::array<PlaceText, 5> places = {{
         {"name-in-text", Message("in the text"), Message("Remove it: reports are read anonymously.")},
         {"name-in-metadata", Message("in the document information"),
-         Message("Make the PDF with dynlab report, or clear author, title and keywords in the document properties.")},
+         Message("Create the PDF with dynlab report, or clear author, title and keywords in the document properties.")},
         {"name-in-link", Message("in the target of a link"), Message("Remove the link or change its target.")},
         {"name-in-bookmark", Message("in a bookmark"),
          Message("Change the heading, or save the PDF without bookmarks.")},
@@ -166,11 +166,11 @@ Message sentence_about(const NameHit& hit, const Message& where, const std::stri
     const bool sure = hit.certain;
     switch (hit.kind) {
         case NameKind::kNumber:
-            return sure ? Message("The number of {} appears {}: \"{}\".", who, where, excerpt)
-                        : Message("The number of {} may appear {}: \"{}\".", who, where, excerpt);
+            return sure ? Message("The id of {} appears {}: \"{}\".", who, where, excerpt)
+                        : Message("The id of {} may appear {}: \"{}\".", who, where, excerpt);
         case NameKind::kMail:
-            return sure ? Message("The mail address or account of {} appears {}: \"{}\".", who, where, excerpt)
-                        : Message("The mail address or account of {} may appear {}: \"{}\".", who, where, excerpt);
+            return sure ? Message("The email address or account of {} appears {}: \"{}\".", who, where, excerpt)
+                        : Message("The email address or account of {} may appear {}: \"{}\".", who, where, excerpt);
         case NameKind::kGroup:
             return sure ? Message("The group name {} appears {}: \"{}\".", who, where, excerpt)
                         : Message("The group name {} may appear {}: \"{}\".", who, where, excerpt);
@@ -258,12 +258,12 @@ class AnonymitySearch {
             result.push_back(
                 {"not-searched", Severity::kRule, 0, "",
                  sentences({Message("Links and document information cannot be searched for names."), error_reason_}),
-                 Message("Make the PDF again, preferably with dynlab report.")});
+                 Message("Create the PDF again, preferably with dynlab report.")});
         if (!words_.empty())
             result.push_back(
                 {"name-ordinary-word", Severity::kHint, first_word_, "",
                  Message("These words in the text are also names of students: {}.", Message::verbatim(words_)),
-                 Message("Check whether the text means a student.")});
+                 Message("Check whether the text refers to a student.")});
         if (!author_.empty())
             result.push_back({"author-named", Severity::kHint, 0, "",
                               Message("The document information contains an author: \"{}\".", printable(author_, 60)),
@@ -272,7 +272,7 @@ class AnonymitySearch {
             result.push_back({"not-searchable", Severity::kHint, unsearchable_.front(), "",
                               Message("Pictures, and pages without text, cannot be searched for names (pages: {}).",
                                       list_of_pages(unsearchable_)),
-                              Message("Look at these pages.")});
+                              Message("Inspect these pages.")});
         return result;
     }
 

@@ -71,7 +71,7 @@ class AnswerCollection {
             }
         }
         for (const Message& clause : submissions.left_out())
-            outcome.complaints.push_back(Message("{}; it was left out", clause));
+            outcome.complaints.push_back(Message("{}; left out", clause));
         outcome.submissions = submissions.all().size();
         outcome.answers = static_cast<std::size_t>(
             std::ranges::count_if(answers_, [](const Answer& answer) { return !answer.text.empty(); }));
@@ -230,8 +230,8 @@ class AnswersPage {
 
     Message explanation() const {
         return Message(
-            "Submissions have numbers instead of names. Enter points and reasons in {}. Then copy submission (as who), "
-            "check, points and reason into marks.csv of the results.",
+            "Submissions have numbers instead of names. Enter points and reasons in {}. Then copy the columns "
+            "submission (as who), check, points and reason into marks.csv of the results folder.",
             marks_.filename().string());
     }
 
@@ -239,7 +239,8 @@ class AnswersPage {
         const int number = answers_[group.members[0]].number;
         if (group.members.size() == 1) return Message("Answer {}", number);
         const auto others = static_cast<std::int64_t>(group.members.size() - 1);
-        return Message("Answer {} ({})", number, plural(others, "same in {} other", "same in {} others"));
+        return Message("Answer {} ({})", number,
+                       plural(others, "identical in {} other submission", "identical in {} other submissions"));
     }
 
     /// The further members of a group, and by what they differ.

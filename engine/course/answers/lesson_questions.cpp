@@ -57,7 +57,7 @@ QuestionName LessonQuestions::question(const std::string& text) const {
         known.clear();
         for (const std::string& heading : given_.headings()) known.push_back("\"" + folded_title(heading) + "\"");
     }
-    throw EnvironmentError("{} has no question \"{}\"; it has {}", lesson_.slug, text, listed(known));
+    throw EnvironmentError("{} has no question \"{}\"; the questions are {}", lesson_.slug, text, listed(known));
 }
 
 AskedQuestion LessonQuestions::asked(const QuestionName& question) const {

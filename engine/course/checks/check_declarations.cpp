@@ -23,8 +23,8 @@ constexpr std::array kOwnOptions = {
     OptionEntry{"rerun", ValueKind::kText, about("data set or \"seed\" for a rerun of the script")},
     OptionEntry{"document", ValueKind::kFlag, about("whether the check examines the report"), {.initial = "false"}},
     OptionEntry{"mistakes", ValueKind::kAny, about("list of {when = function, say = text}")},
-    OptionEntry{"by_hand", ValueKind::kFlag, about("whether the instructor gives the points"), {.initial = "false"}},
-    OptionEntry{"rubric", ValueKind::kText, about("guidance for the instructor who gives the points")}};
+    OptionEntry{"by_hand", ValueKind::kFlag, about("whether the instructor awards the points"), {.initial = "false"}},
+    OptionEntry{"rubric", ValueKind::kText, about("guidance for the instructor who awards the points")}};
 constexpr std::array kRigOptions = {
     OptionEntry{"name", ValueKind::kText, about("name of the data set")},
     OptionEntry{"record", ValueKind::kAny, about("function that simulates a data set")},
@@ -73,9 +73,9 @@ int check(Call& call) {
     check.rubric = options.text("rubric", "");
     check.visible = session.visible_file;
     if (check.by_hand && (options.has("test") || options.has("rerun") || options.has("mistakes")))
-        throw InvalidArgument("\"{}\" is marked by hand and cannot have test, rerun or mistakes", check.id);
+        throw InvalidArgument("\"{}\" is marked manually and cannot have test, rerun or mistakes", check.id);
     if (!check.by_hand && options.has("rubric"))
-        throw InvalidArgument("\"{}\" has a rubric: it needs by_hand = true", check.id);
+        throw InvalidArgument("the check \"{}\" has a rubric and therefore needs by_hand = true", check.id);
     const Message owner = Message("the check \"{}\"", check.id);
     check.test = kept_option(options, "test", LUA_TFUNCTION, owner, Message("a function"), !check.by_hand);
     check.mistakes =

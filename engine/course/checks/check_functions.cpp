@@ -100,7 +100,7 @@ int near(Call& call) {
     const double most = absolute ? options.number("abs", 0) : options.number("rel", 0.05);
     const double half = options.number("half", most);  // this far away earns half the points
     if (!(most >= 0) || !(half >= most))
-        throw InvalidArgument("the tolerance must not be negative, and half must not be smaller than the tolerance");
+        throw InvalidArgument("the tolerance must be nonnegative, and half must not be less than the tolerance");
     const Compared compared(call);
     const double apart = compared.distance(absolute);
     const auto measured = [&](double x) {
@@ -284,7 +284,7 @@ Message answer_error(const std::string& name, const std::string& run,
                      const std::map<std::string, RecordedAnswer>& answers) {
     const auto given = answers.find(name);
     if (run != kMainRun && given != answers.end())
-        return Message("The answer \"{}\" was submitted in a different form than requested.", name);
+        return Message("The answer \"{}\" was not submitted in the requested form.", name);
     if (given != answers.end()) {
         std::string why = parsed_json(given->second.json).value("why", "");
         if (!why.empty()) why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));

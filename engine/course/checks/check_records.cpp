@@ -69,7 +69,7 @@ int hidden(Call& call) {
         return 1;
     }
     throw InvalidArgument(
-        "unknown hidden data set \"{}\": name a simulated experiment, a plant that the checks declare, or a file in "
+        "unknown hidden data set \"{}\": specify a simulated experiment, a plant that the checks declare, or a file in "
         "the checks' folder hidden",
         name);
 }
@@ -77,7 +77,8 @@ int hidden(Call& call) {
 /// The run that a table of answers came from.
 std::string run_of_answers(const Call& call, int index) {
     if (luaL_getmetafield(call.state(), index, kRunOfAnswers) != LUA_TSTRING)
-        throw InvalidArgument("truth takes the name of a hidden data set, or answers and the name of a data set");
+        throw InvalidArgument(
+            "truth requires the name of a hidden data set, or the answers and the name of a data set");
     const std::string run = lua_tostring(call.state(), -1);
     lua_pop(call.state(), 1);
     return run;

@@ -42,7 +42,7 @@ class SelectedFiles {
         const std::vector<std::string> parts = parts_of(assignment_, requested_.stage);
         if (!requested_.part.empty()) {
             if (requested_.part != kUnreadable && std::ranges::find(parts, requested_.part) == parts.end())
-                throw InvalidArgument("{} has no part {}: its parts are {}", assignment_.name, requested_.part,
+                throw InvalidArgument("{} has no part {}; the parts are {}", assignment_.name, requested_.part,
                                       listed(parts));
             return {one(requested_.part, withdrawn)};
         }
@@ -190,7 +190,7 @@ void hold(Course& course, const Assignment& a, const SubmissionSelection& reques
     Transaction transaction(course.database());
     const SelectedFiles files(course, a, requested);
     if (is_held(course, a, files.group().id, files.pair()) == held)
-        throw held ? InvalidArgument("the {} is withheld already", files.what())
+        throw held ? InvalidArgument("the {} is already withheld", files.what())
                    : InvalidArgument("the {} is not withheld", files.what());
     course.database().run(
         "INSERT INTO holds (assignment, group_id, pair, held, reason, made_at) VALUES (?, ?, ?, ?, ?, ?)", a.id,

@@ -37,8 +37,9 @@ std::string readme_of(const Lesson& lesson, const BundleOptions& options) {
     for (const char* command : {"run", "check", "report", "pack"})
         lines.push_back(Message::verbatim(fmt::format("    dynlab {} {}", command, lesson.slug)));
     lines.push_back(Message::verbatim(""));
-    lines.push_back(Message(
-        "Write your analysis in analysis.lua and your text in report.md. Submit the zip file that dynlab pack makes."));
+    lines.push_back(
+        Message("Write your analysis in analysis.lua and your text in report.md. Submit the zip file that dynlab pack "
+                "creates."));
     if (!options.sheet.empty()) lines.push_back(Message("The tasks are in {}.", options.sheet.filename().string()));
     lines.push_back(Message("dynlab help start shows the first page of the manual."));
     std::string text;
@@ -109,7 +110,7 @@ std::vector<BundleOwner> bundle_owners(std::vector<Student>& students, const std
         const std::string& name = bundle_owner(student);
         if (name.find('/') != std::string::npos || terminal_line(name) != name)
             throw EnvironmentError(
-                "\"{}\" cannot name a file: it contains / or characters that cannot be seen. Correct the roster",
+                "\"{}\" is not a valid file name: it contains / or invisible characters. Correct the roster",
                 terminal_line(name));
         const auto known = seeds.find(name);
         student.seed = known == seeds.end() ? seeds[name] = drawn_seed(taken) : known->second;

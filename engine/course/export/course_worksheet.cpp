@@ -54,11 +54,11 @@ FilledWorksheet fill_worksheet(Course& course, const std::optional<Assignment>& 
         ++filled.marks;
     }
     if (unknown > 0)
-        filled.complaints.push_back(plural(unknown, "{} row of {} fits no student and stays as it was",
-                                           "{} rows of {} fit no student and stay as they were", worksheet.string()));
+        filled.complaints.push_back(plural(unknown, "{} row of {} matches no student and was not changed",
+                                           "{} rows of {} match no student and were not changed", worksheet.string()));
     for (const Student& student : students)
         if (percent.contains(student.id) && !entered[student.id])
-            filled.complaints.push_back(Message("{} has marks, but no row in {}: enter them by hand",
+            filled.complaints.push_back(Message("{} has marks, but no row in {}; enter the marks manually",
                                                 student.name.empty() ? student.id : student.name, worksheet.string()));
     filled.text = sheet.text();
     return filled;

@@ -233,7 +233,7 @@ class Outbox {
                                            request_.worksheet->string()));
         for (std::size_t i = 0; i < students_.size(); ++i)
             if (has_marks(students_[i]) && !rows_.contains(i))
-                result_.complaints.push_back(Message("{} has marks, but no row in {}; enter them by hand",
+                result_.complaints.push_back(Message("{} has marks, but no row in {}; enter the marks manually",
                                                      students_[i].shown(), request_.worksheet->string()));
     }
 
@@ -280,8 +280,8 @@ class Outbox {
         const fs::path zip = folder_ / "moodle-feedback.zip";
         if (feedback.empty()) {
             fs::remove(zip);
-            result_.notes.push_back(
-                Message("moodle-feedback.zip was not written: all feedback was delivered; --all writes it again"));
+            result_.notes.push_back(Message(
+                "moodle-feedback.zip was not written: all feedback was delivered; use --all to write it again"));
         } else {
             feedback.write(zip);
             result_.files.push_back(zip);

@@ -38,7 +38,7 @@ class Returner {
 
     ReturnOutcome run() {
         if (fs::exists(request_.folder))
-            throw InvalidArgument("{} exists already; give the name of a new folder", request_.folder.string());
+            throw InvalidArgument("{} already exists; give the name of a new folder", request_.folder.string());
         for (const Group& group : groups_of(course_)) collect(group);
         if (outcome_.files.empty()) return std::move(outcome_);
         lay_out();
@@ -50,8 +50,9 @@ class Returner {
     void settle_numbers() {
         if (!request_.worksheet.empty() &&
             PlatformSheet(request_.worksheet, "").platform() != PlatformSheet::Platform::kMoodle)
-            throw InvalidArgument("{} is Canvas's gradebook: the zip for Moodle needs Moodle's grading worksheet",
-                                  request_.worksheet.string());
+            throw InvalidArgument(
+                "{} is Canvas's gradebook: the zip file for Moodle requires Moodle's grading worksheet",
+                request_.worksheet.string());
         const std::map<std::string, std::string> numbers = participants_for(course_, assignment_, request_.worksheet);
         for (const auto& [id, number] : numbers)
             if (const Student& student = students_[id]; !student.moodle.empty() && student.moodle != number)

@@ -113,9 +113,9 @@ std::vector<Message> several_of_one(const ClassResults& results) {
         }
         const std::string counting_name = shown_name(counts->item->submission);
         sentences.push_back(results.work->newest_counts
-                                ? Message("{} has several submissions; the newest one counts, \"{}\": {}", owner,
+                                ? Message("{} has several submissions; the newest submission counts, \"{}\": {}", owner,
                                           counting_name, listed(names))
-                                : Message("{} has several submissions; the better one counts, \"{}\": {}", owner,
+                                : Message("{} has several submissions; the best submission counts, \"{}\": {}", owner,
                                           counting_name, listed(names)));
     }
     return sentences;
@@ -282,8 +282,8 @@ Attention what_needs_attention(const ClassResults& results) {
     for (const Entry& entry : results.entries) {
         const std::string name = shown_name(entry.item->submission);
         if (results.work->roster && !entry.item->unmatched.empty()) {
-            add(Message("\"{}\" matches no student in the roster: {}; add it to the CSV file for --owners", name,
-                        entry.item->unmatched));
+            add(Message("\"{}\" matches no student in the roster: {}; add the submission to the CSV file for --owners",
+                        name, entry.item->unmatched));
             ++attention.unowned;
         }
         if (!entry.grade) continue;
@@ -295,9 +295,9 @@ Attention what_needs_attention(const ClassResults& results) {
             if (waits_for_a_hand(grade))
                 by_hand.push_back(fmt::format("\"{}\"", name));
             else if (!whole(grade) && some_whole)
-                add(Message("\"{}\" is not graded completely", name));
+                add(Message("\"{}\" is not fully graded", name));
             if (grade.error_reason.empty() && grade.silent)
-                add(Message("\"{}\" ran to completion but gave no answer", name));
+                add(Message("\"{}\" ran to completion but submitted no answer", name));
             if (!grade.error_reason.empty())
                 add(grade.began ? Message("the script of \"{}\" stopped: {}", name, grade.error_reason)
                                 : Message("the script of \"{}\" could not be started: {}", name, grade.error_reason));

@@ -49,25 +49,23 @@ class FeedbackText {
                                         points_number(grade_.penalty), grade_.lateness));
         const std::string other = escape_(grade_.counts_instead);
         if (!other.empty())
-            text +=
-                "\n\n" +
-                words(
-                    grade_.newest_counts
-                        ? Message("**This submission does not count.** Of your submissions, the newest one counts: {}.",
-                                  other)
-                        : Message("**This submission does not count.** Of your submissions, the better one counts: {}.",
-                                  other));
+            text += "\n\n" + words(grade_.newest_counts ? Message("**This submission does not count.** Of your "
+                                                                  "submissions, the newest submission counts: {}.",
+                                                                  other)
+                                                        : Message("**This submission does not count.** Of your "
+                                                                  "submissions, the best submission counts: {}.",
+                                                                  other));
         return text;
     }
 
     std::string error_reason() const {
         if (grade_.error_reason.empty())
-            return words(grade_.silent ? Message("Your script ran to completion but gave no answer.")
+            return words(grade_.silent ? Message("Your script ran to completion but submitted no answer.")
                                        : Message("Your script ran to completion."));
         const std::string why = shown_trouble();
         if (grade_.unreadable && grade_.whole())
             return words(
-                Message("**The program could not read your work, so your instructor marked it by hand:** {}", why));
+                Message("**The program could not read your work, so your instructor marked it manually:** {}", why));
         return words(grade_.unreadable ? Message("**Your work could not be read, so it has no marks yet:** {}", why)
                      : grade_.began    ? Message("**Your script stopped with an error:** {}", why)
                                        : Message("**Your script could not be started:** {}", why));
@@ -80,9 +78,9 @@ class FeedbackText {
     }
 
     std::string closing() const {
-        return words(
-            Message("Programs give the points. They compare your answers with your data and with data sets that you "
-                    "have not seen. If you think that a check is wrong, tell your instructor which one and why."));
+        return words(Message(
+            "Points are awarded automatically. dynlab compares your answers with your data and with data sets that you "
+            "have not seen. If you think that a check is wrong, contact your instructor and explain why."));
     }
 
   private:

@@ -147,8 +147,8 @@ class FolderCheck {
         const FolderCopy outcome = copy_folder(folder_, copy(), limits_.folder_bytes, limits_.files);
         for (const std::string& name : outcome.left_out) {
             add("link-left-out", Severity::kHint, name,
-                Message("This is a link or not a regular file; it is not submitted."),
-                Message("Put the file itself in its place."));
+                Message("The file is a link or is not a regular file, and is not submitted."),
+                Message("Replace it with the file itself."));
         }
         if (!outcome.too_large) return scripts_made();
         add("folder-too-large", Severity::kRule, "",
@@ -408,8 +408,8 @@ class FolderCheck {
     }
 
     static Message make_again(const std::string& name) {
-        if (name == "report.pdf") return Message("Make the PDF again: dynlab report FOLDER");
-        return Message("Make the PDF again: dynlab report FOLDER -o FOLDER/{}", name);
+        if (name == "report.pdf") return Message("Create the PDF again: dynlab report FOLDER");
+        return Message("Create the PDF again: dynlab report FOLDER -o FOLDER/{}", name);
     }
 
     void compare_with(const fs::path& submitted_pdf) {

@@ -174,8 +174,8 @@ class ClassGrader {
             if (!grade) continue;
             if (grade->fingerprint != pipeline_.key_of(item))
                 outcome_.complaints.push_back(
-                    Message("the marks of \"{}\" are from before the submission, the checks or the program changed; "
-                            "include it in --only",
+                    Message("the marks of \"{}\" are out of date, because the submission, the checks or the program "
+                            "changed after grading; include the submission in --only",
                             item.submission.name));
             keep(i, pipeline_.finish(item, *std::move(grade), false));
         }

@@ -93,8 +93,7 @@ void GradingRules::read_checks() {
         for (const auto& entry : fs::directory_iterator(*setup_.more_checks))
             if (entry.path().extension() == ".lua") more.push_back(entry.path());
         if (more.empty())
-            throw EnvironmentError("the folder '{}' contains no checks: it has no file *.lua",
-                                   setup_.more_checks->string());
+            throw EnvironmentError("the folder '{}' contains no checks (files *.lua)", setup_.more_checks->string());
         std::ranges::sort(more);
         for (const fs::path& file : more) files_.push_back({file.filename().string(), read_text(file), false});
     }
@@ -109,8 +108,8 @@ void GradingRules::read_checks() {
         document_ = document_ || check.document;
         if (check.document && !fs::exists(setup_.lesson.report("en")))
             throw EnvironmentError(
-                "the check \"{}\" examines the document, but lesson {} has none: document = true is for lessons with "
-                "report.en.md in their folder",
+                "the check \"{}\" examines the document, but lesson {} has no document: document = true requires "
+                "report.en.md in the folder of the lesson",
                 check.id, setup_.lesson.slug);
         if (rerun.empty()) continue;
         const bool declared = std::ranges::find(declared_plants_, rerun) != declared_plants_.end();
@@ -145,8 +144,8 @@ GradedRun GradingRules::run(const std::string& name, const fs::path& folder, con
     const auto result = run_in_sandbox(sandbox, setup_.program, job, limits, kMaxGradedRunBytes);
     if (result.waited)
         throw EnvironmentError(
-            "the machine was too busy: the script had not used its {} s of processor time after {} s. Grade it again "
-            "when less is running, or with fewer --jobs",
+            "the machine was too busy: the script had not used its {} s of processor time after {} s. Grade the "
+            "submission again when the machine is less busy, or with fewer --jobs",
             limits.seconds(TimeLimit::kProcessor), limits.seconds(TimeLimit::kClock));
     GradedRun run = result.output.value_or(GradedRun());
     if (!result.output) run.error = Message("The script was stopped: {}.", result.reason);
@@ -193,8 +192,8 @@ Issues GradingRules::findings(const fs::path& folder, const GroupSeed& group_see
         return issues_from_json(child.output).findings;
     } catch (const EnvironmentError&) {
         return {{kDocumentFails, Severity::kRule, 0, "",
-                 child.timed_out ? Message("The report cannot be made: {}.", reason_of_end(child, limits.time))
-                                 : Message("The report cannot be made."),
+                 child.timed_out ? Message("The report cannot be created: {}.", reason_of_end(child, limits.time))
+                                 : Message("The report cannot be created."),
                  Message()}};
     }
 }

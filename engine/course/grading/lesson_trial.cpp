@@ -85,9 +85,8 @@ void look_at_solutions(const Lesson& lesson, Faults& faults) {
         const PercentScript script = read_percent_script(lesson.script());
         const std::string starter = without_solutions(script.source, lesson.script(), script.header.language);
         if (starter == script.source)
-            faults.add(
-                lesson.script(), 0,
-                Message("BEGIN SOLUTION and END SOLUTION enclose no line, so that students get the complete script"));
+            faults.add(lesson.script(), 0,
+                       Message("BEGIN SOLUTION and END SOLUTION enclose no line, so students get the complete script"));
         if (script.header.title.empty()) faults.add(lesson.script(), 0, Message("the header has no title"));
         if (script.header.lesson != lesson.slug)
             faults.add(lesson.script(), 0,
@@ -126,7 +125,7 @@ void look_at_starter(const Lesson& lesson, const EvaluatedScript& starter, Fault
     for (const EvaluatedCheck& one : starter.checks)
         if (!one.check.by_hand && one.share.value_or(0) > 0)
             faults.add(lesson.script(), 0,
-                       Message("the untouched starter gets points by the check \"{}\"", one.check.id));
+                       Message("the untouched starter gets points for the check \"{}\"", one.check.id));
 }
 
 /// Of wrong_*.lua and right_*.lua, which has nothing to expect.
@@ -169,7 +168,7 @@ void look_at_pdf(const fs::path& pdf, const fs::path& source, const DocumentStan
     for (const Issue& issue : check_pdf(pdf, check_options).findings)
         if (issue.severity == Severity::kRule &&
             std::find(std::begin(kFindingsOfPages), std::end(kFindingsOfPages), issue.id) != std::end(kFindingsOfPages))
-            faults.add(source, 0, Message("its report, page {}: {}", issue.page, issue.what));
+            faults.add(source, 0, Message("the report, page {}: {}", issue.page, issue.what));
     for (const PdfPage& page : read_pdf_layout(pdf).pages)
         for (const PdfWord& word : page.words)
             if (word.text.find("SOLUTION") != std::string::npos)
@@ -224,8 +223,8 @@ void look_at_translated_checks(const Lesson& lesson, const std::string& language
             if (catalog.translation(sentence).empty()) missing.push_back(sentence);
         if (!missing.empty())
             faults.add(words, 0,
-                       Message("{} of {} sentences of checks.lua are not translated, the first: \"{}\"", missing.size(),
-                               all.size(), missing.front()));
+                       Message("{} of {} sentences in checks.lua are not translated; the first is \"{}\"",
+                               missing.size(), all.size(), missing.front()));
     });
 }
 
@@ -236,15 +235,15 @@ void look_at_tasks(const Lesson& lesson, const std::string& language, Faults& fa
     faults.attempt(tasks, [&] {
         const bool fits = lesson_script(lesson, language).header.language == language;
         if (const std::string said = read_percent_script(tasks).header.language; said != language)
-            faults.add(
-                tasks, 0,
-                Message("the header has \"language: {}\", but the file name has {}: dynlab sheet --lang {} refuses it",
-                        said, language, language));
+            faults.add(tasks, 0,
+                       Message("the header has \"language: {}\", but the file name has {}: dynlab sheet --lang {} "
+                               "rejects the file",
+                               said, language, language));
         else if (!fits)
             faults.add(
                 lesson.script(), 0,
                 Message(
-                    "the header has no line \"language: en\", so dynlab sheet --lang {} refuses the translated tasks",
+                    "the header has no line \"language: en\", so dynlab sheet --lang {} rejects the translated tasks",
                     language));
     });
 }
@@ -314,7 +313,7 @@ LessonFaults giveaways_of(const CheckTrial& trial) {
             if (one.check.visible && !one.check.by_hand && one.share.value_or(0) == 1)
                 found.push_back(
                     {"checks.lua", 0,
-                     Message("students read this file, and can pass the check \"{}\" by entering {}: compute the "
+                     Message("students can read this file and pass the check \"{}\" by entering {}: compute the "
                              "expected value from the data, or move the check into the folder for --checks",
                              one.check.id, script.name)});
     return found;

@@ -215,7 +215,8 @@ ManualMarks::ManualMarks(const fs::path& results, const ClassWork& work, const s
             complain(Message("unknown check \"{}\" (for \"{}\"); * means the complete submission", row.check, row.who));
         else if (*row.points > check->second && !above_maximum)
             complain(
-                Message("\"{}\" gets {} points for the check \"{}\", which has {}; correct the points, or give --force",
+                Message("\"{}\" gets {} points for the check \"{}\", but the maximum is {}; correct the points, or "
+                        "give --force",
                         row.who, points_text(*row.points), row.check, points_text(check->second)));
         else
             for (const WorkItem* item : found.items)

@@ -24,15 +24,14 @@ Message complaint_about(const CheckDescription& check, const std::map<std::strin
         const Message error_reason = shortened_error(*run->second.error);
         if (name == kMainRun)
             return Message(
-                "the reference solution does not pass the check \"{}\", which is left ungraded: its run stopped: {}; "
-                "{}",
+                "the check \"{}\" is left ungraded, because the run of the reference solution stopped: {}; {}",
                 check.id, error_reason, said);
         return Message(
-            "the reference solution does not pass the check \"{}\", which is left ungraded: its run on {} stopped: {}; "
-            "{}",
+            "the check \"{}\" is left ungraded, because the run of the reference solution on {} stopped: {}; {}",
             check.id, name, error_reason, said);
     }
-    return Message("the reference solution does not pass the check \"{}\", which is left ungraded: {}", check.id, said);
+    return Message("the check \"{}\" is left ungraded, because the reference solution does not pass it: {}", check.id,
+                   said);
 }
 
 /// Whether nothing stood in the way that may be gone another time, such as a busy machine.

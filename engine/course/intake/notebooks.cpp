@@ -27,7 +27,8 @@ bool notebook_holds(const fs::path& notebook, const fs::path& script, const std:
     if (of_notebook > of_script + kStepOfTimes) return true;
     if (of_script > of_notebook + kStepOfTimes) return false;
     throw SubmissionError(
-        "analysis.lua and analysis.ipynb differ, and it is unknown which one is newer: submit only one of them.");
+        "analysis.lua and analysis.ipynb differ, and dynlab cannot determine which file is newer: submit only one of "
+        "them.");
 }
 
 }  // namespace

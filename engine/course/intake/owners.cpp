@@ -193,7 +193,7 @@ void Owners::read_list(const std::filesystem::path& file) {
             fail(named_id.empty() ? Message("unknown group \"{}\"", named_group)
                                   : Message("no student has the id \"{}\"", named_id));
         const std::string key = archive_stem(composed(row[*submission])).value_or(composed(row[*submission]));
-        if (!list_.emplace(key, *owner).second) fail(Message("\"{}\" has an owner already", key));
+        if (!list_.emplace(key, *owner).second) fail(Message("\"{}\" already has an owner", key));
     }
 }
 
@@ -276,13 +276,13 @@ std::vector<std::size_t> Owners::whole(const std::string& name, std::vector<std:
 Owners::Found Owners::found(const std::vector<std::size_t>& owners, bool by_prefix) const {
     Found result;
     if (owners.empty()) {
-        result.error_reason = Message("it matches no group and no student");
+        result.error_reason = Message("the name matches no group and no student");
         return result;
     }
     if (owners.size() > 1) {
         std::vector<std::string> names;
         for (const std::size_t owner : owners) names.push_back(owners_[owner].name);
-        result.error_reason = Message("it matches several: {}", base::listed(names));
+        result.error_reason = Message("the name matches several: {}", base::listed(names));
         result.doubtful = true;
         return result;
     }
@@ -371,8 +371,9 @@ Owners::Found Owners::as_written(const Submission& submission) const {
         if (!both.empty()) return found(both);
         Found contradiction;
         contradiction.doubtful = true;
-        contradiction.error_reason = Message("its number {} belongs to {}, but its name matches {}", submission.lms_id,
-                                             owners_[numbered.front()].name, owners_[owners.front()].name);
+        contradiction.error_reason =
+            Message("the number {} in the name belongs to {}, but the name matches {}", submission.lms_id,
+                    owners_[numbered.front()].name, owners_[owners.front()].name);
         return contradiction;
     }
     if (owners.empty()) return found(owners_of(by_id));

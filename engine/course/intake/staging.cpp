@@ -88,7 +88,7 @@ void make_utf8(const fs::path& script) {
     try {
         write_file_atomically(script, decoded_text(script, bytes, notes));
     } catch (const EnvironmentError&) {
-        throw SubmissionError("Its analysis.lua is not a text: save it in UTF-8 and submit it again.");
+        throw SubmissionError("The file analysis.lua is not text: save it in UTF-8 and submit it again.");
     }
     fs::last_write_time(script, written);
 }
@@ -115,9 +115,9 @@ void refuse_other_content(const fs::path& script) {
     in.read(start.data(), static_cast<std::streamsize>(kStart));
     start.resize(static_cast<std::size_t>(in.gcount()));
     if (start.starts_with("%PDF-"))
-        throw SubmissionError("Its analysis.lua is a PDF with another file extension: submit the script.");
+        throw SubmissionError("The file analysis.lua is a PDF, despite its extension: submit the script.");
     if (start.find('\0') != std::string::npos)
-        throw SubmissionError("Its analysis.lua is not a text: submit the script, saved in UTF-8.");
+        throw SubmissionError("The file analysis.lua is not text: submit the script, saved in UTF-8.");
 }
 
 MessageList listed_places(const std::vector<FoundScript>& found) {
@@ -160,7 +160,7 @@ class Stager {
         const std::optional<FoundScript> newest = newest_of(found);
         if (!newest)
             throw SubmissionError(
-                "Several folders contain an analysis.lua, and it is unknown which one is the newest: {}. Submit one of "
+                "Several folders contain an analysis.lua, and dynlab cannot determine the newest: {}. Submit one of "
                 "them.",
                 listed_places(found));
         return staged(*newest, Message("of {}, \"{}\" was used as the newest", listed_places(found), newest->shown));
@@ -260,8 +260,8 @@ class Stager {
                         listed(shortened_list(near)), notebook ? "analysis.ipynb" : "analysis.lua"));
         if (const std::string kind = closed_kind(others); !kind.empty())
             return with_rest(
-                Message("The submission contains no analysis.lua, only {} ({} archives cannot be opened; zip and tar "
-                        "can); submit the folder that dynlab new created.",
+                Message("The submission contains no analysis.lua, only {} ({} archives cannot be opened; use zip or "
+                        "tar). Submit the folder that dynlab new created.",
                         listed(shortened_list(others)), kind));
         return with_rest(
             Message("The submission contains no analysis.lua, only {}. Submit the folder that dynlab new created.",

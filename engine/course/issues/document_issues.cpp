@@ -21,7 +21,7 @@ Issue file_finding(const PdfRefusal& refusal) {
     switch (refusal.fault()) {
         case PdfFault::kNotPdf:
             return {"not-pdf", Severity::kRule,   0,
-                    "",        refusal.message(), Message("Submit the PDF that dynlab report writes.")};
+                    "",        refusal.message(), Message("Submit the PDF that dynlab report creates.")};
         case PdfFault::kEncrypted:
             return {"encrypted", Severity::kRule,   0,
                     "",          refusal.message(), Message("Save the PDF again without a password.")};
@@ -31,13 +31,13 @@ Issue file_finding(const PdfRefusal& refusal) {
                     0,
                     "",
                     refusal.message(),
-                    Message("Make the file smaller: draw figures as vector graphics, not as screenshots.")};
+                    Message("Reduce the file size: use vector graphics instead of screenshots.")};
         case PdfFault::kNotThere:
         case PdfFault::kDamaged:
             break;
     }
     return {"damaged", Severity::kRule,   0,
-            "",        refusal.message(), Message("Make the file again, or copy it again from the original.")};
+            "",        refusal.message(), Message("Create the file again, or copy it again from the original.")};
 }
 
 /// Without those that are others in another language, such as slides.fr.md.
@@ -174,7 +174,7 @@ CheckResult check_pdf(const fs::path& file, const CheckOptions& check_options, c
             result.findings.push_back(
                 {"scanned", Severity::kRule, 0, "",
                  Message("The document has no text: its pages are pictures, such as a scan or photographs."),
-                 Message("Submit the PDF that dynlab report writes, not a scan of a printout.")});
+                 Message("Submit the PDF that dynlab report creates, not a scan of a printout.")});
             sort_issues(result.findings);
             return result;
         }
@@ -182,7 +182,7 @@ CheckResult check_pdf(const fs::path& file, const CheckOptions& check_options, c
         if (layout.protected_by_password) {
             result.findings.push_back(
                 {"protected", Severity::kHint, 0, "", Message("A password protects the file against changes."),
-                 Message("Save the PDF again without protection, so that review copies can be made.")});
+                 Message("Save the PDF again without protection, so that review copies can be created.")});
         }
     } catch (const PdfRefusal& refusal) {
         if (refusal.fault() == PdfFault::kNotThere) throw;

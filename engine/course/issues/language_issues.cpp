@@ -86,8 +86,8 @@ Issues passages(const DocumentText& text, const std::vector<Language>& languages
         findings.push_back(
             {"language-mixed", Severity::kHint, last_page, "",
              other == Language::kEnglish
-                 ? Message("The document is in French, but this passage looks English: \"{}\".", passage)
-                 : Message("The document is in English, but this passage looks French: \"{}\".", passage),
+                 ? Message("The document is in French, but this passage seems to be in English: \"{}\".", passage)
+                 : Message("The document is in English, but this passage seems to be in French: \"{}\".", passage),
              Message("Write the whole report in one language.")});
     }
     return findings;
@@ -103,13 +103,13 @@ LanguageFindings language_findings(const DocumentText& text, const std::optional
     const bool is_french = french > english;
     LanguageFindings result{is_french ? "fr" : "en", {}};
     if (declared && *declared != result.language) {
-        result.findings.push_back({"language-differs", Severity::kHint, 0, "",
-                                   is_french
-                                       ? Message("The header says lang: {}, but the text is in French.", *declared)
-                                       : Message("The header says lang: {}, but the text is in English.", *declared),
-                                   Message("Write lang: {} in the header of report.md. Hyphenation and the words for "
-                                           "figure and table depend on it.",
-                                           result.language)});
+        result.findings.push_back(
+            {"language-differs", Severity::kHint, 0, "",
+             is_french ? Message("The header specifies lang: {}, but the text is in French.", *declared)
+                       : Message("The header specifies lang: {}, but the text is in English.", *declared),
+             Message("Write lang: {} in the header of report.md. The language determines the hyphenation and the words "
+                     "for figure and table.",
+                     result.language)});
     }
     const Issues mixed = passages(text, languages, is_french ? Language::kEnglish : Language::kFrench);
     result.findings.insert(result.findings.end(), mixed.begin(), mixed.end());

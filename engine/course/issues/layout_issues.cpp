@@ -70,7 +70,7 @@ void check_size(const DocumentText& text, int pages, Issues& findings) {
     }
     if (small.empty()) return;
     findings.push_back({"text-small", Severity::kRule, small.front(), "", too_small(smallest, text.is_slides(), small),
-                        Message("Set the text in 11 pt, as in the template, and shorten it instead.")});
+                        Message("Use a text size of 11 pt, as in the template, and shorten the text instead.")});
 }
 
 struct Strays {

@@ -21,7 +21,7 @@ struct Sign {
 };
 const std::vector<Sign>& signs() {
     static const Message fill =
-        Message("Report the value, table or figure in {} and make the PDF with dynlab report.", "analysis.lua");
+        Message("Report the value, table or figure in {} and create the PDF with dynlab report.", "analysis.lua");
     using Line = const std::string&;
     static const std::vector<Sign> all = {
         {"{.value}", "slot-unfilled",
@@ -82,7 +82,7 @@ void check_line(const TextLine& line, Issues& findings) {
     if (found == line.words.end()) return;
     findings.push_back(leftover("placeholder-left", line.page,
                                 Message("A note to yourself is left in the text: \"{}\".", printable(text, 60)),
-                                Message("Do what the note says, then remove it.")));
+                                Message("Resolve the note, then remove it.")));
 }
 
 std::string spaced(const std::vector<std::string>& words) {

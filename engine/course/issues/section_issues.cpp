@@ -105,7 +105,7 @@ Issues too_few_pages(const DocumentText& text, int pages, const DocumentRules& r
              *rules.least_pages == 1
                  ? Message("The text fills {} pages; at least {} page is required.", filled, 1)
                  : Message("The text fills {} pages; at least {} pages are required.", filled, *rules.least_pages),
-             Message("Give reasons, locations in the report, and for each weakness a way to fix it.")}};
+             Message("Give reasons and locations in the report, and suggest a remedy for each weakness.")}};
 }
 
 Message pages_of_paper(int count) {
@@ -145,11 +145,11 @@ Issues section_findings(const DocumentText& text, const DocumentRules& rules, co
             findings.push_back(
                 {"section-empty", Severity::kRule, heading.page, "", Message("The section \"{}\" is empty.", shown),
                  section.optional ? Message("Write the section, or remove its heading: the section is optional.")
-                                  : Message("Write what you did and found.")});
+                                  : Message("Describe your work and your results.")});
         } else if (words < (text.is_slides() ? kShortSlideWords : kShortSectionWords)) {
             findings.push_back({"section-short", Severity::kHint, heading.page, "",
                                 Message("The section \"{}\" has only {} words.", shown, words),
-                                Message("Say what you did, why, and what the result was.")});
+                                Message("Describe your work, the reasons for it, and the result.")});
         }
     }
     return findings;
@@ -167,7 +167,7 @@ Issues page_findings(const DocumentText& text, int pages, const DocumentRules& r
     return {{"pages", Severity::kRule, most + 1, "",
              too_many(text.is_slides() ? slides : pages_of_paper, pages, allowed, in_appendix),
              in_appendix > 0 && appendix == 0
-                 ? Message("Shorten the text, or move parts beyond the limit below a heading \"Appendix\".")
+                 ? Message("Shorten the text, or move the excess parts to a section with the heading \"Appendix\".")
                  : Message("Shorten the text, or remove figures that add no information.")}};
 }
 

@@ -319,8 +319,8 @@ void import_course(const fs::path& file, const fs::path& from, const fs::path& f
     for (const fs::path& kept : submitted_files)
         if (!fs::exists(kept))
             throw EnvironmentError(
-                "{} is not the folder of the exported course: it lacks the submitted file {}. Give that folder with "
-                "--from. Nothing was created",
+                "{} is not the folder of the exported course, because the submitted file {} is missing. Give the "
+                "folder of the course with --from. Nothing was created",
                 from.string(), kept.filename().string());
     make_complete_folder(folder, [&](const fs::path& growing) {
         fs::permissions(growing, fs::perms::owner_all);

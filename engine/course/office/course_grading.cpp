@@ -175,7 +175,7 @@ GradingOutcome grade_assignment(Course& course, const Assignment& assignment, co
     const FileLock lock = lock_results(options.out);
     CourseWork work(course, assignment);
     if (work.work().items.empty())
-        throw InvalidArgument("nothing was submitted for {} yet: dynlab course submit FILE... --assignment {}",
+        throw InvalidArgument("nothing was submitted for {} yet; run dynlab course submit FILE... --assignment {}",
                               assignment.name, assignment.name);
     work.choose(course, request.only);
     const EvaluatedRules evaluated(options);

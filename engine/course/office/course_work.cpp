@@ -92,8 +92,7 @@ void CourseWork::add(Course& course, const Stored& version, const Assignment& as
     item.submission.name = name_of(group, version.part, version.number);
     item.submission.path = copy;
     if (version.part == kUnreadable)
-        item.unreadable =
-            version.reason.empty() ? Message("The file that was submitted cannot be read.") : version.reason;
+        item.unreadable = version.reason.empty() ? Message("The submitted file cannot be read.") : version.reason;
     item.submission.archive = pack;
     if (!pack) item.submission.loose = {{copy, "analysis.lua"}};
     const std::vector<std::string> members = members_at(course, group.id, item.received);

@@ -40,7 +40,7 @@ class DeadlineTable {
         if (text.empty()) return {};
         const std::optional<ClockReading> value = plain_clock_reading(text);
         if (!value) fail(row, column, Message("a time such as 2026-03-01 18:00"));
-        if (!value->exists) fail(row, column, Message("an existing time"));
+        if (!value->exists) fail(row, column, Message("a time that exists in the time zone"));
         return value->instant;
     }
     std::optional<std::int64_t> duration(std::size_t row, const char* column) const {
@@ -73,7 +73,7 @@ class RowsOfGroups {
         if (row.grace != assignment_.grace || row.percent_per_day != assignment_.costs.late_day ||
             row.most_percent != assignment_.costs.late_most)
             throw InvalidArgument(
-                "a course has one grace and one penalty for all students; use extra, or another deadline");
+                "a course has one grace period and one penalty for all students; use extra, or another deadline");
         const auto [known, fresh] = rows_.try_emplace(group, row);
         if (!fresh && known->second.deadline < row.deadline) known->second = row;
     }
@@ -136,7 +136,7 @@ std::map<std::string, DeadlineRow> read_deadlines(const fs::path& file) {
         read.grace = table.duration(row, "grace").value_or(read.grace);
         read.percent_per_day = table.number(row, "percent_per_day", read.percent_per_day);
         read.most_percent = table.number(row, "most_percent", read.most_percent);
-        if (!rows.emplace(who, read).second) table.fail(row, Message("\"{}\" has a deadline already", who));
+        if (!rows.emplace(who, read).second) table.fail(row, Message("\"{}\" already has a deadline", who));
     }
     return rows;
 }

@@ -75,7 +75,7 @@ const std::map<std::string, Message>& input_names() {
                                                          {"checks", Message("your own checks")},
                                                          {"secret", Message("the secret")},
                                                          {"deadlines", Message("the deadlines")},
-                                                         {"keep", Message("which submission counts")},
+                                                         {"keep", Message("the choice of the submission that counts")},
                                                          {"timezone", Message("the time zone")}};
     return names;
 }
@@ -101,12 +101,12 @@ void refuse_differences(const GradingInputs& then, const GradingInputs& now, con
     const MessageList all{std::move(clauses)};
     if (request.grading.only.empty())
         throw EnvironmentError(
-            "the marks in {} were made with other inputs: {}. Omit these inputs to continue with the earlier ones, or "
-            "give --again to grade all submissions with the new ones, or give another --out",
+            "the marks in {} were computed with other inputs: {}. Omit these inputs to continue with the earlier "
+            "inputs, give --again to grade all submissions with the new inputs, or give another --out",
             request.out.string(), all);
     throw EnvironmentError(
-        "the marks in {} were made with other inputs: {}. Omit these inputs to continue with the earlier ones, or give "
-        "another --out",
+        "the marks in {} were computed with other inputs: {}. Omit these inputs to continue with the earlier inputs, "
+        "or give another --out",
         request.out.string(), all);
 }
 

@@ -41,8 +41,8 @@ OpenedPack made_document(const std::vector<fs::path>& files, const std::string& 
     const fs::path pdf = to / "report.pdf";
     if (!reason.empty() || fs::symlink_status(pdf).type() != fs::file_type::regular)
         return {{},
-                reason.empty() ? Message("the pack contains no PDF, and none can be made from it")
-                               : Message("the pack contains no PDF, and none can be made from it ({})", reason)};
+                reason.empty() ? Message("the pack contains no PDF, and none can be created from it")
+                               : Message("the pack contains no PDF, and none can be created from it ({})", reason)};
     return {PackedDocument{pdf, part + ".pdf", true}, {}};
 }
 

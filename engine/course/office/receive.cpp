@@ -160,12 +160,12 @@ class SubmissionReceiver {
         if (!released && !(sent && over)) return;
         if (has_any(candidate, candidate.part, sha256_of_file(candidate.file->file))) return;
         throw released ? EnvironmentError(
-                             "the reviews of {} are released: did you mean dynlab course submit --stage final? --first "
-                             "submits a first version anyway",
+                             "the reviews of {} are already released: did you mean dynlab course submit --stage final? "
+                             "--first submits a first version anyway",
                              candidate.group.name)
                        : EnvironmentError(
-                             "the reviews of {} are due: did you mean dynlab course submit --stage final? --first "
-                             "submits a first version anyway",
+                             "the reviews of {} are already due: did you mean dynlab course submit --stage final? "
+                             "--first submits a first version anyway",
                              candidate.group.name);
     }
 
@@ -191,7 +191,7 @@ class SubmissionReceiver {
             else if (!c.silent && ((c.unreadable && readable.contains(slot_of(c, c.part))) ||
                                    (c.part == kUnreadable &&
                                     (anything.contains(slot_of(c, "")) || folders.contains(c.file->folder)))))
-                make_trace(c, kBeside, Message("It arrived with the file that counts."));
+                make_trace(c, kBeside, Message("The file arrived with the file that counts."));
     }
 
     /// Of several files of a group for the same thing nobody can say which holds: they are kept as unreadable, unless
@@ -216,7 +216,7 @@ class SubmissionReceiver {
             outcome_.refused.push_back(
                 Message("{}: {} submitted several files that could be the {}; submit the correct one alone",
                         c.file->source, c.group.name, c.part));
-            make_trace(c, "several", Message("It is one of several files that could be the {}.", c.part));
+            make_trace(c, "several", Message("The file is one of several files that could be the {}.", c.part));
             c.silent = false;
         }
     }

@@ -66,7 +66,7 @@ class ClassReceiver {
         find_owners();
         side_by_side(files_.size(), [this](std::size_t i) { pack(i); });
         store();
-        for (const Message& clause : left_out_) received_.complaints.push_back(Message("{}; it was left out", clause));
+        for (const Message& clause : left_out_) received_.complaints.push_back(Message("{}; left out", clause));
         return std::move(received_);
     }
 

@@ -72,7 +72,7 @@ void explain_unreadable(const IncomingFile& file, const Assignment& assignment, 
         found.reason = assignment.is_lab() ? Message("The file is neither a script (.lua) nor a pack (.zip, .tar.gz).")
                        : assignment.is_report()
                            ? Message("The file is neither a PDF nor a pack (.zip, .tar.gz).")
-                           : Message("The file is neither a PDF, a script (.lua) nor a pack (.zip, .tar.gz).");
+                           : Message("The file is not a PDF, a script (.lua) or a pack (.zip, .tar.gz).");
     }
 }
 

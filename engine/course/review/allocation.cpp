@@ -265,12 +265,13 @@ class Allocator {
         }
         if (few_written + few_got > 0)
             say(
-                Message("{} groups write and {} reports get fewer than {} reviews: common members and existing reviews "
-                        "allow no other allocation.",
+                Message("{} groups write and {} reports receive fewer than {} reviews: common members and existing "
+                        "reviews allow no other allocation.",
                         few_written, few_got, requested_));
         if (more > 0)
-            say(Message("{} groups write or get one review more than {}: existing reviews and sent copies are kept.",
-                        more, requested_));
+            say(Message(
+                "{} groups write or receive one review more than {}: existing reviews and sent copies are kept.", more,
+                requested_));
         if (allocation.swapped > 0)
             say(plural(allocation.swapped,
                        "{} pair of groups review each other; no exchange of two reviews avoids this.",

@@ -29,7 +29,7 @@ class CostTaker {
         if (points <= 0 || (!from && (!work || a_.is_report()))) return;
         if (from) from = std::max(0.0, *from - points);
         if (work) mark.work_costs += points;
-        mark.costs.push_back(Message("{} off for {}", significant(points, 6), why));
+        mark.costs.push_back(Message("{} deducted for {}", significant(points, 6), why));
     }
 
     void take_off_work(GroupMark& mark) {

@@ -32,7 +32,7 @@ class CopySender {
           reason_(accepted.reason),
           people_(students_of(course)) {
         if (!accepted.groups.empty() && reason_.empty())
-            throw InvalidArgument("give a reason for accepting names: it is recorded in the history");
+            throw InvalidArgument("give a reason for accepting names; the history shows this reason");
         for (const std::string& name : accepted.groups) accepted_.insert(group_named(course, name).name);
         outcome_.folder = course.folder() / "outbox" / assignment.name / (to_reviewers() ? "to-review" : "reviews");
     }
@@ -83,7 +83,8 @@ class CopySender {
                                .next();
         if (named || sha256_of(copy) != hash)
             throw EnvironmentError(
-                "the copy for {} was altered after dynlab made it; nothing more was sent: run dynlab course verify",
+                "the copy for {} was altered after dynlab created it; no further copies were sent. Run dynlab course "
+                "verify",
                 file.string());
         kept_[file] = pair.id;
         fs::create_directories(file.parent_path());

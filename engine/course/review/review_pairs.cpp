@@ -95,7 +95,7 @@ ReviewPair reviewed_pair(const std::vector<ReviewPair>& pairs, const Group& revi
     std::vector<std::string> reports;
     for (const ReviewPair* pair : open) reports.push_back(pair->report_pseudonym());
     if (!named.empty())
-        throw EnvironmentError("it is a review of {}, which {} did not receive; the reports to review are {}",
+        throw EnvironmentError("the file is a review of {}, which {} did not receive; the reports to review are {}",
                                fmt::format("report-{:02}", named.front()), reviewer.name, listed(reports, Join::kAnd));
     throw EnvironmentError(
         "the review does not name the reviewed report. {} received {}: rename the file to review-{}.pdf, or give --of "

@@ -22,9 +22,10 @@ namespace {
 constexpr char kInstructor[] = "instructor", kComment[] = "comment";
 
 void refuse_other_than_talk(const Assignment& a) {
-    if (a.is_report()) throw InvalidArgument("{} is a report: its marks come from reviews, not from a talk", a.name);
+    if (a.is_report()) throw InvalidArgument("{} is a report: its marks are based on reviews, not on a talk", a.name);
     if (a.is_lab())
-        throw InvalidArgument("{} is a lab: its checks give the points; dynlab course mark changes them", a.name);
+        throw InvalidArgument("{} is a lab: its checks determine the points; use dynlab course mark to change them",
+                              a.name);
 }
 
 /// Throws InvalidArgument for a group that cannot have scores for its report of this stage.
@@ -84,7 +85,7 @@ class ScoreReader {
             if (!others.contains(name)) unknown.push_back(name);
         const Message known = Message("the criteria of {} are {}", a_.name, listed(criteria));
         if (!unknown.empty()) fail(1, Message("unknown columns: {}; {}", listed(unknown), known));
-        if (!any) fail(1, Message("no column is named like a criterion; {}", known));
+        if (!any) fail(1, Message("no column has the name of a criterion; {}", known));
     }
 
     [[noreturn]] void fail(int line, const Message& what) const {
@@ -130,7 +131,7 @@ class ScoreReader {
     }
 
     GivenMark of_group(const Group& group) const {
-        if (has_points() && group.dropped_out) throw InvalidArgument("{} dropped out: it has no scores", group.name);
+        if (has_points() && group.dropped_out) throw InvalidArgument("{} dropped out and has no scores", group.name);
         GivenMark owner;
         owner.group = group.id;
         return owner;
@@ -227,7 +228,7 @@ void drop_scores(Course& course, const Assignment& a, const std::string& reviewe
         }
     if (enter_marks(course, a, dropped, now) == 0)
         throw InvalidArgument("{} has given no scores for {}", reviewer, report);
-    course.note(fmt::format("{}: the scores of {} for {} are taken back; reason: {}", a.name, reviewer, report, reason),
+    course.note(fmt::format("{}: the scores of {} for {} are withdrawn; reason: {}", a.name, reviewer, report, reason),
                 now);
     transaction.commit();
 }

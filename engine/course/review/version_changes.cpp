@@ -95,8 +95,8 @@ void compare(Task& task, Isolation level, const fs::path& program) {
 }  // namespace
 
 std::vector<GroupChanges> version_changes(Course& course, const Assignment& assignment, const ChangesRequest& request) {
-    if (assignment.is_talk()) throw InvalidArgument("{} is a talk: it has no final version", assignment.name);
-    if (assignment.is_lab()) throw InvalidArgument("{} is a lab: it has no final version", assignment.name);
+    if (assignment.is_talk()) throw InvalidArgument("{} is a talk and has no final version", assignment.name);
+    if (assignment.is_lab()) throw InvalidArgument("{} is a lab and has no final version", assignment.name);
     std::vector<Group> groups;
     for (const std::string& name : request.groups) groups.push_back(group_named(course, name));
     if (request.groups.empty()) groups = groups_of(course);

@@ -32,9 +32,9 @@ void keep_what_fits(GradedRun& run) {
             continue;
         }
         if (!run.error)
-            run.error =
-                Message("the answer \"{}\" is too large: all answers together can have {} MB; give fewer numbers",
-                        answer->first, kMostGiven >> 20);
+            run.error = Message(
+                "the answer \"{}\" is too large: all answers together can have at most {} MB; submit fewer numbers",
+                answer->first, kMostGiven >> 20);
         answer = run.answers.erase(answer);
     }
     for (std::vector<std::string>* names : {&run.figures, &run.values})

@@ -107,7 +107,7 @@ void SandboxedDocuments::make(const std::string& template_name, const RunRecord&
     }
     job.to = sandbox.add_writable(made.path(), "/box/made") / output.filename();
     const auto result = run_in_sandbox(sandbox, program_, job, {kTimeOfDocument});
-    if (!result.output) throw EnvironmentError("{} cannot be made: {}", output.filename().string(), result.reason);
+    if (!result.output) throw EnvironmentError("{} cannot be created: {}", output.filename().string(), result.reason);
     keep(result.output->notes);
     place_all(made.path(), output.parent_path());
 }

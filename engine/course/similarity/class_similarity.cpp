@@ -52,7 +52,7 @@ void add_scripts(const fs::path& from, const std::string& prefix, bool of_class,
             complaints.push_back(Message("\"{}\": {}", prefix + submission.name, error.message()));
         }
     }
-    for (const Message& clause : submissions.left_out()) complaints.push_back(Message("{}; it was left out", clause));
+    for (const Message& clause : submissions.left_out()) complaints.push_back(Message("{}; left out", clause));
 }
 
 /// All pairs, those within a group of copies with its number.

@@ -25,11 +25,11 @@ void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
         if (a.review_due || a.final_due)
             throw a.is_talk() ? InvalidArgument("a talk has one deadline: omit --review and --final")
                               : InvalidArgument("a lab has one deadline: omit --review and --final");
-        if (a.is_talk() && a.first_due == kNoDeadline) throw InvalidArgument("a talk needs a deadline: --first");
+        if (a.is_talk() && a.first_due == kNoDeadline) throw InvalidArgument("a talk needs a deadline: give --first");
         return;
     }
     if (!a.review_due || !a.final_due || a.first_due == kNoDeadline)
-        throw InvalidArgument("a report needs three deadlines: --first, --review and --final");
+        throw InvalidArgument("a report needs three deadlines: give --first, --review and --final");
     const auto in_order = [&](Instant before, Instant after, const char* first, const char* second) {
         if (before < after) return;
         throw InvalidArgument("the deadline of the {} ({}) must be after the deadline of the {} ({})", second,
@@ -37,7 +37,7 @@ void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
     };
     in_order(a.first_due, *a.review_due, "first version", "reviews");
     in_order(*a.review_due, *a.final_due, "reviews", "final version");
-    if (a.reviews < 1) throw InvalidArgument("each group must write at least one review: --reviews 1");
+    if (a.reviews < 1) throw InvalidArgument("each group must write at least one review: give --reviews 1 or more");
 }
 
 constexpr std::pair<const char*, double Costs::*> kCosts[] = {{"late-day", &Costs::late_day},
@@ -104,14 +104,15 @@ bool only_later(Assignment a, const Assignment& b, const CourseClock& clock) {
 /// What submissions and scores depend on does not change after them.
 void refuse_change_of_form(Course& course, const Assignment& known, const Assignment& requested, bool has_work) {
     if (has_work && requested.kind != known.kind)
-        throw InvalidArgument("files were submitted for {} already: its kind stays {}", known.name, known.kind);
+        throw InvalidArgument("files were already submitted for {}, so its kind must remain {}", known.name,
+                              known.kind);
     if (criteria_text(requested.criteria) == criteria_text(known.criteria)) return;
     Rows scored = course.database().query(
         "SELECT 1 FROM marks m JOIN criteria c ON c.assignment = m.assignment AND c.name = m.item WHERE c.assignment = "
         "?",
         known.id);
     if (scored.next())
-        throw InvalidArgument("scores were entered for {} already: its criteria stay {}", known.name,
+        throw InvalidArgument("scores were already entered for {}, so its criteria must remain {}", known.name,
                               criteria_text(known.criteria));
 }
 
@@ -153,8 +154,8 @@ bool set_assignment(Course& course, Assignment requested, const std::string& rea
         refuse_change_of_form(course, known, requested, has_work);
         if (has_work && reason.empty() && !only_later(known, requested, course.clock()))
             throw InvalidArgument(
-                "files were submitted for {} already: you can only postpone deadlines and increase the grace; give "
-                "--reason to change more",
+                "files were already submitted for {}: you can only postpone deadlines and increase the grace period; "
+                "give --reason to change more",
                 known.name);
         requested.name = known.name;
         note = fmt::format("assignment {} changed: {}", known.name, fmt::join(changes, ", "));
@@ -183,8 +184,9 @@ void remove_assignment(Course& course, const Assignment& assignment, const std::
     Transaction transaction(db);
     for (const char* table : {"versions", "pairs", "extensions", "marks"})
         if (db.query(fmt::format("SELECT 1 FROM {} WHERE assignment = ?", table), assignment.id).next())
-            throw InvalidArgument("{} cannot be removed, because other data depend on it (its {}); nothing was changed",
-                                  assignment.name, table);
+            throw InvalidArgument(
+                "{} cannot be removed, because other data depend on the assignment (its {}); nothing was changed",
+                assignment.name, table);
     for (const char* table : {"criteria", "pair_wishes", "holds", "pseudonyms", "allocations"})
         db.run(fmt::format("DELETE FROM {} WHERE assignment = ?", table), assignment.id);
     db.run("DELETE FROM assignments WHERE id = ?", assignment.id);
@@ -242,8 +244,8 @@ std::vector<std::string> parts_of(const Assignment& assignment, const std::strin
 }
 
 void refuse_without_reviews(const Assignment& assignment) {
-    if (assignment.is_talk()) throw InvalidArgument("{} is a talk: it has no reviews", assignment.name);
-    if (assignment.is_lab()) throw InvalidArgument("{} is a lab: it has no reviews", assignment.name);
+    if (assignment.is_talk()) throw InvalidArgument("{} is a talk and has no reviews", assignment.name);
+    if (assignment.is_lab()) throw InvalidArgument("{} is a lab and has no reviews", assignment.name);
 }
 
 std::vector<Criterion> criteria_of(const std::string& text) {
@@ -277,8 +279,8 @@ Costs costs_of(const std::string& text) {
         const auto value = read_number<double>(points);
         if (known == std::end(kCosts) || !value || !(*value >= 0 && *value <= 100))
             throw InvalidArgument(
-                "penalties are late-day, late-most, missing-final, late-review and missing-review with percent points "
-                "from 0 to 100, such as late-day:10,missing-review:25, but \"{}:{}\" was given",
+                "penalties are late-day, late-most, missing-final, late-review and missing-review, each from 0 to 100 "
+                "percentage points, such as late-day:10,missing-review:25, but \"{}:{}\" was given",
                 name, points);
         costs.*(known->second) = *value;
     }
@@ -304,8 +306,8 @@ Instant due_for(Course& course, const Assignment& a, std::int64_t group, const s
                                                               : a.final_due;
     if (!common) {
         if (stage == "review") refuse_without_reviews(a);
-        throw a.is_talk() ? InvalidArgument("{} is a talk: it has no final version", a.name)
-                          : InvalidArgument("{} is a lab: it has no final version", a.name);
+        throw a.is_talk() ? InvalidArgument("{} is a talk and has no final version", a.name)
+                          : InvalidArgument("{} is a lab and has no final version", a.name);
     }
     Rows own = course.database().query(
         "SELECT due_at FROM extensions WHERE assignment = ? AND group_id = ? AND stage = ? ORDER BY id DESC LIMIT 1",

@@ -286,11 +286,11 @@ bool migrate_course(Database& database, Database::Opening opening, const std::st
         const std::int64_t version = pragma(database, "user_version"), id = pragma(database, "application_id");
         const bool fresh = opening == Database::Opening::kNew && version == 0;
         if (!fresh && id != kApplicationId)
-            throw EnvironmentError("{}: the folder is not a course; make a course with dynlab course init", file);
+            throw EnvironmentError("{}: the folder is not a course; create a course with dynlab course init", file);
         if (version > newest)
             throw EnvironmentError(
-                "{}: a newer dynlab made this course (its tables have version {}, this program knows {}); use the "
-                "newer dynlab",
+                "{}: a newer version of dynlab created this course (its tables have version {}, but this program "
+                "supports version {}); use the newer dynlab",
                 file, version, newest);
         return version;
     };

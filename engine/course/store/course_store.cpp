@@ -61,8 +61,8 @@ fs::path course_folder(const fs::path& start) {
         if (folder == folder.root_path()) break;
     }
     throw EnvironmentError(
-        "no course in {} or above; change to its folder, name it with --course DIR, or make one with dynlab course "
-        "init DIR",
+        "no course in {} or above; change to the folder of the course, specify it with --course DIR, or create a "
+        "course with dynlab course init DIR",
         from.string());
 }
 
@@ -118,7 +118,7 @@ void Course::create(const fs::path& folder, const std::string& name, const std::
     migrate_course(database, Database::Opening::kNew, (folder / kDatabase).string());
     Transaction transaction(database);
     if (database.query("SELECT 1 FROM course").next())
-        throw EnvironmentError("{} contains a course already; nothing was changed", fs::absolute(folder).string());
+        throw EnvironmentError("{} already contains a course; nothing was changed", fs::absolute(folder).string());
     make_key(folder / kKey);
     const SigningKey signing_key = signing_key_of(read_key(folder / kKey));
     write_public_key(folder, name, signing_key);

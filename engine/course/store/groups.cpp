@@ -53,14 +53,14 @@ void refuse_odd_group(const std::string& name) {
                                terminal_text(name.substr(0, 40)), kMaxNameBytes, name.size());
     if (is_reserved(name))
         throw EnvironmentError(
-            "a group cannot have the name \"{}\": a device or a list has it. Correct the roster; nothing was "
-            "changed",
+            "a group cannot have the name \"{}\", because a device or a list has this name. Correct the roster; "
+            "nothing was changed",
             name);
     const bool plain = name.find_first_of("/\\\n\r\t") == name.npos && terminal_text(name) == name;
     if (plain && !name.starts_with('.') && !name.ends_with('.')) return;
     throw EnvironmentError(
         "the group's name \"{}\" cannot be the name of a folder: it must not start or end with a period, and must not "
-        "contain /, \\ or invisible characters. Correct the roster, where the id is the group name of a student "
+        "contain /, \\ or invisible characters. Correct the roster, in which the id is the group name of a student "
         "without a group; nothing was changed",
         terminal_text(name));
 }
@@ -285,8 +285,8 @@ void set_group_dropped_out(Course& course, const std::string& name, bool dropped
     Transaction transaction(course.database());
     const Group group = group_named(course, name);
     if (group.dropped_out == dropped_out)
-        throw dropped_out ? InvalidArgument("{} has dropped out already", group.name)
-                          : InvalidArgument("{} is in the course already", group.name);
+        throw dropped_out ? InvalidArgument("{} has already dropped out", group.name)
+                          : InvalidArgument("{} is already in the course", group.name);
     const Instant now = CourseClock::now();
     course.database().run("UPDATE groups SET left_at = ?, left_reason = ? WHERE id = ?",
                           dropped_out ? std::optional(now) : std::nullopt,

@@ -67,7 +67,7 @@ void IncomingFiles::add(const fs::path& given) {
     fs::create_directories(to);
     int number = 0;
     for (const Message& clause : unpack_export(given, to, way_.level, way_.program))
-        leave_out(fmt::format("{} ({})", name, ++number), source, {}, Message("{}; it was left out", clause));
+        leave_out(fmt::format("{} ({})", name, ++number), source, {}, Message("{}; left out", clause));
     add_batch(to, source);
 }
 

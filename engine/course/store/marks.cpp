@@ -182,15 +182,17 @@ void refuse_unseen_entry(Course& course, const Assignment& assignment, std::int6
             "the mark was not changed: {} already has {} for {}, entered at {} (\"{}\"). Check this mark, then try "
             "again",
             who, *newest.points, item, at, newest.reason);
-    throw InvalidArgument("nothing was changed: the mark of {} for {} was withdrawn at {} (\"{}\")", who, item, at,
-                          newest.reason);
+    throw InvalidArgument(
+        "the mark was not changed: the earlier mark of {} for {} was withdrawn at {} (\"{}\"). Check the history, then "
+        "try again",
+        who, item, at, newest.reason);
 }
 
 std::optional<double> most_points(Course& course, const Assignment& assignment, const std::string& item) {
     if (!assignment.is_lab()) {
         if (item == kReviewsItem) refuse_without_reviews(assignment);
         if (item == kReviewsItem || item == kWholeItem) return 100;
-        throw InvalidArgument("{} has marks of work and reviews, but \"{}\" was given", assignment.name, item);
+        throw InvalidArgument("{} has marks for work and reviews only, but \"{}\" was given", assignment.name, item);
     }
     const std::vector<CheckPoints> checks = newest_checks(course, assignment);
     if (checks.empty()) return {};

@@ -50,13 +50,13 @@ void check_signatures(Course& course, StoreCheck& check) {
     Database& db = course.database();
     for (Rows rows = db.query("SELECT id, signature FROM versions ORDER BY id"); rows.next(); ++check.versions)
         if (!is_version_signature(course, receipt_of(course, rows.integer(0), 0), rows.text(1)))
-            check.error_list.push_back(Message("version {}: its data differ from the signed data", rows.integer(0)));
+            check.error_list.push_back(Message("version {}: the data differ from the signed data", rows.integer(0)));
     std::map<std::int64_t, std::int64_t> number;
     for (Rows rows = db.query("SELECT version, signature FROM arrivals ORDER BY id"); rows.next();) {
         const std::int64_t version = rows.integer(0), correction = ++number[version];
         if (!is_version_signature(course, receipt_of(course, version, correction), rows.text(1)))
             check.error_list.push_back(
-                Message("version {}: its correction {} differs from the signed one", version, correction));
+                Message("version {}: the correction {} differs from the signed correction", version, correction));
     }
 }
 

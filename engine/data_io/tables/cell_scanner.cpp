@@ -67,8 +67,7 @@ std::string_view CellScanner::next_quoted_cell() {
     if (separator_ != ' ')
         while (!at_end() && (is_blank(text_[at_]) || text_[at_] == '\r')) ++at_;
     if (!at_end() && !at_separator() && text_[at_] != '\n' && text_[at_] != '\r')
-        throw EnvironmentError("{}, line {}: there is text after a closing quotation mark", file_.string(),
-                               record_line_);
+        throw EnvironmentError("{}, line {}: text follows a closing quotation mark", file_.string(), record_line_);
     pass_cell_end();
     return trimmed_cell(unquoted_);
 }

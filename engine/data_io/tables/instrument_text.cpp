@@ -87,8 +87,8 @@ void take_labview(const std::filesystem::path& file, std::string& text, Instrume
     if (again == std::string::npos) return;
     const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(again), '\n') + 1;
     throw EnvironmentError(
-        "{}, line {}: another recording starts here, with its own header; make a file of each recording", file.string(),
-        line);
+        "{}, line {}: another recording starts here, with its own header; save each recording in a separate file",
+        file.string(), line);
 }
 
 /// Tektronix: settings in the first three columns of the first rows, time and voltage behind them.

@@ -76,7 +76,7 @@ class RowReader {
         if ((memory_ += bytes) <= memory_for_reading(text_.size())) return;
         const ReadingMegabytes megabytes = megabytes_for_reading(text_.size());
         throw EnvironmentError(
-            "{}, line {}: the table has too many cells: reading it takes more than {} MB of memory, too much for a "
+            "{}, line {}: the table has too many cells: reading it requires more than {} MB of memory, too much for a "
             "file of {} MB",
             file_.string(), scanner.line(), megabytes.most, megabytes.of_file);
     }
@@ -146,18 +146,19 @@ class RowReader {
         for (std::size_t j = 0; j < columns_.size(); ++j) {
             const ColumnFormat& format = layout_.formats[j];
             if (format.kind == ColumnFormat::Kind::kSwitch)
-                rows_.notes.push_back(Message("column {} contains the words {} and {}, read as 1 and 0", names_[j],
-                                              format.on, format.off));
+                rows_.notes.push_back(Message("column {} contains the words {} and {}, which are read as 1 and 0",
+                                              names_[j], format.on, format.off));
             else if (format.kind == ColumnFormat::Kind::kMeasure)
-                rows_.notes.push_back(Message("column {} contains numbers with their unit, such as {}; its unit is {}",
-                                              names_[j], format.example, format.unit));
+                rows_.notes.push_back(
+                    Message("column {} contains numbers with a unit, such as {}; the unit of the column is {}",
+                            names_[j], format.example, format.unit));
             else if (format.kind == ColumnFormat::Kind::kNumber && !format.example.empty())
                 rows_.notes.push_back(
                     Message("column {} contains thousands separators, as in {}", names_[j], format.example));
             else if (is_text(j) && !columns_[j].texts.empty() && begins_with_digit(columns_[j].texts.front()))
                 rows_.notes.push_back(
-                    Message("column {} contains text, not numbers, such as \"{}\"; to use it as a signal, write only "
-                            "numbers with a decimal point",
+                    Message("column {} contains text, not numbers, such as \"{}\"; to use the column as a signal, "
+                            "write only numbers with a decimal point",
                             names_[j], columns_[j].texts.front()));
         }
         if (!first_comma_.empty())

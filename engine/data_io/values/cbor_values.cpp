@@ -66,7 +66,7 @@ Message token_name(Token::Type type) {
     const Message names[] = {Message("a whole number"),
                              Message("a negative number"),
                              Message("a number"),
-                             Message("a truth value"),
+                             Message("a Boolean value"),
                              Message("nothing"),
                              Message("a text"),
                              Message("bytes"),
@@ -237,10 +237,10 @@ NumberArray CborReader::take_array(std::optional<ArrayForm> requested) {
     std::uint64_t tag = take_tag();
     NumberArray array{ArrayForm::kVector, 0, 1, nullptr};
     if (tag == kColumnsTag || tag == kRowsTag) {
-        if (open_list() != 2) refuse(Message("an array consists of its dimensions and its numbers"));
+        if (open_list() != 2) refuse(Message("an array must consist of its dimensions and its numbers"));
         const std::size_t dimensions = open_list();
         const bool complex = tag == kRowsTag || dimensions == 3;
-        if (dimensions != (tag == kColumnsTag && complex ? 3 : 2)) refuse(Message("an array has two dimensions"));
+        if (dimensions != (tag == kColumnsTag && complex ? 3 : 2)) refuse(Message("an array must have two dimensions"));
         if (tag == kColumnsTag && complex) whole(2, 2);
         array.rows = whole(0, kMax);
         array.columns = tag == kRowsTag ? whole(2, 2) - 1 : whole(0, kMax);
@@ -264,13 +264,13 @@ NumberArray CborReader::take_array(std::optional<ArrayForm> requested) {
 
 std::size_t CborReader::open_list() {
     const std::uint64_t count = take(Type::kList).value;
-    if (count > rest_.size()) refuse(Message("the value claims more elements than the data have bytes"));
+    if (count > rest_.size()) refuse(Message("the value declares more elements than the data have bytes"));
     return count;
 }
 
 std::size_t CborReader::open_map() {
     const std::uint64_t count = take(Type::kMap).value;
-    if (count > rest_.size()) refuse(Message("the value claims more entries than the data have bytes"));
+    if (count > rest_.size()) refuse(Message("the value declares more entries than the data have bytes"));
     return count;
 }
 

@@ -187,7 +187,7 @@ void JsonReader::nothing() {
 }
 
 bool JsonReader::truth() {
-    if (!at_->is_boolean()) refuse_json(Message("a truth value"));
+    if (!at_->is_boolean()) refuse_json(Message("a Boolean value"));
     return at_->get<bool>();
 }
 
@@ -230,7 +230,7 @@ void JsonReader::read_numbers(const json& list, bool complex) {
             continue;
         }
         if (!value.is_array() || value.size() != 2)
-            refuse(Message("a complex number consists of a real and an imaginary part"));
+            refuse(Message("a complex number must consist of a real and an imaginary part"));
         add(value[0]), add(value[1]);
     }
 }

@@ -17,7 +17,7 @@ void check_polynomials(const std::vector<Vector>& polynomials, const ValueLimits
 }  // namespace
 
 void check_value(const IdData& data, const ValueLimits&) {
-    if (data.experiments.empty()) throw InvalidArgument("data need at least one experiment");
+    if (data.experiments.empty()) throw InvalidArgument("a data object needs at least one experiment");
     for (const Experiment& experiment : data.experiments) {
         const IdData part = data.Ts > 0 ? IdData(experiment.y, experiment.u, data.Ts)
                                         : IdData(experiment.y, experiment.u, experiment.t);
@@ -25,7 +25,7 @@ void check_value(const IdData& data, const ValueLimits&) {
             part.input_count() == data.input_count() && part.output_count() == data.output_count();
         if (experiment.r.size() > 0) part.with_reference(experiment.r);
         if (!same_channels || experiment.r.cols() != data.reference_count())
-            throw InvalidArgument("its experiments have different channels");
+            throw InvalidArgument("the experiments have different channels");
         if (data.Ts > 0 && experiment.t.size() > 0)
             throw InvalidArgument("regularly sampled data must not have sampling instants");
     }
@@ -63,7 +63,7 @@ void check_value(const PolynomialModel& model, const ValueLimits& limits) {
     check_polynomials(model.B, limits);
     check_polynomials(model.F, limits);
     if (model.B.empty() || model.B.size() != model.F.size() || !(model.Ts > 0))
-        throw InvalidArgument("its polynomials and its sampling time are inconsistent");
+        throw InvalidArgument("the polynomials and the sampling time are inconsistent");
 }
 
 void check_value(const StateSpace& system, const ValueLimits&) {

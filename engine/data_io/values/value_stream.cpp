@@ -39,7 +39,7 @@ void ValueReader::refuse_kind(const Message& requested, const Message& given) co
 }
 
 void ValueReader::lacks(const char* member) const {
-    refuse(Message("its member \"{}\" is missing", member));
+    refuse(Message("the member \"{}\" is missing", member));
 }
 
 void ValueReader::charge(std::size_t bytes) {
@@ -48,7 +48,7 @@ void ValueReader::charge(std::size_t bytes) {
 }
 
 void ValueReader::enter(Step step) {
-    if (steps_.size() >= limits_.depth) refuse(Message("the value is nested deeper than {}", limits_.depth));
+    if (steps_.size() >= limits_.depth) refuse(Message("the value is nested deeper than {} levels", limits_.depth));
     charge(sizeof(Step));
     steps_.push_back(std::move(step));
 }

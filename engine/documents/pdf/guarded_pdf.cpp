@@ -48,7 +48,7 @@ std::string run_guarded_on_pdf(const std::function<std::string()>& work, const G
     }
     if (result.output_exceeded || (result.exit_code == 0 && result.output.empty())) {
         throw PdfRefusal(PdfFault::kTooLarge,
-                         Message("Reading the file takes more than {} MB of memory.", limits.memory_bytes >> 20));
+                         Message("Reading the file requires more than {} MB of memory.", limits.memory_bytes >> 20));
     }
     if (result.exit_code != 0) throw crash();
     if (result.output.front() != kDone) throw refusal_in(result.output);

@@ -97,10 +97,10 @@ Document document_of(const std::string& pdf) {
 }
 
 PdfLayout layout_of(poppler::document* document, const PdfLimits& limits) {
-    if (!document) refuse(PdfFault::kDamaged, Message("The file is damaged: it contains no page."));
+    if (!document) refuse(PdfFault::kDamaged, Message("The file is damaged: it contains no pages."));
     if (document->is_locked()) refuse(PdfFault::kEncrypted, Message("The file is encrypted: it needs a password."));
     const int count = document->pages();
-    if (count < 1) refuse(PdfFault::kDamaged, Message("The file is damaged: it contains no page."));
+    if (count < 1) refuse(PdfFault::kDamaged, Message("The file is damaged: it contains no pages."));
     if (count > limits.pages) {
         refuse(PdfFault::kTooLarge, Message("The file has {} pages; the limit is {}.", count, limits.pages));
     }
@@ -171,7 +171,7 @@ PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
         for (PdfPage& page : layout.pages) std::erase_if(page.words, [](const PdfWord& w) { return !is_placed(w); });
         return layout;
     } catch (const ValueError&) {
-        refuse(PdfFault::kDamaged, Message("The file is damaged: its contents form no pages."));
+        refuse(PdfFault::kDamaged, Message("The file is damaged: its pages cannot be read."));
     }
 }
 
@@ -182,7 +182,7 @@ std::vector<std::string> text_in_content_order(const fs::path& file, const PdfLi
     try {
         return from_cbor<std::vector<std::string>>(answer);
     } catch (const ValueError&) {
-        refuse(PdfFault::kDamaged, Message("The file is damaged: its contents form no pages."));
+        refuse(PdfFault::kDamaged, Message("The file is damaged: its pages cannot be read."));
     }
 }
 

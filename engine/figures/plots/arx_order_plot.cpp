@@ -31,7 +31,7 @@ Curve curve_over_parameters(const ArxSelection& selection, const ArxQuantity& qu
 }  // namespace
 
 Figure arx_order_plot(const ArxSelection& selection, ArxCriterion criterion, const OrderChoice& choice) {
-    if (selection.candidates.empty()) throw InvalidArgument("nothing to draw: no structure was tried");
+    if (selection.candidates.empty()) throw InvalidArgument("nothing to draw: no structure was evaluated");
     Panel panel;
     const bool both = criterion == ArxCriterion::kLoss && selection.validated;
     if (both) {

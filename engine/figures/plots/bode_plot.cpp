@@ -33,9 +33,8 @@ Vector shown_phase(const NamedModel& model, const Vector& w) {
 
 Message shown_name(const NamedModel& model) {
     if (!is_held(model) || model.name.empty()) return model.name;
-    return model.beside.inter_sample == InterSample::kZoh
-               ? Message("{}, input held (zoh)", model.name)
-               : Message("{}, input linearly interpolated (foh)", model.name);
+    return model.beside.inter_sample == InterSample::kZoh ? Message("{}, zero-order hold", model.name)
+                                                          : Message("{}, first-order hold", model.name);
 }
 
 /// As the measurements say that the models are drawn beside, if they all say the same.
@@ -56,7 +55,8 @@ Vector below_nyquist(const NamedModel& model, const Vector& w) {
     std::copy_if(w.begin(), w.end(), std::back_inserter(kept), [end](double value) { return value <= end; });
     if (kept.empty())
         throw InvalidArgument(
-            "all frequencies are above pi/Ts = {} rad/s, the limit of a discrete-time model or sampled data",
+            "all frequencies are above pi/Ts = {} rad/s, the Nyquist frequency of a discrete-time model or of sampled "
+            "data",
             significant(end, 4));
     return Eigen::Map<const Vector>(kept.data(), static_cast<Index>(kept.size()));
 }
@@ -82,7 +82,7 @@ Vector chosen_frequencies(const std::vector<NamedModel>& models, const std::vect
     for (const NamedResponse& response : responses)
         for (const double w : response.data.w)
             if (w > 0) low = std::min(low, w), high = std::max(high, w);
-    if (!(high > 0)) throw InvalidArgument("no frequency above zero to draw");
+    if (!(high > 0)) throw InvalidArgument("nothing to draw: no frequency is positive");
     return Vector::LinSpaced(kBodePoints, std::log(low), std::log(high)).array().exp().max(low).min(high);
 }
 

@@ -28,12 +28,13 @@ Message label_of(const Channel& channel, const IdData& data) {
 void check_channels(const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
     if (data.empty()) throw InvalidArgument("no data to plot");
     if (!labels.empty() && labels.size() != data.size())
-        throw InvalidArgument("{} data objects need as many labels, not {}", data.size(), labels.size());
+        throw InvalidArgument("{} data objects need as many labels, but {} were given", data.size(), labels.size());
     for (const IdData* object : data)
         if (object->output_count() != data.front()->output_count() ||
             object->input_count() != data.front()->input_count())
             throw InvalidArgument(
-                "data in one plot need the same channels, but one object has {} and {} and another has {} and {}",
+                "data objects in one plot must have the same channels, but one object has {} and {} and another has {} "
+                "and {}",
                 plural(data.front()->output_count(), "{} output", "{} outputs"),
                 plural(data.front()->input_count(), "{} input", "{} inputs"), object->output_count(),
                 object->input_count());

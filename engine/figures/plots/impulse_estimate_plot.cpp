@@ -30,7 +30,7 @@ Curve band_of(const ImpulseEstimate& estimate, double Ts, double level) {
     band.y = -band.y_upper;
     band.style = CurveStyle::kBand;
     band.color = style::kGrayColor;
-    band.label = Message("{} % chance bounds", significant(100 * level, 4));
+    band.label = Message("{} % confidence bounds", significant(100 * level, 4));
     return band;
 }
 

@@ -31,7 +31,7 @@ Figure levels_plot(const FrequencyData& data) {
     add_levels(panel, Message("distortion"), data.excited.w, data.excited.distortion, CurveStyle::kPoints, 2);
     add_levels(panel, Message("odd lines without input"), data.odd.w, data.odd.power, CurveStyle::kPoints, 3);
     add_levels(panel, Message("even lines without input"), data.even.w, data.even.power, CurveStyle::kPoints, 4);
-    if (panel.curves.empty()) throw InvalidArgument("the output is zero at all lines: nothing to draw");
+    if (panel.curves.empty()) throw InvalidArgument("nothing to draw: the output is zero at all lines");
     return Figure(std::move(panel));
 }
 

@@ -32,7 +32,7 @@ Vector estimates_of(const MonteCarloResult& result, Index column) {
 Index index_of_parameter(const MonteCarloResult& result, const std::string& name) {
     const auto found = std::find(result.names.begin(), result.names.end(), name);
     if (found == result.names.end())
-        throw InvalidArgument("{} has no parameter '{}'; its parameters are {}", result.label, name,
+        throw InvalidArgument("{} has no parameter '{}'; the parameters are {}", result.label, name,
                               listed(result.names));
     return found - result.names.begin();
 }

@@ -22,7 +22,7 @@ void check_motion_record(const PlantDrawing& plant, const MotionRecord& record) 
     if (count < 2) throw InvalidArgument("an animation needs at least two instants, not {}", count);
     for (Index i = 1; i < count; ++i)
         if (!(record.t[i] > record.t[i - 1]))
-            throw InvalidArgument("the instants must increase, but number {} is {} s and number {} is {} s", i,
+            throw InvalidArgument("the instants must increase, but instant {} is {} s and instant {} is {} s", i,
                                   significant(record.t[i - 1], kInstantDigits), i + 1,
                                   significant(record.t[i], kInstantDigits));
     if (record.measured.size() == 0 && record.simulated.size() == 0)

@@ -97,7 +97,7 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
     bool explained = false;
     for (const NamedModel& model : models) {
         if (model.G.continuous() != continuous)
-            throw InvalidArgument("continuous and discrete models cannot share a pole-zero map");
+            throw InvalidArgument("continuous-time and discrete-time models cannot share a pole-zero map");
         const ComplexVector poles = model.G.poles(), zeros = model.G.zeros();
         for (const ComplexVector* roots : {&poles, &zeros})
             real.include(Vector(roots->real())), imaginary.include(Vector(roots->imag()));
@@ -114,7 +114,7 @@ Figure pole_zero_map(const std::vector<NamedModel>& models) {
         }
         ++color;
     }
-    if (panel.curves.empty()) throw InvalidArgument("neither a pole nor a zero to draw");
+    if (panel.curves.empty()) throw InvalidArgument("nothing to draw: the models have neither poles nor zeros");
     panel.equal_axes = true;
     panel.x_range = real.padded(0.12);
     panel.y_range = imaginary.padded(0.12);

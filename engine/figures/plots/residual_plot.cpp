@@ -55,7 +55,7 @@ Panel correlation_panel(const Vector& correlation, Index first, double bound, do
 
 Figure residual_plot(const ResidualTests& tests, const IdData& data, double confidence) {
     if (static_cast<Index>(tests.outputs.size()) != data.output_count())
-        throw InvalidArgument("the tests have {}, but the data have {}",
+        throw InvalidArgument("the residual tests have {}, but the data have {}",
                               plural(std::ssize(tests.outputs), "{} output", "{} outputs"), data.output_count());
     std::vector<std::vector<Panel>> columns;
     for (std::size_t i = 0; i < tests.outputs.size(); ++i) {

@@ -73,7 +73,7 @@ void add_models(Figure& figure, const std::vector<NamedModel>& models, double fi
 Figure spectral_plot(const SpectralEstimate& estimate, const Message& name, const std::vector<NamedModel>& models,
                      double level) {
     if (!(estimate.w.size() > 0) || !(estimate.w.maxCoeff() > 0))
-        throw InvalidArgument("no frequency above zero to draw");
+        throw InvalidArgument("nothing to draw: no frequency is positive");
     const double width = normal_half_width(level);
     auto [magnitude, phase] = frequency_panels();
     magnitude.curves = {curve_of(estimate, magnitude_db(estimate.response), name)};

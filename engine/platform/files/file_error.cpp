@@ -36,8 +36,8 @@ Message file_error_sentence(const std::filesystem::filesystem_error& error) {
     if (attempt.starts_with("cannot create director")) return Message("cannot create the folder {}: {}", file, reason);
     if (attempt.find("directory iterator") != std::string::npos)
         return Message("cannot read the folder {}: {}", file, reason);
-    const Message tried =
-        attempt.starts_with("cannot ") ? Message::verbatim(attempt) : Message("cannot do this ({}) with", attempt);
+    const Message tried = attempt.starts_with("cannot ") ? Message::verbatim(attempt)
+                                                         : Message("cannot perform the operation ({}) on", attempt);
     if (file.empty()) return Message("{}: {}", tried, reason);
     if (other.empty()) return Message("{} {}: {}", tried, file, reason);
     return Message("{} {} to {}: {}", tried, file, other, reason);

@@ -335,7 +335,7 @@ VariableTable read_mat_file(const fs::path& file, bool, std::vector<Message>* le
                 left_out->push_back(Message("a variable is damaged or of a class that cannot be read"));
         }
     }
-    if (variables.empty()) throw EnvironmentError("{}: no variable in it can be read", file.string());
+    if (variables.empty()) throw EnvironmentError("{}: the file contains no variable that can be read", file.string());
     return variables;
 }
 

@@ -13,7 +13,7 @@ addWords({
   otherTab: tr("This lesson is open in another tab, which saves your work. Here you can read and run it."), editHere: tr("Edit here"),
   newerLesson: tr("The lesson has changed since you worked on it. The page contains your work. You can also export the earlier version of it."), exportOlder: tr("Export the earlier version"),
   lostPlaces: tr("The lesson has changed since you worked on it, and it no longer has some of your cells. You can export your earlier work."),
-  sharedScript: tr("This link contains a script from another person. The page shows it below and has not run it. Use it only if you know its source."),
+  sharedScript: tr("This link contains a script from another person. The page shows the script below and has not run it. Use the script only if you trust its source."),
   useShared: tr("Use it"), keepOwn: tr("Keep my own"), badLink: tr("The script in this link cannot be read."), linkCopied: tr("The link is copied."),
   linkShown: tr("Link to this script:"),
   imported: tr("The page now contains the script."), otherScript: tr("This script is not from this lesson: it has other cells. Open it with dynlab preview."),
@@ -22,6 +22,6 @@ addWords({
   checksRun: tr("The script runs for the checks …"), pointsOf: tr("{} of {} points"), hintOf: tr("Hint"), moreHint: tr("Next hint"),
   checkedLater: tr("dynlab checks this during grading."), scriptStopped: tr("The script stopped: {}"), noChecks: tr("This lesson has no checks that can run here."),
   questionHints: tr("Hints for question {}"), packReady: tr("{} is in your downloads: submit this file."), packSays: tr("SHA-256 {}"),
-  packMissing: tr("It contains no PDF of the report: dynlab creates it from the same files."), runExample: tr("Run"),
+  packMissing: tr("The file contains no PDF of the report; dynlab creates the PDF from the same files."), runExample: tr("Run"),
 });
 export * from "./words.js";

@@ -28,16 +28,16 @@ constexpr const char* kLesson = R"LUA(-- ---
 -- ---
 
 -- %% [markdown]
--- A spring was loaded with known forces and its elongation measured. How stiff is it, and how well is that known?
+-- A spring was loaded with known forces and its elongation measured. How stiff is it, and how accurate is the result?
 --
--- # The record
+-- # The data
 --
--- `record.csv` has the force `u` in newtons and the elongation `y` in millimetres.
+-- `record.csv` has the force `u` in newtons and the elongation `y` in millimeters.
 
 -- %% id=record
 local record = load("record")
 report.figure("record", plot(record.u, record.y, "measured",
-  {style = "points", xlabel = "force (N)", ylabel = "elongation (mm)"}), "The record")
+  {style = "points", xlabel = "force (N)", ylabel = "elongation (mm)"}), "The data")
 
 -- %% [markdown]
 -- ![Elongation over force.](figure:record){#fig:record}
@@ -57,7 +57,7 @@ report.value("stiffness", stiffness, "%.2f")
 -- The stiffness is `stiffness`{.value} N/mm.
 -- END SOLUTION
 --
--- **Question 2.** How large is the standard deviation of the measuring errors, in millimetres?
+-- **Question 2.** How large is the standard deviation of the measurement errors, in millimeters?
 
 -- %% id=noise
 -- BEGIN SOLUTION
@@ -67,11 +67,12 @@ answer("noise", std(record.y - compliance*record.u))
 -- %% [markdown]
 -- # What you have learned
 --
--- A parameter of a linear model is one division of sums, and what is left over tells how far to trust it.
+-- Least squares computes the parameter of this linear model as a quotient of two sums. The residuals show its
+-- uncertainty.
 )LUA";
 
 constexpr const char* kChecks =
-    R"LUA(-- Students get this file: it computes what it expects (`a`: the answers) from the data. See `dynlab help checks`.
+    R"LUA(-- Students receive this file: it computes the expected answers from the data. See `dynlab help checks`.
 local record = load("record")
 local compliance = dot(record.u, record.y)/dot(record.u, record.u)
 
@@ -83,20 +84,20 @@ check { id = "stiffness", points = 3, about = "The stiffness of the spring",
     },
     hint = "Which of the two, force or elongation, is divided by the other?" }
 
-check { id = "noise", points = 2, about = "The measuring errors",
+check { id = "noise", points = 2, about = "The measurement errors",
     test = function(a) return near(a.noise, std(record.y - compliance*record.u), {rel = 0.04}) end,
-    hint = "What does the model leave over?" }
+    hint = "How large are the residuals of the model?" }
 )LUA";
 
 constexpr const char* kWrong = R"LUA(-- expects: stiffness: This is the compliance
--- The elongation is divided by the force, and taken for the stiffness.
+-- The script submits the compliance, elongation divided by force, as the stiffness.
 local record = load("record")
 local k = dot(record.u, record.y)/dot(record.u, record.u)
 answer("stiffness", k)
 answer("noise", std(record.y - k*record.u))
 )LUA";
 
-constexpr const char* kRight = R"LUA(-- The same by a library function, with a constant that is not significant here.
+constexpr const char* kRight = R"LUA(-- Uses a library function, with a constant term that is not significant here.
 local record = load("record")
 local fit = lsq(matrix{record.u, ones(#record.u)}, record.y)
 answer("stiffness", 1/fit.theta[1])
@@ -110,7 +111,7 @@ constexpr const char* kHints = R"(# Question 1
 
 # Question 2
 
-1. Subtract from the elongation what the model makes of the force.
+1. Subtract the elongation that the model computes from the measured elongation.
 )";
 
 constexpr const char* kFrenchTasks = R"LUA(-- ---
@@ -172,10 +173,10 @@ msgstr "C'est la souplesse en mm/N ; la raideur en est l'inverse."
 msgid "Which of the two, force or elongation, is divided by the other?"
 msgstr "Laquelle des deux, force ou allongement, divise l'autre ?"
 
-msgid "The measuring errors"
+msgid "The measurement errors"
 msgstr "Les erreurs de mesure"
 
-msgid "What does the model leave over?"
+msgid "How large are the residuals of the model?"
 msgstr "Que laisse le modèle ?"
 )";
 

@@ -248,8 +248,8 @@ void add_losses_of_code(const std::string& code, int cell, const std::filesystem
         ++number;
         if (!is_cell_marker(line)) continue;
         losses.push_back(
-            placed({name}, Message("cell {}, line {}: \"{}\" would start a cell of the script, where it becomes "
-                                   "\"{}\"; inside a string, write it in another way, such as \"--\" .. \" %%\"",
+            placed({name}, Message("cell {}, line {}: \"{}\" would become \"{}\" in the script and start a cell; "
+                                   "inside a string, write it in another way, such as \"--\" .. \" %%\"",
                                    cell, number, line, script_line(line, false))));
     }
 }
@@ -318,7 +318,7 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
         if (kind == "raw" && read.marked) {  // a comment in its place, by which later cells keep their numbers
             read.source = "<!-- A raw cell of the notebook was here. -->";
             script.losses.push_back(placed(
-                {name}, Message("cell {} is a raw cell, which a script cannot contain; it is left out", number)));
+                {name}, Message("cell {} is a raw cell, which a script cannot contain; the cell is left out", number)));
         }
         if (!read.text) add_losses_of_code(read.source, number, name, script.losses);
         std::string written = saved_entry(cell, read);
@@ -337,7 +337,7 @@ NotebookScript read_notebook(const std::filesystem::path& file) {
                                       kMaxNotebookBytes >> 20));
     NotebookScript script = script_of_notebook(read_text(file), file);
     if (script.source.size() > kMaxSourceSize)
-        refuse_notebook(file, Message("its cells have {} MB of text, but the limit for a script is {} MB",
+        refuse_notebook(file, Message("the cells have {} MB of text, but the limit for a script is {} MB",
                                       (script.source.size() + (1 << 20) - 1) >> 20, kMaxSourceSize >> 20));
     return script;
 }

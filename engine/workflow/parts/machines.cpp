@@ -136,7 +136,7 @@ Message first_line(const ChildResult& child) {
                said.find("onnection refused") != std::string::npos || child.timed_out) {
         remedy = Message("slurmctld is not running or cannot be reached; `sinfo` must respond");
     }
-    throw EnvironmentError("Slurm does not accept the work ({}): {}", first_line(child), remedy);
+    throw EnvironmentError("Slurm does not accept the jobs ({}): {}", first_line(child), remedy);
 }
 
 /// A job that runs this script; its id.
@@ -256,8 +256,8 @@ std::vector<Message> do_on_hosts(const Machines& machines, const WorkInParts& wo
         if (!line.empty()) said.push_back(Message::verbatim(line));
     if (done.exit_code != 0)
         throw EnvironmentError(
-            "not all parts were processed ({} has them): {}\nEach host must see this folder, and `ssh HOST {} "
-            "--version` must work without a password. Repeat the command to continue",
+            "not all parts were processed ({} contains them): {}\nEach host must have access to this folder, and `ssh "
+            "HOST {} --version` must work without a password. Repeat the command to continue",
             log.string(), MessageList{said, Join::kLines}, running_program().string());
     return said;
 }

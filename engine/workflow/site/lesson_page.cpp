@@ -188,12 +188,11 @@ LessonPage LessonPages::make(const Lesson& lesson, const std::string& language, 
     page.kind = "lesson";
     page.language = language;
     page.body = document.head;
-    page.body += runs_
-                     ? "<noscript>" + notice(Message("Allow JavaScript to run the cells of this page."), language) +
-                           "</noscript>\n"
-                     : notice(Message("This site was made without the engine for browsers: the page shows the results "
-                                      "of a run, and its cells cannot be run here."),
-                              language);
+    page.body += runs_ ? "<noscript>" + notice(Message("Allow JavaScript to run the cells of this page."), language) +
+                             "</noscript>\n"
+                       : notice(Message("This site was created without the engine for browsers: the page shows the "
+                                        "results of a run, and its cells cannot be run here."),
+                                language);
     page.body += fmt::format(
         "<main id=\"lesson\" data-root=\"{}\" data-lesson=\"{}\" data-file=\"{}\" data-language=\"{}\">\n{}</main>\n",
         page.root(), html_text(lesson.slug), kScript, language, cells_of_page(script, document, record));

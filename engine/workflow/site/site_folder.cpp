@@ -44,7 +44,7 @@ void check_file(const fs::path& folder, const std::string& name, const WrittenBe
     const auto known = before.find(name);
     if (known == before.end()) refuse(folder, Message("it contains a file {} that is not part of a site", name));
     if (!fs::is_regular_file(fs::symlink_status(file)) || !known->second.count(sha256_of_file(file)))
-        refuse(folder, Message("{} was changed after the site was made", name));
+        refuse(folder, Message("{} was changed after the site was created", name));
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ void check_site_folder(const fs::path& folder) {
                     [](const auto& entry) { return entry.is_directory() && !entry.is_symlink(); }))
         return;
     const auto before = written_before(folder);
-    if (before.empty()) refuse(folder, Message("it contains other files than a site"));
+    if (before.empty()) refuse(folder, Message("it contains files that are not part of a site"));
     for (const auto& [name, hashes] : before) check_file(folder, name, before);
 }
 

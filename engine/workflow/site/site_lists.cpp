@@ -122,14 +122,14 @@ SitePage course_page(const std::vector<SitePage>& pages, const std::string& lang
         words(site.runs
                   ? Message("Open a lesson and run its cells. Everything runs in your browser: there is nothing to "
                             "install, and your work stays on this device.")
-                  : Message("This site was made without the engine for browsers: lessons show the results of a run, "
+                  : Message("This site was created without the engine for browsers: lessons show the results of a run, "
                             "and their cells cannot be run here.")));
     main += part("course", Message("Lessons"), list_of_lessons(pages, language, root));
     if (site.workbench)
         main += part("workbench", Message("Workbench"),
                      "<ul class=\"pages\">\n" +
                          entry("workbench/index.html", Message("Workbench"),
-                               Message("find a model of your data; the file stays on this device")) +
+                               Message("estimate a model from your data; the file stays on this device")) +
                          "</ul>\n");
     main += part("demonstrations", Message("Demonstrations"), list_of_kind(pages, "demonstration", root));
     main += part("guides", Message("Guides"), list_of_kind(pages, "guide", root));

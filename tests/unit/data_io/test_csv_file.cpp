@@ -106,7 +106,7 @@ TEST_F(csv_file, names_line_and_column_of_what_is_wrong) {
     EXPECT_EQ(complaint("a,b\n\"two\nlines\",1\nx,y\n"), ", line 4, column b: expected a number, got \"y\"" + remedy);
     EXPECT_EQ(complaint("a,b\nx,1\n\"never closed,2\ny,3\n"), ", line 3: a quotation mark is not closed");
     EXPECT_EQ(complaint("t,y\n0,\"1\n1,2\n"), ", line 2: a quotation mark is not closed");
-    EXPECT_EQ(complaint("a,b\n\"x\"y,1\n"), ", line 2: there is text after a closing quotation mark");
+    EXPECT_EQ(complaint("a,b\n\"x\"y,1\n"), ", line 2: text follows a closing quotation mark");
     EXPECT_EQ(complaint("y\n1\n" + std::string(60, 'z') + "\n2\n3\n4\n"),
               ", line 3, column y: expected a number, got \"" + std::string(40, 'z') + "...\"" + remedy);
 }
@@ -188,7 +188,7 @@ TEST_F(csv_file, passes_over_what_is_around_a_table) {
     EXPECT_THAT(texts_of(read("A\nB\n\nt;y\n0;1\n1;2\n").notes),
                 ElementsAre("the table starts in line 4; 2 lines above it are skipped"));
     EXPECT_THAT(texts_of(read("# t,y\n0,1\n1,2\n").notes),
-                ElementsAre("the column names come from the comment above the numbers"));
+                ElementsAre("the column names are read from the comment above the numbers"));
 }
 
 TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
@@ -199,13 +199,13 @@ TEST_F(csv_file, takes_missing_numbers_for_nan_and_says_so) {
         EXPECT_THAT(
             texts_of(table.notes),
             ElementsAre(
-                "missing numbers were replaced with NaN: 2 of 4 in y (first in line 2); fillmissing(u, {method = "
-                "\"previous\"}) holds an input that is logged when it changes, fillmissing(y) interpolates an output"));
+                "missing numbers were replaced with NaN: 2 of 4 in y (first in line 2); use fillmissing(u, {method = "
+                "\"previous\"}) for an input that is logged only when it changes, and fillmissing(y) for an output"));
     }
     const CsvTable benchmark = read("u,y,Ts,\n0,1,4,\n1,2,,\n2,3,,\n");
     EXPECT_EQ(benchmark.columns[2], (Vector{{4}}));
     EXPECT_THAT(texts_of(benchmark.notes),
-                ElementsAre("the only number in column Ts, in its first row, is the sampling time"));
+                ElementsAre("the only number in column Ts, in its first row, is used as the sampling time"));
     EXPECT_EQ(shown_table(read("y,t\n#N/A,0\n1,2\n")), "y|t\nnan|0\n1|2");
     EXPECT_EQ(shown_table(read("name,score\nAnna,\nBob,3\n")), "name|score\nAnna|nan\nBob|3");
 }
@@ -222,7 +222,7 @@ TEST_F(csv_file, gives_names_where_there_are_none) {
     const CsvTable bare = read("0 1\n1 2\n");
     EXPECT_EQ(shown_table(bare), "c1|c2\n0|1\n1|2");
     EXPECT_THAT(texts_of(bare.notes),
-                ElementsAre(HasSubstr("the file has no line of names, so the columns are named c1, c2")));
+                ElementsAre(HasSubstr("the file has no line of column names, so the columns are named c1, c2")));
 }
 
 TEST_F(csv_file, finds_units) {
@@ -518,7 +518,7 @@ TEST_F(csv_file, many_cells_take_a_memory_with_a_limit) {
     EXPECT_LT(peak_of(commas, "line 2: the row has more than 100000 cells") - before, kMax);
     std::string words = "name\n";
     for (int i = 0; i < 16 << 20; ++i) words += "ab\n";
-    EXPECT_LT(peak_of(words, "the table has too many cells: reading it takes more than 512 MB") - before, kMax);
+    EXPECT_LT(peak_of(words, "the table has too many cells: reading it requires more than 512 MB") - before, kMax);
 }
 
 // Oracle: eight bytes for a number, and the text.

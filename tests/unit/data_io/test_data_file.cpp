@@ -70,7 +70,7 @@ TEST(data_file, takes_the_column_that_is_named_for_the_time) {
     EXPECT_EQ(read("clock\ty\n1\t5\n2\t6\n4\t7\n").variables.count("Ts"), 0u);
     for (const auto& [text, expected] :
          {std::pair{"clock\ty\n1\t5\n1\t6\n", "must increase, but sample 1 is 1 and the next sample is 1"},
-          {"clock\ty\na\t5\nb\t6\n", "is not a column of numbers"},
+          {"clock\ty\na\t5\nb\t6\n", "is not a numeric column"},
           {"clock (V)\ty\n1\t5\n2\t6\n", "has the unit V, which is not a unit of time"}}) {
         try {
             read(text);

@@ -229,7 +229,7 @@ TEST_F(dataset_index, refuses_damaged_records_of_packages) {
     write_file_atomically(folder / "SOURCE.md", "A kiln\n\nPackage: kilns " + file.string() + " 10 samples 0.5 s\n");
     write_file_atomically(file, "title\nsettings\n1\n2\n");
     EXPECT_THAT(complaint("kiln"),
-                HasSubstr("kiln.gz ends, or has text, at input 1 of 10: reinstall the package kilns"));
+                HasSubstr("kiln.gz ends early or contains text at input 1 of 10: reinstall the package kilns"));
 }
 
 // Facts: 1000 samples, a binary input of 3.41 and 6.41, one sample every 0.08 s; first and last values of the file.

@@ -404,7 +404,7 @@ TEST_F(mat_file, no_place_where_a_disk_fills_up_is_passed_over) {
             message = error.what();
         }
         setrlimit(RLIMIT_FSIZE, &before);
-        EXPECT_THAT(message, HasSubstr("no space for the draft in")) << bytes;
+        EXPECT_THAT(message, HasSubstr("no space for the temporary file in")) << bytes;
         EXPECT_TRUE(equal(read_mat_file(file_), plain_variables())) << bytes;
     }
     std::signal(SIGXFSZ, signal_before);
@@ -419,7 +419,7 @@ TEST_F(mat_file, small_files_of_many_values_are_refused) {
     write(MAT_FT_MAT5, zeros, MAT_COMPRESSION_ZLIB);
     EXPECT_LT(std::filesystem::file_size(file_), 1u << 20);
     const std::string message = complaint();
-    EXPECT_THAT(message, HasSubstr("variable x has 3.4e+07 values: reading it takes more than 512 MB of memory"));
+    EXPECT_THAT(message, HasSubstr("variable x has 3.4e+07 values: reading it requires more than 512 MB of memory"));
     EXPECT_THAT(message, testing::Not(HasSubstr("damaged")));
 }
 

@@ -153,7 +153,7 @@ TEST_F(time_column, stated_sampling_time_decides_between_units_and_is_compared) 
         EXPECT_NEAR(data.time.clock->spacing.step, std::string(Ts) == "20" ? 20 : 0.02, 1e-12) << Ts;
     }
     EXPECT_THAT(texts_of(with_Ts("0.01", 0.02).notes),
-                Contains(HasSubstr("gives Ts = 0.01 s, but its time 'time' advances by 0.02 s")));
+                Contains(HasSubstr("specifies Ts = 0.01 s, but its time column 'time' advances by 0.02 s")));
     EXPECT_THAT(with_Ts("0.02", 0.02).notes, IsEmpty());
 }
 

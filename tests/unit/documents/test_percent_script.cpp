@@ -211,7 +211,7 @@ TEST(percent_script, a_file_far_too_large_is_refused) {
         FAIL() << "no error";
     } catch (const DocumentError& error) {
         EXPECT_THAT(error.what(),
-                    HasSubstr("a.lua: a script or template may have at most 4 MB, but this file has 5 MB"));
+                    HasSubstr("a.lua: a script or template can have at most 4 MB, but this file has 5 MB"));
     }
 }
 

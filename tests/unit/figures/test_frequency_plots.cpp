@@ -43,7 +43,7 @@ TEST(frequency_plots, models_beside_held_samples_are_held) {  // oracle: 1 - exp
     for (Index k = 0; k < 2; ++k) H[k] = (1 - a) / (std::polar(1.0, w[k] * Ts) - a);
     const FrequencyData held = frequency_data(H, w, Vector(), Ts, InterSample::kZoh);
     const Figure figure = bode_plot({{Message("lag"), lag}}, w, {{Message("measured"), held, 0.99}});
-    EXPECT_EQ(message_text(figure.panels[0].curves[0].label), "lag, input held (zoh)");
+    EXPECT_EQ(message_text(figure.panels[0].curves[0].label), "lag, zero-order hold");
     for (const Panel& panel : figure.panels)
         EXPECT_LT((panel.curves[0].y - panel.curves[1].y).cwiseAbs().maxCoeff(), 1e-9);
     const FrequencyData sines = frequency_data(H, w, Vector());

@@ -31,7 +31,7 @@ TEST(impulse_estimate_plot, draws_stems_per_second_in_the_band_of_chance) {
     EXPECT_EQ(stems.style, CurveStyle::kStems);
     EXPECT_NEAR((stems.y - Vector{{0.02, -0.04, 0.8, 0.6, 0.2}}).norm(), 0, 1e-12);
     EXPECT_EQ(band.style, CurveStyle::kBand);
-    EXPECT_EQ(message_text(band.label), "95 % chance bounds");
+    EXPECT_EQ(message_text(band.label), "95 % confidence bounds");
     for (Index i = 0; i < 5; ++i) {
         EXPECT_NEAR(band.y_upper[i], 1.959963984540054 * estimate.null_std[i] / kTs, 1e-8);
         EXPECT_EQ(band.y[i], -band.y_upper[i]);

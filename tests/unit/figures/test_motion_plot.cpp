@@ -128,7 +128,7 @@ std::string refusal(const PlantDrawing& rig, const MotionRecord& made, const Mot
 TEST(motion_plot, says_what_does_not_fit) {
     MotionRecord falling = record(10, 0.1);
     falling.t[4] = falling.t[3];
-    EXPECT_THAT(refusal(crane(), falling), HasSubstr("must increase, but number 4 is 0.3"));
+    EXPECT_THAT(refusal(crane(), falling), HasSubstr("must increase, but instant 4 is 0.3"));
     MotionRecord none = record(10, 0.1);
     none.measured.resize(0, 0), none.simulated.resize(0, 0);
     EXPECT_THAT(refusal(crane(), none), HasSubstr("measured or simulated"));
@@ -140,7 +140,7 @@ TEST(motion_plot, says_what_does_not_fit) {
                 HasSubstr("0.5 s occurs twice in the list"));
     PlantDrawing wrong = crane();
     wrong.parts[1].on = 1;
-    EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("defined before it"));
+    EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("defined before that part"));
     wrong = crane();
     wrong.pieces[0].part[1] = 2;
     EXPECT_THAT(refusal(wrong, record(10, 0.1)), HasSubstr("a part that does not exist"));

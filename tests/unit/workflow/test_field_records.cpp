@@ -53,8 +53,9 @@ TEST_F(field_records, time_constant_is_the_same_however_the_time_is_called) {
         EXPECT_THAT(look(file), HasSubstr("every 0.02 s")) << file;
     }
     EXPECT_NEAR(time_constant(of("days.csv", "pwm", "speed", "Date")), 4500, 60);
-    EXPECT_THAT(printed_, AllOf(testing::StartsWith("days.csv: the time 'Date' has no unit; dynlab assumes days"),
-                                HasSubstr("--time-unit")));
+    EXPECT_THAT(printed_,
+                AllOf(testing::StartsWith("days.csv: the time column 'Date' has no unit; dynlab assumes days"),
+                      HasSubstr("--time-unit")));
     EXPECT_NEAR(time_constant(of("days.csv", "pwm", "speed")), 4500, 60);
     EXPECT_NEAR(time_constant(of("clock.csv", "pwm", "speed", "clock")), 4, 0.2);
     EXPECT_NEAR(time_constant(of("clock.csv", "pwm", "speed")), 4, 0.2);
@@ -70,8 +71,10 @@ TEST_F(field_records, input_that_is_logged_on_change_is_held) {
     EXPECT_NEAR(run.record.values.at("a1").number.value_or(NAN), 2, 0.05);
     EXPECT_NEAR(run.record.values.at("a2").number.value_or(NAN), 4, 0.1);
     EXPECT_NEAR(run.record.values.at("b0").number.value_or(NAN), 4, 0.1);
-    EXPECT_THAT(run.printed, AllOf(HasSubstr("1480 of 1500 samples are missing; the input holds the previous value"),
-                                   HasSubstr("method = \"previous\"")));
+    EXPECT_THAT(
+        run.printed,
+        AllOf(HasSubstr("1480 of 1500 samples are missing; missing input samples are replaced with the previous value"),
+              HasSubstr("method = \"previous\"")));
 }
 
 TEST_F(field_records, columns_of_decibels_and_degrees_are_a_response) {
@@ -106,15 +109,15 @@ print(select(2, pcall(arx, iddata(u, u, nil, {SamplingInstants = t}), {1, 1, 1})
 
 TEST_F(field_records, two_records_side_by_side_keep_their_clocks) {
     EXPECT_THAT(look("two.csv"), HasSubstr("a table of 4 columns and 4 rows"));
-    EXPECT_THAT(look("rates.csv"), HasSubstr("the columns Time_u, Time_y are two clocks"));
-    EXPECT_THAT(refusal(of("rates.csv", "u", "y")), AllOf(HasSubstr("two clocks"), HasSubstr("interp1")));
+    EXPECT_THAT(look("rates.csv"), HasSubstr("the columns Time_u, Time_y are two time columns"));
+    EXPECT_THAT(refusal(of("rates.csv", "u", "y")), AllOf(HasSubstr("two time columns"), HasSubstr("interp1")));
     for (const char* time : {"Time_u", "Time_y (s)"})
         EXPECT_THAT(refusal(of("rates.csv", "u", "y", time)), HasSubstr("belongs to the time column")) << time;
 }
 
 TEST_F(field_records, cells_of_switches_percents_and_thousands_are_numbers) {
     EXPECT_NEAR(time_constant(of("onoff.csv", "heater", "temp")), 4, 0.2);
-    EXPECT_THAT(printed_, HasSubstr("column heater contains the words on and off, read as 1 and 0"));
+    EXPECT_THAT(printed_, HasSubstr("column heater contains the words on and off, which are read as 1 and 0"));
     EXPECT_NEAR(time_constant(of("percent.csv", "valve", "level")), 4, 0.2);
     EXPECT_NEAR(time_constant(of("milliers.csv", "d\u00E9bit", "pression")), 4, 0.2);
     EXPECT_THAT(look("monitor.txt"), HasSubstr("every 0.5 s"));
@@ -144,7 +147,7 @@ TEST_F(field_records, sampling_time_that_contradicts_the_file_is_reported) {
     IdentifyRequest request = of("wheel.csv", "voltage", "velocity");
     request.Ts = 0.05;
     EXPECT_THAT(identification_script(request),
-                HasSubstr("The sampling time 0.05 s was given, but according to the time 'time'"));
+                HasSubstr("The sampling time 0.05 s was given, but according to the time column 'time'"));
 }
 
 }  // namespace test_field_records

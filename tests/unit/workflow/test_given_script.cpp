@@ -21,13 +21,13 @@ TEST(given_script, that_is_missing_is_looked_for_under_nearly_its_name) {
     work.write("whole/analysis.lua", "print(1)\n");
     EXPECT_EQ(meant_script(work.path("whole")), work.path("whole/analysis.lua"));
     EXPECT_THAT(error_of([&] { meant_script(work.path("capital")); }),
-                HasSubstr("capital, but Analysis.lua: rename it to analysis.lua"));
+                HasSubstr("capital, but there is Analysis.lua: rename it to analysis.lua"));
     EXPECT_THAT(error_of([&] { meant_script(work.path("second")); }),
-                HasSubstr("second, but analysis (2).lua: rename it"));
+                HasSubstr("second, but there is analysis (2).lua: rename it"));
     EXPECT_THAT(error_of([&] { report_of(work.path("capital")); }),
-                HasSubstr("capital has no analysis.lua, but Analysis.lua: rename it"));
+                HasSubstr("capital has no analysis.lua, but there is Analysis.lua: rename it"));
     EXPECT_THAT(error_of([&] { report_of(work.path("text")); }),
-                HasSubstr("text has no report.md, but Report.md: rename it to report.md"));
+                HasSubstr("text has no report.md, but there is Report.md: rename it to report.md"));
 }
 
 TEST(given_script, folders_without_a_lesson_list_what_is_missing) {

@@ -114,9 +114,9 @@ TEST_F(identification_script, takes_several_inputs) {
 }
 
 TEST_F(identification_script, fills_missing_samples_and_reports_doubts_about_the_data) {
-    EXPECT_THAT(printed(of("holes.csv")),
-                AllOf(HasSubstr("holes.csv: missing numbers were replaced"),
-                      HasSubstr("the output is linearly interpolated"), HasSubstr("fit to the estimation data: 9")));
+    EXPECT_THAT(printed(of("holes.csv")), AllOf(HasSubstr("holes.csv: missing numbers were replaced"),
+                                                HasSubstr("missing output samples are linearly interpolated"),
+                                                HasSubstr("fit to the estimation data: 9")));
     EXPECT_THAT(printed(of("cut.csv")), HasSubstr("! The output x saturates"));  // as advice() marks a warning
 }
 
@@ -246,7 +246,7 @@ TEST_F(identification_script, a_request_that_a_file_cannot_serve_names_the_colum
     EXPECT_THAT(refusal(request), HasSubstr("'v'"));
     request = of("even.csv");
     request.time = "late";
-    EXPECT_THAT(refusal(request), HasSubstr("the time 'late' must increase, but sample"));
+    EXPECT_THAT(refusal(request), HasSubstr("the time column 'late' must increase, but sample"));
     EXPECT_THAT(refusal(of("silent.csv")), HasSubstr("silent.csv"));
     EXPECT_THAT(refusal(of("stated.mat", "short")), AllOf(HasSubstr("'short' has 5"), HasSubstr("'u' has")));
     EXPECT_THAT(refusal(of("matrix.mat", "y3")), HasSubstr("u, y1, y2"));
@@ -255,7 +255,7 @@ TEST_F(identification_script, a_request_that_a_file_cannot_serve_names_the_colum
     EXPECT_THAT(refusal(request), HasSubstr("'A'"));
     request = of("even.csv", "theta");
     request.validation = files_->path("stated.mat");
-    EXPECT_THAT(refusal(request), HasSubstr("stated.mat has no column of numbers 'theta'"));
+    EXPECT_THAT(refusal(request), HasSubstr("stated.mat has no numeric column 'theta'"));
     request.validation = files_->path("none.csv");
     EXPECT_THAT(refusal(request), HasSubstr("none.csv"));
     EXPECT_THAT(refusal(of("nowhere.csv")), HasSubstr("nowhere.csv"));
@@ -287,16 +287,16 @@ TEST(identify_request, of_orders_delay_or_names_that_make_no_sense_is_refused) {
     refused([](auto& r) { r.outputs = {"x", "x"}; }, "the output 'x' is given twice");
     refused([](auto& r) { r.outputs = {"u"}; }, "cannot be both input and output");
     refused([](auto& r) { r.poles = 0; }, "at least 1, not 0");
-    refused([](auto& r) { r.zeros = 3; }, "from 0 to the number of poles, 2, but is 3");
+    refused([](auto& r) { r.zeros = 3; }, "from 0 to the number of poles, 2, but it is 3");
     refused([](auto& r) { r.zeros = -1; }, "is -1");
-    refused([](auto& r) { r.delay = -1; }, "must be at least 0 s, not -1");
-    refused([](auto& r) { r.delay = NAN; }, "the delay must be at least 0 s");
-    refused([](auto& r) { r.Ts = 0; }, "Ts must be greater than 0 s");
+    refused([](auto& r) { r.delay = -1; }, "must be nonnegative, but it is -1 s");
+    refused([](auto& r) { r.delay = NAN; }, "the delay must be nonnegative");
+    refused([](auto& r) { r.Ts = 0; }, "Ts must be positive");
     refused([](auto& r) { r.Ts = 1, r.time = "t"; }, "not both");
-    refused([](auto& r) { r.poles.reset(), r.delay = 0.3; }, "or the delay auto");
+    refused([](auto& r) { r.poles.reset(), r.delay = 0.3; }, "or set the delay to auto");
     refused([](auto& r) { r.poles.reset(), r.zeros = 4; }, "must exceed the number of zeros");
-    refused([](auto& r) { r.poles.reset(), r.zeros = -1; }, "but is -1");
-    refused([](auto& r) { r.poles.reset(), r.inputs = {"u", "v"}; }, "with several inputs, give the number");
+    refused([](auto& r) { r.poles.reset(), r.zeros = -1; }, "but it is -1");
+    refused([](auto& r) { r.poles.reset(), r.inputs = {"u", "v"}; }, "for several inputs, specify the number");
 }
 
 }  // namespace test_identification_script
