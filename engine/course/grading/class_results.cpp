@@ -311,8 +311,8 @@ Attention what_needs_attention(const ClassResults& results) {
     }
     if (!by_hand.empty()) add(Message("manual marks are missing in marks.csv: {}", listed(by_hand, Join::kAnd)));
     for (const auto& [content, entries] : by_content) {
-        const auto of_others = [&](const Entry* entry) {
-            return entry->item->students != entries.front()->item->students;
+        const auto of_others = [&of_content = entries](const Entry* entry) {
+            return entry->item->students != of_content.front()->item->students;
         };
         if (!results.work->roster || std::ranges::none_of(entries, of_others)) continue;
         std::vector<std::string> names;
