@@ -143,7 +143,7 @@ void add_grade(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 256));
     command
         ->add_option("--timeout", args->request.timeout,
-                     "Processor time of each run of a script, in seconds; the elapsed time may be five times as long. "
+                     "Processor time of each run of a script, in seconds; the elapsed time may be 20 times as long. "
                      "Default: 60")
         ->type_name("S")
         ->check(CLI::Range(1, 3600));
@@ -169,7 +169,7 @@ void add_grade(CLI::App& app, Action& action) {
         "of each submission, the roster, deadlines, owners and options: a later call needs\nonly FOLDER and --out. "
         "dynlab refuses other checks, secrets and deadlines unless you give --again; --checks none and\n--secret none "
         "remove them. dynlab keeps the results of the scripts, so --again takes seconds.\nA script that exceeds "
-        "--timeout in processor time, or five times --timeout in elapsed time, is stopped. Answers that\nit submitted "
+        "--timeout in processor time, or 20 times --timeout in elapsed time, is stopped. Answers that\nit submitted "
         "before count.\nDeadlines: submission, deadline, and optionally extra (\"2 d\" after the deadline of *) and "
         "received; in the row of *\nalso grace (\"15 min\"), percent_per_day and most_percent, for all.\nA penalty of "
         "half the points or more is applied only after --accept-late was given once, or if the row "

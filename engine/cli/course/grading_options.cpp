@@ -18,7 +18,7 @@ CLI::Option* add_secret_option(CLI::App& command, std::string& secret) {
 CLI::Option* add_timeout_option(CLI::App& command, int& seconds) {
     return command
         .add_option("--timeout", seconds,
-                    "Processor time of each run of a script, in seconds; the elapsed time may be five times as long")
+                    "Processor time of each run of a script, in seconds; the elapsed time may be 20 times as long")
         ->type_name("S")
         ->capture_default_str()
         ->check(CLI::Range(1, 3600));
