@@ -1,4 +1,6 @@
 // Scripts in the percent format, and the documents woven from them. Every line of what is woven has an origin.
+#include <algorithm>
+
 #include "documents/error.h"
 #include "documents/weave.h"
 #include "fuzz/fuzz_input.h"
