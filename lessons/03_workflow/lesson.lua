@@ -341,7 +341,7 @@ report.figure("linear_resid", residuals, "Residuals on the second data set")
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 local function structure(poles, zeros)
-    local of_zeros = zeros == 0 and "no zero" or zeros == 1 and "1 zero" or zeros .. " zeros"
+    local of_zeros = zeros == 0 and "no zeros" or zeros == 1 and "1 zero" or zeros .. " zeros"
     return string.format("%d pole%s, %s", poles, poles > 1 and "s" or "", of_zeros)
 end
 local function p_text(p) return p < 0.001 and "< 0.001" or string.format("%.3f", p) end
@@ -950,9 +950,9 @@ report.value("arx_weight", 100*A2.param[3]/A2.param[4], "%.0f")
 --
 -- The coefficient of $u(k-2)$ is `arx_weight`{.value} % of the next coefficient. With an additional sample of delay, the model is better and has the
 -- same number of parameters (@tbl:dryer_arx). Three samples in the ARX model correspond to two samples in @eq:solution-dryer. The reason is that a
--- zero-order-hold input affects the sampled output one sample later at the earliest. The noise of this plant seems to pass through the poles of the
--- plant, as `arx` assumes. Therefore, unlike in the first example, the `arx` model is good: estimated from the first half, its simulation fit on the
--- second half is `arx3_half`{.value} %. The fit of `arx3_prediction`{.value} % for one-step-ahead prediction contains little information.
+-- zero-order-hold input affects the sampled output one sample later at the earliest. The noise of this plant seems to be white noise that is filtered
+-- by $1/A$, as `arx` assumes. Therefore, unlike in the first example, the `arx` model is good: estimated from the first half, its simulation fit on
+-- the second half is `arx3_half`{.value} %. The fit of `arx3_prediction`{.value} % for one-step-ahead prediction contains little information.
 -- END SOLUTION
 --
 -- ## Validation and conclusion

@@ -118,8 +118,8 @@ print(string.format("signal-to-noise ratio: %.1f dB", snr))
 --
 -- $$ y_f(t) = \frac{1}{E(p)}\,y(t), \qquad u_f(t) = \frac{1}{E(p)}\,u(t), \qquad E(p) = (p + \lambda)^2 , $$ {#eq:filter}
 --
--- where $\lambda$ is the cutoff frequency. This filter provides $y_f$, $p\,y_f$ and $p^2 y_f$ without any differentiation. It is called
--- the *state-variable filter*.
+-- where $\lambda$ is the cutoff frequency. This filter provides $y_f$, $p\,y_f$ and $p^2 y_f$ without any differentiation. It is called the
+-- *state-variable filter*.
 --
 -- **Question 3.** Write the model for the $N$ samples as a linear regression in matrix form, and state the sizes of the matrices. What is the
 -- least-squares solution?
@@ -229,9 +229,9 @@ report.table("repetitions", rows)
 --
 -- $$ \varepsilon(t) = \frac{A(p)}{E(p)}\,e(t) , $$ {#eq:solution-color}
 --
--- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same noise $e$, filtered differently. The regressors and the equation error are correlated, as in
--- the long noisy data at the end of lesson 2. More samples would not help: the bias depends on the variance of the noise, not on the number of
--- samples.
+-- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same noise $e$, filtered differently. The regressors and the equation error are
+-- correlated, as in the long noisy data at the end of lesson 2. More samples would not help: the bias depends on the variance of the noise, not on
+-- the number of samples.
 -- END SOLUTION
 --
 -- ## The library's LSSVF
@@ -763,10 +763,10 @@ report.table("grid", grid)
 -- than 90 of the models can be converted, the table contains the number of these models. The true value is 4.
 -- :::
 --
--- Both contribute, but the noise is the main cause (@tbl:grid). At 5 dB, as in these data, no sampling time helps: the regressors contain the noise of $y$, as
--- in LSSVF, but no filter attenuates it. At 25 dB, models from data with slower sampling can be converted, but they are strongly biased. The sampling time
--- matters only if there is almost no noise: at 45 dB, `arx` fails at 0.01 s and is almost correct from 0.2 s on. The relevant ratio is the noise
--- relative to the change of the output from one sample to the next. The solution is the correct noise model, not another sampling time.
+-- Both contribute, but the noise is the main cause (@tbl:grid). At 5 dB, as in these data, no sampling time helps: the regressors contain the noise
+-- of $y$, as in LSSVF, but no filter attenuates it. At 25 dB, models from data with slower sampling can be converted, but they are strongly biased.
+-- The sampling time matters only if there is almost no noise: at 45 dB, `arx` fails at 0.01 s and is almost correct from 0.2 s on. The relevant ratio
+-- is the noise relative to the change of the output from one sample to the next. The solution is the correct noise model, not another sampling time.
 --
 -- ::: {.table name=discrete #tbl:discrete}
 -- $\sigma = 0.2$: mean over 200 data sets and, in parentheses, the standard deviation.
@@ -774,9 +774,9 @@ report.table("grid", grid)
 --
 -- Like TFSRIVC, `oe` minimizes the simulation error, and its estimates are close to the true system. However, a sampled second-order system always
 -- has two coefficients of the input (@eq:sampled), even if the continuous-time system has no zeros. A discrete-time model cannot represent a constant
--- numerator and must estimate the second coefficient. As a result, the scatter of $\hat a_1$ is `oe_more`{.value} times the scatter of TFSRIVC (@tbl:discrete). In
--- addition, faster sampling moves the poles closer to $z = 1$, so the information about the time constants is in the last digits of the coefficients.
--- A continuous-time model has the same meaning for every sampling time.
+-- numerator and must estimate the second coefficient. As a result, the scatter of $\hat a_1$ is `oe_more`{.value} times the scatter of TFSRIVC
+-- (@tbl:discrete). In addition, faster sampling moves the poles closer to $z = 1$, so the information about the time constants is in the last digits
+-- of the coefficients. A continuous-time model has the same meaning for every sampling time.
 -- END SOLUTION
 --
 -- # How many poles?
@@ -864,15 +864,16 @@ end
 -- BEGIN SOLUTION
 -- * State-variable filters turn a differential equation into a linear regression without differentiation. LSSVF solves this regression by least
 --   squares. The estimate is accurate without noise and biased with noise, and the bias grows with the noise.
--- * Instruments that are independent of the noise remove the bias if the number of samples is large: the estimates are consistent. The scatter of IVSVF still depends
---   on the filter that you choose. With an unsuitable filter and few samples, the scatter is so large that even the mean is wrong.
+-- * Instruments that are independent of the noise remove the bias if the number of samples is large: the estimates are consistent. The scatter of
+--   IVSVF still depends on the filter that you choose. With an unsuitable filter and few samples, the scatter is so large that even the mean is
+--   wrong.
 -- * TFSRIVC determines the filter in a few iterations. For these data, there is no significant bias, the scatter is close to the Cramér–Rao bound,
 --   and the reported standard errors are correct.
 -- * You cannot assess a method with a single data set. Repeat the experiment in simulation, compute the mean *and* the scatter, and compare them with
 --   the true value and the Cramér–Rao bound [@ljung1999, section 7.4].
 -- * `arx` assumes white noise that is filtered by $1/A$. With noise added to the output, the `arx` estimate is biased at every sampling time. With
---   faster sampling, a smaller amount of noise is sufficient to make the estimate useless. Output-error models in discrete or continuous time do not have this problem. For
---   continuous-time models, fast sampling is an advantage.
+--   faster sampling, a smaller amount of noise is sufficient to make the estimate useless. Output-error models in discrete or continuous time do not
+--   have this problem. For continuous-time models, fast sampling is an advantage.
 -- END SOLUTION
 --
 -- # What you submit

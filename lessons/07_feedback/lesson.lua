@@ -47,7 +47,7 @@
 -- $$ u_k = 0.12\,e_{k-1} + 0.6\,T_s \sum_{i<k} e_i , \qquad e = r - y . $$ {#eq:controller}
 --
 -- The computational delay is one sample, so the controller uses $e_{k-1}$ and not $e_k$. From voltage to speed, the physical model has two poles, for
--- the current and for the speed, and no zero,
+-- the current and for the speed, and no zeros,
 --
 -- $$ G(p) = \frac{b_0}{p^2 + a_1 p + a_2} . $$ {#eq:plant}
 
