@@ -296,8 +296,8 @@ report.value("iv_miss", 100*largest_relative(Givsvf.param, truth), "%.0f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- The largest parameter error is `ls_miss`{.value} % for LSSVF and `iv_miss`{.value} % for IVSVF. The model that generates the instruments is biased,
--- but this is not a problem. The instruments must only be independent of the noise and correlated with the regressors. The estimates of your own
--- IVSVF agree with the library (`iv_agreement`{.value} relative difference).
+-- but this is not a problem. The instruments must only be independent of the noise and correlated with the regressors. The estimates of your IVSVF
+-- agree with the library (`iv_agreement`{.value} relative difference).
 -- END SOLUTION
 --
 -- ## The choice of λ
