@@ -19,8 +19,8 @@
 -- %% [markdown]
 -- Three methods estimate a differential equation directly from samples [@garnier2008]: least squares on filtered signals (LSSVF), the same regression
 -- with instruments (IVSVF), and the refined instrumental variables of TFSRIVC [@young2011]. Which of these methods can you trust? For a real plant,
--- the answer is unknown. Therefore, all data in this lesson are simulated. The system is given, and the computer generates the noise. You can
--- therefore compare the estimates with the true parameters, first for one data set and then for two hundred.
+-- the answer is unknown. Therefore, all data in this lesson are simulated. The system is given, and the computer generates the noise. You can compare
+-- the estimates with the true parameters, first for one data set and then for two hundred data sets.
 --
 -- `dynlab demo` shows the methods in short guided tours. Run one of the tours before you start, or at any later time.
 --
@@ -45,8 +45,8 @@
 -- **Question 1.** Which model structure does @eq:system have: CARX, COE or CBJ? (CARX: $A\,y = B\,u + e$; COE: $y = \frac{B}{F}\,u + e$; CBJ: $y = \frac{B}{F}\,u + \frac{C}{D}\,e$.)
 --
 -- BEGIN SOLUTION
--- The structure is COE, a continuous-time output-error structure. The disturbance is added to the output. It does not pass through $1/F_o$, as in
--- CARX, or through a separate noise model, as in CBJ.
+-- The structure is COE, a continuous-time output-error structure. The white disturbance is added to the output. In a CARX structure, the disturbance
+-- would be filtered by $1/A$. In a CBJ structure, it would be filtered by $C/D$.
 -- END SOLUTION
 --
 -- **Question 2.** Determine the main properties of the system: steady-state gain, poles, time constants, corner frequencies and bandwidth.
@@ -113,7 +113,7 @@ print(string.format("signal-to-noise ratio: %.1f dB", snr))
 --
 -- ## The regression
 --
--- Take the CARX model $A(p)\,y(t) = B(p)\,u(t) + e(t)$ with $A(p) = p^2 + a_1 p + a_2$ and $B(p) = b_0$. The derivatives are not measured, and
+-- Consider the CARX model $A(p)\,y(t) = B(p)\,u(t) + e(t)$ with $A(p) = p^2 + a_1 p + a_2$ and $B(p) = b_0$. The derivatives are not measured, and
 -- numerical differentiation would amplify the noise. Therefore, first pass every signal through the same filter,
 --
 -- $$ y_f(t) = \frac{1}{E(p)}\,y(t), \qquad u_f(t) = \frac{1}{E(p)}\,u(t), \qquad E(p) = (p + \lambda)^2 , $$ {#eq:filter}
@@ -265,7 +265,7 @@ report.value("agreement", math.max(largest_relative(own0, Glssvf0.param), larges
 --
 -- ## IVSVF
 --
--- To remove the bias, keep the regression of question 3, but solve it in another way. Instead of $\Phi^T Y = \Phi^T\Phi\,\theta$, solve
+-- To remove the bias, keep the regression of question 3, but solve it differently. Instead of $\Phi^T Y = \Phi^T\Phi\,\theta$, solve
 --
 -- $$ Z^T Y = Z^T\Phi\,\theta , $$ {#eq:iv}
 --
@@ -365,7 +365,7 @@ report.value("many_runs", near_best.runs, "%d")
 -- that the method reported.
 -- :::
 --
--- ![IVSVF with three filters, 200 estimates each: $\hat a_2$ versus $\hat a_1$. Above: all estimates. Below: the center enlarged, with the true value (4, 3) and the ellipse that contains 95 % of the estimates of the best possible unbiased method. Only the estimates for $\lambda = 3$ are close to the ellipse.](figure:lambda){#fig:lambda}
+-- ![IVSVF with three filters, 200 estimates each: $\hat a_2$ versus $\hat a_1$. Above: all estimates. Below: an enlarged view of the center, with the true value (4, 3) and the ellipse that contains 95 % of the estimates of the best possible unbiased method. Only the estimates for $\lambda = 3$ are close to the ellipse.](figure:lambda){#fig:lambda}
 --
 -- IVSVF is very sensitive to $\lambda$ (@tbl:lambda, @fig:lambda). Over `runs`{.value} data sets, the scatter of $\hat a_1$ is `low_ratio`{.value}
 -- times larger with $\lambda = 0.3$ and `high_ratio`{.value} times larger with $\lambda = 30$ than with $\lambda = 3$. For some data sets, the
@@ -395,13 +395,14 @@ report.figure("color", weights, "How the filter colors the equation error")
 -- BEGIN SOLUTION
 -- ![How the filter colors the equation error: the magnitude $|A/E|$, which multiplies white measurement noise, for three values of $\lambda$ (solid: 3 rad/s) and for the optimal filter, $E = A$, for which the equation error is white](figure:color){#fig:color}
 --
--- The regression weights all samples of $\varepsilon$ equally, which is optimal if $\varepsilon$ is white. By @eq:solution-color, $\varepsilon$ is
--- the white noise $e$ filtered by $A/E$ (@fig:color). With $\lambda = 0.3$, the low-frequency part of the noise dominates. The response of the filter
--- is so slow that the data contain little more than its transient. With $\lambda = 30$, nearly all of the noise is at frequencies where the system no
--- longer responds, and it hides the information about the slow pole. Of the three values, $\lambda = 3$ is closest to a constant magnitude. The
--- magnitude is constant for $E = A$: the optimal filter is $1/A$, with the denominator of the system. Among the filters $(p+\lambda)^2$, the one
--- nearest to $A = p^2 + 4p + 3$ has $\lambda = \sqrt 3 \approx 1.7$, where the constant terms agree. Over `many_runs`{.value} data sets, the scatter
--- of $\hat a_1$ is `root_std`{.value} for this filter and `three_std`{.value} for $\lambda = 3$. $A$ is unknown, but an iteration can approximate it.
+-- The regression weights all samples of $\varepsilon$ equally, which is optimal if $\varepsilon$ is white. According to @eq:solution-color,
+-- $\varepsilon$ is the white noise $e$ filtered by $A/E$ (@fig:color). With $\lambda = 0.3$, the low-frequency part of the noise dominates. The
+-- response of the filter is so slow that the data contain little more than its transient. With $\lambda = 30$, nearly all of the noise is at
+-- frequencies where the system no longer responds, and it hides the information about the slow pole. Of the three magnitudes, the magnitude for
+-- $\lambda = 3$ is closest to a constant. The magnitude is constant for $E = A$: the optimal filter is $1/A$, with the denominator of the system.
+-- Among the polynomials $(p+\lambda)^2$, the polynomial with $\lambda = \sqrt 3 \approx 1.7$ is nearest to $A = p^2 + 4p + 3$, because the constant
+-- terms agree. Over `many_runs`{.value} data sets, the scatter of $\hat a_1$ is `root_std`{.value} for this filter and `three_std`{.value} for
+-- $\lambda = 3$. $A$ is unknown, but an iteration can approximate it.
 -- END SOLUTION
 --
 -- # Refined instrumental variables
@@ -471,7 +472,7 @@ report.value("possible_fit", fit(data, Go), "%.1f")
 --
 -- # Two hundred data sets
 --
--- **Question 11.** With a single data set, a method can look good by chance. Repeat the experiment 200 times with $\sigma = 0.2$ for the three
+-- **Question 11.** With a single data set, a method can appear accurate by chance. Repeat the experiment 200 times with $\sigma = 0.2$ for the three
 -- methods. Use $\lambda = 3$ for LSSVF and IVSVF. Which methods are biased? Which method has the smallest scatter? Are the reported standard errors
 -- correct?
 
@@ -593,14 +594,14 @@ report.value("tf_failures", high.TFSRIVC.failed + high.TFSRIVC.not_converged, "%
 -- is the natural prediction, because the bias comes from the variance of the noise. However, the noise also affects the inverse matrix. For many
 -- samples, the least-squares estimate converges to $(R + \sigma^2 E)^{-1} R\,\theta$ instead of $\theta$. $R$ and $E$ are the covariances of the
 -- noise-free regressors and of their noise for $\sigma = 1$ (lesson 2). The bias is proportional to $\sigma^2$ only if $\sigma^2 E$ is small compared
--- with $R$. For more noise, the bias saturates, and it never exceeds 100 %. The means of IVSVF and TFSRIVC stay near the true values. Their scatter
+-- with $R$. For more noise, the bias saturates, and it never exceeds 100 %. The means of IVSVF and TFSRIVC remain near the true values. Their scatter
 -- grows with the noise, for TFSRIVC by a factor of `tf_growth`{.value}. The number of data sets for which TFSRIVC did not converge is
 -- `tf_failures`{.value}. @fig:scatter also shows that the errors of $\hat a_1$ and $\hat b_0$ are correlated. If the model is too fast, $\hat b_0$ is
 -- also too large, so the gain $b_0/a_2$, which the data determine well, is correct.
 -- END SOLUTION
 --
--- **Question 13.** LSSVF needs an assumption about the measured output between the samples: piecewise linear (`hold_y = "foh"`, as in your program)
--- or constant (`hold_y = "zoh"`). Does its bias depend on this assumption?
+-- **Question 13.** LSSVF requires an assumption about the measured output between the samples: piecewise linear (`hold_y = "foh"`, as in your
+-- program) or constant (`hold_y = "zoh"`). Does its bias depend on this assumption?
 
 -- %% id=hold
 -- BEGIN SOLUTION
@@ -657,8 +658,8 @@ print("poles of the sampled true system:", pole(c2d(Go, Ts)))
 print("arx without noise, converted, F:", d2c(arx(data0, {2, 2, 1})).den)
 
 local Garx, Goe = arx(data, {2, 2, 1}), oe(data, {2, 2, 1})
-print("poles found by arx:", pole(Garx))
-print("poles found by oe: ", pole(Goe))
+print("poles of the arx model:", pole(Garx))
+print("poles of the oe model: ", pole(Goe))
 print("d2c can convert the noisy arx model:", (pcall(d2c, Garx)))
 local t = linspace(0, 6, 601)
 local answers = plot(t, step(Go, t), "truth", t, step(Garx, t), "arx",
@@ -703,7 +704,7 @@ local discrete = study(sigma, {
         return d2c(oe(d, {2, 2, 1}, {InitialState = "none", Offset = "none"}))
     end},
 })
-print(string.format("d2c refused %d of the %d arx models", refused, discrete.runs))
+print(string.format("d2c cannot convert %d of the %d arx models", refused, discrete.runs))
 
 -- arx estimates of a1 from 100 data sets, for the models that d2c can convert
 local function arx_a1(period, snr)
