@@ -1017,11 +1017,11 @@ report.value("dryer_robust", max(H2.robust_std/H2.std), "%.1f")
 -- not reject this model, but a test at the 95 % level does. The disturbances are colored, so the standard errors that assume white noise are too
 -- small, by factors of up to `dryer_robust`{.value}. `present` therefore prints robust standard errors.
 --
--- *A noise model:* `rivc` estimates two poles together with an autoregressive model of the noise, with a pole at `dryer_ar`{.value}\ ±\
--- `dryer_ar_std`{.value}. With this noise model, the one-step-ahead prediction error is white ($p =$ `dryer_noise_white`{.value}). However, the
--- prediction error is still correlated with the input ($p$ `dryer_noise_input`{.value}). The simulation of the second half is not better
--- (`dryer_noise_val`{.value} % compared with `dryer_val_short`{.value} %). A noise model describes the disturbance and improves predictions. It does
--- not add missing dynamics.
+-- *A noise model:* `rivc` estimates two poles together with an autoregressive model of the noise, with a pole at
+-- `dryer_ar`{.value}\ ±\ `dryer_ar_std`{.value}. With this noise model, the one-step-ahead prediction error is white ($p =$
+-- `dryer_noise_white`{.value}). However, the prediction error is still correlated with the input ($p$ `dryer_noise_input`{.value}). The simulation of
+-- the second half is not better (`dryer_noise_val`{.value} % compared with `dryer_val_short`{.value} %). A noise model describes the disturbance and
+-- improves predictions. It does not add missing dynamics.
 --
 -- *Conclusion:* use two poles and a delay of `dryer_two_td`{.value} s for simulation and for controller design. The first tenths of a second may
 -- require three poles. To test this hypothesis, do an experiment with faster switching and sampling. The fit alone does not reveal this question.

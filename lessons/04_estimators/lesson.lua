@@ -1,6 +1,6 @@
 -- ---
 -- title: Continuous-time models from noisy data
--- subtitle: Lesson 4 – LSSVF, IVSVF and TFSRIVC on a system that is known
+-- subtitle: Lesson 4 – LSSVF, IVSVF and TFSRIVC on a known system
 -- lesson: 04_estimators
 -- template: lesson
 -- language: en
@@ -365,7 +365,7 @@ report.value("many_runs", near_best.runs, "%d")
 -- that the method reported.
 -- :::
 --
--- ![IVSVF with three filters, 200 estimates each: $\hat a_2$ versus $\hat a_1$. Above: all estimates. Below: an enlarged view of the center, with the true value (4, 3) and the ellipse that contains 95 % of the estimates of the best possible unbiased method. Only the estimates for $\lambda = 3$ are close to the ellipse.](figure:lambda){#fig:lambda}
+-- ![IVSVF with three filters, 200 estimates each: $\hat a_2$ versus $\hat a_1$. Above: all estimates. Below: an enlarged view of the center, with the true value (4, 3). The ellipse contains 95 % of the estimates of the best possible unbiased method. Only the estimates for $\lambda = 3$ are close to the ellipse.](figure:lambda){#fig:lambda}
 --
 -- IVSVF is very sensitive to $\lambda$ (@tbl:lambda, @fig:lambda). Over `runs`{.value} data sets, the scatter of $\hat a_1$ is `low_ratio`{.value}
 -- times larger with $\lambda = 0.3$ and `high_ratio`{.value} times larger with $\lambda = 30$ than with $\lambda = 3$. For some data sets, the
@@ -704,7 +704,7 @@ local discrete = study(sigma, {
         return d2c(oe(d, {2, 2, 1}, {InitialState = "none", Offset = "none"}))
     end},
 })
-print(string.format("d2c cannot convert %d of the %d arx models", refused, discrete.runs))
+print(string.format("d2c failed for %d of %d arx models", refused, discrete.runs))
 
 -- arx estimates of a1 from 100 data sets, for the models that d2c can convert
 local function arx_a1(period, snr)
