@@ -644,8 +644,8 @@ end
 --
 -- BEGIN SOLUTION
 -- * The shape of the response determines the structure. A response with its steepest slope at the start and no overshoot indicates a first-order
---   system. A response with zero slope at the start and an overshoot indicates a second-order system with complex poles. If the output does not
---   change at first, the system has a dead time.
+--   system. A response with zero slope at the start and an overshoot indicates a second-order system with complex conjugate poles. If the output does
+--   not change at first, the system has a dead time.
 -- * Operating points are not part of a transfer function: subtract the levels before the step, or let the method estimate them. Specify known facts,
 --   such as an initial state at rest, instead of estimating them.
 -- * Reading a figure takes a minute and provides initial values for other methods. Optimization uses all samples, is more accurate, and returns

@@ -901,11 +901,11 @@ report.value("dryer_gain", dcgain(H2), "%.3f")
 --
 -- $$ G(s) = \frac{b_0}{s^2 + a_1 s + a_2}\,e^{-2T_s s} $$ {#eq:solution-dryer}
 --
--- with $a_1 =$ `dryer_a1`{.value}\ ±\ `dryer_a1_std`{.value}, $a_2 =$ `dryer_a2`{.value}\ ±\ `dryer_a2_std`{.value} and $b_0 =$ `dryer_b0`{.value}\
--- ±\ `dryer_b0_std`{.value} (robust standard errors) has a gain of `dryer_gain`{.value} and lags of `dryer_slow`{.value} s and `dryer_fast`{.value}
--- s. The fit is `dryer_fit`{.value} % on the first half ($R_T^2 =$ `dryer_rt2`{.value}) and `dryer_val`{.value} % on the second half. The fits of the
--- model with one pole and three samples of delay, $a_1 =$ `dryer1_a1`{.value} and $b_0 =$ `dryer1_b0`{.value}, are `dryer1_fit`{.value} % and
--- `dryer1_val`{.value} %.
+-- with $a_1 =$ `dryer_a1`{.value}\ ±\ `dryer_a1_std`{.value}, $a_2 =$ `dryer_a2`{.value}\ ±\ `dryer_a2_std`{.value} and $b_0 =$
+-- `dryer_b0`{.value}\ ±\ `dryer_b0_std`{.value} (robust standard errors) has a gain of `dryer_gain`{.value} and lags of `dryer_slow`{.value} s and
+-- `dryer_fast`{.value} s. The fit is `dryer_fit`{.value} % on the first half ($R_T^2 =$ `dryer_rt2`{.value}) and `dryer_val`{.value} % on the second
+-- half. The fits of the model with one pole and three samples of delay, $a_1 =$ `dryer1_a1`{.value} and $b_0 =$ `dryer1_b0`{.value}, are
+-- `dryer1_fit`{.value} % and `dryer1_val`{.value} %.
 -- END SOLUTION
 --
 -- **Question 15.** Compare your model with ARX models (`arx`) with delays of two and three samples. What does the coefficient of $u(k-2)$ show?

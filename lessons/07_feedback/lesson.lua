@@ -64,8 +64,8 @@ end
 print(pair(track))
 
 -- %% [markdown]
--- **Question 1.** Plot reference, voltage and speed of `tracking` next to those of `regulation`. In `regulation`, the reference does not excite the
--- loop. What causes the changes of the voltage?
+-- **Question 1.** Plot the reference, the voltage and the speed of `tracking` next to the same signals of `regulation`. In `regulation`, the
+-- reference does not excite the loop. What causes the changes of the voltage?
 
 -- %% id=signals
 -- BEGIN SOLUTION
