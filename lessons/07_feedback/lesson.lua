@@ -396,10 +396,10 @@ present(Gcl)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The gain is `cl_gain`{.value}. The message reports that the controller responds without an additional delay; the factor $1/z$ of $C$ is the
--- computational delay of one sample. dynlab prints a warning if $C$ does not reproduce the measured voltage from reference and output. There is no
--- warning for these data. If the model is correct, the instruments from the simulated loop are the noise-free signals. As in SRIVC, the filter
--- follows from the model, so you do not have to choose $\lambda$.
+-- The gain is `cl_gain`{.value}. The message of the estimator reports that the controller responds without an additional delay; the factor $1/z$ of
+-- $C$ is the computational delay of one sample. dynlab prints a warning if $C$ does not reproduce the measured voltage from reference and output.
+-- There is no warning for these data. If the model is correct, the instruments from the simulated loop are the noise-free signals. As in SRIVC, the
+-- filter follows from the model, so you do not have to choose $\lambda$.
 -- END SOLUTION
 --
 -- ## Third method: two stages
