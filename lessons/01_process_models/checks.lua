@@ -147,7 +147,7 @@ check { id = "suspension_model", points = 2, about = "Suspension: the estimated 
         {when = function(G) return near(second_order(G)[3], w2*suspension_Ts, {rel = 0.05}) end,
          say = "The time is counted in samples: specify the sampling time of the data."},
     }),
-    hint = "procsrivc(data, \"P2U\"): a pair of complex poles and no zero." }
+    hint = "procsrivc(data, \"P2U\"): a pair of complex conjugate poles and no zeros." }
 
 check { id = "figures", points = 1, about = "Figures that compare both readings with the measurements",
     test = function() return all_of(has_figure("exchanger_test"), has_figure("suspension_test")) end,

@@ -16,7 +16,7 @@
 
 -- %% [markdown]
 -- A step is the simplest experiment you can run on a process: move the input from one level to another, wait, and measure. The shape of the response
--- suggests a model. A ruler and a pencil are enough to read its parameters. This lesson models two processes, a heat exchanger and a mechanical
+-- suggests a model. A ruler and a pencil are sufficient to read its parameters. This lesson models two processes, a heat exchanger and a mechanical
 -- suspension. You first read the parameters from the figure by hand. Then you estimate them from all samples by optimization, and compare the
 -- accuracy of both methods. At the end, the lesson adds a dead time, repeats the experiment two hundred times, and moves to another operating point.
 --
@@ -76,11 +76,11 @@ report.figure("exchanger_paper", paper:rule(10, 0.2), "The response on graph pap
 --
 -- $$ K = \frac{y(\infty) - y(0)}{u(\infty) - u(0)} , $$ {#eq:gain}
 --
--- and the 5 % settling time $T_r$ gives $T = T_r/3$, because $e^{-3} \approx 0.05$. $T_r$ is the time *from the step* until the response stays within
--- 5 % of its total change around the final value. Because of the noise, single samples leave the 5 % band long after the response has settled.
+-- and the 5 % settling time $T_r$ determines $T = T_r/3$, because $e^{-3} \approx 0.05$. $T_r$ is the time *from the step* until the response stays
+-- within 5 % of its total change around the final value. Because of the noise, single samples leave the 5 % band long after the response has settled.
 -- Therefore, first draw a smooth curve through the samples. `step_first_order` smooths the response with a moving average.
 --
--- ![The response of the heat exchanger, sample by sample, on graph paper: small squares are 10 s wide and 0.2 °C high, large ones 50 s and 1 °C. The valve moves at 60 s.](figure:exchanger_paper){#fig:exchanger_paper}
+-- ![The response of the heat exchanger, sample by sample, on graph paper: small squares are 10 s wide and 0.2 °C high, and large squares are 50 s wide and 1 °C high. The valve moves at 60 s.](figure:exchanger_paper){#fig:exchanger_paper}
 
 -- %% id=exchanger_reading
 -- BEGIN SOLUTION
@@ -205,8 +205,8 @@ report.value("K_any_ratio", G1_free.std[1]/G1.std[1], "%.1f")
 -- are significant.
 --
 -- Do not estimate known quantities. With `InitialState = "estimate"`, the method would also estimate the initial temperature. The standard error of
--- $K$ would then be `K_any_std`{.value} instead of `K_std`{.value}, `K_any_ratio`{.value} times as large. The reason is that a slow return from a
--- wrong initial temperature looks like a different gain.
+-- $K$ would then be `K_any_std`{.value} instead of `K_std`{.value}, which is `K_any_ratio`{.value} times as large. The reason is that a slow return
+-- from a wrong initial temperature looks like a different gain.
 -- END SOLUTION
 
 -- %% [markdown]
@@ -278,7 +278,7 @@ report.figure("second_order", figure{
 --
 -- BEGIN SOLUTION
 -- The response starts with zero slope, overshoots its final value and oscillates around it with decreasing amplitude. A second-order system with a
--- pair of complex poles responds in this way:
+-- pair of complex conjugate poles responds in this way:
 --
 -- $$ G(s) = \frac{K\,\omega_0^2}{s^2 + 2 z \omega_0 s + \omega_0^2}, \qquad 0 < z < 1 . $$ {#eq:solution-second}
 -- END SOLUTION
@@ -289,12 +289,12 @@ report.figure("second_order", figure{
 -- $$ D_1 = \frac{y(T_1) - y(\infty)}{y(\infty) - y(0)}, \qquad z = \sqrt{\frac{(\ln D_1)^2}{(\ln D_1)^2 + \pi^2}}, \qquad
 --    \omega_0 = \frac{\pi}{T_1\sqrt{1 - z^2}} , $$ {#eq:overshoot}
 --
--- gives the damping ratio and the undamped natural frequency. @fig:second_order shows where to read each number. Read them from
+-- determines the damping ratio and the undamped natural frequency. @fig:second_order shows where to read each number. Read them from
 -- @fig:suspension_paper.
 --
 -- ![Numbers to read from the step response of a second-order system, here with $z = 0.2$. The two levels give the gain $K$, and the height of the first maximum gives the first overshoot $D_1$. $T_1$ is the time of this maximum. The dotted lines are the band of ± 5 % in which the response has settled.](figure:second_order){#fig:second_order}
 --
--- ![The beginning of the response of the suspension, sample by sample, on graph paper: small squares are 0.02 s wide and 0.2 mm high, large ones 0.1 s and 1 mm. The voltage steps at time zero.](figure:suspension_paper){#fig:suspension_paper}
+-- ![The beginning of the response of the suspension, sample by sample, on graph paper: small squares are 0.02 s wide and 0.2 mm high, and large squares are 0.1 s wide and 1 mm high. The voltage steps at time zero.](figure:suspension_paper){#fig:suspension_paper}
 
 -- %% id=suspension_reading
 -- BEGIN SOLUTION
@@ -320,8 +320,8 @@ report.value("w2", reading2.w0, "%.2f")
 -- BEGIN SOLUTION
 -- ![Reading the first overshoot: the measured and the smoothed response, the two levels, and the height $D_1$ and the time $T_1$ of the first maximum](figure:suspension_construction){#fig:suspension_construction}
 --
--- From @fig:suspension_construction: $K =$ `K2`{.value}\ mm/V, a first overshoot of `D1`{.value}\ % at $T_1 =$ `T1`{.value}\ s, hence $z =$ `z2`{.value} and
--- $\omega_0 =$ `w2`{.value}\ rad/s.
+-- @fig:suspension_construction shows a gain of $K =$ `K2`{.value}\ mm/V, and a first overshoot of `D1`{.value}\ % at $T_1 =$ `T1`{.value}\ s. These
+-- values correspond to $z =$ `z2`{.value} and $\omega_0 =$ `w2`{.value}\ rad/s.
 -- END SOLUTION
 --
 -- **Question 7.** Compare the response of your model with the measured response.
@@ -340,7 +340,7 @@ report.figure("suspension_test", test_figure(reading2, data2, 0, "position (mm)"
 -- END SOLUTION
 --
 -- **Question 8.** Estimate the parameters from all samples and compare them with your readings. (In the workbench, `dynlab app suspension`, use
--- **Second order** to read by hand, and `P2` with `U` to estimate an under-damped pair.)
+-- **Second order** to read by hand, and `P2` with `U` to estimate an underdamped pair of poles.)
 
 -- %% id=suspension_estimate
 -- BEGIN SOLUTION
@@ -370,12 +370,12 @@ report.table("suspension", {
 -- :::
 --
 -- The methods agree within the error of the reading (@tbl:suspension). The reading uses a single point, the maximum of the first overshoot. The
--- response is flat there, so the time of the maximum is hard to determine. The estimate uses the whole response.
+-- response is flat there, so the time of the maximum is difficult to determine. The estimate uses the complete response.
 -- END SOLUTION
 --
 -- # A dead time
 --
--- **Question 9.** Suppose that the thermometer of the heat exchanger is farther down the pipe, so that the water needs 20 s to reach it. Simulate
+-- **Question 9.** Suppose that the thermometer of the heat exchanger is farther down the pipe, so that the water takes 20 s to reach it. Simulate
 -- these data and read the parameters with `step_delayed`. This function uses the times $t_1$ and $t_2$ from the step until the response has covered
 -- 28.3 % and 63.2 % of its change. For
 --
@@ -435,9 +435,9 @@ report.value("T_extra", 20/3, "%.0f")
 -- ![The beginning of the response with a dead time (dots), and the estimated models with (solid) and without (dashed) a dead time. Without a dead time, the model starts too early and rises too slowly.](figure:dead_time){#fig:dead_time}
 --
 -- A model without a dead time compensates with a larger time constant (@tbl:dead_time, @fig:dead_time). The settling time becomes $3T + D$, so the
--- reading of $T$ grows by $D/3$, here `T_extra`{.value} s. The estimate grows, too. Its standard error does not indicate this bias, because it is
--- valid only if the model structure is correct. Could the first data set contain a hidden dead time? The estimated dead time is `Td_none`{.value}\ ±\
--- `Td_none_std`{.value}\ s, which is not significantly different from zero.
+-- reading of $T$ grows by $D/3$, here `T_extra`{.value} s. The estimate also increases. Its standard error does not indicate this bias, because it is
+-- valid only if the model structure is correct. Could the first data set contain a hidden dead time? The estimated dead time is
+-- `Td_none`{.value}\ ±\ `Td_none_std`{.value}\ s, which is not significantly different from zero.
 -- END SOLUTION
 --
 -- # How accurate is a reading?
@@ -497,12 +497,12 @@ report.value("sharper", std(T_reading)/std(T_estimate), "%.0f")
 -- BEGIN SOLUTION
 -- ![The time constants of two hundred repeated experiments, read off the figure (above) and estimated (below). The dashed line is the true value. Both time axes have the same limits.](figure:noise_study){#fig:noise_study}
 --
--- The true time constant is `true_T`{.value}\ s. The readings have the mean `reading_mean`{.value}\ s and the standard deviation
--- `reading_std`{.value}\ s (@fig:noise_study). The estimates have the mean `estimate_mean`{.value}\ ±\ `estimate_mean_std`{.value}\ s and the
--- standard deviation `estimate_std`{.value}\ s. This agrees with their reported standard errors (`reported`{.value}\ s on average). The standard
--- deviation of the readings is `sharper`{.value} times as large. The readings are also too short by `reading_off`{.value}\ s on average, because
--- noise and smoothing make the response enter the band early. The difference between reading and estimate in @tbl:exchanger is within this error, so
--- both methods agree.
+-- The true time constant is `true_T`{.value}\ s. The readings have a mean of `reading_mean`{.value}\ s and a standard deviation of
+-- `reading_std`{.value}\ s (@fig:noise_study). The estimates have a mean of `estimate_mean`{.value}\ ±\ `estimate_mean_std`{.value}\ s and a standard
+-- deviation of `estimate_std`{.value}\ s. This standard deviation agrees with the reported standard errors (`reported`{.value}\ s on average). The
+-- standard deviation of the readings is `sharper`{.value} times the standard deviation of the estimates. The readings are also too short by
+-- `reading_off`{.value}\ s on average, because noise and smoothing make the response enter the band early. The difference between reading and
+-- estimate in @tbl:exchanger is within this error, so both methods agree.
 -- END SOLUTION
 
 -- %% [markdown]
@@ -643,13 +643,14 @@ end
 -- # What you have learned
 --
 -- BEGIN SOLUTION
--- * The shape decides the structure. Steepest slope at the start and no overshoot: first order. Zero slope at the start and overshoot: second order
---   with complex poles. No change at first: a dead time.
+-- * The shape of the response determines the structure. A response with its steepest slope at the start and no overshoot indicates a first-order
+--   system. A response with zero slope at the start and an overshoot indicates a second-order system with complex conjugate poles. If the output does
+--   not change at first, the system has a dead time.
 -- * Operating points are not part of a transfer function: subtract the levels before the step, or let the method estimate them. Specify known facts,
---   such as a start at rest, instead of estimating them.
+--   such as an initial state at rest, instead of estimating them.
 -- * Reading a figure takes a minute and provides initial values for other methods. Optimization uses all samples, is more accurate, and returns
 --   standard errors, which are valid if the model structure is correct.
--- * Trust a model only after comparing its simulated output with the measured one. Repeating the experiment shows how far you can trust a number.
+-- * Trust a model only after comparing its simulated output with the measured output. Repeating the experiment shows how far you can trust a number.
 -- END SOLUTION
 --
 -- # What you submit

@@ -45,10 +45,10 @@ report.figure("times", plot(year, time, {style = "points", height = 6,
 -- **Question 1.** Describe what you see in @fig:times. Where does a straight line look reasonable, and where not?
 --
 -- BEGIN SOLUTION
--- The times decrease (@fig:times), quickly at first and then slowly. The first value, 12.0 s in 1896, is far above all others: one race, a handful of
--- runners, a stopwatch. From 1900 on, the decrease is almost steady, about a tenth of a second in nine years. This trend cannot continue forever,
--- because the line eventually reaches zero. A line is a fair description within the range of the data, and it is usable for short-term forecasts
--- only.
+-- The times decrease (@fig:times), quickly at first and then slowly. The first value, 12.0 s in 1896, is far above all other values. It comes from
+-- one race with a few runners, timed with a stopwatch. From 1900 on, the decrease is almost steady, about a tenth of a second in nine years. This
+-- trend cannot continue forever, because the line eventually reaches zero. A line is a fair description within the range of the data, and it is
+-- usable for short-term forecasts only.
 -- END SOLUTION
 --
 -- ## The model
@@ -151,7 +151,7 @@ report.value("steps_scaled", scaled.iterations, "%d")
 --
 -- $$ \text{RMSE} = \sqrt{\frac{1}{N} \sum_{i=1}^{N} \varepsilon_i^2} \; . $$ {#eq:rmse}
 --
--- Do the residuals look like those of a good model?
+-- Do the residuals look like the residuals of a good model?
 
 -- %% id=residuals
 -- BEGIN SOLUTION
@@ -172,7 +172,7 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- ![Residuals of the straight line: measured minus fitted time. Neighboring residuals tend to have the same sign, and 1896 is an outlier.](figure:residuals){#fig:residuals}
+-- ![Residuals of the straight line: measured minus fitted time. Adjacent residuals tend to have the same sign, and 1896 is an outlier.](figure:residuals){#fig:residuals}
 --
 -- The RMSE is `rmse`{.value} s. @fig:residuals shows two effects that this single number hides. First, the residual of the Games of 1896 is
 -- `first_residual`{.value} s. Over all other Games, the RMSE is `rmse_later`{.value} s. Second, the signs are not random: negative residuals cluster
@@ -239,7 +239,7 @@ report.value("miss", actual - paris.value, "%.2f")
 -- ## The data
 --
 -- The second data set is the simulated response of a first-order system at rest to a unit step. It contains four samples of the output (@fig:samples)
--- and of its time derivative. Each signal is available without noise, and with white noise of standard deviation 0.05.
+-- and of its time derivative. Each signal is available without noise, and with white noise that has a standard deviation of 0.05.
 
 -- %% id=step
 local record = load("step_response")
@@ -373,15 +373,15 @@ report.table("noisy", {
 -- Estimates from the exact and from the noisy samples.
 -- :::
 --
--- Noise on four samples changes every parameter (@tbl:noisy). The discrete-time parameters change by several percent. Is this a random error of one
--- experiment, or is the least-squares estimate biased?
+-- Noise in the four samples changes every parameter (@tbl:noisy). The discrete-time parameters change by several percent. Is this a random error of
+-- one experiment, or is the least-squares estimate biased?
 -- END SOLUTION
 --
 -- **Question 8.** One noisy experiment cannot distinguish a random error from a bias. Repeat the experiment many times. First use the same four
 -- samples, five thousand times with new noise. Then simulate longer data of the same system with the model of question 6: 400 samples with the input
--- `prbs(7, 4)` and white noise of standard deviation 0.3 on the output. Repeat the discrete-time fit a thousand times. Compare the bias, which is the
--- mean of the estimates of $a_1$ minus the true value, with the scatter (standard deviation) of the estimates. How do bias and scatter depend on the
--- noise standard deviation $\sigma$ and on the number of samples $N$?
+-- `prbs(7, 4)`, and white noise with a standard deviation of 0.3 in the output. Repeat the discrete-time fit a thousand times. Compare the bias,
+-- which is the mean of the estimates of $a_1$ minus the true value, with the scatter (standard deviation) of the estimates. How do bias and scatter
+-- depend on the noise standard deviation $\sigma$ and on the number of samples $N$?
 
 -- %% id=monte_carlo
 -- BEGIN SOLUTION
@@ -447,11 +447,11 @@ report.table("law", law)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- *Four samples:* over `few_runs`{.value} repetitions, the discrete-time estimates of $a_1$ have the mean `few_dt`{.value}\ ±\ `few_dt_error`{.value}
--- (± the standard error of the mean) and the scatter `few_dt_std`{.value}. The true value is `mc_truth`{.value}. For $a$ of the continuous-time
--- model, the mean is `few_ct`{.value}\ ±\ `few_ct_error`{.value} and the scatter is `few_ct_std`{.value}. The bias is small (for $a_1$,
--- `few_dt_share`{.value} % of the scatter). The errors in @tbl:noisy are therefore random errors of a usual size: the error of $\hat a_1$ is
--- `few_dt_luck`{.value} times the scatter.
+-- *Four samples:* over `few_runs`{.value} repetitions, the discrete-time estimates of $a_1$ have a mean of
+-- `few_dt`{.value}\ ±\ `few_dt_error`{.value} (± the standard error of the mean) and a scatter of `few_dt_std`{.value}. The true value is
+-- `mc_truth`{.value}. For $a$ of the continuous-time model, the mean is `few_ct`{.value}\ ±\ `few_ct_error`{.value} and the scatter is
+-- `few_ct_std`{.value}. The bias is small (for $a_1$, `few_dt_share`{.value} % of the scatter). The errors in @tbl:noisy are therefore random errors
+-- of a usual size: the error of $\hat a_1$ is `few_dt_luck`{.value} times the scatter.
 --
 -- ![A thousand least-squares estimates of $a_1$, each from 400 samples with $\sigma = 0.3$; dashed: the true value, and the mean of the estimates. Almost no estimate reaches the true value.](figure:monte_carlo){#fig:mc}
 --
@@ -507,7 +507,7 @@ end
 -- ![The errors of a hundred least-squares estimates of $a_1$ for the $\sigma$, $N$ and $T_s$ of the cell above; dashed: zero, and their mean](figure:bias_by_hand){#fig:bias_by_hand}
 --
 -- In @fig:bias_by_hand, more samples make the histogram narrower and do not change its mean. More noise changes the width and the mean. With faster
--- sampling, successive values of the output are more alike.
+-- sampling, successive values of the output are more similar.
 
 -- %% [markdown]
 -- # What you have learned
@@ -515,7 +515,7 @@ end
 -- BEGIN SOLUTION
 -- * To fit a model that is linear in its parameters, solve one linear system. The normal equations, QR and gradient descent return the same solution.
 --   Centered and scaled regressors keep the problem well conditioned.
--- * A forecast needs a prediction interval. The interval is valid only if the model and its assumptions are correct. Test them with the residuals.
+-- * A forecast requires a prediction interval. The interval is valid only if the model and its assumptions are correct. Test them with the residuals.
 -- * The same formula fits a dynamic model when its signals form the columns of $\Phi$. A continuous-time model needs the time derivative, and a
 --   discrete-time model needs the past output.
 -- * Noise in the regressors makes the least-squares estimate biased, in proportion to $\sigma^2$. The scatter decreases with $1/\sqrt N$, but the

@@ -341,7 +341,7 @@ report.figure("linear_resid", residuals, "Residuals on the second data set")
 -- BEGIN SOLUTION
 -- STARTER: -- Not printed: report.value, report.figure and report.table for the text below.
 local function structure(poles, zeros)
-    local of_zeros = zeros == 0 and "no zero" or zeros == 1 and "1 zero" or zeros .. " zeros"
+    local of_zeros = zeros == 0 and "no zeros" or zeros == 1 and "1 zero" or zeros .. " zeros"
     return string.format("%d pole%s, %s", poles, poles > 1 and "s" or "", of_zeros)
 end
 local function p_text(p) return p < 0.001 and "< 0.001" or string.format("%.3f", p) end
@@ -901,11 +901,11 @@ report.value("dryer_gain", dcgain(H2), "%.3f")
 --
 -- $$ G(s) = \frac{b_0}{s^2 + a_1 s + a_2}\,e^{-2T_s s} $$ {#eq:solution-dryer}
 --
--- with $a_1 =$ `dryer_a1`{.value}\ ±\ `dryer_a1_std`{.value}, $a_2 =$ `dryer_a2`{.value}\ ±\ `dryer_a2_std`{.value} and $b_0 =$ `dryer_b0`{.value}\
--- ±\ `dryer_b0_std`{.value} (robust standard errors) has a gain of `dryer_gain`{.value} and lags of `dryer_slow`{.value} s and `dryer_fast`{.value}
--- s. The fit is `dryer_fit`{.value} % on the first half ($R_T^2 =$ `dryer_rt2`{.value}) and `dryer_val`{.value} % on the second half. The fits of the
--- model with one pole and three samples of delay, $a_1 =$ `dryer1_a1`{.value} and $b_0 =$ `dryer1_b0`{.value}, are `dryer1_fit`{.value} % and
--- `dryer1_val`{.value} %.
+-- with $a_1 =$ `dryer_a1`{.value}\ ±\ `dryer_a1_std`{.value}, $a_2 =$ `dryer_a2`{.value}\ ±\ `dryer_a2_std`{.value} and $b_0 =$
+-- `dryer_b0`{.value}\ ±\ `dryer_b0_std`{.value} (robust standard errors) has a gain of `dryer_gain`{.value} and lags of `dryer_slow`{.value} s and
+-- `dryer_fast`{.value} s. The fit is `dryer_fit`{.value} % on the first half ($R_T^2 =$ `dryer_rt2`{.value}) and `dryer_val`{.value} % on the second
+-- half. The fits of the model with one pole and three samples of delay, $a_1 =$ `dryer1_a1`{.value} and $b_0 =$ `dryer1_b0`{.value}, are
+-- `dryer1_fit`{.value} % and `dryer1_val`{.value} %.
 -- END SOLUTION
 --
 -- **Question 15.** Compare your model with ARX models (`arx`) with delays of two and three samples. What does the coefficient of $u(k-2)$ show?
@@ -950,9 +950,9 @@ report.value("arx_weight", 100*A2.param[3]/A2.param[4], "%.0f")
 --
 -- The coefficient of $u(k-2)$ is `arx_weight`{.value} % of the next coefficient. With an additional sample of delay, the model is better and has the
 -- same number of parameters (@tbl:dryer_arx). Three samples in the ARX model correspond to two samples in @eq:solution-dryer. The reason is that a
--- zero-order-hold input affects the sampled output one sample later at the earliest. The noise of this plant seems to pass through the poles of the
--- plant, as `arx` assumes. Therefore, unlike in the first example, the `arx` model is good: estimated from the first half, its simulation fit on the
--- second half is `arx3_half`{.value} %. The fit of `arx3_prediction`{.value} % for one-step-ahead prediction contains little information.
+-- zero-order-hold input affects the sampled output one sample later at the earliest. The noise of this plant seems to be white noise that is filtered
+-- by $1/A$, as `arx` assumes. Therefore, unlike in the first example, the `arx` model is good: estimated from the first half, its simulation fit on
+-- the second half is `arx3_half`{.value} %. The fit of `arx3_prediction`{.value} % for one-step-ahead prediction contains little information.
 -- END SOLUTION
 --
 -- ## Validation and conclusion
@@ -1017,11 +1017,11 @@ report.value("dryer_robust", max(H2.robust_std/H2.std), "%.1f")
 -- not reject this model, but a test at the 95 % level does. The disturbances are colored, so the standard errors that assume white noise are too
 -- small, by factors of up to `dryer_robust`{.value}. `present` therefore prints robust standard errors.
 --
--- *A noise model:* `rivc` estimates two poles together with an autoregressive model of the noise, with a pole at `dryer_ar`{.value}\ ±\
--- `dryer_ar_std`{.value}. With this noise model, the one-step-ahead prediction error is white ($p =$ `dryer_noise_white`{.value}). However, the
--- prediction error is still correlated with the input ($p$ `dryer_noise_input`{.value}). The simulation of the second half is not better
--- (`dryer_noise_val`{.value} % compared with `dryer_val_short`{.value} %). A noise model describes the disturbance and improves predictions. It does
--- not add missing dynamics.
+-- *A noise model:* `rivc` estimates two poles together with an autoregressive model of the noise, with a pole at
+-- `dryer_ar`{.value}\ ±\ `dryer_ar_std`{.value}. With this noise model, the one-step-ahead prediction error is white ($p =$
+-- `dryer_noise_white`{.value}). However, the prediction error is still correlated with the input ($p$ `dryer_noise_input`{.value}). The simulation of
+-- the second half is not better (`dryer_noise_val`{.value} % compared with `dryer_val_short`{.value} %). A noise model describes the disturbance and
+-- improves predictions. It does not add missing dynamics.
 --
 -- *Conclusion:* use two poles and a delay of `dryer_two_td`{.value} s for simulation and for controller design. The first tenths of a second may
 -- require three poles. To test this hypothesis, do an experiment with faster switching and sampling. The fit alone does not reveal this question.

@@ -1,6 +1,6 @@
 -- ---
 -- title: Continuous-time models from noisy data
--- subtitle: Lesson 4 – LSSVF, IVSVF and TFSRIVC on a system that is known
+-- subtitle: Lesson 4 – LSSVF, IVSVF and TFSRIVC on a known system
 -- lesson: 04_estimators
 -- template: lesson
 -- language: en
@@ -19,8 +19,8 @@
 -- %% [markdown]
 -- Three methods estimate a differential equation directly from samples [@garnier2008]: least squares on filtered signals (LSSVF), the same regression
 -- with instruments (IVSVF), and the refined instrumental variables of TFSRIVC [@young2011]. Which of these methods can you trust? For a real plant,
--- the answer is unknown. All data of this lesson are therefore simulated. The system is given, and the computer generates the noise. You can
--- therefore compare the estimates with the true parameters, first for one data set and then for two hundred.
+-- the answer is unknown. Therefore, all data in this lesson are simulated. The system is given, and the computer generates the noise. You can compare
+-- the estimates with the true parameters, first for one data set and then for two hundred data sets.
 --
 -- `dynlab demo` shows the methods in short guided tours. Run one of the tours before you start, or at any later time.
 --
@@ -45,8 +45,8 @@
 -- **Question 1.** Which model structure does @eq:system have: CARX, COE or CBJ? (CARX: $A\,y = B\,u + e$; COE: $y = \frac{B}{F}\,u + e$; CBJ: $y = \frac{B}{F}\,u + \frac{C}{D}\,e$.)
 --
 -- BEGIN SOLUTION
--- The structure is COE, a continuous-time output-error structure. The disturbance is added to the output. It does not pass through $1/F_o$, as in
--- CARX, or through a separate noise model, as in CBJ.
+-- The structure is COE, a continuous-time output-error structure. The white disturbance is added to the output. In a CARX structure, the disturbance
+-- would be filtered by $1/A$. In a CBJ structure, it would be filtered by $C/D$.
 -- END SOLUTION
 --
 -- **Question 2.** Determine the main properties of the system: steady-state gain, poles, time constants, corner frequencies and bandwidth.
@@ -107,19 +107,19 @@ print(string.format("signal-to-noise ratio: %.1f dB", snr))
 -- ![The data. Above: the measured output (thin) and the noise-free output (thick), which is not available in a real experiment. Below: the input.](figure:record){#fig:record}
 --
 -- The quality of these data is low on purpose (@fig:record). Between two samples, the output changes much less than the noise. The signal-to-noise
--- ratio of 5 dB is typical of noisy industrial data. Assume that the orders are known: two poles and no zero. Question 16 tests this assumption.
+-- ratio of 5 dB is typical of noisy industrial data. Assume that the orders are known: two poles and no zeros. Question 16 tests this assumption.
 --
 -- # Least squares on filtered signals, by hand
 --
 -- ## The regression
 --
--- Take the CARX model $A(p)\,y(t) = B(p)\,u(t) + e(t)$ with $A(p) = p^2 + a_1 p + a_2$ and $B(p) = b_0$. The derivatives are not measured, and
+-- Consider the CARX model $A(p)\,y(t) = B(p)\,u(t) + e(t)$ with $A(p) = p^2 + a_1 p + a_2$ and $B(p) = b_0$. The derivatives are not measured, and
 -- numerical differentiation would amplify the noise. Therefore, first pass every signal through the same filter,
 --
 -- $$ y_f(t) = \frac{1}{E(p)}\,y(t), \qquad u_f(t) = \frac{1}{E(p)}\,u(t), \qquad E(p) = (p + \lambda)^2 , $$ {#eq:filter}
 --
--- where $\lambda$ is the cutoff frequency. The state of this filter contains $y_f$, $p\,y_f$ and $p^2 y_f$ without any differentiation, so it is
--- called the *state-variable filter*.
+-- where $\lambda$ is the cutoff frequency. This filter provides $y_f$, $p\,y_f$ and $p^2 y_f$ without any differentiation. It is called the
+-- *state-variable filter*.
 --
 -- **Question 3.** Write the model for the $N$ samples as a linear regression in matrix form, and state the sizes of the matrices. What is the
 -- least-squares solution?
@@ -229,9 +229,9 @@ report.table("repetitions", rows)
 --
 -- $$ \varepsilon(t) = \frac{A(p)}{E(p)}\,e(t) , $$ {#eq:solution-color}
 --
--- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same $e$ with another filter. The regressors and the equation error are correlated, as in
--- the long noisy data at the end of lesson 2. More samples would not help: the bias depends on the variance of the noise, not on the number of
--- samples.
+-- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same noise $e$, filtered differently. The regressors and the equation error are
+-- correlated, as in the long noisy data at the end of lesson 2. More samples would not help: the bias depends on the variance of the noise, not on
+-- the number of samples.
 -- END SOLUTION
 --
 -- ## The library's LSSVF
@@ -265,7 +265,7 @@ report.value("agreement", math.max(largest_relative(own0, Glssvf0.param), larges
 --
 -- ## IVSVF
 --
--- To remove the bias, keep the regression of question 3, but solve it in another way. Instead of $\Phi^T Y = \Phi^T\Phi\,\theta$, solve
+-- To remove the bias, keep the regression of question 3, but solve it differently. Instead of $\Phi^T Y = \Phi^T\Phi\,\theta$, solve
 --
 -- $$ Z^T Y = Z^T\Phi\,\theta , $$ {#eq:iv}
 --
@@ -296,8 +296,8 @@ report.value("iv_miss", 100*largest_relative(Givsvf.param, truth), "%.0f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- The largest parameter error is `ls_miss`{.value} % for LSSVF and `iv_miss`{.value} % for IVSVF. The model that generates the instruments is biased,
--- but this is not a problem. The instruments must only be independent of the noise and correlated with the regressors. The estimates of the three
--- lines agree with the library (`iv_agreement`{.value} relative difference).
+-- but this is not a problem. The instruments must only be independent of the noise and correlated with the regressors. The estimates of your IVSVF
+-- agree with the library (`iv_agreement`{.value} relative difference).
 -- END SOLUTION
 --
 -- ## The choice of λ
@@ -365,7 +365,7 @@ report.value("many_runs", near_best.runs, "%d")
 -- that the method reported.
 -- :::
 --
--- ![IVSVF with three filters, 200 estimates each: $\hat a_2$ over $\hat a_1$. Above: all estimates. Below: the center enlarged, with the true value (4, 3) and the ellipse that contains 95 % of the estimates of the best possible unbiased method. Only the estimates for $\lambda = 3$ are close to the ellipse.](figure:lambda){#fig:lambda}
+-- ![IVSVF with three filters, 200 estimates each: $\hat a_2$ versus $\hat a_1$. Above: all estimates. Below: an enlarged view of the center, with the true value (4, 3). The ellipse contains 95 % of the estimates of the best possible unbiased method. Only the estimates for $\lambda = 3$ are close to the ellipse.](figure:lambda){#fig:lambda}
 --
 -- IVSVF is very sensitive to $\lambda$ (@tbl:lambda, @fig:lambda). Over `runs`{.value} data sets, the scatter of $\hat a_1$ is `low_ratio`{.value}
 -- times larger with $\lambda = 0.3$ and `high_ratio`{.value} times larger with $\lambda = 30$ than with $\lambda = 3$. For some data sets, the
@@ -395,13 +395,14 @@ report.figure("color", weights, "How the filter colors the equation error")
 -- BEGIN SOLUTION
 -- ![How the filter colors the equation error: the magnitude $|A/E|$, which multiplies white measurement noise, for three values of $\lambda$ (solid: 3 rad/s) and for the optimal filter, $E = A$, for which the equation error is white](figure:color){#fig:color}
 --
--- The regression weights all samples of $\varepsilon$ equally, which is optimal if $\varepsilon$ is white. By @eq:solution-color, $\varepsilon$ is
--- the white noise $e$ filtered by $A/E$ (@fig:color). With $\lambda = 0.3$, the low-frequency part of the noise dominates. The response of the filter
--- is so slow that the data contain little more than its transient. With $\lambda = 30$, nearly all of the noise is at frequencies where the system no
--- longer responds, and it hides the information about the slow pole. Of the three values, $\lambda = 3$ is closest to a constant magnitude. The
--- magnitude is constant for $E = A$: the optimal filter is $1/A$, with the denominator of the system. Among the filters $(p+\lambda)^2$, the one
--- nearest to $A = p^2 + 4p + 3$ has $\lambda = \sqrt 3 \approx 1.7$, where the constant terms agree. Over `many_runs`{.value} data sets, the scatter
--- of $\hat a_1$ is `root_std`{.value} for this filter and `three_std`{.value} for $\lambda = 3$. $A$ is unknown, but an iteration can approximate it.
+-- The regression weights all samples of $\varepsilon$ equally, which is optimal if $\varepsilon$ is white. According to @eq:solution-color,
+-- $\varepsilon$ is the white noise $e$ filtered by $A/E$ (@fig:color). With $\lambda = 0.3$, the low-frequency part of the noise dominates. The
+-- response of the filter is so slow that the data contain little more than its transient. With $\lambda = 30$, nearly all of the noise is at
+-- frequencies where the system no longer responds, and it hides the information about the slow pole. Of the three magnitudes, the magnitude for
+-- $\lambda = 3$ is closest to a constant. The magnitude is constant for $E = A$: the optimal filter is $1/A$, with the denominator of the system.
+-- Among the polynomials $(p+\lambda)^2$, the polynomial with $\lambda = \sqrt 3 \approx 1.7$ is nearest to $A = p^2 + 4p + 3$, because the constant
+-- terms agree. Over `many_runs`{.value} data sets, the scatter of $\hat a_1$ is `root_std`{.value} for this filter and `three_std`{.value} for
+-- $\lambda = 3$. $A$ is unknown, but an iteration can approximate it.
 -- END SOLUTION
 --
 -- # Refined instrumental variables
@@ -471,7 +472,7 @@ report.value("possible_fit", fit(data, Go), "%.1f")
 --
 -- # Two hundred data sets
 --
--- **Question 11.** With a single data set, a method can look good by chance. Repeat the experiment 200 times with $\sigma = 0.2$ for the three
+-- **Question 11.** With a single data set, a method can appear accurate by chance. Repeat the experiment 200 times with $\sigma = 0.2$ for the three
 -- methods. Use $\lambda = 3$ for LSSVF and IVSVF. Which methods are biased? Which method has the smallest scatter? Are the reported standard errors
 -- correct?
 
@@ -587,20 +588,20 @@ report.value("tf_failures", high.TFSRIVC.failed + high.TFSRIVC.not_converged, "%
 -- $\sigma = 0.4$: mean and standard deviation. @tbl:low explains the columns.
 -- :::
 --
--- ![$\hat b_0$ over $\hat a_1$ from 200 data sets with $\sigma = 0.4$, one panel for each method; marked: the true value. The ellipse would contain 95 % of the estimates of the best unbiased method. The cloud of LSSVF is outside the ellipse.](figure:scatter){#fig:scatter}
+-- ![$\hat b_0$ versus $\hat a_1$ from 200 data sets with $\sigma = 0.4$, one panel for each method; marked: the true value. The ellipse would contain 95 % of the estimates of the best unbiased method. The cloud of LSSVF is outside the ellipse.](figure:scatter){#fig:scatter}
 --
 -- The bias of LSSVF grows from `ls_low`{.value} % of $a_1$ to `ls_high`{.value} % (@tbl:high), by a factor of `ls_growth`{.value}. A factor of four
 -- is the natural prediction, because the bias comes from the variance of the noise. However, the noise also affects the inverse matrix. For many
 -- samples, the least-squares estimate converges to $(R + \sigma^2 E)^{-1} R\,\theta$ instead of $\theta$. $R$ and $E$ are the covariances of the
 -- noise-free regressors and of their noise for $\sigma = 1$ (lesson 2). The bias is proportional to $\sigma^2$ only if $\sigma^2 E$ is small compared
--- with $R$. For more noise, the bias saturates, and it never exceeds 100 %. The means of IVSVF and TFSRIVC stay near the true values. Their scatter
+-- with $R$. For more noise, the bias saturates, and it never exceeds 100 %. The means of IVSVF and TFSRIVC remain near the true values. Their scatter
 -- grows with the noise, for TFSRIVC by a factor of `tf_growth`{.value}. The number of data sets for which TFSRIVC did not converge is
 -- `tf_failures`{.value}. @fig:scatter also shows that the errors of $\hat a_1$ and $\hat b_0$ are correlated. If the model is too fast, $\hat b_0$ is
 -- also too large, so the gain $b_0/a_2$, which the data determine well, is correct.
 -- END SOLUTION
 --
--- **Question 13.** LSSVF needs an assumption about the measured output between the samples: piecewise linear (`hold_y = "foh"`, as in your program)
--- or constant (`hold_y = "zoh"`). Does its bias depend on this assumption?
+-- **Question 13.** LSSVF requires an assumption about the measured output between the samples: piecewise linear (`hold_y = "foh"`, as in your
+-- program) or constant (`hold_y = "zoh"`). Does its bias depend on this assumption?
 
 -- %% id=hold
 -- BEGIN SOLUTION
@@ -653,12 +654,12 @@ report.table("holds", hold_rows)
 
 -- %% id=discrete
 -- BEGIN SOLUTION
-print("poles of the sampled truth:", pole(c2d(Go, Ts)))
+print("poles of the sampled true system:", pole(c2d(Go, Ts)))
 print("arx without noise, converted, F:", d2c(arx(data0, {2, 2, 1})).den)
 
 local Garx, Goe = arx(data, {2, 2, 1}), oe(data, {2, 2, 1})
-print("poles found by arx:", pole(Garx))
-print("poles found by oe: ", pole(Goe))
+print("poles of the arx model:", pole(Garx))
+print("poles of the oe model: ", pole(Goe))
 print("d2c can convert the noisy arx model:", (pcall(d2c, Garx)))
 local t = linspace(0, 6, 601)
 local answers = plot(t, step(Go, t), "truth", t, step(Garx, t), "arx",
@@ -703,7 +704,7 @@ local discrete = study(sigma, {
         return d2c(oe(d, {2, 2, 1}, {InitialState = "none", Offset = "none"}))
     end},
 })
-print(string.format("d2c refused %d of the %d arx models", refused, discrete.runs))
+print(string.format("d2c failed for %d of %d arx models", refused, discrete.runs))
 
 -- arx estimates of a1 from 100 data sets, for the models that d2c can convert
 local function arx_a1(period, snr)
@@ -763,26 +764,26 @@ report.table("grid", grid)
 -- than 90 of the models can be converted, the table contains the number of these models. The true value is 4.
 -- :::
 --
--- Both are causes, but mainly the noise (@tbl:grid). At 5 dB, as in these data, no sampling time helps: the regressors contain the noise of $y$, as
--- in LSSVF, but no filter attenuates it. At 25 dB, models from slower sampling can be converted, but they are strongly biased. The sampling time
--- matters only if there is almost no noise: at 45 dB, `arx` fails at 0.01 s and is almost correct from 0.2 s on. The relevant ratio is the noise
--- relative to the change of the output from one sample to the next. The solution is the correct noise model, not another sampling time.
+-- Both contribute, but the noise is the main cause (@tbl:grid). At 5 dB, as in these data, no sampling time helps: the regressors contain the noise
+-- of $y$, as in LSSVF, but no filter attenuates it. At 25 dB, models from data with slower sampling can be converted, but they are strongly biased.
+-- The sampling time matters only if there is almost no noise: at 45 dB, `arx` fails at 0.01 s and is almost correct from 0.2 s on. The relevant ratio
+-- is the noise relative to the change of the output from one sample to the next. The solution is the correct noise model, not another sampling time.
 --
 -- ::: {.table name=discrete #tbl:discrete}
 -- $\sigma = 0.2$: mean over 200 data sets and, in parentheses, the standard deviation.
 -- :::
 --
 -- Like TFSRIVC, `oe` minimizes the simulation error, and its estimates are close to the true system. However, a sampled second-order system always
--- has two coefficients of the input (@eq:sampled), even if the differential equation has no zero. A discrete-time model cannot represent a constant
--- numerator and must estimate the second coefficient. As a result, the scatter of $\hat a_1$ is `oe_more`{.value} times as large (@tbl:discrete). In
--- addition, faster sampling moves the poles closer to $z = 1$, so the information about the time constants is in the last digits of the coefficients.
--- A continuous-time model has the same meaning for every sampling time.
+-- has two coefficients of the input (@eq:sampled), even if the continuous-time system has no zeros. A discrete-time model cannot represent a constant
+-- numerator and must estimate the second coefficient. As a result, the scatter of $\hat a_1$ is `oe_more`{.value} times the scatter of TFSRIVC
+-- (@tbl:discrete). In addition, faster sampling moves the poles closer to $z = 1$, so the information about the time constants is in the last digits
+-- of the coefficients. A continuous-time model has the same meaning for every sampling time.
 -- END SOLUTION
 --
 -- # How many poles?
 --
 -- **Question 16.** So far, the orders were known. `srivcstruc` estimates models of several orders and recommends one. Does it select two poles and no
--- zero from the data?
+-- zeros from the data?
 
 -- %% id=orders
 -- BEGIN SOLUTION
@@ -845,7 +846,7 @@ do
 end
 
 -- %% [markdown]
--- ![For the $\lambda$ of the cell above: left, the magnitude $|A/E|$ by which the filter colors the equation error; right, $\hat b_0$ over $\hat a_1$ from sixty data sets, and the ellipse that would contain 95 % of the estimates of the best unbiased method](figure:lambda_by_hand){#fig:lambda_by_hand}
+-- ![For the $\lambda$ of the cell above: left, the magnitude $|A/E|$ by which the filter colors the equation error; right, $\hat b_0$ versus $\hat a_1$ from sixty data sets, and the ellipse that would contain 95 % of the estimates of the best unbiased method](figure:lambda_by_hand){#fig:lambda_by_hand}
 
 -- %% [markdown]
 -- ## The same study in the workbench
@@ -864,15 +865,16 @@ end
 -- BEGIN SOLUTION
 -- * State-variable filters turn a differential equation into a linear regression without differentiation. LSSVF solves this regression by least
 --   squares. The estimate is accurate without noise and biased with noise, and the bias grows with the noise.
--- * Instruments that are independent of the noise remove the bias for many samples: the estimates are consistent. The scatter of IVSVF still depends
---   on the filter that you choose. With an unsuitable filter and few samples, the scatter is so large that even the mean is wrong.
+-- * Instruments that are independent of the noise remove the bias if the number of samples is large: the estimates are consistent. The scatter of
+--   IVSVF still depends on the filter that you choose. With an unsuitable filter and few samples, the scatter is so large that even the mean is
+--   wrong.
 -- * TFSRIVC determines the filter in a few iterations. For these data, there is no significant bias, the scatter is close to the Cramér–Rao bound,
 --   and the reported standard errors are correct.
 -- * You cannot assess a method with a single data set. Repeat the experiment in simulation, compute the mean *and* the scatter, and compare them with
 --   the true value and the Cramér–Rao bound [@ljung1999, section 7.4].
--- * `arx` assumes noise that passes through the poles. With noise added to the output, the `arx` estimate is biased at every sampling time. The
---   faster the sampling, the less noise makes the estimate useless. Output-error models in discrete or continuous time do not have this problem. For
---   continuous-time models, fast sampling is an advantage.
+-- * `arx` assumes white noise that is filtered by $1/A$. With noise added to the output, the `arx` estimate is biased at every sampling time. With
+--   faster sampling, a smaller amount of noise is sufficient to make the estimate useless. Output-error models in discrete or continuous time do not
+--   have this problem. For continuous-time models, fast sampling is an advantage.
 -- END SOLUTION
 --
 -- # What you submit

@@ -57,7 +57,7 @@ check { id = "dead_band", points = 2, about = "The ends of the dead band",
         {when = function(a) return a.dead_band[1] - a.dead_band[2] < 20 end,
          say = "The dead band is almost zero: a linear model has no dead band, but the thruster has one."},
     },
-    hint = "Plot the square root of the thrust over the pulse width. At which widths does it reach zero?" }
+    hint = "Plot the square root of the thrust versus the pulse width. At which widths does it reach zero?" }
 
 check { id = "delay", points = 2, about = "The delay of the thruster",
     -- Models with a static curve and one lag, estimated from the sine chirps, were accurate to 4 ms on six thrusters.

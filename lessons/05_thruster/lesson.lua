@@ -193,9 +193,9 @@ report.figure("switching", figure{width = 14.4, height = 4.6, columns = 2, panel
 -- END SOLUTION
 
 -- %% [markdown]
--- **Question 5.** Plot thrust over pulse width: apply the same filter to both signals, use the slow part of the sine chirps, and average in bins.
--- Where does the dead band end? How do forward and reverse thrust differ? Also plot the square root of the thrust. Which shape does it have outside
--- the dead band, and how does physics explain this shape?
+-- **Question 5.** Plot the thrust versus the pulse width: apply the same filter to both signals, use the slow part of the sine chirps, and average in
+-- bins. Where does the dead band end? How do forward and reverse thrust differ? Also plot the square root of the thrust. Which shape does it have
+-- outside the dead band, and how does physics explain this shape?
 
 -- %% id=curve
 -- BEGIN SOLUTION
@@ -449,7 +449,7 @@ report.figure("curve", figure{rows = 2, width = 8.8, height = 6.7, panels = {
     curve_panel{legend = "above", x_range = {-300, 300}},
     curve_panel{legend = "none", x_range = {-120, 120}, y_range = {-4, 4}, references = {{x = -truth.dead_band}, {x = truth.dead_band}},
                 xlabel = say("width, from neutral (µs)", "largeur, depuis le neutre (µs)")}}},
-    say("Thrust over pulse width, and an enlarged view around neutral", "Poussée selon la largeur d'impulsion, et autour du neutre"))
+    say("Thrust versus pulse width, and an enlarged view around neutral", "Poussée selon la largeur d'impulsion, et autour du neutre"))
 
 for _, shape in ipairs(shapes) do
     for _, kind in ipairs(order_list) do

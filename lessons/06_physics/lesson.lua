@@ -309,14 +309,13 @@ report.value("wide_creep", wide.dry/deltas[2], "%.0f")
 -- the results on data for which the term matters. `validation` cannot show the difference, because the trolley almost never stops in these data.
 --
 -- *The parameters* have units, so you can compare them with other experiments, and in this simulation with the true values. In `estimation`, the
--- trolley almost never stops. Over the four data sets, the dry friction has the mean `dry_mean`{.value} V and the scatter `dry_scatter`{.value} V.
+-- trolley almost never stops. Over the four data sets, the dry friction has a mean of `dry_mean`{.value} V and a scatter of `dry_scatter`{.value} V.
 -- The standard errors are `dry_error`{.value} V on average. The estimate from `steps` is `steps_dry`{.value} V, because a trolley that stops contains
 -- information about the friction. This estimate is still `steps_off`{.value} standard errors below the true value. The error of the length is a
 -- fraction of a millimeter, which is `length_off`{.value} standard errors. A standard error describes the effect of white noise on an estimate if the
 -- equations are correct. These equations are only approximately correct: static friction is larger than sliding friction, the belt is elastic, and
--- the motor has an inductance. The standard error of `dry/gain` follows from
--- $\operatorname{var}(\mu/g_u) \approx \left(\operatorname{var}\mu - 2r\operatorname{cov}(\mu, g_u) + r^2\operatorname{var} g_u\right)/g_u^2$ with
--- $r = \mu/g_u$.
+-- the motor has an inductance. The standard error of `dry/gain` follows from $\operatorname{var}(\mu/g_u) \approx \left(\operatorname{var}\mu -
+-- 2r\operatorname{cov}(\mu, g_u) + r^2\operatorname{var} g_u\right)/g_u^2$ with $r = \mu/g_u$.
 -- END SOLUTION
 --
 -- # Two tanks

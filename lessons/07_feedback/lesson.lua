@@ -47,7 +47,7 @@
 -- $$ u_k = 0.12\,e_{k-1} + 0.6\,T_s \sum_{i<k} e_i , \qquad e = r - y . $$ {#eq:controller}
 --
 -- The computational delay is one sample, so the controller uses $e_{k-1}$ and not $e_k$. From voltage to speed, the physical model has two poles, for
--- the current and for the speed, and no zero,
+-- the current and for the speed, and no zeros,
 --
 -- $$ G(p) = \frac{b_0}{p^2 + a_1 p + a_2} . $$ {#eq:plant}
 
@@ -64,8 +64,8 @@ end
 print(pair(track))
 
 -- %% [markdown]
--- **Question 1.** Plot reference, voltage and speed of `tracking` next to those of `regulation`. In `regulation`, the reference does not excite the
--- loop. What causes the changes of the voltage?
+-- **Question 1.** Plot the reference, the voltage and the speed of `tracking` next to the same signals of `regulation`. In `regulation`, the
+-- reference does not excite the loop. What causes the changes of the voltage?
 
 -- %% id=signals
 -- BEGIN SOLUTION
@@ -396,10 +396,10 @@ present(Gcl)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- The gain is `cl_gain`{.value}. The message reports that the controller responds without an additional delay; the factor $1/z$ of $C$ is the
--- computational delay of one sample. dynlab prints a warning if $C$ does not reproduce the measured voltage from reference and output. There is no
--- warning for these data. If the model is correct, the instruments from the simulated loop are the noise-free signals. As in SRIVC, the filter
--- follows from the model, so you do not have to choose $\lambda$.
+-- The gain is `cl_gain`{.value}. The message of the estimator reports that the controller responds without an additional delay; the factor $1/z$ of
+-- $C$ is the computational delay of one sample. dynlab prints a warning if $C$ does not reproduce the measured voltage from reference and output.
+-- There is no warning for these data. If the model is correct, the instruments from the simulated loop are the noise-free signals. As in SRIVC, the
+-- filter follows from the model, so you do not have to choose $\lambda$.
 -- END SOLUTION
 --
 -- ## Third method: two stages

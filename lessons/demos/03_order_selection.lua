@@ -4,10 +4,10 @@
 -- ---
 
 -- %% [markdown]
--- With more parameters, a model always fits its estimation data better, and finally
--- fits even the noise. How many parameters are appropriate? In this demo, the true
--- system has 3 poles and 1 zero. A second data set with new noise is used for
--- validation.
+-- With more parameters, a model always fits its estimation data better, and
+-- eventually fits even the noise. How many parameters are appropriate? In this
+-- demo, the true system has 3 poles and 1 zero. A second data set with new noise is
+-- used for validation.
 
 -- %% id=data
 local s = tf("s")

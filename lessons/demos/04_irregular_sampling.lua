@@ -1,5 +1,5 @@
 -- ---
--- title: Samples taken whenever it suits
+-- title: Irregularly sampled data
 -- template: lesson
 -- ---
 

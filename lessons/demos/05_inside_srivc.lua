@@ -5,8 +5,8 @@
 
 -- %% [markdown]
 -- srivc is an iterative method, but it needs no initial values. This demo shows its
--- iterations. The process is 2/(s^2 + 4 s + 3), sampled every 10 ms with much
--- noise.
+-- iterations. The process is 2/(s^2 + 4 s + 3), sampled every 10 ms with a high
+-- noise level.
 
 -- %% id=data
 local s = tf("s")
@@ -21,8 +21,8 @@ idplot(data)
 -- Derivatives of noisy data are useless. Therefore, filter both sides of the
 -- equation, and use the derivatives of the filtered signals. Least squares with
 -- these signals (lssvf) is fast but biased, because the regressors contain the
--- noise that the filter passes. This filter (10 rad/s) passes much noise: compare
--- the estimates with the true parameters 4, 3 and 2.
+-- noise that the filter passes. This filter (10 rad/s) passes a large part of the
+-- noise: compare the estimates with the true parameters 4, 3 and 2.
 
 -- %% id=least_squares
 local first = lssvf(data, {2, 1, 0}, 10)

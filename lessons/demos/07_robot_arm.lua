@@ -27,10 +27,10 @@ print(string.format("predicts to %.1f %%, simulates to %.1f %%",
                     A.report.prediction_fit_percent, A.report.fit_percent))
 
 -- %% [markdown]
--- The simulation is useless: with such fast sampling, the last samples are enough
--- to predict the next sample. Therefore, minimize the simulation error, with six
--- poles. By default, `srivc` selects the treatment of the initial state. Here, the
--- model starts from rest.
+-- The simulation is useless: with such fast sampling, the last samples are
+-- sufficient to predict the next sample. Therefore, minimize the simulation error,
+-- with six poles. By default, `srivc` selects the treatment of the initial state.
+-- Here, the arm is assumed to be initially at rest.
 
 -- %% id=from_rest
 local G0 = srivc(first, {6, 6, 0}, {InitialState = "none", Offset = "none"})
@@ -73,5 +73,6 @@ print(fits(N))
 print(string.format("predicts the second half to %.1f %%", fit(second, N, {k = 1})))
 
 -- %% [markdown]
--- A simulation fit of 97 % to validation data means more than 98 % to estimation
--- data. Both mean more than the fit of the one-step-ahead prediction.
+-- A simulation fit of 97 % to validation data is more meaningful than a fit of 98 %
+-- to estimation data. Both are more meaningful than the fit of the one-step-ahead
+-- prediction.
