@@ -41,7 +41,7 @@ addWords({
   hints: trPlural("{} hint", "{} hints"), points: tr("{} of {} points"),
   older: tr("results for the files before the last change; checking again"),
   notGiven: tr("Missing answers"), toMend: tr("To fix"), remarks: tr("Hints"),
-  checksOfLesson: tr("Checks of the lesson: {}"), nothingToMend: tr("dynlab check finds no problem."),
+  checksOfLesson: tr("Checks of the lesson: {}"), nothingToMend: tr("dynlab check found no problems."),
   // The kinds of answers, as a script's header names them
   number: trIn("kind of answer", "number"), text: trIn("kind of answer", "text"), truth: trIn("kind of answer", "truth"),
   vector: trIn("kind of answer", "vector"), matrix: trIn("kind of answer", "matrix"), data: trIn("kind of answer", "data"),

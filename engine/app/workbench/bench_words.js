@@ -9,7 +9,7 @@ addWords({
   course: tr("course data and files here"), role: tr("role"), unit: tr("unit"), input: tr("input"), output: tr("output"),
   time: tr("time"), unused: tr("not used"), sampling: tr("sampling time (s)"), asFile: tr("as in the file"),
   take: tr("Use these data"), second: tr("Use for validation only"), experiment: tr("Experiment"),
-  advice: tr("Advice"), clean: tr("No problem found. You can fit a model."), show: tr("show"), remove: tr("Delete"),
+  advice: tr("Advice"), clean: tr("No problems were found. You can fit a model."), show: tr("show"), remove: tr("Delete"),
   off: trIn("step", "on"), up: tr("Earlier"), down: tr("Later"), divide: tr("Split 60 : 40"),
   whole: tr("All data for both"),
   predicts: tr("This method minimizes the one-step prediction error; the fits and figures here show the simulation, which uses no measured output."),

@@ -70,7 +70,7 @@ int hidden(Call& call) {
     }
     throw InvalidArgument(
         "unknown hidden data set \"{}\": specify a simulated experiment, a plant that the checks declare, or a file in "
-        "the checks' folder hidden",
+        "the folder \"hidden\" of the checks",
         name);
 }
 

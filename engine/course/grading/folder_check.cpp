@@ -72,7 +72,7 @@ Message sentence_about_missing(const ExpectedAnswer& answer) {
 Message remedy_for(const UnplacedEntries& entries) {
     const std::string& name = entries.names.front();
     if (entries.kind == UnplacedEntries::Kind::kTable)
-        return Message("Write ::: {.table name={}} above its caption and ::: below its caption.", name);
+        return Message("Write ::: {.table name={}} above the caption of the table and ::: below the caption.", name);
     if (entries.kind == UnplacedEntries::Kind::kText)
         return Message("Write ::: {.text name={}} and, on a later line, :::.", name);
     return Message("Write {} in the text.", entries.slot());

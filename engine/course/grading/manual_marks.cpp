@@ -46,7 +46,7 @@ class MarkedItems {
     Found find(const std::string& who) const {
         Found found;
         if (who.empty()) {
-            found.error_reason = Message("the row has points but no name; fill in the column who");
+            found.error_reason = Message("the row has points but no name; fill in the column \"who\"");
             return found;
         }
         const auto take = [&](const auto& fits) {

@@ -132,7 +132,7 @@ class SubmissionReceiver {
         candidate.group = *group;
         if (!file.left_out.empty()) return;
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMaxByteCount)
-            throw EnvironmentError("the file has more than {} MB", kMaxByteCount >> 20);
+            throw EnvironmentError("the file is larger than {} MB", kMaxByteCount >> 20);
         RecognizedFile found = recognize(file, outcome_.assignment, request_.stage);
         candidate.part = found.part, candidate.name = terminal_line(found.name), candidate.remark = found.remark;
         candidate.unreadable = found.text;

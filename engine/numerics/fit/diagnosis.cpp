@@ -91,8 +91,8 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
 void check_sampled_data(const std::string& method, const IdData& data) {
     if (data.input_count() > 0 && !data.regular())
         throw InvalidArgument(
-            "{} needs regularly sampled data, but these data are irregular: interpolate them to equal steps first "
-            "(interp1)",
+            "{} needs regularly sampled data, but these data are sampled irregularly: interpolate them at equally "
+            "spaced instants first (interp1)",
             method);
     check_signals(method, data);
 }
@@ -163,7 +163,7 @@ Message instability_of_only_channel(UnstableAdvice advice) {
         default:
             return Message(
                 "The model is unstable. Unless the system is also unstable, check the controller, the orders and the "
-                "cut-off frequency.");
+                "cutoff frequency.");
     }
 }
 

@@ -109,8 +109,8 @@ Message explanation_of(const DelaySearch& search, const IdData& data, bool repor
     const Vector& errors = search.candidate.estimate.std;
     if (search.rival && !std::isinf(errors[errors.size() - 1]))  // else a warning of the estimate says so
         all.push_back(
-            Message("A delay of {} s explains the data nearly as well. Inspect the loss over the delay, and use your "
-                    "knowledge of the plant.",
+            Message("A delay of {} s explains the data nearly as well. Inspect the loss as a function of the delay, "
+                    "and use your knowledge of the plant.",
                     *search.rival));
     for (const Message& warning : search.candidate.estimate.warnings) all.push_back(warning);
     return sentences(std::move(all));

@@ -70,8 +70,8 @@ double range_of(const Vector& x) {
 /// A constant input other than zero may be a step with which the record begins.
 void find_step_at_the_start(const Channel& channel, std::vector<DataIssue>& findings) {
     findings.push_back(about(channel, "step_input", Weight::kNote,
-                             Message("{} stays at {} throughout: this is a step experiment if the input was switched "
-                                     "on with the first sample and the output started from rest. Such data determine "
+                             Message("{} stays at {} throughout. If the input was switched on with the first sample "
+                                     "and the output started from rest, this is a step experiment: the data determine "
                                      "the gain, the dead time and one or two time constants.",
                                      subject(channel), value_of(channel, channel.x[0])),
                              0));
@@ -300,21 +300,21 @@ Index changes_of(const Vector& u) {
 /// Of an input that changes so often only.
 Message few_changes(const Channel& channel, Index changes) {
     return changes == 1 ? Message(
-                              "{} changes only once: a step experiment. Such data determine the gain, the dead time "
-                              "and one or two time constants (procsrivc, step_first_order); for higher orders, excite "
-                              "the system with a prbs.",
+                              "{} changes only once, as in a step experiment. These data determine the gain, the dead "
+                              "time and one or two time constants (procsrivc, step_first_order). For higher orders, "
+                              "excite the system with a PRBS (prbs).",
                               subject(channel))
                         : Message(
-                              "{} changes only {} times: a step experiment. Such data determine the gain, the dead "
-                              "time and one or two time constants (procsrivc, step_first_order); for higher orders, "
-                              "excite the system with a prbs.",
+                              "{} changes only {} times, as in a step experiment. These data determine the gain, the "
+                              "dead time and one or two time constants (procsrivc, step_first_order). For higher "
+                              "orders, excite the system with a PRBS (prbs).",
                               subject(channel), changes);
 }
 
 Message excitation_of(const Channel& channel, Index order) {
     if (order < kPoorOrder)
         return Message(
-            "{} can determine no more than {}: it contains only about {}. Excite the system with a prbs, a chirp or a "
+            "{} can determine no more than {}: it contains only about {}. Excite the system with a PRBS, a chirp or a "
             "multisine that covers the plant's bandwidth.",
             subject(channel), plural(order, "{} parameter", "{} parameters"),
             plural((order + 1) / 2, "{} frequency", "{} frequencies"));

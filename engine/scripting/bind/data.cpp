@@ -258,7 +258,7 @@ void tell_other_clock(const Call& call, const IdData& data) {
 void tell_time_unit(const Call& call, const std::string& unit) {
     if (unit == "s" || std::exchange(call.context().told_time_unit, true)) return;
     call.print(localized(call, Message("iddata: these data, and models estimated from them, have the time unit {}. If "
-                                       "a text or an axis shows s, the unit is {}",
+                                       "a message or an axis label shows s, the unit is {}",
                                        unit, unit)) +
                "\n");
 }

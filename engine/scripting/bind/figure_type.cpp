@@ -15,9 +15,9 @@ namespace {
 constexpr std::array kPanelNumberOptions = {
     OptionEntry{"panel", ValueKind::kCount, about("number of the panel"), {.initial = "1"}}};
 constexpr std::array kHandleOptions = {
-    OptionEntry{"x", ValueKind::kAny, about("position on the x axis: a number, or a function of the slider value")},
+    OptionEntry{"x", ValueKind::kAny, about("position on the x-axis: a number, or a function of the slider value")},
     OptionEntry{"x_slider", ValueKind::kText, about("name of the slider that moves x")},
-    OptionEntry{"y", ValueKind::kAny, about("position on the y axis: a number, or a function of the slider value")},
+    OptionEntry{"y", ValueKind::kAny, about("position on the y-axis: a number, or a function of the slider value")},
     OptionEntry{"y_slider", ValueKind::kText, about("name of the slider that moves y")},
     OptionEntry{"text", ValueKind::kText, about("text next to the point")}};
 constexpr OptionTable kAddTables[] = {kCurveAppearanceOptions, kPanelNumberOptions},

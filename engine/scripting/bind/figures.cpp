@@ -143,7 +143,7 @@ std::string curve_name(const Call& call, int index) {
             name);
     if (is_line_specification(name))
         throw InvalidArgument(
-            "a text is the name of the curve; for the style \"{}\" use {style = \"points\"} or {dash = 1}", name);
+            "a string is the name of the curve; for the style \"{}\" use {style = \"points\"} or {dash = 1}", name);
     return name;
 }
 
@@ -326,9 +326,9 @@ int save(Call& call) {
 constexpr FunctionEntry kFiguresFunctions[] = {
     {"plot", "figures", "plot(x, y, \"name\", ..., {options}) -> fig", "Plot curves in one panel",
      guarded<plot<false, false>>, kPlotTables, kCurvesArguments},
-    {"semilogx", "figures", "semilogx(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic x axis",
+    {"semilogx", "figures", "semilogx(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic x-axis",
      guarded<plot<true, false>>, kPlotTables, kCurvesArguments},
-    {"semilogy", "figures", "semilogy(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic y axis",
+    {"semilogy", "figures", "semilogy(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic y-axis",
      guarded<plot<false, true>>, kPlotTables, kCurvesArguments},
     {"loglog", "figures", "loglog(x, y, \"name\", ..., {options}) -> fig", "Plot curves with two logarithmic axes",
      guarded<plot<true, true>>, kPlotTables, kCurvesArguments},

@@ -25,7 +25,7 @@ constexpr OptionEntry kQuietEstimate = {"quiet",
 constexpr OptionEntry kReadingConfidence = {
     "confidence",
     ValueKind::kNumber,
-    about("probability of the band, and of the test that detects the dead time"),
+    about("confidence level of the band and of the test that detects the dead time"),
     {.initial = "0.99"}};
 constexpr MessageId<> kMeanRemoval = about("true removes the means of both signals before the estimation");
 

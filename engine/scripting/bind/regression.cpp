@@ -44,9 +44,9 @@ constexpr std::array kPolyfitOptions = {
 constexpr OptionEntry kRegressionPlotOptions[] = {
     {"forecast", ValueKind::kNumber, about("value of x at which to mark a forecast")},
     {"text", ValueKind::kText, about("label of the forecast; by default, the value of the forecast")},
-    {"level", ValueKind::kNumber, about("probability of the bands"), {.initial = "0.95"}},
-    {"xlabel", ValueKind::kText, about("label of the x axis")},
-    {"ylabel", ValueKind::kText, about("label of the y axis")}};
+    {"level", ValueKind::kNumber, about("confidence level of the bands"), {.initial = "0.95"}},
+    {"xlabel", ValueKind::kText, about("x-axis label")},
+    {"ylabel", ValueKind::kText, about("y-axis label")}};
 constexpr std::array kDescentOptions = {
     option<&GradientDescentOptions::step_size>("step", about("step size; by default 1/lambda_max of Phi'Phi/N")),
     option<&GradientDescentOptions::max_iterations>("MaxIter", about("maximum number of iterations")),
@@ -66,10 +66,10 @@ constexpr ArgumentEntry kRegressorArguments[] = {
 constexpr ArgumentEntry kForecastArguments[] = {
     {"fit", ValueKind::kAny, about("result of `polyfit_report` or `lsq`")},
     {"x", ValueKind::kAny, about("number for a polynomial, or vector of d regressors for `lsq`")},
-    {"level", ValueKind::kNumber, about("probability of the interval; by default 0.95")}};
+    {"level", ValueKind::kNumber, about("confidence level of the interval; by default 0.95")}};
 constexpr ArgumentEntry kQuantileArguments[] = {
     {"p", ValueKind::kNumber,
-     about("probability between 0 and 1; 0.975 for an interval of 95 %, with 2.5 % on each side")},
+     about("probability between 0 and 1; 0.975 for a 95 % confidence interval, with 2.5 % on each side")},
     {"degrees", ValueKind::kNumber, about("degrees of freedom, greater than 0")}};
 constexpr ArgumentEntry kRegressionPlotArguments[] = {
     kRegressionX, kRegressionY, {"fit", ValueKind::kAny, about("result of `polyfit_report`")}};

@@ -18,7 +18,7 @@ namespace {
 
 constexpr OptionEntry kResidualOptions[] = {
     option<&ResidualOptions::lags>("lags", about("number of lags to test")),
-    option<&ResidualOptions::confidence>("confidence", about("probability of the bounds")),
+    option<&ResidualOptions::confidence>("confidence", about("confidence level of the bounds")),
     {"prediction",
      ValueKind::kFlag,
      about("true uses one-step prediction errors instead of simulation errors"),

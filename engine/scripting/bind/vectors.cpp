@@ -59,7 +59,7 @@ constexpr std::array kPolyvalArguments = {
 constexpr std::array kInterp1Arguments = {
     ArgumentEntry{"x", ValueKind::kVector, about("vector of at least two increasing values")},
     ArgumentEntry{"y", ValueKind::kVector, about("vector of the same size, with the values at x")},
-    ArgumentEntry{"x_new", ValueKind::kVector, about("number or vector, the points of the interpolated values")}};
+    ArgumentEntry{"x_new", ValueKind::kVector, about("number or vector of query points")}};
 
 int make_vector(Call& call) {
     if (call.count() != 1 || (to_vector(call.state(), 1) == nullptr && call.type(1) != LUA_TTABLE))
@@ -215,7 +215,7 @@ constexpr FunctionEntry kVectorsFunctions[] = {
      "Create values from first to last with a step (MATLAB's first:step:last)", guarded<range>, kNoOptions,
      kRangeArguments},
     {"cumsum", "vectors", "cumsum(v) -> w", "Cumulative sum", guarded<cumulative_sum>, kNoOptions, kOneVectorArguments},
-    {"diff", "vectors", "diff(v) -> w", "Differences of neighbors, one element fewer", guarded<difference>, kNoOptions,
+    {"diff", "vectors", "diff(v) -> w", "Differences between adjacent elements", guarded<difference>, kNoOptions,
      kOneVectorArguments},
     {"unwrap", "vectors", "unwrap(x, period) -> y", "Remove the jumps of an angle by full turns", guarded<unwrap_angle>,
      kNoOptions, kUnwrapArguments},

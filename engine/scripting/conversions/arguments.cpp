@@ -58,7 +58,7 @@ std::int64_t count_at(lua_State* L, int index, const Label& label) {
 
 template <class Label>
 std::string text_at(lua_State* L, int index, const Label& label) {
-    if (lua_type(L, index) != LUA_TSTRING) wrong_value(L, index, label(), Message("a text in quotes"));
+    if (lua_type(L, index) != LUA_TSTRING) wrong_value(L, index, label(), Message("a string in quotes"));
     std::size_t length = 0;
     const char* text = lua_tolstring(L, index, &length);
     return {text, length};
@@ -161,7 +161,7 @@ Index Call::size(int index, ArgumentName what) const {
     return index_of_whole(static_cast<double>(count_at(state_, index, label_of(index, what))));
 }
 std::string Call::text(int index, ArgumentName what) const {
-    if (index > arguments_) wrong_argument(state_, index, what, Message("a text in quotes"));
+    if (index > arguments_) wrong_argument(state_, index, what, Message("a string in quotes"));
     return text_at(state_, index, label_of(index, what));
 }
 

@@ -88,7 +88,7 @@ const auto& name_hints() {
         {"date datetime", Message("scripts have no access to the system or the date")},
         {"db mag2db", Message("write 20*log10(x)")},
         {"deconv", Message("write pole(tf({1}, a)) for the roots of a polynomial")},
-        {"double", Message("every number is in double precision; tonumber(text) converts a text")},
+        {"double", Message("every number is in double precision; tonumber(text) converts a string")},
         {"exit quit", Message("a script ends after its last line")},
         {"expm", Message("write lsim or c2d(G, Ts), which compute the matrix exponential")},
         {"fix", Message("write floor(x), or ceil(x) for negative x")},

@@ -333,11 +333,11 @@ NotebookScript read_notebook(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > kMaxNotebookBytes)
-        refuse_notebook(file, Message("the notebook has {} MB, but the limit is {} MB: clear its outputs", bytes >> 20,
-                                      kMaxNotebookBytes >> 20));
+        refuse_notebook(file, Message("the size of the notebook is {} MB, but the limit is {} MB: clear its outputs",
+                                      bytes >> 20, kMaxNotebookBytes >> 20));
     NotebookScript script = script_of_notebook(read_text(file), file);
     if (script.source.size() > kMaxSourceSize)
-        refuse_notebook(file, Message("the cells have {} MB of text, but the limit for a script is {} MB",
+        refuse_notebook(file, Message("the cells contain {} MB of text, but the limit for a script is {} MB",
                                       (script.source.size() + (1 << 20) - 1) >> 20, kMaxSourceSize >> 20));
     return script;
 }

@@ -399,8 +399,8 @@ void check_fixed_model(const RecursiveName& method, const TransferFunction& mode
 void RecursiveOptions::validate(const std::string& method, Index parameters) const {
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, but is {}. Choose a "
-            "value slightly above the bandwidth of the system",
+            "lambda, the cutoff frequency of the filter, must be a positive number of rad/s, but is {}. Choose a value "
+            "slightly above the bandwidth of the system",
             lambda);
     if (!(forgetting > 0 && forgetting <= 1))
         throw InvalidArgument(

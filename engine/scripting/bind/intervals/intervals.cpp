@@ -24,10 +24,11 @@ constexpr std::array kBootstrapOptions = {
         "kind", about("new errors: residuals drawn with replacement (\"residual\"), or normal errors (\"parametric\")"),
         {.initial = "\"residual\"", .choices = kBootstrapKinds}),
     option<&BootstrapOptions::seed>("seed", about("seed of the new errors"), {.most = kMaxSeed}),
-    option<&BootstrapOptions::confidence>("confidence", about("probability of the intervals"),
+    option<&BootstrapOptions::confidence>("confidence", about("confidence level of the intervals"),
                                           {.member = "confidence"})};
 constexpr OptionEntry kProfileOptions[] = {
-    option<&ProfileOptions::confidence>("confidence", about("probability of the interval"), {.member = "confidence"}),
+    option<&ProfileOptions::confidence>("confidence", about("confidence level of the interval"),
+                                        {.member = "confidence"}),
     option<&ProfileOptions::points>("points", about("number of points of the grid"), {.least = 5, .member = "points"}),
     {"range",
      ValueKind::kVector,

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array kNarxLags = {
     OrderEntry{"na", [] { return Message("past outputs"); }},
     OrderEntry{"nb", [] { return Message("values of the input"); }},
-    OrderEntry{"nk", [] { return Message("samples of delay, 1 for no direct feedthrough"); }}};
+    OrderEntry{"nk", [] { return Message("samples of input delay, 1 for systems without direct feedthrough"); }}};
 
 constexpr std::array kNarxOptions = {
     option<&NarxOptions::degree>("degree", about("maximum number of factors in a product"), {.member = "degree"}),
@@ -59,8 +59,8 @@ constexpr OptionTable kNarx[] = {kNarxOptions}, kSindy[] = {kSindyOptions}, kDmd
 
 constexpr std::array kNarxArguments = {
     kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
-                                  about("na past outputs, nb values of the input, delay of nk samples. With several "
-                                        "inputs, nb and nk can be tables, such as {2, {1, 2}, {1, 3}}")}};
+                                  about("na past outputs, nb values of the input, and an input delay of nk samples. "
+                                        "With several inputs, nb and nk can be tables, such as {2, {1, 2}, {1, 3}}")}};
 constexpr std::array kSindyArguments = {
     ArgumentEntry{"data", ValueKind::kData,
                   about("data object with all states as outputs, 1 to 8; any number of inputs and experiments, "

@@ -41,7 +41,7 @@ constexpr std::array kHistoryOptions = {
     OptionEntry{"truth", ValueKind::kTable,
                 about("true parameters by name, numbers or vectors equally spaced from the first sample to the last, "
                       "{a1 = 4, b0 = linspace(2, 3, 100)}")},
-    OptionEntry{"confidence", ValueKind::kNumber, about("probability of the confidence bands"), {.initial = "0.95"}}};
+    OptionEntry{"confidence", ValueKind::kNumber, about("confidence level of the bands"), {.initial = "0.95"}}};
 constexpr OptionTable kRecursive[] = {kRecursiveOptions}, kHistory[] = {kHistoryOptions};
 
 constexpr ArgumentEntry kRecursiveData = {
@@ -49,13 +49,15 @@ constexpr ArgumentEntry kRecursiveData = {
     about("data object with one experiment, one input and one output, regularly or irregularly sampled")};
 constexpr std::array kRecursiveEquationArguments = {
     kRecursiveData,
-    ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("na poles (at most 8), nb coefficients of B (at most na + 1), nk samples of delay")},
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("na poles (at most 8), nb coefficients of B (at most na + 1), and an input delay of nk samples")},
     kFilterFrequency};
 constexpr std::array kRecursiveOutputArguments = {
     kRecursiveData,
-    ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("nb coefficients of B (at most nf + 1), nf poles (at most 8), nk samples of delay")},
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("nb coefficients of B (at most nf + 1), nf poles (at most 8), and an input delay of nk samples")},
     kFilterFrequency};
 constexpr std::array kHistoryArguments = {
     ArgumentEntry{"G", ValueKind::kModel, about("model returned by rlssvf, rivsvf or rsrivc")}};
@@ -140,7 +142,8 @@ int plot_parameters(Call& call) {
         throw InvalidArgument("this model has no history: use rlssvf, rivsvf or rsrivc");
     const double level = options.number("confidence", 0.95);
     if (!(level > 0 && level < 1))
-        refuse_option("confidence", Message("a probability between 0 and 1"), Message("{}", significant(level, 10)));
+        refuse_option("confidence", Message("a confidence level between 0 and 1"),
+                      Message("{}", significant(level, 10)));
     return give_figure(call, history_plot(*model.estimate->history, model.estimate->names, truth_of(options), level));
 }
 
