@@ -64,7 +64,7 @@ void refuse_foreign_file(const std::string& word) {
     const std::filesystem::path file = word.substr(name.size());
     const std::string last = file.filename().string();
     if (file.parent_path() != kExchangeFolder || last.empty() || last.starts_with('.'))
-        throw EnvironmentError("this page reads and writes files in {} only", kExchangeFolder);
+        throw EnvironmentError("this page can read and write only files in {}", kExchangeFolder);
 }
 
 }  // namespace

@@ -122,11 +122,12 @@ fs::path file_not_taken(Course& course, const Assignment& assignment, const std:
         return one.name != name && (name.size() < kShortest || !one.hash.starts_with(name));
     });
     if (found.size() != 1)
-        throw found.empty() ? InvalidArgument("{} has no file \"{}\" that was not accepted", assignment.name, name)
-                            : InvalidArgument(
-                                  "{} has {} files \"{}\" that were not accepted; give the first digits of the SHA-256 "
-                                  "instead of the name",
-                                  assignment.name, found.size(), name);
+        throw found.empty()
+            ? InvalidArgument("{}: none of the files that were not accepted has the name \"{}\"", assignment.name, name)
+            : InvalidArgument(
+                  "{}: {} files that were not accepted have the name \"{}\"; give the first digits of the SHA-256 hash "
+                  "instead of the name",
+                  assignment.name, found.size(), name);
     at = found.front().received_at;
     fs::path file = folder / fs::path(found.front().name).filename();
     fs::copy_file(course.file(found.front().hash), file, fs::copy_options::overwrite_existing);

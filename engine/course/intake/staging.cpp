@@ -163,7 +163,7 @@ class Stager {
                 "Several folders contain an analysis.lua, and dynlab cannot determine the newest: {}. Submit one of "
                 "them.",
                 listed_places(found));
-        return staged(*newest, Message("of {}, \"{}\" was used as the newest", listed_places(found), newest->shown));
+        return staged(*newest, Message("of {}, dynlab used \"{}\" as the newest", listed_places(found), newest->shown));
     }
 
   private:

@@ -151,7 +151,7 @@ void find_saturation(const Channel& channel, const Quantization& grid, std::vect
         share > 0.5 ? Message(
                           "{} saturates for {} % of the data (samples {}): it reaches {} abruptly and stays at this "
                           "value. A linear model cannot represent saturation. Most of the data are saturated: repeat "
-                          "the experiment with a smaller amplitude or another range of the sensor.",
+                          "the experiment with a smaller amplitude or another sensor range.",
                           who, percent, listed_places(runs), limit)
                     : Message(
                           "{} saturates for {} % of the data (samples {}): it reaches {} abruptly and stays at this "
@@ -166,13 +166,13 @@ void find_saturation(const Channel& channel, const Quantization& grid, std::vect
 void find_quantization(const Channel& channel, const Quantization& grid, std::vector<DataIssue>& findings) {
     const double range = range_of(channel.x);
     if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
-    findings.push_back(
-        about(channel, "quantization", Weight::kWarning,
-              Message("{} is quantized in steps of {}, with only {} steps over its range. The effect is similar to "
-                      "noise with the standard deviation {}; use a finer range of the converter or a larger amplitude.",
-                      subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
-                      value_of(channel, grid.step / std::sqrt(12.0), 2)),
-              grid.step));
+    findings.push_back(about(
+        channel, "quantization", Weight::kWarning,
+        Message("{} is quantized in steps of {}, with only {} steps over its range. The effect is similar to noise "
+                "with a standard deviation of {}; use a converter with a higher resolution, or a larger amplitude.",
+                subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
+                value_of(channel, grid.step / std::sqrt(12.0), 2)),
+        grid.step));
 }
 
 double bend_at(const Vector& x, Index k) {

@@ -114,9 +114,9 @@ constexpr FunctionEntry kStatisticsFunctions[] = {
     {"var", "vectors", "var(v) -> x; var(A) -> v",
      "Variance of a vector, or of each column of a matrix (divisor N - 1)", guarded<measure_columns<variance_of, 2>>},
     {"min", "vectors", "min(v) -> x, place; min(x, y) -> v",
-     "Smallest element and its position; the smaller of two, element by element", guarded<extreme<false>>},
+     "Smallest element and its position, or the element-wise minimum", guarded<extreme<false>>},
     {"max", "vectors", "max(v) -> x, place; max(x, y) -> v",
-     "Largest element and its position; the larger of two, element by element", guarded<extreme<true>>},
+     "Largest element and its position, or the element-wise maximum", guarded<extreme<true>>},
 };
 
 }  // namespace

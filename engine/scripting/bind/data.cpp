@@ -206,7 +206,7 @@ void set_texts(const Options& options, const char* name, std::vector<std::string
     if (!options.has(name)) return;
     texts = options.texts(name);
     if (static_cast<Index>(texts.size()) != channels)
-        throw InvalidArgument("option '{}' has {} for {}", name, plural(texts.size(), "{} text", "{} texts"),
+        throw InvalidArgument("option '{}' has {} for {}", name, plural(texts.size(), "{} string", "{} strings"),
                               plural(channels, "{} channel", "{} channels"));
 }
 
@@ -340,7 +340,7 @@ constexpr FunctionEntry kDataFunctions[] = {
     {"iddata", "data", "iddata(y, u, Ts, {options}) -> data", "Create a data object from output and input signals",
      guarded<make_iddata>, kIddataTables, kIddataArguments},
     {"idplot", "data", "idplot(data, ..., {options}) -> fig; idplot(data, first, last)",
-     "Plot outputs and inputs over time", guarded<idplot>, kIdplotTables, kIdplotArguments},
+     "Plot outputs and inputs versus time", guarded<idplot>, kIdplotTables, kIdplotArguments},
 };
 
 }  // namespace

@@ -109,7 +109,8 @@ constexpr FunctionEntry kElementFunctions[] = {
     {"tan", "vectors", "tan(x) -> y", "Tangent (radians)", guarded<apply<std::tan, Operation::kTan>>},
     {"atan", "vectors", "atan(x) -> y", "Inverse tangent (radians)", guarded<apply<std::atan, Operation::kArcTangent>>},
     {"tanh", "vectors", "tanh(x) -> y", "Hyperbolic tangent", guarded<apply<std::tanh, Operation::kTanh>>},
-    {"where", "vectors", "where(c, a, b) -> y", "Choose between two values element by element", guarded<choose>},
+    {"where", "vectors", "where(c, a, b) -> y", "Select between two values, element-wise for a vector or mask",
+     guarded<choose>},
 };
 
 }  // namespace

@@ -283,7 +283,8 @@ int present(Call& call) {
 
 constexpr FunctionEntry kModelsFunctions[] = {
     {"tf", "models", "tf(num, den, {options}) -> G; tf(\"s\"); tf(\"z\", Ts)",
-     "Create a transfer function, or a variable to write one", guarded<make_tf>, kTfTables, kTfArguments},
+     "Create a transfer function, or the variable s or z for writing transfer functions", guarded<make_tf>, kTfTables,
+     kTfArguments},
     {"idproc", "models", "idproc(\"P1D\", {options}) -> G; idproc(\"P1D\")",
      "Create a process model from gain, time constants and delay", guarded<make_idproc>, kIdprocTables,
      kIdprocArguments},
@@ -295,8 +296,9 @@ constexpr FunctionEntry kModelsFunctions[] = {
      kNoOptions, kParallelArguments},
     {"feedback", "models", "feedback(forward, backward, sign) -> G", "Close a loop, with negative feedback by default",
      guarded<connect_feedback>, kNoOptions, kFeedbackArguments},
-    {"pade", "models", "pade(G, n) -> G", "Approximate the delay by n poles", guarded<replace_delay>, kNoOptions,
-     kPadeArguments},
+    {"pade", "models", "pade(G, n) -> G",
+     "Approximate the delay of a model by a rational transfer function with n poles", guarded<replace_delay>,
+     kNoOptions, kPadeArguments},
     {"c2d", "models", "c2d(G, Ts, \"zoh\" | \"foh\" | \"tustin\") -> Gd",
      "Convert a continuous-time model to discrete time", guarded<to_discrete>, kNoOptions, kDiscreteArguments},
     {"d2c", "models", "d2c(Gd, \"zoh\" | \"foh\" | \"tustin\") -> G",

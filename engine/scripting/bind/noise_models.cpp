@@ -77,10 +77,10 @@ constexpr NamedReader kNoiseModelsReaders[] = {{"rivc", read_for_study<read_rivc
 
 constexpr FunctionEntry kNoiseModelsFunctions[] = {
     {"rivc", "continuous time", "rivc(data, {nb, nc, nd, nf, nk}, {options}) -> G",
-     marked("estimator", "Estimate y = B/F u + C/D e with a model of the colored noise"),
+     marked("estimator", "Estimate y = B/F u + C/D e with a noise model"),
      guarded<memoized_call<estimate_with_noise<read_rivc>>>, kNoisy, kNoisyArguments},
     {"tfrivc", "continuous time", "tfrivc(data, np, nz, {options}) -> G",
-     marked("estimator", "Estimate a transfer function with delay and a model of the colored noise"),
+     marked("estimator", "Estimate a transfer function with delay and a noise model"),
      guarded<memoized_call<estimate_with_noise<read_tfrivc>>>, kNoisyTransferFunction, kNoisyTransferArguments},
 };
 

@@ -29,7 +29,7 @@ constexpr OptionEntry kButterworthOptions[] = {
         {.least = 1, .most = 20}),
     option<&FilterOptions::zero_phase>(
         "zero_phase",
-        about("true filters forward and then backward: no phase shift, and the squared magnitude response")),
+        about("true filters forward and then backward, which avoids a phase shift and squares the magnitude response")),
     option<&FilterOptions::stop>("stop", about("true removes the band instead of passing it")),
     kFilterStart,
     {"Ts", ValueKind::kNumber, about("sampling time of a vector"), {.initial = "1", .unit = "s"}}};
@@ -195,13 +195,15 @@ int filter_signals(Call& call) {
     const Options options(call, 3, kButterworthTables);
     const Signals signals = signals_argument(call, options.number("Ts", 1));
     if (!signals.bare && options.has("Ts"))
-        throw InvalidArgument("option 'Ts' is only for a vector, because a data object already has a sampling time");
+        throw InvalidArgument(
+            "option 'Ts' applies only to a vector, because a data object already has a sampling time");
     FilterOptions requested;
     options.read(requested);
     requested.steady_start = options.has("start") && options.choice(kFilterStart) == 1;
     if (requested.zero_phase && options.has("start"))
         throw InvalidArgument(
-            "option 'start' is only for the causal filter; with zero_phase, the signal is extended at both ends");
+            "option 'start' applies only to the causal filter; with option 'zero_phase', the signal is extended at "
+            "both ends");
     return give_signals(call, signals, filter_data(signals.data, band_argument(call), requested));
 }
 

@@ -59,7 +59,7 @@ constexpr OptionTable kLsqTables[] = {kLsqOptions}, kPolyfitTables[] = {kPolyfit
 constexpr ArgumentEntry kRegressionX = {"x", ValueKind::kVector, about("vector of N values")},
                         kRegressionY = {"y", ValueKind::kVector, about("vector of N values")},
                         kPolynomialDegree = {"degree", ValueKind::kCount,
-                                             about("degree of the polynomial; 1 is a straight line")};
+                                             about("degree of the polynomial; 1 for a line")};
 constexpr std::array kPolynomialArguments = {kRegressionX, kRegressionY, kPolynomialDegree};
 constexpr ArgumentEntry kRegressorArguments[] = {
     {"Phi", ValueKind::kAny, about("matrix with N rows and d columns, N at least d")}, kRegressionY};
@@ -227,8 +227,8 @@ constexpr FunctionEntry kRegressionFunctions[] = {
      kPolynomialArguments},
     {"forecast", "regression", "forecast(fit, x, level) -> {value, low, high, ...}",
      "Forecast a value with its prediction interval", guarded<predict>, kNoOptions, kForecastArguments},
-    {"tinv", "regression", "tinv(p, degrees) -> t", "Quantile of Student's distribution", guarded<quantile_of_student>,
-     kNoOptions, kQuantileArguments},
+    {"tinv", "regression", "tinv(p, degrees) -> t", "Quantile of Student's t-distribution",
+     guarded<quantile_of_student>, kNoOptions, kQuantileArguments},
     {"regression_plot", "regression", "regression_plot(x, y, fit, {options}) -> fig",
      "Plot data and a fitted polynomial with its bands", guarded<draw_regression>, kRegressionPlotTables,
      kRegressionPlotArguments},

@@ -175,8 +175,8 @@ void check_range(const std::string& name, const RecordedSlider& slider) {
                               slider.to - slider.from, *slider.step);
     for (const double value : {slider.initial, slider.value})
         if (!(value >= slider.from && value <= slider.to))
-            throw InvalidArgument("the range of the slider \"{}\" is {} to {}; {} is outside", name, slider.from,
-                                  slider.to, value);
+            throw InvalidArgument("the range of the slider \"{}\" is {} to {}; {} is outside this range", name,
+                                  slider.from, slider.to, value);
 }
 
 int slider(Call& call) {

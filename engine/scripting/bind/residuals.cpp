@@ -172,7 +172,7 @@ int validate_across(Call& call) {
 
 constexpr FunctionEntry kResidualsFunctions[] = {
     {"resid", "validation", "resid(data, G, {options}) -> fig, table",
-     "Analyze residuals: whiteness and independence of the input", guarded<test_residuals>, kResidualsTables,
+     "Test the residuals for whiteness and independence of the input", guarded<test_residuals>, kResidualsTables,
      kRecordAndModel},
     {"crossvalidate", "validation", "crossvalidate(data, fit, {options}) -> fig, table",
      "Cross-validate an estimation method", guarded<validate_across>, kFoldsTables, kFoldArguments},

@@ -257,10 +257,11 @@ constexpr FunctionEntry kSavingFunctions[] = {
     {"save_csv", "data", "save_csv(path, data, {options})", "Save data or a table of vectors as a CSV file",
      guarded<save_csv>, kSaveCsvTables, kSaveCsvArguments},
     {"save_mat", "data", "save_mat(path, variables, {options})",
-     "Save models, data, vectors, numbers, texts and tables as a MAT file", guarded<save_mat>, kSaveMatTables,
+     "Save models, data, vectors, numbers, strings and tables as a MAT file", guarded<save_mat>, kSaveMatTables,
      kSaveMatArguments},
-    {"save_json", "data", "save_json(path, variables)", "Save the same values as a JSON file", guarded<save_json>,
-     kNoOptions, kSaveJsonArguments},
+    {"save_json", "data", "save_json(path, variables)",
+     "Save models, data, vectors, numbers, strings and tables as a JSON file", guarded<save_json>, kNoOptions,
+     kSaveJsonArguments},
 };
 
 }  // namespace

@@ -39,7 +39,7 @@ constexpr std::array kRegionOptions = {
                 about("confidence level of the regions of estimated continuous-time models; false for no regions"),
                 {.initial = "0.99"}}};
 constexpr std::array kHistogramOptions = {
-    option<&HistogramOptions::bins>("bins", about("number of bins; 0 for a number based on the scatter of the values")),
+    option<&HistogramOptions::bins>("bins", about("number of bins; 0 for a number based on the spread of the values")),
     option<&HistogramOptions::truth>("truth", about("value to mark with a line")),
     OptionEntry{"xlabel", ValueKind::kText, about("x-axis label")},
     OptionEntry{"label", ValueKind::kText, about("name of the bars in the legend")},
@@ -147,7 +147,7 @@ std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
 std::vector<std::string> given_labels(const Options& options, std::size_t count) {
     std::vector<std::string> labels = options.texts("labels");
     if (!labels.empty() && labels.size() != count)
-        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} text", "{} texts"),
+        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} string", "{} strings"),
                               plural(count, "{} model", "{} models"));
     return labels;
 }

@@ -180,7 +180,7 @@ constexpr FunctionEntry kTransferEstimatorsFunctions[] = {
      guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction,
      kTransferFunctionArguments},
     {"tfcoe", "continuous time", "tfcoe(data, np, nz, {options}) -> G",
-     marked("estimator", "Estimate a transfer function with delay by output error"),
+     marked("estimator", "Estimate a transfer function with delay by the output-error method"),
      guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction,
      kTransferFunctionArguments},
 };

@@ -198,7 +198,7 @@ int interp1(Call& call) {
 }
 
 constexpr FunctionEntry kVectorsFunctions[] = {
-    {"vector", "vectors", "vector{x1, x2, ...} -> v", "Create a column of numbers", guarded<make_vector>, kNoOptions,
+    {"vector", "vectors", "vector{x1, x2, ...} -> v", "Create a vector from numbers", guarded<make_vector>, kNoOptions,
      kMakeVectorArguments},
     {"matrix", "vectors", "matrix{{...}, {...}} or matrix{v1, v2} -> A",
      "Create a matrix from rows (tables) or columns (vectors)", guarded<make_matrix>, kNoOptions, kMakeMatrixArguments},
@@ -220,8 +220,8 @@ constexpr FunctionEntry kVectorsFunctions[] = {
     {"unwrap", "vectors", "unwrap(x, period) -> y", "Remove the jumps of an angle by full turns", guarded<unwrap_angle>,
      kNoOptions, kUnwrapArguments},
     {"dot", "vectors", "dot(a, b) -> x", "Scalar product", guarded<dot>, kNoOptions, kDotArguments},
-    {"norm", "vectors", "norm(v) -> x", "Euclidean length of a vector", guarded<norm>, kNoOptions, kOneVectorArguments},
-    {"sort", "vectors", "sort(v) -> sorted, places", "Sort in ascending order, with the original positions",
+    {"norm", "vectors", "norm(v) -> x", "Euclidean norm of a vector", guarded<norm>, kNoOptions, kOneVectorArguments},
+    {"sort", "vectors", "sort(v) -> sorted, places", "Sort in ascending order, and return the original positions",
      guarded<sort>, kNoOptions, kOneVectorArguments},
     {"polyval", "vectors", "polyval(p, x) -> y", "Evaluate a polynomial, highest power first", guarded<polyval>,
      kNoOptions, kPolyvalArguments},

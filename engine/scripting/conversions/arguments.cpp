@@ -105,7 +105,7 @@ Message given_value(lua_State* L, int index) {
         case LUA_TNUMBER:
             return Message("{}", significant(lua_tonumber(L, index), 10));
         case LUA_TSTRING:
-            return Message("the text \"{}\"", lua_tostring(L, index));
+            return Message("the string \"{}\"", lua_tostring(L, index));
         case LUA_TBOOLEAN:
             return Message::verbatim(lua_toboolean(L, index) ? "true" : "false");
         case LUA_TUSERDATA:

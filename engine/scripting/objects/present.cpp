@@ -180,12 +180,12 @@ std::string Presentation::estimate_lines(const Estimate& estimate) const {
                                 variance = of_response ? std::nullopt : number("noise_variance");
     std::string lines;
     if (fit && variance)
-        lines = text(Message("Estimated by {}, fit to the estimation data {} % (simulation), noise variance {}.",
+        lines = text(Message("Estimated by {}. Fit to the estimation data: {} % (simulation). Noise variance: {}.",
                              estimate.method, *fit, *variance));
     else if (fit)
-        lines = text(Message("Estimated by {}, fit to the estimation data {} % (simulation).", estimate.method, *fit));
+        lines = text(Message("Estimated by {}. Fit to the estimation data: {} % (simulation).", estimate.method, *fit));
     else if (variance)
-        lines = text(Message("Estimated by {}, noise variance {}.", estimate.method, *variance));
+        lines = text(Message("Estimated by {}. Noise variance: {}.", estimate.method, *variance));
     else
         lines = text(Message("Estimated by {}.", estimate.method));
     lines += "\n";

@@ -33,7 +33,7 @@ Message subject(const std::string& text) {
     if (auto name = between(text, "field '", "')"))
         return *name == "?" || *name == "integer index" ? Message("this element") : Message("the field '{}'", *name);
     if (auto name = between(text, "method '", "')")) return Message("the method '{}'", *name);
-    if (auto name = between(text, "constant '", "')")) return Message("the text '{}'", *name);
+    if (auto name = between(text, "constant '", "')")) return Message("the string '{}'", *name);
     return Message("this value");
 }
 

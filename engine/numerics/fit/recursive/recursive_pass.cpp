@@ -387,11 +387,13 @@ void check_fixed_model(const RecursiveName& method, const TransferFunction& mode
     if (!model.continuous() || model.pole_count() != structure.poles.front() ||
         model.zero_count() > structure.channels.front().zeros)
         throw InvalidArgument(
-            "{}: model must be a continuous-time model with {} and no more than {}, as specified by the orders",
+            "{}: option 'model' must be a continuous-time model with {} and no more than {}, as specified by the "
+            "orders",
             method.name, plural(structure.poles.front(), "{} pole", "{} poles"),
             plural(structure.channels.front().zeros, "{} zero", "{} zeros"));
     if (!model.stable())
-        throw InvalidArgument("{}: model must be stable, because its simulated output is the instrument", method.name);
+        throw InvalidArgument(
+            "{}: option 'model' must be a stable model, because its simulated output is the instrument", method.name);
 }
 
 }  // namespace
@@ -404,15 +406,15 @@ void RecursiveOptions::validate(const std::string& method, Index parameters) con
             lambda);
     if (!(forgetting > 0 && forgetting <= 1))
         throw InvalidArgument(
-            "{}: forgetting must be greater than 0 and at most 1 (1: no forgetting; 0.99: about 100 samples), but is "
-            "{}",
+            "{}: the forgetting factor must be greater than 0 and at most 1 (1: no forgetting; 0.99: a memory of about "
+            "100 samples), but is {}",
             method, forgetting);
     if (drift.size() > 0 && drift.size() != parameters)
         throw InvalidArgument(
-            "{}: drift must have one variance for each of the {} parameters, or one for all, but has {}", method,
-            parameters, drift.size());
+            "{}: option 'drift' must have one variance for each of the {} parameters, or one for all, but has {}",
+            method, parameters, drift.size());
     if (!drift.allFinite() || (drift.array() < 0).any())
-        throw InvalidArgument("{}: the variances in drift must be nonnegative", method);
+        throw InvalidArgument("{}: the variances in option 'drift' must be nonnegative", method);
     if (noise_variance && !(*noise_variance > 0 && std::isfinite(*noise_variance)))
         throw InvalidArgument("{}: {} must be positive, but is {}", method, OptionName{"noise_variance"},
                               *noise_variance);

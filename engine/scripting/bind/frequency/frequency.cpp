@@ -201,8 +201,9 @@ int approximate(Call& call) {
 }
 
 constexpr FunctionEntry kFrequencyFunctions[] = {
-    {"idfrd", "nonparametric", "idfrd(H, w, {options}) -> F", "Create data from a measured frequency response",
-     guarded<make_response>, kResponse, kResponseArguments},
+    {"idfrd", "nonparametric", "idfrd(H, w, {options}) -> F",
+     "Create a frequency-response data object from a measured response", guarded<make_response>, kResponse,
+     kResponseArguments},
     {"bla", "nonparametric", "bla(data, {options}) -> F, fig",
      "Estimate the best linear approximation with levels of noise and distortion", guarded<memoized_call<approximate>>,
      kBla, kBlaArguments},

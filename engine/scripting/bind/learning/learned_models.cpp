@@ -65,8 +65,9 @@ constexpr std::array kSindyArguments = {
     ArgumentEntry{"data", ValueKind::kData,
                   about("data object with all states as outputs, 1 to 8; any number of inputs and experiments, "
                         "regularly or irregularly sampled")}};
-constexpr std::array kDmdcArguments = {ArgumentEntry{
-    "data", ValueKind::kData, about("data object, regularly sampled, any number of inputs, outputs and experiments")}};
+constexpr std::array kDmdcArguments = {
+    ArgumentEntry{"data", ValueKind::kData,
+                  about("regularly sampled data object with any number of inputs, outputs and experiments")}};
 
 NarxLags lags_argument(const Call& call, Index inputs) {
     const auto orders = order_lists(call, 2, kNarxLags);
@@ -106,7 +107,8 @@ int estimate_narx(Call& call) {
 FunctionLibrary library_option(const Call& call, const Options& options, const IdData& data) {
     const bool own = options.has("library");
     if (own && options.has("degree"))
-        throw InvalidArgument("options 'library' and 'degree' cannot be combined: degree is only for polynomials");
+        throw InvalidArgument(
+            "options 'library' and 'degree' cannot be combined: 'degree' applies only to polynomials");
     if (!own && options.has("names")) throw InvalidArgument("option 'names' requires a library");
     if (!own)
         return polynomial_library(data.output_names, data.input_names, static_cast<int>(options.size("degree", 2)));

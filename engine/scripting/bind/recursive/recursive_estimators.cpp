@@ -22,14 +22,14 @@ constexpr std::array kRecursiveEquationOrders = {kNa, kNb, kNk};
 constexpr std::array kRecursiveOutputOrders = {kNb, kNf, kNk};
 
 constexpr std::array kRecursiveOptions = {
-    option<&RecursiveOptions::forgetting>("forgetting",
-                                          about("factor by which the weight of a sample decreases with each later "
-                                                "sample, above 0 and up to 1; 1 keeps all weights")),
+    option<&RecursiveOptions::forgetting>(
+        "forgetting", about("forgetting factor, by which the weight of a sample decreases with each later sample; "
+                            "greater than 0 and at most 1; 1 for no forgetting")),
     OptionEntry{"drift", ValueKind::kVector,
                 about("variances of the random steps of the parameters from one sample to the next, one number for all "
                       "or one per parameter")},
     option<&RecursiveOptions::noise_variance>(
-        "NoiseVariance", about("variance of the noise, relative to drift; by default computed from the past errors"),
+        "NoiseVariance", about("variance of the noise, relative to `drift`; by default computed from the past errors"),
         {.member = "noise_variance"}),
     option<&RecursiveOptions::history_points>(
         "HistoryPoints", about("maximum number of equally spaced instants in the history, including the last sample"),
@@ -39,8 +39,8 @@ constexpr std::array kRecursiveOptions = {
     kHoldOfOutput<RecursiveOptions>};
 constexpr std::array kHistoryOptions = {
     OptionEntry{"truth", ValueKind::kTable,
-                about("true parameters by name, numbers or vectors equally spaced from the first sample to the last, "
-                      "{a1 = 4, b0 = linspace(2, 3, 100)}")},
+                about("true parameters by name: numbers, or vectors of values at equally spaced instants from the "
+                      "first sample to the last, such as {a1 = 4, b0 = linspace(2, 3, 100)}")},
     OptionEntry{"confidence", ValueKind::kNumber, about("confidence level of the bands"), {.initial = "0.95"}}};
 constexpr OptionTable kRecursive[] = {kRecursiveOptions}, kHistory[] = {kHistoryOptions};
 
@@ -161,8 +161,8 @@ constexpr FunctionEntry kRecursiveFunctions[] = {
     {"rsrivc", "continuous time", "rsrivc(data, {nb, nf, nk}, lambda, {options}) -> G",
      marked("estimator", "Recursive srivc for time-varying parameters"),
      guarded<memoized_call<estimate_recursively<rsrivc, false>>>, kRecursive, kRecursiveOutputArguments},
-    {"plot_history", "figures", "plot_history(G, {options}) -> fig", "Plot parameters over time with confidence bands",
-     guarded<plot_parameters>, kHistory, kHistoryArguments},
+    {"plot_history", "figures", "plot_history(G, {options}) -> fig",
+     "Plot parameters versus time with confidence bands", guarded<plot_parameters>, kHistory, kHistoryArguments},
 };
 
 }  // namespace
