@@ -199,7 +199,7 @@ TEST(check_command, a_program_that_is_missing_here_is_no_fault_of_the_folder) {
     bench.hide_program("pandoc");
     const ChildResult result = bench.dynlab({"check", "mine"});
     EXPECT_EQ(result.exit_code, 3);
-    EXPECT_EQ(result.error_output, "dynlab: pandoc is not installed: sudo apt install pandoc\n");
+    EXPECT_EQ(result.error_output, "dynlab: pandoc is not installed. Install it with: sudo apt install pandoc\n");
 }
 
 TEST(check_command, open_questions_and_missing_answers_are_found_by_line_and_name) {

@@ -103,7 +103,7 @@ TEST_F(corrections, times_come_from_the_platform_s_worksheet) {
                       ContainsRegex("group-03 .* late by 7 h")));
     course_.bench().write("bad.csv", "Identifier,Grade\nParticipant 1,3\n");
     EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output,
-                HasSubstr("bad.csv: a column identifier"));
+                HasSubstr("bad.csv: a column \"identifier\""));
     course_.bench().write("bad.csv", "group,time\ngroup-01,tomorrow\n");
     EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output, HasSubstr("bad.csv, line 2: the time"));
 }

@@ -128,7 +128,7 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
         EXPECT_EQ(bench.dump(), before) << message;
     };
     bench.bench().write("columns.csv", "number,name\n1,Ada\n");
-    refused({"import", "columns.csv"}, "the column id is missing; the columns are number, name");
+    refused({"import", "columns.csv"}, "the column \"id\" is missing; the columns are number, name");
     bench.bench().write("twice.csv", "id,name\ns8,Ada\ns9,Bo\ns8,Eve\n");
     refused({"import", "twice.csv"}, "twice.csv, line 4: the id \"s8\" occurs twice");
     bench.bench().write("empty.csv", "id,name\n");
@@ -191,10 +191,11 @@ TEST(course_store, a_roster_changes_what_it_has_columns_for) {
     const std::string before = bench.dump();
     const ChildResult refused = import("id,name,grp,email\ns1,Ada King,1,\ns3,Cy Ost,2,\n");
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.error_output,
-                AllOf(HasSubstr("the column group is missing; the columns are id, name, grp, email. Known columns are "
-                                "id, name, group, email (or mail), moodle, canvas"),
-                      HasSubstr("--no-groups")));
+    EXPECT_THAT(
+        refused.error_output,
+        AllOf(HasSubstr("the column \"group\" is missing; the columns are id, name, grp, email. Known columns are "
+                        "\"id\", \"name\", \"group\", \"email\" (or \"mail\"), \"moodle\" and \"canvas\""),
+              HasSubstr("--no-groups")));
     EXPECT_EQ(bench.dump(), before);
     const ChildResult alone = import("id,name,grp\ns1,Ada King,1\ns3,Cy Ost,2\n", {"--no-groups"});
     CourseBench::expect_done(alone);

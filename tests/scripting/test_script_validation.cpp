@@ -159,7 +159,7 @@ TEST(script_validation, figures_carry_bands_unless_refused) {
     EXPECT_EQ(bands("pzmap(G, {confidence = 0.9})"), 1u);
     EXPECT_EQ(bands("step(tf({1}, {1, 1}))"), 0u);
     EXPECT_THAT(error_of("step(tf({1}, {1, 1}), {confidence = 2})"),
-                HasSubstr("must be a probability between 0 and 1"));
+                HasSubstr("must be a confidence level between 0 and 1"));
     EXPECT_THAT(error_of("nyquist(tf({1}, {1, 1}), {confidence = 0.9})"), HasSubstr("unknown option 'confidence'"));
 }
 
