@@ -295,7 +295,7 @@ class SheetReader {
             column = column * 26 + static_cast<std::size_t>(c - 'A' + 1);
         }
         if (column == 0)
-            throw EnvironmentError("{} is damaged: \"{}\" is not a cell reference", file_, place.substr(0, 20));
+            throw EnvironmentError("{} is damaged: \"{}\" is not a valid cell reference", file_, place.substr(0, 20));
         return column - 1;
     }
 

@@ -165,7 +165,7 @@ TEST_F(corrections, a_version_is_withdrawn_and_is_reinstated) {
     done({"withdraw", "crane", "group-01", "--reason", "somebody else's file"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v1  "));
     EXPECT_THAT(course_.submit_file("group-01.pdf", small_pdf("two"), "2026-03-01 15:00", {"--no-checks"}).output,
-                HasSubstr("already received and withdrawn; dynlab course restore"));
+                HasSubstr("already received and withdrawn; to reinstate the file, run dynlab course restore"));
     done({"withdraw", "crane", "group-01", "--reason", "this one too"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +-  "));
     EXPECT_EQ(course({"withdraw", "crane", "group-01", "--reason", "x"}).exit_code, 1);

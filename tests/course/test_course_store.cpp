@@ -108,7 +108,7 @@ TEST(course_store, keeps_versions_and_reports_lateness) {
     EXPECT_THAT(bench.submit_file("group-01.pdf", small_pdf("two"), "2026-03-01 12:10:01").output,
                 HasSubstr("v2       late by 10 min 1 s"));
     EXPECT_THAT(bench.submit_file("Student 2.pdf", "%PDF-1.4\nnothing", "2026-03-01 10:00").output,
-                AllOf(HasSubstr("group-02"), HasSubstr("damaged: ask for a readable file")));
+                AllOf(HasSubstr("group-02"), HasSubstr("damaged: ask the group for a readable file")));
     const std::string status = bench.course({"status", "crane", "--at", "2026-03-01 14:00"}).output;
     EXPECT_THAT(status, HasSubstr("v2 (v1 in time)"));
     EXPECT_THAT(status, HasSubstr("v1 damaged"));
@@ -261,7 +261,7 @@ TEST(course_store, refuses_other_versions_of_the_store) {
     bench.bench().shell("mkdir y && echo 'no database at all, but long enough to be read' > y/course.db");
     EXPECT_THAT(bench.bench().dynlab({"course", "--course", "y", "status"}).error_output, HasSubstr("not a database"));
     EXPECT_THAT(bench.bench().dynlab({"course", "init", "k"}).error_output, HasSubstr("newer dynlab"));
-    EXPECT_THAT(bench.bench().dynlab({"course", "status"}).error_output, HasSubstr("no course in"));
+    EXPECT_THAT(bench.bench().dynlab({"course", "status"}).error_output, HasSubstr("no course was found in"));
 }
 
 // oracle: what SQL says of each query alone

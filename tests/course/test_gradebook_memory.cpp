@@ -352,7 +352,7 @@ TEST(gradebook_memory, one_run_at_a_time_and_results_are_no_submissions) {
     {
         const FileLock lock(work.path("out/.lock"));
         ASSERT_TRUE(lock.held());
-        EXPECT_THAT(bench.grade().error_output, HasSubstr("another dynlab grade is running in out"));
+        EXPECT_THAT(bench.grade().error_output, HasSubstr("another run of dynlab grade uses out"));
     }
     const auto inside = [&](const char* out) {
         return work.dynlab(

@@ -97,12 +97,14 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"local a\nlocal b = a + 1",
          "lesson.lua:2: the variable 'a' is nil (it has no value), so arithmetic with it is not possible"},
         {"local a = {1, 2}\nlocal b = 2*a",
-         "lesson.lua:2: the variable 'a' is a table, so arithmetic with it is not possible; convert it to a vector: "
+         "lesson.lua:2: the variable 'a' is a table, so arithmetic with it is not possible; convert the table to a "
+         "vector: "
          "vector(t)"},
         {"local a\nlocal b = 'x' .. a",
-         "lesson.lua:2: the variable 'a' is nil (it has no value), so .. cannot join it to a string; use tostring(x)"},
+         "lesson.lua:2: the variable 'a' is nil (it has no value), so the operator .. cannot join it to a string; use "
+         "tostring(x)"},
         {"local a\nlocal n = #a",
-         "lesson.lua:2: the variable 'a' is nil (it has no value), so # cannot count its elements"},
+         "lesson.lua:2: the variable 'a' is nil (it has no value), so the operator # cannot count its elements"},
         {"local ok = 1 < 'x'", "lesson.lua:1: a number cannot be compared with a string by < or >"},
         {"local ok = {} < {}", "lesson.lua:1: a table cannot be compared with a table by < or >"},
         {"string.rep()", "lesson.lua:1: rep: argument 1 must be a string, but no value was given"},
@@ -202,7 +204,8 @@ TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
          "lesson.lua:1: arithmetic with a string is not possible; use two dots to join strings and numbers: \"a = \" "
          ".. x"},
         {"local d = iddata(randn(9), randn(9), 1)\nprint(#d)",
-         "lesson.lua:2: the variable 'd' is an iddata, so # cannot count its elements; data.N is the number of "
+         "lesson.lua:2: the variable 'd' is an iddata, so the operator # cannot count its elements; data.N is the "
+         "number of "
          "samples"},
         {"local d = iddata(randn(9), randn(9), 1)\nd.split(0.6)",
          "lesson.lua:2: split: argument 1 (data) must be an iddata, but 0.6 was given; a method is called with a "

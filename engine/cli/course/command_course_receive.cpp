@@ -33,13 +33,14 @@ struct ReceiveArguments {
 
 Message remark(const Received& r) {
     if (!r.error_reason.empty() && r.part == "pack")
-        return Message("{}: ask for a pack that can be opened", r.error_reason);
-    if (!r.error_reason.empty()) return Message("{}: ask for a readable file", r.error_reason);
+        return Message("{}: ask the group for a pack that can be opened", r.error_reason);
+    if (!r.error_reason.empty()) return Message("{}: ask the group for a readable file", r.error_reason);
     if (!r.missing.empty()) return Message("{}: ask for this file", r.missing);
-    if (r.withdrawn) return Message("already received and withdrawn; dynlab course restore reinstates it");
+    if (r.withdrawn) return Message("already received and withdrawn; to reinstate the file, run dynlab course restore");
     if (!r.other_time.empty())
         return Message(
-            "already received; according to --times it arrived {}: correct the time with dynlab course set-received",
+            "already received; according to --times, the file arrived {}: correct the time with dynlab course "
+            "set-received",
             r.other_time);
     if (r.known) return Message("already received; nothing changed");
     MessageList clauses{{}, Join::kSemicolon};

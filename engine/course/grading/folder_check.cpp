@@ -302,7 +302,7 @@ class FolderCheck {
         for (const ExpectedAnswer& answer : script.header.answers) {
             if (run.answers.contains(answer.name)) continue;
             add("answer-missing", Severity::kRule, "analysis.lua", sentence_about_missing(answer),
-                Message("Submit it: answer(\"{}\", ...).", answer.name));
+                Message("Submit the answer: answer(\"{}\", ...).", answer.name));
         }
     }
 
@@ -381,7 +381,7 @@ class FolderCheck {
         if (members.empty() && fs::exists(copy() / "group.toml"))
             add("members-missing", Severity::kHint, "group.toml",
                 Message("No members are listed, so the report was not searched for your names."),
-                Message("Add them: members = [\"Ada Lovelace\", \"Rudolf Kalman\"]."));
+                Message("Add the names of the members: members = [\"Ada Lovelace\", \"Rudolf Kalman\"]."));
         check_options.names = std::make_shared<const IdentityMatcher>(std::move(names));
     }
 

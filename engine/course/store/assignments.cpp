@@ -230,9 +230,9 @@ Assignment assignment_named(Course& course, const std::string& name) {
     const auto near = nearest_word(name, names);
     const MessageList known = listed(names);
     if (names.size() == 1)
-        throw near
-            ? InvalidArgument("unknown assignment \"{}\"; the only one is {}; did you mean {}?", name, known, *near)
-            : InvalidArgument("unknown assignment \"{}\"; the only one is {}", name, known);
+        throw near ? InvalidArgument("unknown assignment \"{}\"; the only assignment is {}; did you mean {}?", name,
+                                     known, *near)
+                   : InvalidArgument("unknown assignment \"{}\"; the only assignment is {}", name, known);
     throw near
         ? InvalidArgument("unknown assignment \"{}\"; the assignments are {}; did you mean {}?", name, known, *near)
         : InvalidArgument("unknown assignment \"{}\"; the assignments are {}", name, known);

@@ -92,7 +92,7 @@ inline constexpr std::array kDelayOptions = {
 inline constexpr OptionEntry kKnownDelayOption = {
     "IODelay",
     ValueKind::kVector,
-    about("known delay, which is not estimated; with several inputs, one delay per input"),
+    about("known delay, which is not estimated; with several inputs, a table with one delay per input"),
     {.unit = "s", .member = "delay"}};
 inline constexpr std::array kFixedDelayOptions = {kKnownDelayOption};
 /// Read by started_structure().

@@ -93,7 +93,7 @@ int choose(Call& call) {
 constexpr FunctionEntry kElementFunctions[] = {
     {"abs", "vectors", "abs(x) -> y", "Absolute value", guarded<absolute>},
     {"sign", "vectors", "sign(x) -> y", "Sign: -1, 0 or 1", guarded<apply<sign, Operation::kSign>>},
-    {"round", "vectors", "round(x) -> y", "Round to the nearest whole number, halves away from zero",
+    {"round", "vectors", "round(x) -> y", "Round to the nearest whole number; halves are rounded away from zero",
      guarded<apply<std::round>>},
     {"floor", "vectors", "floor(x) -> y", "Round down to a whole number", guarded<apply<std::floor>>},
     {"ceil", "vectors", "ceil(x) -> y", "Round up to a whole number", guarded<apply<std::ceil>>},

@@ -315,7 +315,7 @@ constexpr FunctionEntry kModelsFunctions[] = {
      guarded<of_model<bandwidth>>, kNoOptions, kModelAlone},
     {"stable", "models", "stable(G) -> true or false", "Test whether all poles are stable",
      guarded<of_model<&TransferFunction::stable>>, kNoOptions, kModelAlone},
-    {"margin", "models", "margin(G) -> Gm, Pm, Wcg, Wcp, Dm", "Gain, phase and delay margin of the loop that G closes",
+    {"margin", "models", "margin(G) -> Gm, Pm, Wcg, Wcp, Dm", "Gain, phase and delay margins of the open-loop model G",
      guarded<margins>, kNoOptions, kLoopArguments},
     {"present", "models", "present(G, ...)", "Print the properties and estimation results of models", guarded<present>,
      kNoOptions, kPresentArguments},

@@ -265,14 +265,16 @@ int estimate_delay(Call& call) {
 
 constexpr FunctionEntry kOrdersFunctions[] = {
     {"srivcstruc", "structure", "srivcstruc(data, {options}) -> V",
-     "Estimate models with srivc for several numbers of poles, zeros and delays",
+     "Estimate models with srivc for several numbers of poles and zeros and several delays",
      guarded<memoized_call<try_structures>>, kOrderGridTables, kSingleArguments},
-    {"selcstruc", "structure", "selcstruc(V, criterion) -> G, fig", "Select a structure of srivcstruc by a criterion",
-     guarded<select_structure>, kNoOptions, kChoiceArguments},
-    {"arxstruc", "structure", "arxstruc(data, {options}) -> V", "Compute the loss of arx for several orders",
+    {"selcstruc", "structure", "selcstruc(V, criterion) -> G, fig",
+     "Select a structure from the result of srivcstruc by a criterion", guarded<select_structure>, kNoOptions,
+     kChoiceArguments},
+    {"arxstruc", "structure", "arxstruc(data, {options}) -> V", "Compute the loss of ARX models of several orders",
      guarded<try_arx_structures>, kArxstrucTables, kArxArguments},
     {"selstruc", "structure", "selstruc(V, criterion) -> {na, nb, nk}, fig",
-     "Select the orders of arxstruc by a criterion", guarded<select_arx_structure>, kNoOptions, kArxChoiceArguments},
+     "Select the orders from the result of arxstruc by a criterion", guarded<select_arx_structure>, kNoOptions,
+     kArxChoiceArguments},
     {"delayest", "structure", "delayest(data, {options}) -> Td, fig, D", "Estimate the delay between input and output",
      guarded<memoized_call<estimate_delay>>, kDelayestTables, kSingleArguments},
 };

@@ -160,8 +160,8 @@ constexpr FunctionEntry kPreprocessFunctions[] = {
      "Filter inputs and outputs with the same Butterworth filter", guarded<filter_signals>, kButterworthTables,
      kButterworthArguments},
     {"resample", "data", "resample(data, up, down) -> data",
-     "Change the sampling rate by up/down, with an anti-aliasing filter", guarded<resample_signals>, kNoOptions,
-     kResampleArguments},
+     "Change the sampling rate by the factor up/down, with an anti-aliasing filter", guarded<resample_signals>,
+     kNoOptions, kResampleArguments},
     {"merge", "data", "merge(data1, data2, ...) -> data", "Combine experiments in one data object", guarded<merge_data>,
      kNoOptions, kMergeArguments},
     {"fillmissing", "data", "fillmissing(x, {options}) -> filled, places",
@@ -184,8 +184,7 @@ int detrend_signals(Call& call) {
         throw InvalidArgument("{} must be {}, but \"{}\" was given", Message("the kind of trend"),
                               Message("\"linear\", \"mean\" or \"start\""), kind);
     if (options.has("samples"))
-        throw InvalidArgument(
-            "option 'samples' requires the kind \"start\": it is the number of samples before the step");
+        throw InvalidArgument("option 'samples', the number of samples before the step, requires the kind \"start\"");
     return give_signals(call, signals,
                         detrend(signals.data, kind == "linear" ? TrendKind::kLinear : TrendKind::kConstant));
 }

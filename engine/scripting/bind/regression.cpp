@@ -233,8 +233,8 @@ constexpr FunctionEntry kRegressionFunctions[] = {
      "Plot data and a fitted polynomial with its bands", guarded<draw_regression>, kRegressionPlotTables,
      kRegressionPlotArguments},
     {"gradient_descent", "regression", "gradient_descent(Phi, y, {options}) -> table",
-     "Solve least squares by steepest descent, with the loss of every step", guarded<descend>, kDescentTables,
-     kRegressorArguments},
+     "Solve a least-squares problem by steepest descent, and return the loss of every step", guarded<descend>,
+     kDescentTables, kRegressorArguments},
 };
 
 constexpr std::array kRegressionTypes = {

@@ -35,7 +35,7 @@ constexpr std::array kZerosArguments = {
 constexpr std::array kEyeArguments = {ArgumentEntry{"n", ValueKind::kCount, about("number of rows and of columns")}};
 constexpr std::array kLinspaceArguments = {
     ArgumentEntry{"first", ValueKind::kNumber, about("first value")},
-    ArgumentEntry{"last", ValueKind::kNumber, about("last value; it may be smaller than the first")},
+    ArgumentEntry{"last", ValueKind::kNumber, about("last value, which can be smaller than the first value")},
     ArgumentEntry{"n", ValueKind::kCount, about("number of values; by default 100")}};
 constexpr std::array kLogspaceArguments = {
     ArgumentEntry{"first", ValueKind::kNumber, about("exponent of ten of the first value")},
@@ -217,14 +217,14 @@ constexpr FunctionEntry kVectorsFunctions[] = {
     {"cumsum", "vectors", "cumsum(v) -> w", "Cumulative sum", guarded<cumulative_sum>, kNoOptions, kOneVectorArguments},
     {"diff", "vectors", "diff(v) -> w", "Differences between adjacent elements", guarded<difference>, kNoOptions,
      kOneVectorArguments},
-    {"unwrap", "vectors", "unwrap(x, period) -> y", "Remove the jumps of an angle by full turns", guarded<unwrap_angle>,
-     kNoOptions, kUnwrapArguments},
+    {"unwrap", "vectors", "unwrap(x, period) -> y", "Remove jumps of full turns from an angle signal",
+     guarded<unwrap_angle>, kNoOptions, kUnwrapArguments},
     {"dot", "vectors", "dot(a, b) -> x", "Scalar product", guarded<dot>, kNoOptions, kDotArguments},
     {"norm", "vectors", "norm(v) -> x", "Euclidean norm of a vector", guarded<norm>, kNoOptions, kOneVectorArguments},
     {"sort", "vectors", "sort(v) -> sorted, places", "Sort in ascending order, and return the original positions",
      guarded<sort>, kNoOptions, kOneVectorArguments},
-    {"polyval", "vectors", "polyval(p, x) -> y", "Evaluate a polynomial, highest power first", guarded<polyval>,
-     kNoOptions, kPolyvalArguments},
+    {"polyval", "vectors", "polyval(p, x) -> y", "Evaluate a polynomial from its coefficients, highest power first",
+     guarded<polyval>, kNoOptions, kPolyvalArguments},
     {"interp1", "vectors", "interp1(x, y, x_new, {options}) -> y_new", "Linear interpolation", guarded<interp1>,
      kInterp1Tables, kInterp1Arguments},
 };

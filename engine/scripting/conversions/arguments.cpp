@@ -27,8 +27,9 @@ constexpr double kLargestExactWhole = 9007199254740992.0;  // 2^53
             "{} must be {}, but {} was given; find(mask) returns the indices, and #find(mask) returns their number",
             label, requested, given);
     if (requested == with_article("iddata") && lua_istable(L, index))
-        throw InvalidArgument("{} must be {}, but {} was given; create one from vectors with iddata(y, u, Ts)", label,
-                              requested, given);
+        throw InvalidArgument(
+            "{} must be {}, but {} was given; create a data object from vectors with iddata(y, u, Ts)", label,
+            requested, given);
     throw InvalidArgument("{} must be {}, but {} was given", label, requested, given);
 }
 

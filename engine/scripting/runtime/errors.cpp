@@ -144,7 +144,7 @@ Message plain_sentence(const std::string& text) {
                                : Message());
     if (auto type = between(text, "attempt to perform arithmetic on a ", " value"))
         return with_advice(Message("{} is {}, so arithmetic with it is not possible", subject(text), what_it_is(*type)),
-                           *type == "table"          ? Message("convert it to a vector: vector(t)")
+                           *type == "table"          ? Message("convert the table to a vector: vector(t)")
                            : *type == kComplexNumber ? Message("use its fields re, im, abs and arg")
                                                      : Message());
     if (auto type = between(text, "attempt to perform bitwise operation on a ", " value"))
@@ -152,10 +152,12 @@ Message plain_sentence(const std::string& text) {
             Message("{} is {}, so the operators & | ~ << >> do not support it", subject(text), what_it_is(*type)),
             *type == "boolean" ? Message("write 'not' as not x") : Message());
     if (auto type = between(text, "attempt to concatenate a ", " value"))
-        return Message("{} is {}, so .. cannot join it to a string; use tostring(x)", subject(text), what_it_is(*type));
+        return Message("{} is {}, so the operator .. cannot join it to a string; use tostring(x)", subject(text),
+                       what_it_is(*type));
     if (auto type = between(text, "attempt to get length of a ", " value"))
-        return with_advice(Message("{} is {}, so # cannot count its elements", subject(text), what_it_is(*type)),
-                           *type == "iddata" ? Message("data.N is the number of samples") : Message());
+        return with_advice(
+            Message("{} is {}, so the operator # cannot count its elements", subject(text), what_it_is(*type)),
+            *type == "iddata" ? Message("data.N is the number of samples") : Message());
     if (text.find(" a 'string' with a ") != std::string::npos)
         return Message(
             "arithmetic with a string is not possible; use two dots to join strings and numbers: \"a = \" .. x");

@@ -312,8 +312,9 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
         if (!object_at(cell, "attachments").empty())
             script.losses.push_back(placed(
                 {name},
-                Message("cell {} contains a pasted picture; save it as a file and give the file name in the text",
-                        number)));
+                Message(
+                    "cell {} contains a pasted picture; save the picture as a file and give the file name in the text",
+                    number)));
         CellText read = cell_of_json(cell, first);
         if (kind == "raw" && read.marked) {  // a comment in its place, by which later cells keep their numbers
             read.source = "<!-- A raw cell of the notebook was here. -->";

@@ -290,7 +290,7 @@ class Pass final : public AnyPass {
 Message memory_text(const RecursiveOptions& options) {
     if (options.drift.size() > 0) return Message("with parameters that follow a random walk");
     if (options.forgetting == 1) return Message("without forgetting");
-    return Message("with most weight on the last {} samples", std::round(1 / (1 - options.forgetting)));
+    return Message("with most of the weight on the last {} samples", std::round(1 / (1 - options.forgetting)));
 }
 
 /// Which samples the history keeps.

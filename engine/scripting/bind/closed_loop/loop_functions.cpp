@@ -133,7 +133,7 @@ constexpr FunctionEntry kLoopFunctions[] = {
      marked("estimator", "Estimate a plant in closed loop, with the reference as instrument"),
      guarded<estimate_clivsvf>, kLoopEquation, kLoopEquationArguments},
     {"clsrivc", "continuous time", "clsrivc(data, {nb, nf, nk}, {options}) -> G",
-     marked("estimator", "Estimate a plant in closed loop by refined instrumental variables, with one of four methods"),
+     marked("estimator", "Estimate a plant in closed loop by refined instrumental variables"),
      guarded<memoized_call<estimate_clsrivc>>, kLoopOutput, kLoopOutputArguments},
 };
 

@@ -157,7 +157,7 @@ constexpr FunctionEntry kLearningFunctions[] = {
      marked("estimator", "Estimate sparse differential equations from a library of functions"), guarded<estimate_sindy>,
      kSindy, kSindyArguments},
     {"dmdc", "learning from data", "dmdc(data, {options}) -> G",
-     marked("estimator", "Estimate a state-space model from snapshots, with few modes"),
+     marked("estimator", "Estimate a state-space model with few modes from snapshots"),
      guarded<memoized_call<estimate_dmdc>>, kDmdc, kDmdcArguments},
     {"narx", "learning from data", "narx(data, {na, nb, nk}, {options}) -> G",
      marked("estimator", "Estimate a polynomial difference equation and select its terms"), guarded<estimate_narx>,

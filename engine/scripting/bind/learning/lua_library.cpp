@@ -12,7 +12,7 @@ struct ChannelNames {
 };
 
 Message more_than_a_list() {
-    return Message("the library must return one list: return {x[1], x[1]*x[2]}, but it returned several values");
+    return Message("the library must return one list, as in return {x[1], x[1]*x[2]}, but it returned several values");
 }
 
 /// A table of the columns as vectors, by place and by name.

@@ -153,13 +153,13 @@ constexpr NamedReader kRecursiveReaders[] = {{"rlssvf", read_recursive<rlssvf, t
 
 constexpr FunctionEntry kRecursiveFunctions[] = {
     {"rlssvf", "continuous time", "rlssvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "Recursive lssvf for time-varying parameters"),
+     marked("estimator", "Estimate time-varying parameters with a recursive form of lssvf"),
      guarded<memoized_call<estimate_recursively<rlssvf, true>>>, kRecursive, kRecursiveEquationArguments},
     {"rivsvf", "continuous time", "rivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "Recursive ivsvf for time-varying parameters"),
+     marked("estimator", "Estimate time-varying parameters with a recursive form of ivsvf"),
      guarded<memoized_call<estimate_recursively<rivsvf, true>>>, kRecursive, kRecursiveEquationArguments},
     {"rsrivc", "continuous time", "rsrivc(data, {nb, nf, nk}, lambda, {options}) -> G",
-     marked("estimator", "Recursive srivc for time-varying parameters"),
+     marked("estimator", "Estimate time-varying parameters with a recursive form of srivc"),
      guarded<memoized_call<estimate_recursively<rsrivc, false>>>, kRecursive, kRecursiveOutputArguments},
     {"plot_history", "figures", "plot_history(G, {options}) -> fig",
      "Plot parameters versus time with confidence bands", guarded<plot_parameters>, kHistory, kHistoryArguments},
