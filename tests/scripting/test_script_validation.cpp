@@ -30,7 +30,7 @@ TEST(script_validation, resid_says_what_is_left) {
     EXPECT_THAT(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P1'))\nprint(t.independent)"),
                 testing::AllOf(HasSubstr("The model does not describe all dynamics"), HasSubstr("false\n")));
     EXPECT_THAT(printed(kRecord + "print((resid(iddata(x, u, 0.05), idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}))))"),
-                testing::AllOf(HasSubstr("to rounding"), HasSubstr("nil\n")));
+                testing::AllOf(HasSubstr("rounding error"), HasSubstr("nil\n")));
 }
 
 TEST(script_validation, reports_and_resid_name_the_structure_that_is_missed) {

@@ -163,7 +163,7 @@ TEST(residual_tests, says_when_there_is_nothing_to_test) {
     const Vector u = prbs(6, 3);
     const auto exact = plain_tests(record(lsim(kG, u, kTs), u), kG);
     EXPECT_TRUE(exact.outputs[0].exact);
-    EXPECT_THAT(message_text(exact.verdict), HasSubstr("to rounding"));
+    EXPECT_THAT(message_text(exact.verdict), HasSubstr("rounding error"));
     const Vector flat = Vector::Ones(100), y = lsim(kG, flat, kTs) + 0.1 * RandomStream(1).normal(100);
     EXPECT_THAT(message_text(plain_tests(record(y, flat), kG).verdict), HasSubstr("u1 never changes"));
     const Vector drift = lsim(kG, flat, kTs) + 0.1 * ar1(100, 0.9, 1);
