@@ -159,7 +159,7 @@ int add_reference(Call& call) {
     return give_self(call);
 }
 
-/// Lines at all steps between the ends, as one curve with gaps; `upright`: at places on the x axis.
+/// Lines at all steps between the ends, as one curve with gaps; `upright`: at places on the x-axis.
 Curve ruled_lines(std::pair<double, double> along, double step, std::pair<double, double> across, bool upright) {
     const auto lines = static_cast<Index>(std::floor((along.second - along.first) / step + 1e-6)) + 1;
     Vector places(3 * lines), ends(3 * lines);

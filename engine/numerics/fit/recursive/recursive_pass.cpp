@@ -24,7 +24,7 @@ constexpr double kFilterMemories = 20;      // of the first batch
 constexpr double kBlockMemories = 5;        // of the blocks that tell the errors' color
 constexpr Index kSamplesBetweenLooks = 16;  // at how well the model is known
 constexpr double kSurest = 0.03;            // relative standard errors of coefficients that filters follow
-constexpr double kQuickest = 5;             // poles of a model that filters follow, in cut-off frequencies
+constexpr double kQuickest = 5;             // poles of a model that filters follow, in cutoff frequencies
 constexpr double kStepRounding = 1e-9;      // relative, of a number of samples: the unit of time must not change it
 
 /// The record as the loop sees it.
@@ -264,7 +264,7 @@ class Pass final : public AnyPass {
     /// let through would outweigh all others, now and later.
     bool known_well() const { return array_.known_to(kSurest, static_cast<std::size_t>(n_)); }
 
-    /// Against poles at kQuickest times the cut-off frequency.
+    /// Against poles at kQuickest times the cutoff frequency.
     bool too_quick(const EvolvingModel& model) const {
         double size = 0;
         for (std::size_t i = 0; i < static_cast<std::size_t>(kOrder > 0 ? kOrder : n_); ++i)
