@@ -63,7 +63,7 @@ int make_document(ReportRequest request, bool show_timings) {
     for (const UnplacedEntries& entries : result.unplaced) note(entries.message());
     say(result.up_to_date      ? Message("{} (up to date)", file)
         : result.error         ? Message("{} (up to the error)", file)
-        : !result.gaps.empty() ? Message("{} (draft: ?? marks missing parts)", file)
+        : !result.gaps.empty() ? Message("{} (draft: \"??\" marks the missing parts)", file)
                                : Message("{}", file));
     if (show_timings) show(result);
     return result.error || !result.gaps.empty() ? kFailed : kDone;

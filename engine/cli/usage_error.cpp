@@ -76,7 +76,7 @@ Message unknown_words(const CLI::App* command, const std::vector<std::string>& a
         return unknown_option(whole_name(command), option, option_names(command));
     const std::vector<std::string> names = command_names(command);
     if (args.front().ends_with(".lua") && command->get_parent() == nullptr)
-        return Message("use the command run for a script: dynlab run {}", shell_word(args.front()));
+        return Message("to run a script, use: dynlab run {}", shell_word(args.front()));
     if (!names.empty()) return unknown_command(command, args.front(), names);
     return required ? Message() : Message("too many arguments: {}", fmt::format("{}", fmt::join(args, " ")));
 }

@@ -126,7 +126,7 @@ class CsvReader {
         std::vector<std::string> units(columns());
         if (!options_.names.empty()) {
             if (options_.names.size() != columns())
-                throw EnvironmentError("{}: the option names has {}, but the table has {}", file_.string(),
+                throw EnvironmentError("{}: the option 'names' has {}, but the table has {}", file_.string(),
                                        plural(std::ssize(options_.names), "{} name", "{} names"),
                                        plural(static_cast<std::int64_t>(columns()), "{} column", "{} columns"));
             table_.names = options_.names;

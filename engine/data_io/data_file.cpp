@@ -90,19 +90,21 @@ LoadedData variables_of(const fs::path& file, bool guarded, const ImportOptions&
 
 LoadedData from_workbook(const fs::path& file, ImportOptions options) {
     if (options.delimiter)
-        throw EnvironmentError("{}: the option delimiter is for tables in text files", file.string());
+        throw EnvironmentError("{}: the option 'delimiter' applies only to tables in text files", file.string());
     SheetText sheet = read_sheet(file, options.sheet);
     options.delimiter = ',';
     LoadedData data = from_table(read_csv_text(file, std::move(sheet.csv), options));
     if (options.sheet.empty() && sheet.sheets.size() > 1)
-        data.notes.insert(data.notes.begin(),
-                          Message("of the sheets {}, dynlab reads the first; the option sheet selects another",
-                                  listed(sheet.sheets)));
+        data.notes.insert(
+            data.notes.begin(),
+            Message("dynlab reads the first of the sheets {}; to read another sheet, use the option 'sheet'",
+                    listed(sheet.sheets)));
     return data;
 }
 
 LoadedData from_text(const fs::path& file, const ImportOptions& options) {
-    if (!options.sheet.empty()) throw EnvironmentError("{}: the option sheet is for workbooks (.xlsx)", file.string());
+    if (!options.sheet.empty())
+        throw EnvironmentError("{}: the option 'sheet' applies only to workbooks (.xlsx)", file.string());
     return from_table(read_csv_file(file, options));
 }
 

@@ -75,7 +75,7 @@ WorkbookParts unpacked(const std::string& file, const std::string& bytes) {
         la_ssize_t size = 0;
         while ((size = ::archive_read_data(zip.get(), block, sizeof block)) > 0) {
             total += static_cast<std::size_t>(size);
-            if (total > most) throw EnvironmentError("{} unpacks to more than {} MB", file, most >> 20);
+            if (total > most) throw EnvironmentError("{} is larger than {} MB when unpacked", file, most >> 20);
             part.append(block, static_cast<std::size_t>(size));
         }
         if (size < 0) throw EnvironmentError("{} is damaged: one of its parts cannot be unpacked", file);
@@ -279,7 +279,7 @@ class SheetReader {
     };
 
     [[noreturn]] void fail_large() const {
-        throw EnvironmentError("{} has a sheet of more than {} MB", file_, most_bytes_ >> 20);
+        throw EnvironmentError("{} has a sheet larger than {} MB", file_, most_bytes_ >> 20);
     }
 
     std::size_t whole_number(const std::string& text) const {
@@ -295,7 +295,7 @@ class SheetReader {
             column = column * 26 + static_cast<std::size_t>(c - 'A' + 1);
         }
         if (column == 0)
-            throw EnvironmentError("{} is damaged: \"{}\" is not a cell reference", file_, place.substr(0, 20));
+            throw EnvironmentError("{} is damaged: \"{}\" is not a valid cell reference", file_, place.substr(0, 20));
         return column - 1;
     }
 
@@ -305,7 +305,8 @@ class SheetReader {
         const std::string value = child_of(cell, "v").text().get();
         if (type == "s") {
             const std::size_t index = whole_number(value);
-            if (index >= texts_.size()) throw EnvironmentError("{} is damaged: a cell refers to a missing text", file_);
+            if (index >= texts_.size())
+                throw EnvironmentError("{} is damaged: a cell refers to a missing string", file_);
             return texts_[index].empty() ? "" : in_quotes(texts_[index]);
         }
         if (type == "str" || type == "e" || type == "d") return value.empty() ? "" : in_quotes(value);

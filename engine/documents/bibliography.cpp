@@ -143,7 +143,7 @@ Message why_no_bibliography(const fs::path& file) {
     if (!fs::is_regular_file(file))
         return Message("the bibliography file is missing; add the file, or remove \"bibliography:\"");
     if (fs::file_size(file) > kMaxByteCount)
-        return Message("the bibliography exceeds one megabyte; keep only the works that the document cites");
+        return Message("the bibliography is larger than 1 MB; keep only the works that the document cites");
     return {};
 }
 

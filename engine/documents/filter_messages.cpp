@@ -135,8 +135,8 @@ class Sentences {
                 first);
         if (code == "pasted-picture")
             return Message(
-                "the picture \"{}\" was pasted into the notebook, and a report cannot read it there. Save it as a file "
-                "next to the notebook and give the file name in the text",
+                "the picture \"{}\" was pasted into the notebook, and a report cannot read pasted pictures. Save the "
+                "picture as a file next to the notebook and give the file name in the text",
                 first);
         if (code == "mathematics") return refused_in_formula(first, second, third);
         if (code == "latex")
@@ -186,8 +186,7 @@ class Sentences {
                 "the table \"{}\" with {} columns is too wide for the page; report fewer columns or shorter cells",
                 first, second);
         if (code == "nested-text")
-            return Message("the text \"{}\" contains a text slot; a text from a script cannot include another text",
-                           first);
+            return Message("the text \"{}\" contains a text slot, which is not supported in text from a script", first);
         if (code == "width")
             return Message("the width \"{}\" must be a percentage, cm or mm, such as 60% or 8cm", first);
         if (code == "column-width")
@@ -268,7 +267,7 @@ class Sentences {
             return Message("the slot `{}`{.{}} has an unknown class; write a value as `{}`{.value}", text, name, text);
         if (code == "block-class") return Message("unknown language \"{}\" of a code block", name);
         if (code == "span-class")
-            return Message("unknown class \"{}\" of a bracketed text; write the text without it", name);
+            return Message("unknown class \"{}\" of bracketed text; write the text without the class", name);
         return Message("the document filter reports an unknown problem: {} {}", code, name);
     }
 

@@ -276,9 +276,13 @@ class LatexRun {
         note("latex pass " + std::to_string(pass), start);
         if (run.timed_out) throw LatexRefusal(Message("{} did not finish within two minutes", engine_.program), 0, "");
         if (run.exit_code == 128 + SIGXFSZ)
-            throw LatexRefusal(Message("{} wrote a file of more than 64 MB; use smaller pictures", engine_.program), 0,
+            throw LatexRefusal(Message("{} wrote a file larger than 64 MB; use smaller pictures", engine_.program), 0,
                                "");
-        if (run.output_exceeded) throw LatexRefusal(Message("{} wrote too many messages", engine_.program), 0, "");
+        if (run.output_exceeded)
+            throw LatexRefusal(
+                Message("{} wrote too many messages and was stopped; check the text for a macro that calls itself",
+                        engine_.program),
+                0, "");
         const std::string log = "\n" + run.output;
         if (run.exit_code != 0) {
             check_missing_packages(log);

@@ -116,10 +116,11 @@ void check_missing_packages(const std::string& log) {
         kNoFile(R"(File [`']([^']+\.(?:sty|cls|def|fd))' not found)", RE2::Latin1);
     if (RE2::PartialMatch(log, kNoFrench))
         throw MissingProgram(
-            Message("the French language of LaTeX (babel's french.ldf) is not installed: sudo apt install {}",
+            Message("the French language support of LaTeX (babel's french.ldf) is not installed. Install it with: sudo "
+                    "apt install {}",
                     "texlive-lang-french"));
     if (std::string file; RE2::PartialMatch(log, kNoFile, &file))
-        throw MissingProgram(Message("the LaTeX file {} is not installed: sudo apt install {}", file,
+        throw MissingProgram(Message("the LaTeX file {} is not installed. Install it with: sudo apt install {}", file,
                                      "texlive-latex-recommended texlive-fonts-recommended texlive-pictures lmodern"));
 }
 

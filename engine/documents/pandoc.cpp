@@ -220,12 +220,13 @@ PandocResult run_pandoc(const PandocJob& job, Complaints& complaints) {
     write_work_file(job.work_folder / "slots.lua", slots_file(job));
     ChildResult run = finished_pandoc(job);
     if (run.timed_out)
-        throw DocumentError(
-            Place{job.template_file},
-            Message("Pandoc did not finish this document within {} s of processor time, or ten times that elapsed time",
-                    kMaxTime.count()));
+        throw DocumentError(Place{job.template_file},
+                            Message("Pandoc did not finish this document within {} s of processor time, or within ten "
+                                    "times as many seconds of elapsed time",
+                                    kMaxTime.count()));
     if (run.output_exceeded)
-        throw DocumentError(Place{job.template_file}, Message("the output of Pandoc exceeds the limit"));
+        throw DocumentError(Place{job.template_file},
+                            Message("the output of Pandoc exceeds the size limit; shorten the document"));
     Complaints found;
     PandocResult result;
     FilterMessages messages =

@@ -52,7 +52,7 @@ class CellReader {
             const std::size_t equals = word.find('=');
             if (equals == std::string::npos || equals + 1 == word.size())
                 fail(index,
-                     Message("cell option \"{}\" does not have the form key=value (or [markdown] in first place)",
+                     Message("cell option \"{}\" does not have the form key=value (or [markdown] as the first option)",
                              word));
             read_option(cell, index, word.substr(0, equals), word.substr(equals + 1));
         }

@@ -94,7 +94,7 @@ std::vector<PlacedPicture> find_figures(const std::vector<UsedPicture>& pictures
                                                   file.filename().string()));
         else if (file.extension() != "." + figure_extension(format))
             complaints.add(find_in(markdown, "figure:" + picture.name, template_file),
-                           Message("the figure \"{}\" was drawn as {}, but this document needs {}", picture.name,
+                           Message("the figure \"{}\" was saved as {}, but this document needs {}", picture.name,
                                    file.extension().string(), "." + figure_extension(format)));
         else
             found.push_back({file, prefix + std::to_string(picture.number) + "." + figure_extension(format),

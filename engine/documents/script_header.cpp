@@ -97,7 +97,7 @@ class HeaderReader {
 
     std::uint32_t seed_of(const std::string& value) const {
         if (const auto seed = read_number<std::uint32_t>(value)) return *seed;
-        fail(Message("seed \"{}\" must be a whole number from 0 to 4294967295", value));
+        fail(Message("the seed \"{}\" must be a whole number from 0 to 4294967295", value));
     }
 
     [[noreturn]] void unknown(const std::string& key) const {

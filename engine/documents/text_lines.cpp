@@ -12,8 +12,9 @@ std::string text_of_source(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > kMaxSourceSize)
-        throw DocumentError(Place{file}, Message("a script or template can have at most {} MB, but this file has {} MB",
-                                                 kMaxSourceSize >> 20, (bytes + (1 << 20) - 1) >> 20));
+        throw DocumentError(
+            Place{file}, Message("the size limit of a script or template is {} MB, but the size of this file is {} MB",
+                                 kMaxSourceSize >> 20, (bytes + (1 << 20) - 1) >> 20));
     return read_text(file);
 }
 

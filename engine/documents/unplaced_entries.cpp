@@ -58,11 +58,11 @@ Message UnplacedEntries::message() const {
         case Kind::kTable:
             return one ? Message(
                              "the table {} is passed to the report but never shown; write ::: {.table name={}} above "
-                             "and ::: below its caption",
+                             "its caption and ::: below the caption",
                              all, first)
                        : Message(
-                             "the tables {} are passed to the report but never shown; write ::: {.table name={}} above "
-                             "and ::: below its caption",
+                             "the tables {} are passed to the report but never shown; for each table, write ::: with "
+                             "its name, such as ::: {.table name={}}, above its caption, and ::: below the caption",
                              all, first);
         case Kind::kText:
             return one ? Message(
@@ -70,8 +70,8 @@ Message UnplacedEntries::message() const {
                              "later line, :::",
                              all, first)
                        : Message(
-                             "the texts {} are passed to the report but never shown; write ::: {.text name={}} and, on "
-                             "a later line, :::",
+                             "the texts {} are passed to the report but never shown; for each text, write ::: with its "
+                             "name, such as ::: {.text name={}}, and, on a later line, :::",
                              all, first);
         case Kind::kValue:
             return one ? Message("the value {} is passed to the report but never shown; write {}", all, slot())

@@ -11,7 +11,7 @@ namespace dynlab::inline platform {
 class MissingProgram : public ErrorOf<std::runtime_error> {
   public:
     MissingProgram(const std::string& program, const std::string& package)
-        : ErrorOf("{} is not installed: sudo apt install {}", program, package) {}
+        : ErrorOf("{} is not installed. Install it with: sudo apt install {}", program, package) {}
     explicit MissingProgram(const Message& message) : ErrorOf(message) {}  ///< as another dynlab reported
 };
 

@@ -133,16 +133,16 @@ void WrittenFiles::refuse(const fs::path& file, bool was_ours) const {
     if (ledger_.empty())
         throw EnvironmentError(
             "'{}' already exists, and its origin is unknown (neither HOME nor XDG_STATE_HOME is set). Save under "
-            "another name, move the file elsewhere, or replace it (dynlab run --force)",
+            "another name, move the file elsewhere, or replace the file (dynlab run --force)",
             name);
     if (!was_ours)
         throw EnvironmentError(
             "'{}' already exists and was not written by dynlab. Save under another name, move the file elsewhere, or "
-            "replace it (dynlab run --force)",
+            "replace the file (dynlab run --force)",
             name);
     throw EnvironmentError(
-        "'{}' already exists and was changed after dynlab wrote it. Save under another name, move the file elsewhere, "
-        "or replace it (dynlab run --force)",
+        "'{}' already exists and was changed after dynlab wrote the file. Save under another name, move the file "
+        "elsewhere, or replace the file (dynlab run --force)",
         name);
 }
 

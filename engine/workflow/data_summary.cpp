@@ -133,11 +133,11 @@ class DataLooker {
             add_range(row, matrix->reshaped());
         } else if (const auto* list = std::get_if<std::shared_ptr<VariableList>>(&variable.value)) {
             row.push_back(text(data_.columns.empty() ? Message("{} entries", (*list)->size())
-                                                     : Message("{} texts", (*list)->size())));
+                                                     : Message("{} strings", (*list)->size())));
         } else if (std::holds_alternative<std::shared_ptr<VariableTable>>(variable.value)) {
             row.push_back(text(Message("a structure")));
         } else if (const auto* words = std::get_if<std::string>(&variable.value)) {
-            row.push_back(text(Message("the text \"{}\"", *words)));
+            row.push_back(text(Message("the string \"{}\"", *words)));
         } else {
             row.push_back(text(std::holds_alternative<bool>(variable.value) ? Message("true or false")
                                                                             : Message("complex numbers")));
@@ -167,7 +167,7 @@ class DataLooker {
         const auto stated = data_.variables.find("Ts");
         const double* Ts = stated == data_.variables.end() ? nullptr : std::get_if<double>(&stated->second.value);
         std::string lines;
-        if (Ts != nullptr) lines = line(Message("sampling time: {} s, as given in the file", short_number(*Ts)));
+        if (Ts != nullptr) lines = line(Message("sampling time: {} s, as specified in the file", short_number(*Ts)));
         if (signals_.empty()) return lines;
         if (clock()) return lines + line(time()) + gaps();
         if (data_.time.question) return lines + line(*data_.time.question);

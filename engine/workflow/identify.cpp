@@ -129,9 +129,9 @@ std::string structure_of(const IdentifyRequest& request) {
     if (!request.poles) return message_text(request.delay ? Message("No delay.") : Message("An estimated delay."));
     const Message poles = plural(*request.poles, "{} pole", "{} poles"),
                   zeros = plural(request.zeros.value_or(0), "{} zero", "{} zeros");
-    if (!request.delay) return message_text(Message("{}, {}, an estimated delay.", poles, zeros));
+    if (!request.delay) return message_text(Message("{}, {} and an estimated delay.", poles, zeros));
     return message_text(*request.delay > 0
-                            ? Message("{}, {}, a delay of {} s.", poles, zeros, fmt::format("{}", *request.delay))
+                            ? Message("{}, {} and a delay of {} s.", poles, zeros, fmt::format("{}", *request.delay))
                             : Message("{}, {}.", poles, zeros));
 }
 

@@ -121,7 +121,8 @@ Lesson find_lesson(const std::string& name) {
     if (fitting.size() == 1) return fitting.front();
     if (const auto own = name.empty() ? std::nullopt : lesson_in(name)) return *own;
     if (fitting.empty()) throw EnvironmentError(no_lesson(name, all));
-    throw EnvironmentError("'{}' matches several lessons ({}); give more of the name", name, listed(slugs_of(fitting)));
+    throw EnvironmentError("'{}' matches several lessons ({}); specify more of the name", name,
+                           listed(slugs_of(fitting)));
 }
 
 std::string lasting_name(const Lesson& lesson) {

@@ -41,7 +41,8 @@ std::uint32_t seed_of_group(const fs::path& folder, std::uint32_t otherwise) {
         const toml::table group = toml::parse_file(file.string());
         const std::int64_t seed = group["seed"].value_or<std::int64_t>(otherwise);
         if (seed < 0 || seed > std::int64_t{UINT32_MAX}) {
-            throw DocumentError(Place{file}, Message("seed must be a whole number from 0 to 4294967295, not {}", seed));
+            throw DocumentError(Place{file},
+                                Message("the seed must be a whole number from 0 to 4294967295, not {}", seed));
         }
         return static_cast<std::uint32_t>(seed);
     } catch (const toml::parse_error& error) {

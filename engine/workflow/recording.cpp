@@ -209,8 +209,8 @@ Recording::Signal Recording::signal(const std::string& name) const {
     if (auto member = struct_member(name)) return *std::move(member);
     if (signals().empty())
         throw EnvironmentError(
-            "{} contains no numeric columns, and therefore no column '{}'; a script can read its tables or texts with "
-            "load({}).NAME",
+            "{} contains no numeric columns, and therefore no column '{}'; a script can read its tables or strings "
+            "with load({}).NAME",
             name_, name, lua_text(name_));
     if (const auto near = nearest_word(name, signals()))
         throw EnvironmentError("{} has no numeric column '{}' (did you mean '{}'?); the columns are {}", name_, name,

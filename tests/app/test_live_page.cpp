@@ -77,7 +77,7 @@ TEST_F(live_page, reports_in_the_document_s_language_what_is_wrong_and_found) {
     result.checked = {Message("checks of lesson {}: {} of {} points", "a", 0, 3)};
     result.findings = {{"answer-missing", Severity::kRule, 0, "",
                         Message("The answer \"{}\" (number) is missing.", "gain"),
-                        Message("Submit it: answer(\"{}\", ...).", "gain")}};
+                        Message("Submit the answer: answer(\"{}\", ...).", "gain")}};
     const json findings = json::parse(issues_as_json(result));
     page.complain({kWrong});
     page.set_work(findings.dump(), false);

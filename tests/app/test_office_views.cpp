@@ -140,7 +140,7 @@ TEST(office_views, reviews_are_those_of_the_commands_and_scores_can_be_dropped) 
     EXPECT_EQ(course.run({"scores", "crane", "--drop", reviewer, report, "--reason", "again"}).exit_code, 1);
     reviews = json::parse(views.reviews("crane"));
     for (const json& one : reviews["reports"]) EXPECT_EQ(one["scored"], one["report"] == report ? 1 : 2);
-    EXPECT_THAT(course.run({"marks", "crane"}).output, HasSubstr("is based on one review."));
+    EXPECT_THAT(course.run({"marks", "crane"}).output, HasSubstr("is based on only one review."));
     EXPECT_THAT(course.run({"history"}).output, HasSubstr("are withdrawn; reason: zeros"));
 }
 

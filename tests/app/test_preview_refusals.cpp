@@ -37,7 +37,7 @@ TEST_F(preview_refusals, files_and_folders) {
               "creates them)\n");
     bench.write("big.lua", std::string(5'000'000, 'a'));
     EXPECT_EQ(refusal({"big.lua"}),
-              "dynlab: big.lua: a script or template can have at most 4 MB, but this file has 5 MB\n");
+              "dynlab: big.lua: the size limit of a script or template is 4 MB, but the size of this file is 5 MB\n");
     fs::create_directory(bench.path("folder.lua"));
     EXPECT_THAT(refusal({"folder.lua"}), testing::HasSubstr("folder.lua has no analysis.lua"));
 }

@@ -277,7 +277,7 @@ TEST_F(anonymous_copies, unreadable_files_and_missing_or_slow_programs_are_repor
         anonymous_copy(own, file("none.pdf"), setup());
         ADD_FAILURE() << "made without Ghostscript";
     } catch (const MissingProgram& error) {
-        EXPECT_STREQ(error.what(), "gs is not installed: sudo apt install ghostscript");
+        EXPECT_STREQ(error.what(), "gs is not installed. Install it with: sudo apt install ghostscript");
     }
     ::setenv("PATH", path.c_str(), 1);
     EXPECT_FALSE(std::filesystem::exists(file("none.pdf")));
@@ -380,7 +380,7 @@ TEST_F(anonymous_copies, a_report_made_again_fills_no_disk) {
                                    "local big = {}\nfor i = 1, 20 do big['c' .. i] = randn(200000) end\n"
                                    "save_csv(\"big.csv\", big, {digits = 17})\n");
     EXPECT_THAT(message_text(anonymous_copy(file("work"), file("none.pdf"), setup).error_reason),
-                HasSubstr("a file of more than 64 MB"));
+                HasSubstr("a file larger than 64 MB"));
     if (setup.isolation != Isolation::kFull) return;
     write("work/analysis.lua", header + "save_csv(\"/box/submission/fill.csv\", {t = zeros(3)})\n");
     const AnonymousCopy copy = anonymous_copy(file("work"), file("none.pdf"), setup);

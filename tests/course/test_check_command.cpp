@@ -107,8 +107,8 @@ TEST(check_command, a_picture_that_was_pasted_into_a_notebook_is_reported_with_t
  "execution_count": null, "source": ["print(1)"]}], "metadata": {}, "nbformat": 4, "nbformat_minor": 5
 })json");
     const std::string reported = bench.dynlab({"check", "pasted.ipynb"}).output;
-    EXPECT_THAT(reported,
-                AllOf(HasSubstr("was pasted into the notebook"), HasSubstr("Save it as a"), Not(HasSubstr("/box/"))));
+    EXPECT_THAT(reported, AllOf(HasSubstr("was pasted into the notebook"), HasSubstr("Save the picture as a"),
+                                Not(HasSubstr("/box/"))));
 }
 
 TEST(check_command, a_copied_cell_and_lost_stars_are_hints) {
@@ -199,7 +199,7 @@ TEST(check_command, a_program_that_is_missing_here_is_no_fault_of_the_folder) {
     bench.hide_program("pandoc");
     const ChildResult result = bench.dynlab({"check", "mine"});
     EXPECT_EQ(result.exit_code, 3);
-    EXPECT_EQ(result.error_output, "dynlab: pandoc is not installed: sudo apt install pandoc\n");
+    EXPECT_EQ(result.error_output, "dynlab: pandoc is not installed. Install it with: sudo apt install pandoc\n");
 }
 
 TEST(check_command, open_questions_and_missing_answers_are_found_by_line_and_name) {

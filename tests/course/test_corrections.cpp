@@ -103,7 +103,7 @@ TEST_F(corrections, times_come_from_the_platform_s_worksheet) {
                       ContainsRegex("group-03 .* late by 7 h")));
     course_.bench().write("bad.csv", "Identifier,Grade\nParticipant 1,3\n");
     EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output,
-                HasSubstr("bad.csv: a column identifier"));
+                HasSubstr("bad.csv: a column \"identifier\""));
     course_.bench().write("bad.csv", "group,time\ngroup-01,tomorrow\n");
     EXPECT_THAT(course({"submit", "all", "--times", "bad.csv"}).error_output, HasSubstr("bad.csv, line 2: the time"));
 }
@@ -165,7 +165,7 @@ TEST_F(corrections, a_version_is_withdrawn_and_is_reinstated) {
     done({"withdraw", "crane", "group-01", "--reason", "somebody else's file"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +v1  "));
     EXPECT_THAT(course_.submit_file("group-01.pdf", small_pdf("two"), "2026-03-01 15:00", {"--no-checks"}).output,
-                HasSubstr("already received and withdrawn; dynlab course restore"));
+                HasSubstr("already received and withdrawn; to reinstate the file, run dynlab course restore"));
     done({"withdraw", "crane", "group-01", "--reason", "this one too"});
     EXPECT_THAT(status(), ContainsRegex("group-01 +1 +-  "));
     EXPECT_EQ(course({"withdraw", "crane", "group-01", "--reason", "x"}).exit_code, 1);

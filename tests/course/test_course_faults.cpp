@@ -172,7 +172,8 @@ TEST_F(course_faults, leftovers_of_killed_runs_are_removed_and_reported) {
     EXPECT_EQ(reported.exit_code, 0) << reported.error_output;
     EXPECT_THAT(reported.output,
                 ContainsRegex("removed [^\n]*/k/files/\\.[0-9a-f]+\\.dynlab-[^\n]*, left by an interrupted run\n"));
-    EXPECT_THAT(reported.output, HasSubstr("report.txt.4711-0 is a temporary file of an earlier, interrupted dynlab"));
+    EXPECT_THAT(reported.output,
+                HasSubstr("report.txt.4711-0 is a temporary file of an earlier, interrupted run of dynlab"));
     EXPECT_THAT(bench_.course({"verify"}).output, ::testing::Not(HasSubstr("removed")));
     EXPECT_TRUE(std::filesystem::exists(bench_.bench().path() / other));
     in_use.append("whole");

@@ -36,7 +36,8 @@ TEST(custom_checks, an_answer_that_cannot_be_taken_costs_no_other) {
         EXPECT_EQ(earned(result, 0), 0) << name;
         EXPECT_EQ(earned(result, 1), 3) << name;
     }
-    EXPECT_EQ(said(bench.result("kind"), 0), "The answer \"x\" must be of the kind number, but a table was given.");
+    EXPECT_EQ(said(bench.result("kind"), 0),
+              "The answer \"x\" must be of the kind number, but a value of the kind table was given.");
     EXPECT_EQ(said(bench.result("twice"), 0),
               "The answer \"x\" already has another value; specify each answer only once.");
     EXPECT_EQ(said(bench.result("name"), 0), "The answer \"x\" was not submitted.");

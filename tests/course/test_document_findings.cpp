@@ -33,7 +33,7 @@ TEST_F(document_findings, a_sound_report_has_none_and_the_summary_says_what_was_
     EXPECT_THAT(texts_of(result.checked), Contains("9 sections"));
     EXPECT_THAT(texts_of(result.checked), Contains("1 numbered figure"));
     EXPECT_THAT(texts_of(result.checked), Contains("English only"));
-    EXPECT_THAT(texts_of(result.checked), Contains(HasSubstr("of at most 6 + 1 of appendix")));
+    EXPECT_THAT(texts_of(result.checked), Contains(HasSubstr("of at most 6 + 1 in the appendix")));
 }
 
 TEST_F(document_findings, a_sound_french_report_has_none) {
@@ -101,7 +101,7 @@ TEST_F(document_findings, pages_beyond_the_limit_count_and_an_appendix_has_its_o
     EXPECT_THAT(ids(pages(6 - own)), IsEmpty());
     const Issue seven = only(pages(7 - own), "pages");
     EXPECT_EQ(seven.page, 7);
-    EXPECT_THAT(message_text(seven.what), HasSubstr("has 7 pages; at most 6 pages and 1 page of appendix"));
+    EXPECT_THAT(message_text(seven.what), HasSubstr("has 7 pages; at most 6 pages, and 1 page in the appendix"));
     EXPECT_THAT(message_text(seven.remedy), HasSubstr("heading \"Appendix\""));
     const std::string appendix = std::string("\n::: {.pagebreak}\n:::\n\n# Appendix: control\n\n") + kProse;
     EXPECT_THAT(ids(pages(6 - own, appendix)), IsEmpty());

@@ -65,7 +65,7 @@ TEST(gradebook_memory, marks_of_two_kinds_are_never_mixed) {
     // A penalty of all points waits until it is accepted, and stays so.
     const ChildResult waiting = bench.grade(again);
     EXPECT_EQ(waiting.exit_code, 1);
-    EXPECT_THAT(waiting.output, AllOf(HasSubstr("2 late:\n  \"a\": late by "), HasSubstr("2 notes need attention:"),
+    EXPECT_THAT(waiting.output, AllOf(HasSubstr("2 late:\n  \"a\" is late by "), HasSubstr("2 notes need attention:"),
                                       HasSubstr("a penalty of 100 % is not applied yet; apply it with --accept-late")));
     EXPECT_THAT(work.read("out/gradebook.csv"), HasSubstr(",a,graded,5,5,0,"));
     std::vector<std::string> accepted = all;
@@ -272,7 +272,7 @@ TEST(gradebook_memory, deadlines_know_grace_zones_and_more_time) {
     EXPECT_THAT(work.read("out/results/group-1/feedback.md"),
                 HasSubstr("and loses 0.2 points: received 2026-03-01 18:20 CET, 20 min after"));
     EXPECT_THAT(bench.result("group-1").at("output").get<std::string>(),
-                HasSubstr("Late, minus 0.20 points: " + reason));
+                HasSubstr("The submission was late and loses 0.20 points: " + reason));
     EXPECT_THAT(bench.grade({"--timezone", "Nowhere/Land", "--again"}).error_output, HasSubstr("Nowhere/Land"));
 }
 
@@ -352,7 +352,7 @@ TEST(gradebook_memory, one_run_at_a_time_and_results_are_no_submissions) {
     {
         const FileLock lock(work.path("out/.lock"));
         ASSERT_TRUE(lock.held());
-        EXPECT_THAT(bench.grade().error_output, HasSubstr("another dynlab grade is running in out"));
+        EXPECT_THAT(bench.grade().error_output, HasSubstr("another run of dynlab grade uses out"));
     }
     const auto inside = [&](const char* out) {
         return work.dynlab(

@@ -196,7 +196,7 @@ TEST(grading, leaves_ungraded_what_the_worked_solution_does_not_pass) {
 
 TEST(grading, checks_that_cannot_be_read_stop_before_anything_is_written) {
     for (const auto& [checks, fragment] :
-         {std::pair("check{id = 'x' test = 1}", "checks.lua:1"), std::pair("local a = 1", "declares no check"),
+         {std::pair("check{id = 'x' test = 1}", "checks.lua:1"), std::pair("local a = 1", "declares no checks"),
           std::pair("check{id = 'x', test = function() end, pionts = 3}", "points"),
           std::pair("check{id = 'x', test = function() end}\ncheck{id = 'x', test = function() end}", "check \"x\""),
           std::pair("check{id = 'x', rerun = 'hairdryer', test = function() end}", "hairdryer"),

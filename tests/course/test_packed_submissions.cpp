@@ -105,7 +105,7 @@ TEST(packed_submissions, a_pdf_that_came_alone_holds) {
     EXPECT_EQ(report_hash(bench, "group-01"), alone);
     bench.bench().write("group-02.zip", "PK\x03\x04 no archive at all");
     EXPECT_THAT(receive(bench, {"group-02.zip"}, kInTime).output,
-                HasSubstr("damaged: ask for a pack that can be opened"));
+                HasSubstr("damaged: ask the group for a pack that can be opened"));
 }
 
 // oracle: the rule: a review is a document that somebody can read
@@ -201,7 +201,7 @@ TEST(packed_submissions, takes_folders_as_students_keep_them) {
     const ChildResult taken = receive(bench, {"in"}, kInTime);
     EXPECT_THAT(taken.output,
                 AllOf(HasSubstr("3 files accepted"), ContainsRegex("group-01 +report +v1"),
-                      ContainsRegex("group-02 +unreadable +v2 +in time +other-kind: ask for a readable")));
+                      ContainsRegex("group-02 +unreadable +v2 +in time +other-kind: ask the group for a readable")));
     EXPECT_THAT(taken.error_output, AllOf(HasSubstr("pipe: not a regular file"), Not(HasSubstr("group-01")),
                                           Not(HasSubstr("filesystem")), Not(HasSubstr("data"))));
 }

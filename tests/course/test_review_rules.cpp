@@ -259,7 +259,7 @@ TEST_F(review_rules, a_pair_that_shares_a_member_later_is_taken_back_or_reported
     course_.database().run("INSERT INTO memberships VALUES (?, ?, ?, NULL)", "s" + pair.author_name.substr(7),
                            id("group-01"), at("2026-03-06 10:00"));
     EXPECT_THAT(assignment_status(course_, crane_, at("2026-03-06 11:00")),
-                HasSubstr("reviews a report of a present or former member"));
+                HasSubstr("reviews a report by a current or former group member"));
     const AssignOutcome outcome = assign_reviews(course_, crane_, at("2026-03-06 12:00"), false);
     std::string remarks;
     for (const Message& remark : outcome.remarks) remarks += message_text(remark) + "\n";

@@ -147,7 +147,7 @@ TEST(reviews, check_looks_for_the_people_of_a_roster) {
     bench.write("r.csv", "number,name\n1,Zoe\n");
     const ChildResult wrong = bench.dynlab({"check", "a.pdf", "--roster", "r.csv"});
     EXPECT_EQ(wrong.exit_code, 2);
-    EXPECT_THAT(wrong.error_output, HasSubstr("the column id is missing"));
+    EXPECT_THAT(wrong.error_output, HasSubstr("the column \"id\" is missing"));
     EXPECT_EQ(bench.dynlab({"check", "a.pdf", "--roster", "none.csv"}).exit_code, 2);
 }
 

@@ -92,7 +92,7 @@ TEST(secret_records, messages_quote_neither_hidden_records_nor_answers_of_reruns
     const std::string log = work.read("out/logs/quoting/log.txt");
     for (const char* where : {"error: checks.lua:2", "hidden: checks.lua:7"})
         EXPECT_THAT(log, HasSubstr("check " + std::string(where) +
-                                   ": dcgain: argument 1 (G) must be a model, but the text \"sample "));
+                                   ": dcgain: argument 1 (G) must be a model, but the string \"sample "));
 }
 
 // oracle: the rule that what is secret is known to be so

@@ -207,8 +207,9 @@ TEST(submission_names, one_meaning_is_taken_and_two_are_reported) {
     const auto error_reason = [&](const std::string& name) {
         return message_text(owners.find(called(name)).error_reason);
     };
-    EXPECT_EQ(error_reason("jose GARCIA"), "the name matches several: group-2, group-3");
-    EXPECT_EQ(error_reason("group-1-Zoë Ade_8_assignsubmission_file_"), "the name matches several: group-1, group-12");
+    EXPECT_EQ(error_reason("jose GARCIA"), "the name matches several groups or students: group-2, group-3");
+    EXPECT_EQ(error_reason("group-1-Zoë Ade_8_assignsubmission_file_"),
+              "the name matches several groups or students: group-1, group-12");
     EXPECT_EQ(error_reason("Ben Lee_900003_assignsubmission_file_"),
               "the number 900003 in the name belongs to group-12, but the name matches group-1");
     EXPECT_EQ(error_reason("group-7"), "the name matches no group and no student");
@@ -263,7 +264,7 @@ TEST(submission_names, the_instructors_list_goes_before_names) {
     EXPECT_THAT(owners.unmatched_names({called("my work"), called("Eve_77_assignsubmission_file_")}),
                 ElementsAre("gone"));
     for (const auto& [table, reported] :
-         {std::pair("name,group\n", "the columns submission and group"),
+         {std::pair("name,group\n", "the columns \"submission\" and \"group\""),
           std::pair("submission,group\nx,group-77\n", "line 2: unknown group \"group-77\""),
           std::pair("submission,id\nx,9\n", "line 2: no student has the id \"9\""),
           std::pair("submission,id\nx,1001\nx.zip,1002\n", "line 3: \"x\" already has an owner")}) {

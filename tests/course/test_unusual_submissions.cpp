@@ -26,10 +26,10 @@ TEST(unusual_submissions, what_a_word_processor_wrote_is_kept_and_flagged) {
     CourseBench bench(3, 1);
     const std::string text = "PK\x03\x04 what Word writes";
     EXPECT_THAT(reported(bench.submit_file("group-01.docx", text, kInTime, {"--no-checks"})),
-                AllOf(ContainsRegex("group-01 +report +v1 +in time +not-pdf: ask for a readable file"),
+                AllOf(ContainsRegex("group-01 +report +v1 +in time +not-pdf: ask the group for a readable file"),
                       HasSubstr("1 file accepted")));
     EXPECT_THAT(reported(bench.course({"status", "crane", "--at", "2026-03-01 11:00"})),
-                ContainsRegex("group-01 .*ask for a readable .*\\(not-pdf\\)"));
+                ContainsRegex("group-01 .*ask the group for a readable .*\\(not-pdf\\)"));
     EXPECT_EQ(shell(bench, "cat k/files/*/* k/files/* 2>/dev/null | grep -ac 'what Word writes'"), "1\n");
     // Beside the PDF that was made of it the text needs no remark.
     bench.bench().write("in/group-02.ODT", "text");
@@ -101,10 +101,11 @@ TEST(unusual_submissions, another_time_of_a_known_file_is_reported) {
         return reported(bench.course(more));
     };
     EXPECT_THAT(receive({}), ContainsRegex("group-01 +report +v1 +late by 7 h"));
-    EXPECT_THAT(receive({"--times", "times.csv"}),
-                AllOf(ContainsRegex("group-01 .*already received; according to --times it arrived Sun 2026-03-01 "
-                                    "11:30: correct the time with dynlab course set-received"),
-                      ContainsRegex("group-02 .*already received; nothing changed")));
+    EXPECT_THAT(
+        receive({"--times", "times.csv"}),
+        AllOf(ContainsRegex("group-01 .*already received; according to --times, the file arrived Sun 2026-03-01 "
+                            "11:30: correct the time with dynlab course set-received"),
+              ContainsRegex("group-02 .*already received; nothing changed")));
     reported(
         bench.course({"set-received", "crane", "group-01", "2026-03-01 11:30", "--reason", "the platform's list"}));
     EXPECT_THAT(receive({"--times", "times.csv"}),

@@ -172,7 +172,7 @@ TEST_F(hostile_documents, latex_itself_knows_no_raw_objects_and_fills_no_disk) {
     EXPECT_THAT(refusal_of_body("\\immediate\\openout5=big.tex \\def\\x{aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa}"
                                 "\\edef\\x{\\x\\x\\x\\x\\x\\x\\x\\x}\\edef\\x{\\x\\x\\x\\x\\x\\x\\x\\x}"
                                 "\\loop\\immediate\\write5{\\x\\x\\x}\\iftrue\\repeat"),
-                HasSubstr("a file of more than 64 MB"));
+                HasSubstr("a file larger than 64 MB"));
 }
 
 TEST_F(hostile_documents, formulas_of_the_course_are_not_refused) {
@@ -229,7 +229,7 @@ TEST_F(hostile_documents, what_a_script_reported_passes_the_same_checks) {
     record_.texts["end"] = {"`\\input{x}`{=latex}"};
     EXPECT_THAT(refusal("::: {.text name=end}\n:::\n", "out.pdf"), HasSubstr("{=latex}"));
     record_.texts["end"] = {"::: {.text name=end}\n:::\n"};
-    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n"), HasSubstr("cannot include another"));
+    EXPECT_THAT(refusal("::: {.text name=end}\n:::\n"), HasSubstr("is not supported in text from a script"));
     add_figure("raw", "$\\write18{x}$", DocumentFormat::kPdf);
     EXPECT_THAT(refusal("![](figure:raw)\n", "out.pdf"), HasSubstr("\\write"));
     record_.figures.clear();

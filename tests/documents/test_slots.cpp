@@ -199,7 +199,7 @@ TEST_F(slots, a_picture_that_was_pasted_into_a_notebook_is_a_gap_with_a_remedy) 
         draft("# Rig\n\n![image.png](attachment:image.png)\n\nAnd ![x](attachment:b.png) here.\n");
     EXPECT_THAT(gaps, HasSubstr("report.md:3: the picture \"image.png\" was pasted into the notebook"));
     EXPECT_THAT(gaps, HasSubstr("report.md:5: the picture \"b.png\""));
-    EXPECT_THAT(gaps, HasSubstr("Save it as a file next to the notebook"));
+    EXPECT_THAT(gaps, HasSubstr("Save the picture as a file next to the notebook"));
     EXPECT_THAT(page, HasSubstr("??"));
 }
 

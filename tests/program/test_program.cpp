@@ -74,7 +74,7 @@ TEST(program, a_script_replaces_its_own_files_only) {
         EXPECT_EQ(kept.exit_code, 1);
         EXPECT_THAT(kept.error_output,
                     HasSubstr("b.lua:3: save_csv: 'marks.csv' already exists and was not written by dynlab. Save under "
-                              "another name, move the file elsewhere, or replace it (dynlab run --force)"));
+                              "another name, move the file elsewhere, or replace the file (dynlab run --force)"));
     }
     EXPECT_EQ(bench.read("marks.csv"), "somebody's");
     EXPECT_EQ(bench.shell("echo \"save_csv('marks.csv', {y = {1, 2}})\" | $DYNLAB; head -1 marks.csv").output,

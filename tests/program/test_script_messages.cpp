@@ -23,7 +23,7 @@ std::string reported(const Workbench& bench, const std::string& script, const st
 TEST(script_messages, an_error_shows_the_path_as_given_the_line_and_the_calls) {
     const Workbench bench;
     EXPECT_EQ(reported(bench, "A/a.lua", "local function f(n)\n  return zeros(n)\nend\nf('x')\n"),
-              "dynlab: A/a.lua:2: zeros: argument 1 (n) must be a number, but the text \"x\" was given\n"
+              "dynlab: A/a.lua:2: zeros: argument 1 (n) must be a number, but the string \"x\" was given\n"
               "    return zeros(n)\n"
               "  A/a.lua:4: called f(n = \"x\")\n"
               "    f('x')\n");
@@ -68,7 +68,7 @@ TEST(script_messages, run_report_and_check_report_what_has_no_place) {
     EXPECT_THAT(
         checked,
         HasSubstr(
-            "not-shown\n    report.md: In analysis.lua the value 'gain' is passed to the report but never shown."));
+            "not-shown\n    report.md: In analysis.lua, the value 'gain' is passed to the report but never shown."));
     EXPECT_THAT(checked, HasSubstr("Write `gain`{.value} in the text."));
     bench.write("A/report.md", "---\ntitle: A\n---\n\nThe fit is `fit`{.value} %, the gain `gain`{.value}.\n");
     EXPECT_THAT(bench.dynlab({"run", "A"}).error_output, IsEmpty());
@@ -121,11 +121,12 @@ TEST(script_messages, a_reference_to_nothing_leaves_a_draft) {
     bench.write("A/report.md", whole + "\nAs @fig:step shows, `gain`{.value} s.\n");
     const ChildResult draft = bench.dynlab({"report", "A"});
     EXPECT_EQ(draft.exit_code, 1);
-    EXPECT_THAT(draft.output, HasSubstr("report.pdf (draft: ?? marks missing parts)"));
+    EXPECT_THAT(draft.output, HasSubstr("report.pdf (draft: \"??\" marks the missing parts)"));
     EXPECT_THAT(draft.error_output, HasSubstr("A/report.md:7: the cross-reference @fig:step has no target"));
     EXPECT_THAT(draft.error_output, HasSubstr("A/report.md:7: the script reported no value \"gain\""));
     EXPECT_THAT(bench.shell("pdftotext A/report.pdf -").output, HasSubstr("As ?? shows, ?? s."));
-    EXPECT_THAT(bench.dynlab({"pack", "A"}).error_output, HasSubstr("report.pdf is a draft and contains ??; run"));
+    EXPECT_THAT(bench.dynlab({"pack", "A"}).error_output,
+                HasSubstr("report.pdf is a draft and contains \"??\"; to list"));
     const ChildResult checked = bench.dynlab({"check", "A"});
     EXPECT_EQ(checked.exit_code, 1);
     EXPECT_THAT(checked.output, HasSubstr("analysis-fails"));

@@ -177,7 +177,7 @@ TEST(bad_input, data_are_checked_when_they_are_made) {
         {"iddata(y, u, {0, 0.1, 0.3})", "iddata(y, u, nil, {SamplingInstants = t})"},
         {"iddata(y, matrix{u, e}, 0.05, {InputName = {'a', 'a'}})", "the name 'a' is used for two channels"},
         {"iddata(y, u, 0.05, {InputName = 'a', OutputName = 'a'})", "the name 'a' is used for two channels"},
-        {"iddata(y, u, 0.05, {InputName = {'a', 'b'}})", "has 2 texts for 1 channel"},
+        {"iddata(y, u, 0.05, {InputName = {'a', 'b'}})", "has 2 strings for 1 channel"},
     };
     for (const auto& [code, sentence] : kCases)
         EXPECT_THAT(said("print(" + code + ")"), AllOf(StartsWith("ERROR"), HasSubstr(sentence))) << code;

@@ -35,8 +35,8 @@ TEST(error_messages, of_a_function_have_its_name_and_arguments) {
     EXPECT_EQ(sentence.id(), "{} must be {}, but {} was given");
     EXPECT_EQ(sentence.arguments()[0], message_argument(Message("argument {} ({})", 1, Message::verbatim("n"))));
     EXPECT_EQ(sentence.arguments()[1], message_argument(Message("a number")));
-    EXPECT_EQ(sentence.arguments()[2], message_argument(Message("the text \"{}\"", "a")));
-    EXPECT_EQ(error.text(), "lesson.lua:2: zeros: argument 1 (n) must be a number, but the text \"a\" was given");
+    EXPECT_EQ(sentence.arguments()[2], message_argument(Message("the string \"{}\"", "a")));
+    EXPECT_EQ(error.text(), "lesson.lua:2: zeros: argument 1 (n) must be a number, but the string \"a\" was given");
 }
 
 TEST(error_messages, of_lua_itself_become_messages) {

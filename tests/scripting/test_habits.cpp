@@ -109,7 +109,7 @@ TEST(habits, tables_of_numbers_are_vectors) {
     options.out_folder = options.script_folder = folder.path();
     EXPECT_EQ(printed("save_csv('r.csv', {fit = {1, 2.5}})\nprint(load('r.csv').fit)", options), "[1 2.5]\n");
     EXPECT_THAT(error_of("save_csv('r.csv', {fit = {1, 'a'}})", options),
-                HasSubstr("'fit': entry 2 of a list of numbers is the text \"a\""));
+                HasSubstr("'fit': entry 2 of a list of numbers is the string \"a\""));
     EXPECT_EQ(printed("print(freqresp(tf({1}, {1, 1}), 1))"), "[0.5 - 0.5i]\n");
 }
 

@@ -47,7 +47,7 @@ TEST(sandbox, ends_scripts_that_take_too_much_memory) {
     EXPECT_EQ(error_of("local t = {}\nfor i = 1, 1e9 do\n  t[i] = {i}\nend", options),
               "lesson.lua:3: the script needs more memory than the limit of 67.1 MB");
     EXPECT_EQ(error_of("local s = string.rep('x', 1e12)", options),
-              "lesson.lua:1: rep: the text would take 1e+03 GB, but the limit of the script is 67.1 MB");
+              "lesson.lua:1: rep: the string would require 1e+03 GB of memory, but the limit of the script is 67.1 MB");
     EXPECT_NE(
         error_of("zeros(1e12)", options)
             .find("zeros: a vector of 1000000000000 values needs 8e+03 GB, but the limit of the script is 67.1 MB"),

@@ -170,7 +170,7 @@ TEST(script_cells, sliders_are_their_own_number_and_are_recorded) {
     EXPECT_EQ(record_from_json(to_json(record)).sliders.at("k").to, 10);
     for (const auto& [call, sentence] : std::vector<std::pair<std::string, std::string>>{
              {"slider('k', 3, 10, 1)", "the range of the slider \"k\" must increase, but it is from 10 to 1"},
-             {"slider('k', 0, 1, 2)", "the range of the slider \"k\" is 1 to 2; 0 is outside"},
+             {"slider('k', 0, 1, 2)", "the range of the slider \"k\" is 1 to 2; 0 is outside this range"},
              {"slider('k', 1, 0, 2, {log = true})", "must start at a positive number"},
              {"slider('k', 1, 0, 2, {step = -1})", "must be greater than 0 and at most 2"},
              {"slider('k', 1, 1, 2, {log = true, step = 1})", "and cannot have a step"},
@@ -218,7 +218,7 @@ TEST(script_cells, show_curves_as_described) {
     EXPECT_EQ(test::error_of("plot({1, 2}, {1, 2}, {xlable = 'x'})"),
               "lesson.lua:1: plot: unknown option 'xlable'; did you mean 'xlabel'?");
     EXPECT_EQ(test::error_of("plot({1, 2}, {1, 2}, '--')"),
-              "lesson.lua:1: plot: a text is the name of the curve; for the style \"--\" use {style = \"points\"} or "
+              "lesson.lua:1: plot: a string is the name of the curve; for the style \"--\" use {style = \"points\"} or "
               "{dash = 1}");
     EXPECT_EQ(test::error_of("save(plot({1, 2}, {1, 2}), '/etc/x.pdf')"),
               "lesson.lua:1: save: '/etc/x.pdf' is outside the script's folder and the output folder; scripts write "

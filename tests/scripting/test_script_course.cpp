@@ -65,7 +65,7 @@ TEST(script_course, combines_models) {
     EXPECT_EQ(error_of("tf({1}, {1}, {IODelya = 1})"),
               "lesson.lua:1: tf: unknown option 'IODelya'; did you mean 'IODelay'?");
     EXPECT_EQ(error_of("lsim(1, 'x', 1)"),
-              "lesson.lua:1: lsim: argument 2 (u) must be a vector, but the text \"x\" was given");
+              "lesson.lua:1: lsim: argument 2 (u) must be a vector, but the string \"x\" was given");
 }
 
 TEST(script_course, fits_a_process_model_to_noise_free_data) {
@@ -123,8 +123,9 @@ TEST(script_course, has_every_function_in_help) {
 TEST(script_course, takes_short_curve_names_but_no_line_specifications) {
     EXPECT_EQ(printed("plot({1, 2}, {3, 4}, 'rms', {1, 2}, {4, 3}, 'box') print('drawn')"), "drawn\n");
     for (const char* look : {"r--", "ro", ".-"}) {
-        EXPECT_NE(error_of("plot({1, 2}, {3, 4}, '" + std::string(look) + "')").find("a text is the name of the curve"),
-                  std::string::npos)
+        EXPECT_NE(
+            error_of("plot({1, 2}, {3, 4}, '" + std::string(look) + "')").find("a string is the name of the curve"),
+            std::string::npos)
             << look;
     }
     EXPECT_EQ(error_of("plot({1, 2}, {3, 4}, {color = 1.7})"),

@@ -97,16 +97,18 @@ TEST(script_errors, put_what_lua_says_into_plain_words) {
         {"local a\nlocal b = a + 1",
          "lesson.lua:2: the variable 'a' is nil (it has no value), so arithmetic with it is not possible"},
         {"local a = {1, 2}\nlocal b = 2*a",
-         "lesson.lua:2: the variable 'a' is a table, so arithmetic with it is not possible; convert it to a vector: "
+         "lesson.lua:2: the variable 'a' is a table, so arithmetic with it is not possible; convert the table to a "
+         "vector: "
          "vector(t)"},
         {"local a\nlocal b = 'x' .. a",
-         "lesson.lua:2: the variable 'a' is nil (it has no value), so .. cannot join it to a string; use tostring(x)"},
+         "lesson.lua:2: the variable 'a' is nil (it has no value), so the operator .. cannot join it to a string; use "
+         "tostring(x)"},
         {"local a\nlocal n = #a",
-         "lesson.lua:2: the variable 'a' is nil (it has no value), so # cannot count its elements"},
-        {"local ok = 1 < 'x'", "lesson.lua:1: a number cannot be compared with a text by < or >"},
+         "lesson.lua:2: the variable 'a' is nil (it has no value), so the operator # cannot count its elements"},
+        {"local ok = 1 < 'x'", "lesson.lua:1: a number cannot be compared with a string by < or >"},
         {"local ok = {} < {}", "lesson.lua:1: a table cannot be compared with a table by < or >"},
         {"string.rep()", "lesson.lua:1: rep: argument 1 must be a string, but no value was given"},
-        {"for i = 1, 'x' do end", "lesson.lua:1: the limit of a for loop must be a number, but a text was given"},
+        {"for i = 1, 'x' do end", "lesson.lua:1: the limit of a for loop must be a number, but a string was given"},
         {"for i = 1, 2, 0 do end", "lesson.lua:1: the step of a for loop must not be zero"},
         {"local y = 1//0", "lesson.lua:1: a whole number cannot be divided by zero with //"},
         {"local y = 1%0", "lesson.lua:1: the remainder of a division by zero is undefined"},
@@ -147,7 +149,7 @@ TEST(script_errors, hint_at_lua_where_a_line_is_matlab) {
         {"print(1) end", "lesson.lua:1: unexpected 'end': no block is open"},
         {"print(2 + 1i)",
          "lesson.lua:1: unexpected '1i'; dynlab has no complex arithmetic; complex numbers returned by functions have "
-         "the fields re, im, abs, arg"},
+         "the fields re, im, abs and arg"},
         {"if a != b then end", "lesson.lua:1: expected 'then' before '!'; write 'not equal' as ~= in Lua"},
         {"if a = b then end", "lesson.lua:1: expected 'then' before '='; to compare, write == instead of ="},
         {"local s = 1 + ...\n 2", "lesson.lua:2: unexpected '2'"},
@@ -202,7 +204,8 @@ TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
          "lesson.lua:1: arithmetic with a string is not possible; use two dots to join strings and numbers: \"a = \" "
          ".. x"},
         {"local d = iddata(randn(9), randn(9), 1)\nprint(#d)",
-         "lesson.lua:2: the variable 'd' is an iddata, so # cannot count its elements; data.N is the number of "
+         "lesson.lua:2: the variable 'd' is an iddata, so the operator # cannot count its elements; data.N is the "
+         "number of "
          "samples"},
         {"local d = iddata(randn(9), randn(9), 1)\nd.split(0.6)",
          "lesson.lua:2: split: argument 1 (data) must be an iddata, but 0.6 was given; a method is called with a "
@@ -234,13 +237,13 @@ TEST(script_errors, carry_the_line_of_the_script_record) {
 
 TEST(script_errors, name_argument_wanted_and_given) {
     check({
-        {"zeros('x')", "lesson.lua:1: zeros: argument 1 (n) must be a number, but the text \"x\" was given"},
+        {"zeros('x')", "lesson.lua:1: zeros: argument 1 (n) must be a number, but the string \"x\" was given"},
         {"zeros(2.5)", "lesson.lua:1: zeros: argument 1 (n) must be a whole number, but 2.5 was given"},
         {"zeros(-1)", "lesson.lua:1: zeros: argument 1 (n) must be nonnegative, but -1 was given"},
         {"zeros()", "lesson.lua:1: zeros: argument 1 (n) is missing; it must be a whole number"},
-        {"sum('x')", "lesson.lua:1: sum: argument 1 (v) must be a vector, but the text \"x\" was given"},
+        {"sum('x')", "lesson.lua:1: sum: argument 1 (v) must be a vector, but the string \"x\" was given"},
         {"sum({1, 'a'})",
-         "lesson.lua:1: sum: argument 1 (v) must be a vector of numbers, but its element 2 is the text \"a\""},
+         "lesson.lua:1: sum: argument 1 (v) must be a vector of numbers, but its element 2 is the string \"a\""},
         {"mean({})", "lesson.lua:1: mean: argument 1 (v) has no elements"},
         {"dot({1}, {1, 2})", "lesson.lua:1: dot: a has 1 value, but b has 2"},
         {"rng(-1)", "lesson.lua:1: rng: the seed must be a whole number from 0 to 4294967295, but -1 was given"},

@@ -36,7 +36,7 @@ TEST(script_estimators, rivc_shows_the_noise_model_with_its_errors) {
                                  "print(near(G.report.noise_variance/1e-4, 1, math.sqrt(2/#u)))"),
               "1\t2\t1\ttrue\t0\ttrue\ntrue\ntrue\ntrue\ntrue\n");
     EXPECT_THAT(printed(kColored + "present(rivc(data, {1, 0, 1, 2, 6}))"),
-                AllOf(HasSubstr("Noise C(q^-1)/D(q^-1) e"), HasSubstr("  d1"), Not(HasSubstr("  c1"))));
+                AllOf(HasSubstr("Noise model C(q^-1)/D(q^-1) e"), HasSubstr("  d1"), Not(HasSubstr("  c1"))));
     EXPECT_THAT(printed(kColored + "present(rivc(data, {1, 0, 0, 2, 6}))"), HasSubstr("Noise: assumed white"));
 }
 

@@ -123,7 +123,7 @@ TEST(script_grey_box, refuses_in_words) {  // oracle: the mistakes written here
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {x[1]} end, names, {states = 2})"),
                 HasSubstr("f must return one derivative for each of the 2 states (x1, x2), but it returned 1 value"));
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {x[1], 'a'} end, names, {states = 2})"),
-                HasSubstr("its element 2 is the text \"a\""));
+                HasSubstr("its element 2 is the string \"a\""));
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {x[1], p.a3} end, names, {states = 2})"),
                 HasSubstr("p has no parameter a3; the parameters are a1, a2, b"));
     EXPECT_THAT(refusal("idgrey(function(t, x, u, p) return {x.v, x.q} end, names, {states = {'y', 'v'}})"),

@@ -103,7 +103,7 @@ TEST(script_learning, bad_input_is_refused_in_words) {
            "must return a vector or a number");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {1/(x[1] - x[1][1])} end})", "is Inf at sample 1");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, names = {'a', 'b'}})",
-           "'names' has 2 texts, but the library returns 1 function");
+           "'names' has 2 strings, but the library returns 1 function");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, degree = 2})", "cannot be combined");
     expect(kSindyRecord + "sindy(data, {library = function(x) error('own') end})", "own");
     expect(kSindyRecord + "local G = sindy(data) bode(G)", "must be a linear model, but this model from sindy is not");

@@ -69,7 +69,7 @@ TEST(script_loops, an_unstable_plant_is_measured_in_its_loop) {
                     "\nprint(G.report.fit_percent > 90, math.abs(G.noise_variance/1e-4 - 1) < 0.5)\n" +
                     "print(table.concat(G.report.warnings, ' '))");
         EXPECT_THAT(reported, HasSubstr("true\ttrue\n")) << call;
-        EXPECT_THAT(reported, HasSubstr("check the controller, the orders and the cut-off frequency")) << call;
+        EXPECT_THAT(reported, HasSubstr("check the controller, the orders and the cutoff frequency")) << call;
         EXPECT_THAT(reported, HasSubstr("to the closed loop with the model")) << call;
         EXPECT_THAT(reported, testing::Not(HasSubstr("Stable"))) << call;
     }
@@ -112,7 +112,7 @@ TEST(script_loops, recursive_methods_report_their_history) {
               "true\t620\t3\ntrue\ta1 a2 b0\n10\tfigure: 3 panels, 8 curves\n");
     const std::string record = "local u = prbs(5, 20)\nlocal d = iddata(lsim(tf({2}, {1, 4, 3}), u, 0.05), u, 0.05)\n";
     EXPECT_THAT(error_of(record + "rlssvf(d, {2, 1, 0}, 4, {forgetting = 1.1})"),
-                HasSubstr("forgetting must be greater than 0"));
+                HasSubstr("the forgetting factor must be greater than 0"));
     EXPECT_THAT(error_of(record + "print(lssvf(d, {2, 1, 0}, 4).history)"), HasSubstr("processes all samples at once"));
     // A fixed model for filters and instruments: the end is the batch estimate with the same.
     EXPECT_EQ(

@@ -97,7 +97,7 @@ TEST(script_studies, order_search_recommends_the_true_orders) {
                 HasSubstr("validation data"));
     EXPECT_THAT(error_of(record + "selcstruc(srivcstruc(data, {poles = 2, zeros = 0}), 'nonsense')"),
                 HasSubstr("criterion must be"));
-    EXPECT_THAT(error_of(record + "srivcstruc(data, {poles = {2, 1}})"), HasSubstr("poles must be a range"));
+    EXPECT_THAT(error_of(record + "srivcstruc(data, {poles = {2, 1}})"), HasSubstr("option 'poles' must be a range"));
     EXPECT_THAT(error_of(record + "srivcstruc(data, {pole = 2})"), HasSubstr("did you mean 'poles'"));
 }
 

@@ -30,7 +30,7 @@ TEST(script_validation, resid_says_what_is_left) {
     EXPECT_THAT(printed(kRecord + "local fig, t = resid(white, procsrivc(white, 'P1'))\nprint(t.independent)"),
                 testing::AllOf(HasSubstr("The model does not describe all dynamics"), HasSubstr("false\n")));
     EXPECT_THAT(printed(kRecord + "print((resid(iddata(x, u, 0.05), idproc('P2', {Kp = 2, Tp1 = 1, Tp2 = 0.3}))))"),
-                testing::AllOf(HasSubstr("to rounding"), HasSubstr("nil\n")));
+                testing::AllOf(HasSubstr("rounding error"), HasSubstr("nil\n")));
 }
 
 TEST(script_validation, reports_and_resid_name_the_structure_that_is_missed) {
@@ -159,7 +159,7 @@ TEST(script_validation, figures_carry_bands_unless_refused) {
     EXPECT_EQ(bands("pzmap(G, {confidence = 0.9})"), 1u);
     EXPECT_EQ(bands("step(tf({1}, {1, 1}))"), 0u);
     EXPECT_THAT(error_of("step(tf({1}, {1, 1}), {confidence = 2})"),
-                HasSubstr("must be a probability between 0 and 1"));
+                HasSubstr("must be a confidence level between 0 and 1"));
     EXPECT_THAT(error_of("nyquist(tf({1}, {1, 1}), {confidence = 0.9})"), HasSubstr("unknown option 'confidence'"));
 }
 

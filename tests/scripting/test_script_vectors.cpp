@@ -16,7 +16,7 @@ TEST(script_vectors, calculate_element_by_element) {
     EXPECT_EQ(printed("local v = vector{1, 2}\nprint(v + {10, 20}, {10, 20} - v)"), "[11 22]\t[9 18]\n");
     EXPECT_EQ(error_of("local v = vector{1, 2} + vector{1, 2, 3}"),
               "lesson.lua:1: x + y needs equal sizes, but x is a vector of 2 values and y is a vector of 3 values");
-    EXPECT_EQ(error_of("local v = vector{1, 2} + 'a'"), "lesson.lua:1: x + y is not defined for the text \"a\"");
+    EXPECT_EQ(error_of("local v = vector{1, 2} + 'a'"), "lesson.lua:1: x + y is not defined for the string \"a\"");
 }
 
 TEST(script_vectors, measure_matrices_by_columns) {
@@ -110,7 +110,7 @@ TEST(script_vectors, give_and_take_elements) {
     EXPECT_EQ(error_of("local v = vector{1, 2, 3}\nv:range(2, 4)"),
               "lesson.lua:2: range: the elements 2 to 4 do not exist: v has the elements 1 to 3");
     EXPECT_EQ(error_of("local s = 'v = ' .. vector{1}"),
-              "lesson.lua:1: .. joins texts; convert the vector to a text first: tostring(x)");
+              "lesson.lua:1: the operator .. joins strings; convert the vector to a string first: tostring(x)");
 }
 
 TEST(script_vectors, compare_by_functions_that_give_masks) {

@@ -62,7 +62,7 @@ TEST(type_stubs, use_the_documented_tags_and_name_the_parameters_in_order) {
 TEST(type_stubs, document_options_with_the_words_of_the_page) {
     const std::string stubs = type_stubs();
     EXPECT_THAT(stubs,
-                HasSubstr("---@class dynlab.srivc.options\n---@field lambda? number cut-off frequency of the filter"));
+                HasSubstr("---@class dynlab.srivc.options\n---@field lambda? number cutoff frequency of the filter"));
     EXPECT_THAT(stubs,
                 HasSubstr("---@param data any\n---@param nb_nf_nk? table\n---@param options? "
                           "dynlab.srivc.options\n---@return any G\nfunction srivc(data, nb_nf_nk, options) end"));

@@ -114,7 +114,7 @@ int give_label(Call& call) {
 constexpr std::array kPageFunctions = {
     FunctionEntry{"workbench.show", "workbench", "workbench.show(name, value)", "gives the page a value",
                   guarded<show>},
-    FunctionEntry{"workbench.label", "workbench", "workbench.label(name) -> text", "a text for a figure of the page",
+    FunctionEntry{"workbench.label", "workbench", "workbench.label(name) -> text", "text for a figure of the page",
                   guarded<give_label>},
 };
 

@@ -64,7 +64,7 @@ void refuse_foreign_file(const std::string& word) {
     const std::filesystem::path file = word.substr(name.size());
     const std::string last = file.filename().string();
     if (file.parent_path() != kExchangeFolder || last.empty() || last.starts_with('.'))
-        throw EnvironmentError("this page reads and writes files in {} only", kExchangeFolder);
+        throw EnvironmentError("this page can read and write only files in {}", kExchangeFolder);
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ OfficeCommand office_command(const Words& words) {
     constexpr std::size_t kMaxWords = 20, kMaxBytes = 4000;
     const AllowedCommand* const allowed = command_of(words);
     if (allowed == nullptr || words.size() > kMaxWords)
-        throw EnvironmentError("the command \"{}\" is not available on this page; run it in a terminal",
+        throw EnvironmentError("the command \"{}\" is not available on this page; run the command in a terminal",
                                words.size() > 1 ? words[1] : "");
     OfficeCommand command{{}, kProgram};
     Names given;
@@ -85,8 +85,9 @@ OfficeCommand office_command(const Words& words) {
         if (word.starts_with('-')) {
             const std::string name = name_of_option(word);
             if (!allowed->options.contains(name))
-                throw EnvironmentError("the option \"{}\" is not available on this page; run the command in a terminal",
-                                       name);
+                throw EnvironmentError(
+                    "the option \"{}\" is not available on this page; to use the option, run the command in a terminal",
+                    name);
             given.insert(name);
             refuse_foreign_file(word);
         }

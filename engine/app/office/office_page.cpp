@@ -45,7 +45,7 @@ std::string parameter_or(const PageRequest& asked, const std::string& name) {
 /// A file that commands of the page read or write.
 fs::path exchanged_file(const fs::path& course, const std::string& name) {
     if (name.empty() || name.starts_with('.') || fs::path(name).filename() != name)
-        throw EnvironmentError("\"{}\" is not a valid file name here", name);
+        throw EnvironmentError("\"{}\" is not a valid file name on this page", name);
     return course / kExchangeFolder / name;
 }
 

@@ -30,7 +30,7 @@ addWords({
   acceptTime: tr("Apply the penalty"), extendTo: tr("New deadline"), notTaken: tr("Files that were not accepted"), show: tr("Show"),
   missingFirst: tr("Missing"), missingFinal: tr("Final version missing"), missingReview: tr("Reviews missing"), missingScript: tr("Script missing"),
   unreadable: tr("Unreadable"), noPdf: tr("No PDF in the pack"), late: tr("Late"), lateWaits: tr("Late: a large penalty needs your confirmation"),
-  sameFile: tr("The same file"), kin: tr("Reviews a report of a present or former member"), held: tr("Withheld"),
+  sameFile: tr("The same file"), kin: tr("Reviews a report by a current or former group member"), held: tr("Withheld"),
   stopped: tr("Blocked: a name was found"), newerReport: tr("A newer version than the version that was sent"), newerReview: tr("A newer review than the review that was released"),
   unassigned: tr("Arrived after the allocation"), dropped: tr("Dropped out"), costs: tr("{} % deducted"),
 

@@ -21,7 +21,7 @@ addWords({
   conflict: tr("was also changed by another program. Your version is in the editor; these lines differ in the file:"),
   takeTheirs: tr("Use the file's text"), keepMine: tr("Overwrite with my text"), draft: tr("A draft of {} was not saved."),
   takeDraft: tr("Restore"), dropDraft: tr("Discard"), notInIt: tr("(your lines are not in the file)"),
-  outline: tr("Go to …"), runCell: tr("Run this cell (Ctrl-Enter; Shift-Enter: run and go to the next)"),
+  outline: tr("Go to …"), runCell: tr("Run this cell (Ctrl-Enter; Shift-Enter: run and go to the next cell)"),
   runAbove: tr("Run the changed cells above this one"), find: tr("Find and replace (Ctrl-F, Shift-Ctrl-F)"),
   editText: tr("Click to edit"), variables: tr("Variables of the script"), noVariables: tr("The script has no variables yet."),
   // What CodeMirror's search says, in its own English
@@ -41,7 +41,7 @@ addWords({
   hints: trPlural("{} hint", "{} hints"), points: tr("{} of {} points"),
   older: tr("results for the files before the last change; checking again"),
   notGiven: tr("Missing answers"), toMend: tr("To fix"), remarks: tr("Hints"),
-  checksOfLesson: tr("Checks of the lesson: {}"), nothingToMend: tr("dynlab check finds no problem."),
+  checksOfLesson: tr("Checks of the lesson: {}"), nothingToMend: tr("dynlab check found no problems."),
   // The kinds of answers, as a script's header names them
   number: trIn("kind of answer", "number"), text: trIn("kind of answer", "text"), truth: trIn("kind of answer", "truth"),
   vector: trIn("kind of answer", "vector"), matrix: trIn("kind of answer", "matrix"), data: trIn("kind of answer", "data"),

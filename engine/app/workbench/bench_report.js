@@ -79,7 +79,7 @@ const FIGURES = {
     tr("Poles (crosses) and zeros (circles) with their confidence regions if known"),
     tr("poles and zeros")],
   spectrum: [({ raw }) => panels(outputsOf(raw).map((name, i, all) => (all.length > 1 ? spectrumOf(raw, `${raw}.y:col(${i + 1})`, name) : spectrumOf(raw, `${raw}.y`)))),
-    tr("Spectrum of the measured outputs"), tr("the distribution of the output power over frequency")],
+    tr("Spectrum of the measured outputs"), tr("the output power as a function of frequency")],
   correlation: [({ estimation }, models) => panels(pairsOf(estimation).map(([pair, i, j]) => {
     const parts = models.map((model) => [channelsOf([model]).find((one) => !one.output || (one.output === i && one.input === j))?.code, model]).filter(([code]) => code);
     return `(impulseest(${[`${estimation}${pair}`, ...parts.map(([code]) => code), ...(parts.length > 0 ? [labels(parts.map(([, model]) => model))] : [])].join(", ")}))`;

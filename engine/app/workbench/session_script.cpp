@@ -337,7 +337,7 @@ std::string with_edits(const std::string& source, std::vector<LineEdit> edits) {
     };
     for (const LineEdit& edit : edits) {
         if (edit.first < next || edit.first > count + 1 || edit.last > count || edit.last < edit.first - 1)
-            throw ValueError("lines {} to {} do not exist in a script of {}", edit.first, edit.last,
+            throw ValueError("lines {} to {} do not exist in a script with {}", edit.first, edit.last,
                              plural(count, "{} line", "{} lines"));
         copy_until(edit.first);
         if (!edit.text.empty()) text += edit.text + "\n";

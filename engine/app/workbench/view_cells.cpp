@@ -39,7 +39,7 @@ std::string workbench_prelude() {
 
 std::string view_cells(const ViewOrder& order) {
     json quick = parsed_json(order.settings);
-    if (!quick.is_object()) throw ValueError("the view settings are not an object");
+    if (!quick.is_object()) throw ValueError("the view settings must be a JSON object");
     std::string variables;
     for (const std::string& name : order.variables) {
         if (!is_name(name) || name.find('-') != std::string::npos) throw ValueError("'{}' is not a valid name", name);

@@ -43,7 +43,7 @@ std::string record_of_lesson(const Lesson& lesson) {
     static const RE2 kLoad(R"(\bload\("([^"]+)\"\))", RE2::Latin1);
     std::string record;
     if (!RE2::PartialMatch(read_text(lesson.script()), kLoad, &record))
-        throw EnvironmentError("lesson {} loads no data set; give a data file or a data set", lesson.slug);
+        throw EnvironmentError("lesson {} does not load a data set; give a data file or a data set", lesson.slug);
     return record;
 }
 

@@ -46,8 +46,8 @@ int show_findings(const CourseArguments& where, const FindingsArguments& args) {
     const auto found = loaded_issues(course, assignment, group, args.stage, args.version);
     if (found.empty())
         throw args.version
-            ? InvalidArgument("{} has submitted no {} for {} with number {}", group.name, stage_in_words(args.stage),
-                              assignment.name, *args.version)
+            ? InvalidArgument("{} has submitted no {} for {} with the version number {}", group.name,
+                              stage_in_words(args.stage), assignment.name, *args.version)
             : InvalidArgument("{} has submitted no {} for {}", group.name, stage_in_words(args.stage), assignment.name);
     bool passed = true;
     for (const StoredIssues& one : found) {

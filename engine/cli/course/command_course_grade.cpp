@@ -84,7 +84,7 @@ int set_mark(const CourseArguments& where, const MarkArgs& args) {
     mark.points = number_in_cell(args.mark.back());
     mark.reason = args.reason;
     if (!mark.points || *mark.points < 0)
-        throw InvalidArgument("a mark must be a number from 0, but \"{}\" was given", args.mark.back());
+        throw InvalidArgument("a mark must be a nonnegative number, but \"{}\" was given", args.mark.back());
     const double most = most_points(course, a, mark.item).value_or(*mark.points);
     if (*mark.points > most && !args.force)
         throw InvalidArgument("{} exceeds the {} points of \"{}\"; correct the mark, or give --force", *mark.points,

@@ -86,14 +86,15 @@ void tell_costs_and_gaps(Course& course, const Assignment& a, const Marks& all) 
                                 group.name, *mark.final_version, a.final_weight));
             const auto print_zeros = [&](const std::string& whose, const std::vector<std::string>& zeros) {
                 if (!zeros.empty())
-                    std::cout << terminal_text(message_text(
-                                     Message("{}: no points for {}; counted as 0.", whose, listed(zeros, Join::kAnd))))
+                    std::cout << terminal_text(message_text(Message("{}: the points for {} are missing and count as 0.",
+                                                                    whose, listed(zeros, Join::kAnd))))
                               << '\n';
             };
             print_zeros(group.name, mark.zeros);
             for (const StudentMark& own : mark.students) print_zeros(group.name + ", " + own.student, own.zeros);
             if (a.is_report() && mark.scored == 1 && a.reviews > 1)
-                std::cout << terminal_text(message_text(Message("{} is based on one review.", group.name))) << '\n';
+                std::cout << terminal_text(message_text(Message("{} is based on only one review.", group.name)))
+                          << '\n';
             std::vector<std::string> forgotten;
             for (std::size_t c = 0; c < a.criteria.size(); ++c)
                 if (!mark.medians[c]) forgotten.push_back(a.criteria[c].name);

@@ -33,13 +33,14 @@ struct ReceiveArguments {
 
 Message remark(const Received& r) {
     if (!r.error_reason.empty() && r.part == "pack")
-        return Message("{}: ask for a pack that can be opened", r.error_reason);
-    if (!r.error_reason.empty()) return Message("{}: ask for a readable file", r.error_reason);
+        return Message("{}: ask the group for a pack that can be opened", r.error_reason);
+    if (!r.error_reason.empty()) return Message("{}: ask the group for a readable file", r.error_reason);
     if (!r.missing.empty()) return Message("{}: ask for this file", r.missing);
-    if (r.withdrawn) return Message("already received and withdrawn; dynlab course restore reinstates it");
+    if (r.withdrawn) return Message("already received and withdrawn; to reinstate the file, run dynlab course restore");
     if (!r.other_time.empty())
         return Message(
-            "already received; according to --times it arrived {}: correct the time with dynlab course set-received",
+            "already received; according to --times, the file arrived {}: correct the time with dynlab course "
+            "set-received",
             r.other_time);
     if (r.known) return Message("already received; nothing changed");
     MessageList clauses{{}, Join::kSemicolon};
@@ -122,11 +123,12 @@ fs::path file_not_taken(Course& course, const Assignment& assignment, const std:
         return one.name != name && (name.size() < kShortest || !one.hash.starts_with(name));
     });
     if (found.size() != 1)
-        throw found.empty() ? InvalidArgument("{} has no file \"{}\" that was not accepted", assignment.name, name)
-                            : InvalidArgument(
-                                  "{} has {} files \"{}\" that were not accepted; give the first digits of the SHA-256 "
-                                  "instead of the name",
-                                  assignment.name, found.size(), name);
+        throw found.empty()
+            ? InvalidArgument("{}: none of the files that were not accepted has the name \"{}\"", assignment.name, name)
+            : InvalidArgument(
+                  "{}: {} files that were not accepted have the name \"{}\"; give the first digits of the SHA-256 hash "
+                  "instead of the name",
+                  assignment.name, found.size(), name);
     at = found.front().received_at;
     fs::path file = folder / fs::path(found.front().name).filename();
     fs::copy_file(course.file(found.front().hash), file, fs::copy_options::overwrite_existing);

@@ -50,7 +50,8 @@ int remind(const CourseArguments& where, const RemindArguments& args) {
     if (!without.empty())
         std::cerr << "dynlab: "
                   << terminal_text(message_text(Message(
-                         "the email address of {} is unknown; add it in the roster's column mail", listed(without))))
+                         "the email address of {} is unknown; add the address to the column \"mail\" of the roster",
+                         listed(without))))
                   << '\n';
     return without.empty() ? kDone : kFailed;
 }

@@ -51,7 +51,7 @@ void tell_of_report(const fs::path& folder, const std::string& subject) {
         if (!entry.is_regular_file() || entry.path().extension() != ".pdf") continue;
         made = std::max(made.value_or(entry.last_write_time()), entry.last_write_time());
         if (is_draft(entry.path()))
-            complain(Message("{} is a draft and contains ??; run dynlab check {} to see what is missing",
+            complain(Message("{} is a draft and contains \"??\"; to list the missing parts, run dynlab check {}",
                              entry.path().filename().string(), shell_word(subject)));
     }
     bool older = false;

@@ -150,7 +150,8 @@ struct PlaceText {
 /// By TextPlace.
 const PlaceText& text_about(TextPlace place) {
     static const std::array<PlaceText, 5> places = {{
-        {"name-in-text", Message("in the text"), Message("Remove it: reports are read anonymously.")},
+        {"name-in-text", Message("in the text"),
+         Message("Remove this information, because reports are reviewed anonymously.")},
         {"name-in-metadata", Message("in the document information"),
          Message("Create the PDF with dynlab report, or clear author, title and keywords in the document properties.")},
         {"name-in-link", Message("in the target of a link"), Message("Remove the link or change its target.")},
@@ -267,7 +268,7 @@ class AnonymitySearch {
         if (!author_.empty())
             result.push_back({"author-named", Severity::kHint, 0, "",
                               Message("The document information contains an author: \"{}\".", printable(author_, 60)),
-                              Message("Leave the author empty: reports are read anonymously.")});
+                              Message("Leave the author empty, because reports are reviewed anonymously.")});
         if (!unsearchable_.empty() && !matcher_.empty())
             result.push_back({"not-searchable", Severity::kHint, unsearchable_.front(), "",
                               Message("Pictures, and pages without text, cannot be searched for names (pages: {}).",

@@ -141,7 +141,7 @@ class CopyingAnonymously {
     Message reason_of(const ChildResult& child, const fs::path& folder) const {
         if (child.timed_out) return reason_of_end(child, setup_.report_time);
         if (child.exit_code == 128 + SIGXFSZ)
-            return Message("the script writes a file of more than {} MB", kMaxFile >> 20);
+            return Message("the script writes a file larger than {} MB", kMaxFile >> 20);
         const std::string first_line = child.error_output.substr(0, child.error_output.find('\n'));
         return Message::verbatim(without_full_stop(terminal_text(without_sandbox_paths(first_line, folder))));
     }

@@ -119,8 +119,9 @@ class MarkSheet {
         for (std::size_t i = 0; i < table_.rows.size(); ++i) {
             const auto number = read_number<int>(cell(i, "number"));
             if (!number || *number < 1)
-                throw EnvironmentError("{}, line {}: number must be a whole number from 1, but \"{}\" was given",
-                                       file_.string(), table_.lines[i], cell(i, "number"));
+                throw EnvironmentError(
+                    "{}, line {}: the column \"number\" must contain a positive integer, but \"{}\" was given",
+                    file_.string(), table_.lines[i], cell(i, "number"));
             numbers_[cell(i, "submission")] = *number;
         }
     }
@@ -231,7 +232,7 @@ class AnswersPage {
     Message explanation() const {
         return Message(
             "Submissions have numbers instead of names. Enter points and reasons in {}. Then copy the columns "
-            "submission (as who), check, points and reason into marks.csv of the results folder.",
+            "\"submission\" (as \"who\"), \"check\", \"points\" and \"reason\" into marks.csv of the results folder.",
             marks_.filename().string());
     }
 

@@ -96,11 +96,11 @@ int near(Call& call) {
     call.at_most(3);
     const Options options(call, 3, kNear);
     const bool absolute = options.has("abs");
-    if (absolute && options.has("rel")) throw InvalidArgument("give either rel or abs, not both");
+    if (absolute && options.has("rel")) throw InvalidArgument("specify either 'rel' or 'abs', not both");
     const double most = absolute ? options.number("abs", 0) : options.number("rel", 0.05);
     const double half = options.number("half", most);  // this far away earns half the points
     if (!(most >= 0) || !(half >= most))
-        throw InvalidArgument("the tolerance must be nonnegative, and half must not be less than the tolerance");
+        throw InvalidArgument("the tolerance must be nonnegative, and 'half' must not be less than the tolerance");
     const Compared compared(call);
     const double apart = compared.distance(absolute);
     const auto measured = [&](double x) {
@@ -121,15 +121,15 @@ int near(Call& call) {
 int points_between(Call& call) {
     call.at_most(3);
     const double x = call.number(1, "x"), low = call.number(2, "low"), high = call.number(3, "high");
-    if (!(low != high)) throw InvalidArgument("low and high must differ");
+    if (!(low != high)) throw InvalidArgument("'low' and 'high' must differ");
     const double share = std::isfinite(x) ? std::clamp((x - low) / (high - low), 0.0, 1.0) : 0;
     if (share == 1) return give_result(call, 1, {});
     if (on_secret_record(call))
         return give_result(call, share,
                            Message("On a data set that you have not seen, the answer does not earn full points."));
     return give_result(call, share,
-                       Message("Score {}; full points from {}, no points at {}.", significant(x, 3),
-                               significant(high, 3), significant(low, 3)));
+                       Message("The score is {}. A score of {} earns full points, and a score of {} earns no points.",
+                               significant(x, 3), significant(high, 3), significant(low, 3)));
 }
 
 /// What a test may return at a stack index: true or false, a share, a judgement.

@@ -70,7 +70,7 @@ int hidden(Call& call) {
     }
     throw InvalidArgument(
         "unknown hidden data set \"{}\": specify a simulated experiment, a plant that the checks declare, or a file in "
-        "the checks' folder hidden",
+        "the folder \"hidden\" of the checks",
         name);
 }
 
@@ -112,7 +112,8 @@ int truth(Call& call) {
     CheckSession& session = call.owner<CheckSession>();
     const auto [name, specimen] = specimen_meant(call, session);
     if (const auto own = session.rigs.find(name); own != session.rigs.end()) {
-        if (own->second.truth == 0) throw InvalidArgument("the simulated plant \"{}\" declares no truth", name);
+        if (own->second.truth == 0)
+            throw InvalidArgument("the simulated plant \"{}\" does not declare true values", name);
         call_of_plant(call, own->second.truth, specimen, specimen);
         return 1;
     }

@@ -281,7 +281,7 @@ class Outbox {
         if (feedback.empty()) {
             fs::remove(zip);
             result_.notes.push_back(Message(
-                "moodle-feedback.zip was not written: all feedback was delivered; use --all to write it again"));
+                "moodle-feedback.zip was not written: all feedback was delivered; to write the file again, use --all"));
         } else {
             feedback.write(zip);
             result_.files.push_back(zip);

@@ -168,14 +168,14 @@ void PlatformSheet::recognize_moodle() {
     maximum_ = maximum;
     if (!grade_ && maximum && *maximum > 0) grade_ = *maximum - 1;
     if (!grade_ || grade_ == number_)
-        throw EnvironmentError("{}: the column of grades is not recognized; the columns are {}", file_.string(),
+        throw EnvironmentError("{}: the grade column is not recognized; the columns are {}", file_.string(),
                                listed_columns());
     id_ = called("id"), mail_ = called("email"), name_ = called("name");
     comment_ = first_column(names_, [](const std::string& name) { return has_word(name, kCommentWords); });
     if (!name_ && *number_ + 1 < names_.size() && grade_ != *number_ + 1) name_ = *number_ + 1;
     if (!comment_)
-        unrecognized_.push_back(
-            Message("{}: no column of feedback comments is recognized; comments are left out", file_.string()));
+        unrecognized_.push_back(Message(
+            "{}: the column for feedback comments is not recognized; the comments are left out", file_.string()));
     for (const std::size_t row : all)
         for (const auto column : {grade_, maximum})
             decimal_comma_ = decimal_comma_ || value(row, column).find(',') != std::string::npos;

@@ -41,19 +41,19 @@ Message sentence_about(const UnplacedEntries& entries) {
     const MessageList names = entries.quoted_names();
     switch (entries.kind) {
         case UnplacedEntries::Kind::kTable:
-            return one ? Message("In {} the table {} is passed to the report but never shown.", kOwnScript, names)
-                       : Message("In {} the tables {} are passed to the report but never shown.", kOwnScript, names);
+            return one ? Message("In {}, the table {} is passed to the report but never shown.", kOwnScript, names)
+                       : Message("In {}, the tables {} are passed to the report but never shown.", kOwnScript, names);
         case UnplacedEntries::Kind::kText:
-            return one ? Message("In {} the text {} is passed to the report but never shown.", kOwnScript, names)
-                       : Message("In {} the texts {} are passed to the report but never shown.", kOwnScript, names);
+            return one ? Message("In {}, the text {} is passed to the report but never shown.", kOwnScript, names)
+                       : Message("In {}, the texts {} are passed to the report but never shown.", kOwnScript, names);
         case UnplacedEntries::Kind::kValue:
-            return one ? Message("In {} the value {} is passed to the report but never shown.", kOwnScript, names)
-                       : Message("In {} the values {} are passed to the report but never shown.", kOwnScript, names);
+            return one ? Message("In {}, the value {} is passed to the report but never shown.", kOwnScript, names)
+                       : Message("In {}, the values {} are passed to the report but never shown.", kOwnScript, names);
         case UnplacedEntries::Kind::kFigure:
             break;
     }
-    return one ? Message("In {} the figure {} is passed to the report but never shown.", kOwnScript, names)
-               : Message("In {} the figures {} are passed to the report but never shown.", kOwnScript, names);
+    return one ? Message("In {}, the figure {} is passed to the report but never shown.", kOwnScript, names)
+               : Message("In {}, the figures {} are passed to the report but never shown.", kOwnScript, names);
 }
 
 Message sentence_about_missing(const ExpectedAnswer& answer) {
@@ -72,7 +72,7 @@ Message sentence_about_missing(const ExpectedAnswer& answer) {
 Message remedy_for(const UnplacedEntries& entries) {
     const std::string& name = entries.names.front();
     if (entries.kind == UnplacedEntries::Kind::kTable)
-        return Message("Write ::: {.table name={}} above its caption and ::: below its caption.", name);
+        return Message("Write ::: {.table name={}} above the caption of the table and ::: below the caption.", name);
     if (entries.kind == UnplacedEntries::Kind::kText)
         return Message("Write ::: {.text name={}} and, on a later line, :::.", name);
     return Message("Write {} in the text.", entries.slot());
@@ -148,7 +148,7 @@ class FolderCheck {
         for (const std::string& name : outcome.left_out) {
             add("link-left-out", Severity::kHint, name,
                 Message("The file is a link or is not a regular file, and is not submitted."),
-                Message("Replace it with the file itself."));
+                Message("Replace the link with the file."));
         }
         if (!outcome.too_large) return scripts_made();
         add("folder-too-large", Severity::kRule, "",
@@ -282,7 +282,7 @@ class FolderCheck {
             if (std::string product; RE2::PartialMatch(line, kStars, &product))
                 add("stars-lost", Severity::kHint, fmt::format("{}:{}", file, line_number),
                     Message("\"{}\" is printed without its asterisks: Markdown reads them as italics.", product),
-                    Message("Write a product as a formula, $2 \\cdot 3$, or each asterisk as \\*."));
+                    Message("Write a product as a formula, such as $2 \\cdot 3$, or write each asterisk as \\*."));
             ++line_number;
         }
     }
@@ -302,7 +302,7 @@ class FolderCheck {
         for (const ExpectedAnswer& answer : script.header.answers) {
             if (run.answers.contains(answer.name)) continue;
             add("answer-missing", Severity::kRule, "analysis.lua", sentence_about_missing(answer),
-                Message("Submit it: answer(\"{}\", ...).", answer.name));
+                Message("Submit the answer: answer(\"{}\", ...).", answer.name));
         }
     }
 
@@ -381,7 +381,7 @@ class FolderCheck {
         if (members.empty() && fs::exists(copy() / "group.toml"))
             add("members-missing", Severity::kHint, "group.toml",
                 Message("No members are listed, so the report was not searched for your names."),
-                Message("Add them: members = [\"Ada Lovelace\", \"Rudolf Kalman\"]."));
+                Message("Add the names of the members: members = [\"Ada Lovelace\", \"Rudolf Kalman\"]."));
         check_options.names = std::make_shared<const IdentityMatcher>(std::move(names));
     }
 

@@ -83,7 +83,7 @@ FolderReport make_folder_report(const fs::path& folder, const fs::path& out, con
     else if (made.output_exceeded)
         none.failure = Message("the script prints more than 16 MB.");
     else if (made.exit_code == 128 + SIGXFSZ)
-        none.failure = Message("the script writes a file of more than {} MB.", kMaxMadeBytes >> 20);
+        none.failure = Message("the script writes a file larger than {} MB.", kMaxMadeBytes >> 20);
     else if (made.error_output.empty())
         none.failure = Message("the script exits with code {} without a message.", made.exit_code);
     else

@@ -84,7 +84,8 @@ std::string to_results_json(const Grade& grade, const Grade& marked) {
     MessageList output{{}, Join::kLines};
     if (!grade.error_reason.empty()) output.items.push_back(grade.error_reason);
     if (costs)
-        output.items.push_back(Message("Late, minus {} points: {}.", decimals(marked.penalty, 2), grade.lateness));
+        output.items.push_back(
+            Message("The submission was late and loses {} points: {}.", decimals(marked.penalty, 2), grade.lateness));
     if (marked.whole_mark) output.items.push_back(Message("Marked as a whole: {}", marked.whole_reason));
     json j = {{"output", message_text(Message("{}", output))},
               {"stdout_visibility", "hidden"},

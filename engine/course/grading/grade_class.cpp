@@ -227,7 +227,8 @@ const GradingSetup& isolated(const GradingSetup& setup) {
 FileLock lock_results(const fs::path& out) {
     fs::create_directories(out);
     FileLock lock(out / ".lock");
-    if (!lock.held()) throw EnvironmentError("another dynlab grade is running in {}; wait until it ends", out.string());
+    if (!lock.held())
+        throw EnvironmentError("another run of dynlab grade uses {}; wait until this run ends", out.string());
     return lock;
 }
 

@@ -66,7 +66,7 @@ void conclude_lateness(ClassWork& work) {
     for (const WorkItem* item : items) {
         const Lateness& lateness = item->lateness;
         late.push_back(lateness.late);
-        work.late.push_back(Message("\"{}\": late by {}, penalty {} % of the points", item->submission.name,
+        work.late.push_back(Message("\"{}\" is late by {}; the penalty is {} % of the points", item->submission.name,
                                     duration_message(lateness.late), significant(lateness.percent, 4)));
         if (lateness.waiting_percent == 0) continue;
         ++work.unconfirmed;

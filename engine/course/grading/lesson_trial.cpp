@@ -302,7 +302,9 @@ LessonFaults faults_of_checks(const Lesson& lesson, const CheckTrial& trial) {
         else
             look_at_starter(lesson, script, faults);
     }
-    if (!wrong) faults.add("checks.lua", 0, Message("no wrong_*.lua shows a mistake that the checks must detect"));
+    if (!wrong)
+        faults.add("checks.lua", 0,
+                   Message("the lesson has no file wrong_*.lua with a mistake that the checks must detect"));
     return faults.found();
 }
 

@@ -46,7 +46,7 @@ class MarkedItems {
     Found find(const std::string& who) const {
         Found found;
         if (who.empty()) {
-            found.error_reason = Message("the row has points but no name; fill in the column who");
+            found.error_reason = Message("the row has points but no name; fill in the column \"who\"");
             return found;
         }
         const auto take = [&](const auto& fits) {
@@ -103,8 +103,8 @@ void MarksFile::read() {
     const auto who = first_column(table_, {"who", "submission", "group", "id", "student", "name"}),
                check = table_.column("check"), points = table_.column("points");
     if (!who || !check || !points)
-        throw EnvironmentError("{}: the columns who, check and points are required; the columns are {}", file_.string(),
-                               listed(table_.names));
+        throw EnvironmentError("{}: the columns \"who\", \"check\" and \"points\" are required; the columns are {}",
+                               file_.string(), listed(table_.names));
     if (!first_column(table_, {"reason", "comment"})) {
         table_.names.emplace_back("reason");
         for (auto& row : table_.rows) row.emplace_back();
@@ -133,8 +133,9 @@ void MarksFile::take_in(const fs::path& former) {
     const auto who = first_column(table, {"submission", "who"}), check = table.column("check"),
                points = table.column("points"), reason = first_column(table, {"reason", "comment"});
     if (!who || !check || !points)
-        throw EnvironmentError("{}: the columns submission, check and points are required; the columns are {}",
-                               former.string(), listed(table.names));
+        throw EnvironmentError(
+            "{}: the columns \"submission\", \"check\" and \"points\" are required; the columns are {}",
+            former.string(), listed(table.names));
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& cells = table.rows[i];
         if (cells[*points].empty()) continue;

@@ -99,8 +99,8 @@ ArrivalTimes::ArrivalTimes(const std::filesystem::path& csv) {
         if (is_time_of_submission(table.names[i])) when = i;
     if (whose.empty() || !when)
         throw EnvironmentError(
-            "{}: a column identifier, id, group, name or mail, and a column \"last modified (submission)\", time or "
-            "received, are required; the columns are {}",
+            "{}: a column \"identifier\", \"id\", \"group\", \"name\" or \"mail\", and a column \"last modified "
+            "(submission)\", \"time\" or \"received\", are required; the columns are {}",
             csv.string(), listed(table.names));
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const std::string& text = table.rows[r][*when];

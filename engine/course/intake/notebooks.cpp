@@ -52,7 +52,7 @@ std::string script_of_submitted_notebook(const fs::path& notebook) {
         throw SubmissionError("The notebook {} cannot be read: reading did not finish within {} s.", name,
                               limits.time.seconds(TimeLimit::kClock));
     if (read.exit_code != 0 || read.output.empty())
-        throw SubmissionError("The notebook {} cannot be read: reading crashed (code {}).", name, read.exit_code);
+        throw SubmissionError("The notebook {} cannot be read: the reader crashed (code {}).", name, read.exit_code);
     if (read.output.front() == '+') return read.output.substr(1);
     std::string what = read.output.substr(1);
     if (const std::string path = notebook.string() + ": "; what.starts_with(path)) what = what.substr(path.size());

@@ -178,7 +178,8 @@ void Owners::read_list(const std::filesystem::path& file) {
     const auto submission = table.column("submission"), group = table.column("group"), id = table.column("id");
     if (!submission || (!group && !id))
         throw EnvironmentError(
-            "{}: the columns submission and group, or submission and id, are required; the columns are {}",
+            "{}: the columns \"submission\" and \"group\", or \"submission\" and \"id\", are required; the columns are "
+            "{}",
             file.string(), base::listed(table.names));
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const auto& row = table.rows[i];
@@ -282,7 +283,7 @@ Owners::Found Owners::found(const std::vector<std::size_t>& owners, bool by_pref
     if (owners.size() > 1) {
         std::vector<std::string> names;
         for (const std::size_t owner : owners) names.push_back(owners_[owner].name);
-        result.error_reason = Message("the name matches several: {}", base::listed(names));
+        result.error_reason = Message("the name matches several groups or students: {}", base::listed(names));
         result.doubtful = true;
         return result;
     }

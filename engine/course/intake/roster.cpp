@@ -68,7 +68,8 @@ Roster::Roster(const std::filesystem::path& file) {
     translate_columns(table);
     const auto id = table.column("id"), seed = table.column("seed");
     if (!id)
-        throw EnvironmentError("{}: the column id is missing; the columns are {}", file.string(), listed(table.names));
+        throw EnvironmentError("{}: the column \"id\" is missing; the columns are {}", file.string(),
+                               listed(table.names));
     columns_ = table.names;
     std::set<std::string> seen;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {

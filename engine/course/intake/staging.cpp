@@ -160,10 +160,10 @@ class Stager {
         const std::optional<FoundScript> newest = newest_of(found);
         if (!newest)
             throw SubmissionError(
-                "Several folders contain an analysis.lua, and dynlab cannot determine the newest: {}. Submit one of "
-                "them.",
+                "Several folders contain an analysis.lua, and dynlab cannot determine the newest file: {}. Submit only "
+                "one of these folders.",
                 listed_places(found));
-        return staged(*newest, Message("of {}, \"{}\" was used as the newest", listed_places(found), newest->shown));
+        return staged(*newest, Message("of {}, dynlab used \"{}\" as the newest", listed_places(found), newest->shown));
     }
 
   private:

@@ -88,10 +88,10 @@ Message page_summary(const DocumentText& text, int pages, const DocumentRules& r
         return slides ? plural(pages, "{} slide of at most {}", "{} slides of at most {}", most)
                       : plural(pages, "{} page of at most {}", "{} pages of at most {}", most);
     const int more = *rules.appendix_pages;
-    return slides ? plural(pages, "{} slide of at most {} + {} of appendix", "{} slides of at most {} + {} of appendix",
-                           most, more)
-                  : plural(pages, "{} page of at most {} + {} of appendix", "{} pages of at most {} + {} of appendix",
-                           most, more);
+    return slides ? plural(pages, "{} slide of at most {} + {} in the appendix",
+                           "{} slides of at most {} + {} in the appendix", most, more)
+                  : plural(pages, "{} page of at most {} + {} in the appendix",
+                           "{} pages of at most {} + {} in the appendix", most, more);
 }
 
 /// Checks what can be read; `result` knows the file already.

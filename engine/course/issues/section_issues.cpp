@@ -118,7 +118,7 @@ Message slides(int count) {
 
 Message too_many(Message (*counted)(int), int pages, int allowed, int in_appendix) {
     if (in_appendix > 0)
-        return Message("The document has {}; at most {} and {} of appendix are allowed.", counted(pages),
+        return Message("The document has {}; at most {}, and {} in the appendix, are allowed.", counted(pages),
                        counted(allowed), counted(in_appendix));
     return allowed == 1 ? Message("The document has {}; at most {} is allowed.", counted(pages), counted(allowed))
                         : Message("The document has {}; at most {} are allowed.", counted(pages), counted(allowed));

@@ -19,7 +19,7 @@ class DeadlineTable {
   public:
     explicit DeadlineTable(const fs::path& file) : file_(file), table_(read_text_table(file)) {
         if (!table_.column("submission") || !table_.column("deadline"))
-            throw EnvironmentError("{}: the columns submission and deadline are required; the columns are {}",
+            throw EnvironmentError("{}: the columns \"submission\" and \"deadline\" are required; the columns are {}",
                                    file.string(), listed(table_.names));
     }
 
@@ -73,7 +73,8 @@ class RowsOfGroups {
         if (row.grace != assignment_.grace || row.percent_per_day != assignment_.costs.late_day ||
             row.most_percent != assignment_.costs.late_most)
             throw InvalidArgument(
-                "a course has one grace period and one penalty for all students; use extra, or another deadline");
+                "a course has one grace period and one penalty for all students; use the column \"extra\", or another "
+                "deadline");
         const auto [known, fresh] = rows_.try_emplace(group, row);
         if (!fresh && known->second.deadline < row.deadline) known->second = row;
     }

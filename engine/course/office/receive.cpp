@@ -64,8 +64,9 @@ class SubmissionReceiver {
           incoming_(way()) {
         due_for(course, outcome_.assignment, 0, request.stage);  // a talk has no reviews
         if (request.of.size() > 1 && request.of.size() != request.files.size())
-            throw InvalidArgument("{} and {} values of --of: give --of once for each file, in the same order",
-                                  plural(request.files.size(), "{} file", "{} files"), request.of.size());
+            throw InvalidArgument(
+                "{} and {} values of --of were given; give --of once for each file, in the same order",
+                plural(request.files.size(), "{} file", "{} files"), request.of.size());
         if (!request.from.empty()) from_ = group_named(course, request.from);
         if (request.stage != "final") pairs_ = review_pairs(course, outcome_.assignment);
     }
@@ -132,7 +133,7 @@ class SubmissionReceiver {
         candidate.group = *group;
         if (!file.left_out.empty()) return;
         if (static_cast<std::uintmax_t>(candidate.bytes) > kMaxByteCount)
-            throw EnvironmentError("the file has more than {} MB", kMaxByteCount >> 20);
+            throw EnvironmentError("the file is larger than {} MB", kMaxByteCount >> 20);
         RecognizedFile found = recognize(file, outcome_.assignment, request_.stage);
         candidate.part = found.part, candidate.name = terminal_line(found.name), candidate.remark = found.remark;
         candidate.unreadable = found.text;
@@ -191,7 +192,7 @@ class SubmissionReceiver {
             else if (!c.silent && ((c.unreadable && readable.contains(slot_of(c, c.part))) ||
                                    (c.part == kUnreadable &&
                                     (anything.contains(slot_of(c, "")) || folders.contains(c.file->folder)))))
-                make_trace(c, kBeside, Message("The file arrived with the file that counts."));
+                make_trace(c, kBeside, Message("The file was submitted together with the file that counts."));
     }
 
     /// Of several files of a group for the same thing nobody can say which holds: they are kept as unreadable, unless

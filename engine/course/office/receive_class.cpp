@@ -95,7 +95,7 @@ class ClassReceiver {
         }
         for (const std::string& name : owners.unmatched_names(all))
             received_.complaints.push_back(
-                Message("the owners file names \"{}\", but there is no submission with this name", name));
+                Message("the file for --owners contains \"{}\", but no submission has this name", name));
     }
 
     /// What goes wrong with one submission stops no other.

@@ -66,7 +66,7 @@ void explain_unreadable(const IncomingFile& file, const Assignment& assignment, 
         found.error_reason = "empty", found.reason = Message("The zip file is empty.");
     } else if (const std::string kind = closed_archive(bytes); !kind.empty()) {
         found.error_reason = "closed-archive";
-        found.reason = Message("The file is a {} archive, which cannot be opened; zip and tar can.", kind);
+        found.reason = Message("The file is a {} archive, which cannot be opened; submit a zip or tar archive.", kind);
     } else {
         found.error_reason = "other-kind";
         found.reason = assignment.is_lab() ? Message("The file is neither a script (.lua) nor a pack (.zip, .tar.gz).")

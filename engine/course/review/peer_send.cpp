@@ -168,15 +168,16 @@ class CopySender {
             stopped_.insert(version->id);
             ++outcome_.stopped;
             record_stop(pair, version->id);
-            outcome_.hits.push_back(Message("{} of {} was not sent: {}", document, author, sentences(copy.hits)));
+            outcome_.hits.push_back(Message("the {} of {} was not sent: {}", document, author, sentences(copy.hits)));
             return;
         }
         if (!copy.hints.empty() && doubted_.insert(version->id).second)
             outcome_.hints.push_back(
-                Message("{} of {} was sent; inspect it: {}", document, author, sentences(copy.hints)));
+                Message("the {} of {} was sent, but it may contain a name; inspect these places: {}", document, author,
+                        sentences(copy.hints)));
         if (!copy.hits.empty() && doubted_.insert(version->id).second)
-            outcome_.hints.push_back(
-                Message("{} of {} was sent, although it contains names: {}", document, author, sentences(copy.hits)));
+            outcome_.hints.push_back(Message("the {} of {} was sent, although it contains names: {}", document, author,
+                                             sentences(copy.hits)));
         record(pair, *version, read_file(request.copy), copy.hits.empty() ? "" : author);
     }
 

@@ -154,7 +154,8 @@ class ScoreReader {
         const ReviewPair pair = reviewed_pair(pairs_, group_named(course_, cell("reviewer")), report);
         if (has_points() && pair.withdrawn)
             throw InvalidArgument(
-                "the review of {} by {} is withdrawn: its scores do not count; dynlab course restore reinstates it",
+                "the review of {} by {} is withdrawn, so its scores do not count; to reinstate the review, run dynlab "
+                "course restore",
                 pair.report_pseudonym(), pair.reviewer_name);
         GivenMark owner;
         owner.group = pair.author, owner.pair = pair.id, owner.version = newest_review(course_, pair.id);

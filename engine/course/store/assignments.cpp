@@ -16,8 +16,9 @@ void refuse_odd_name(const std::string& what, const std::string& name) {
                      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.") !=
                          std::string::npos;
     if (odd)
-        throw InvalidArgument("{} \"{}\" must be a short word of letters, digits, - _ and ., such as crane-report",
-                              what, name);
+        throw InvalidArgument(
+            "{} \"{}\" must be a short word of letters, digits, hyphens, underscores and periods, such as crane-report",
+            what, name);
 }
 
 void refuse_bad_deadlines(const Assignment& a, const CourseClock& clock) {
@@ -229,9 +230,9 @@ Assignment assignment_named(Course& course, const std::string& name) {
     const auto near = nearest_word(name, names);
     const MessageList known = listed(names);
     if (names.size() == 1)
-        throw near
-            ? InvalidArgument("unknown assignment \"{}\"; the only one is {}; did you mean {}?", name, known, *near)
-            : InvalidArgument("unknown assignment \"{}\"; the only one is {}", name, known);
+        throw near ? InvalidArgument("unknown assignment \"{}\"; the only assignment is {}; did you mean {}?", name,
+                                     known, *near)
+                   : InvalidArgument("unknown assignment \"{}\"; the only assignment is {}", name, known);
     throw near
         ? InvalidArgument("unknown assignment \"{}\"; the assignments are {}; did you mean {}?", name, known, *near)
         : InvalidArgument("unknown assignment \"{}\"; the assignments are {}", name, known);
@@ -255,8 +256,8 @@ std::vector<Criterion> criteria_of(const std::string& text) {
         refuse_odd_name("the criterion", name);
         const std::optional<double> given = points.empty() ? 5.0 : read_number<double>(points);
         if (!given || !(*given > 0 && *given <= 1000))
-            throw InvalidArgument("the points of criterion {} must be a number from 0 to 1000, but \"{}\" was given",
-                                  name, points);
+            throw InvalidArgument(
+                "the points of the criterion {} must be a number from 0 to 1000, but \"{}\" was given", name, points);
         const double most = *given;
         if (!seen.insert(name).second) throw InvalidArgument("the criterion {} occurs twice", name);
         criteria.push_back({name, most});

@@ -39,7 +39,8 @@ PublicKey read_public_key(const std::filesystem::path& file) {
     }
     if (!is_key || key.digits.size() != kKeyDigits || !is_hex(key.digits))
         throw EnvironmentError(
-            "{}: the file is not the public key of a course; ask for its {} (dynlab course verify --key shows it)",
+            "{}: the file is not the public key of a course; ask for the file {} of the course (dynlab course verify "
+            "--key shows the key)",
             file.string(), kPublicKeyFile);
     return key;
 }

@@ -71,8 +71,9 @@ void check_leftovers(const Course& course, StoreCheck& check) {
         for (const auto& entry : fs::recursive_directory_iterator(folder)) {
             const std::string name = entry.path().filename().string();
             if (RE2::FullMatch(name, earlier) && name.find(".dynlab-") == std::string::npos)
-                check.leftovers.push_back(Message("{} is a temporary file of an earlier, interrupted dynlab; remove it",
-                                                  entry.path().string()));
+                check.leftovers.push_back(
+                    Message("{} is a temporary file of an earlier, interrupted run of dynlab; remove the file",
+                            entry.path().string()));
         }
     }
 }

@@ -68,7 +68,7 @@ Message token_name(Token::Type type) {
                              Message("a number"),
                              Message("a Boolean value"),
                              Message("nothing"),
-                             Message("a text"),
+                             Message("a string"),
                              Message("bytes"),
                              Message("a list"),
                              Message("a map"),

@@ -207,7 +207,7 @@ double JsonReader::number() {
 }
 
 std::string_view JsonReader::take_text() {
-    if (!at_->is_string()) refuse_json(Message("a text"));
+    if (!at_->is_string()) refuse_json(Message("a string"));
     return at_->get_ref<const std::string&>();
 }
 

@@ -69,7 +69,7 @@ std::size_t ValueReader::one_of(std::span<const char* const> names) {
     const std::string_view name = take_text();
     for (std::size_t i = 0; i < names.size(); ++i)
         if (name == names[i]) return i;
-    refuse(Message("expected one of {}, got another text", listed({names.begin(), names.end()})));
+    refuse(Message("expected one of {}, got another string", listed({names.begin(), names.end()})));
 }
 
 NumberArray ValueReader::array(std::optional<ArrayForm> requested) {

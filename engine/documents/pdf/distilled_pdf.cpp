@@ -42,7 +42,7 @@ std::pair<std::string, std::size_t> rewritten(const fs::path& file, const PdfObj
 
 Message reason_of(const ChildResult& child, const DistillSetup& setup) {
     if (child.timed_out) return Message("printing takes longer than {} s", setup.time.seconds(child.time_limit()));
-    if (child.exit_code == 128 + SIGXFSZ) return Message("the result has more than {} MB", kMaxFile >> 20);
+    if (child.exit_code == 128 + SIGXFSZ) return Message("the result is larger than {} MB", kMaxFile >> 20);
     const std::string& said = child.output.empty() ? child.error_output : child.output;
     return Message::verbatim(terminal_text(said.substr(0, said.find('\n'))));
 }

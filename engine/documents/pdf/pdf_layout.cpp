@@ -51,8 +51,8 @@ void check_outside(const fs::path& file, const PdfLimits& limits) {
     const std::uint64_t size = fs::file_size(file);
     if (size == 0) throw PdfRefusal(PdfFault::kNotPdf, Message("The file is empty."));
     if (size > limits.file_bytes) {
-        throw PdfRefusal(PdfFault::kTooLarge,
-                         Message("The file has {} MB; the limit is {} MB.", size >> 20, limits.file_bytes >> 20));
+        throw PdfRefusal(PdfFault::kTooLarge, Message("The size of the file is {} MB; the limit is {} MB.", size >> 20,
+                                                      limits.file_bytes >> 20));
     }
     const std::string start = bytes_at(file, 0, 1024);
     if (start.empty()) throw PdfRefusal(PdfFault::kNotThere, Message("The file cannot be read: permission is denied."));

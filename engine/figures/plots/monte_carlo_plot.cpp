@@ -209,7 +209,7 @@ Figure monte_carlo_scatter(const MonteCarlo& study, const std::string& x_name, c
                            double level) {
     if (x_name == y_name) throw InvalidArgument("the two parameters of a scatter figure must differ");
     if (!(level > 0 && level < 1))
-        throw InvalidArgument("level must be a probability between 0 and 1, but {} was given", level);
+        throw InvalidArgument("the confidence level must be between 0 and 1, but {} was given", level);
     Panel panel;
     const MonteCarloResult* reference = nullptr;
     std::vector<Vector> xs, ys;

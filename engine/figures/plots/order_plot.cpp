@@ -53,7 +53,7 @@ Curve curve_of(const std::map<double, double>& values, int zeros, int index) {
     for (const auto& [x, y] : values) curve.x[i] = x, curve.y[i++] = y;
     curve.style = CurveStyle::kLinePoints;
     curve.color = index;
-    curve.label = zeros == 0 ? Message("no zero") : plural(zeros, "{} zero", "{} zeros");
+    curve.label = zeros == 0 ? Message("no zeros") : plural(zeros, "{} zero", "{} zeros");
     return curve;
 }
 

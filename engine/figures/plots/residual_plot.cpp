@@ -64,7 +64,7 @@ Figure residual_plot(const ResidualTests& tests, const IdData& data, double conf
         auto& column = columns.emplace_back();
         const Vector& own = output.whiteness.correlation;
         column.push_back(correlation_panel(own.tail(own.size() - 1), 1, output.whiteness.bound, confidence));
-        column.back().y_label = Message("autocorrelation of the error in {}", data.output_names[i]);
+        column.back().y_label = Message("autocorrelation of the residuals of {}", data.output_names[i]);
         for (const IndependenceTest& test : output.inputs) {
             const Index lags = test.correlation.size() / 2;
             column.push_back(correlation_panel(test.correlation, -lags, test.bound, confidence));
@@ -75,7 +75,8 @@ Figure residual_plot(const ResidualTests& tests, const IdData& data, double conf
         }
         column.back().x_label = Message("lag (samples)");
     }
-    if (columns.empty()) throw InvalidArgument("nothing to draw: the model reproduces every output to rounding error");
+    if (columns.empty())
+        throw InvalidArgument("nothing to draw: the model reproduces every output to within rounding error");
     Figure figure;
     figure.columns = static_cast<int>(columns.size());
     figure.rows = static_cast<int>(columns.front().size());

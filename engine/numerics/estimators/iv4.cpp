@@ -108,7 +108,7 @@ Fit iv4(const IdData& data, const PolynomialOrders& orders) {
     describe_equation_error(estimate);
     warn_of_operating_point(estimate, data);
     estimate.message = Message(
-        "Instrumental variables over {} equations: fit {} % for one-step prediction, {} % for simulation with measured "
+        "Instrumental variables with {} equations: fit {} % for one-step prediction, {} % for simulation with measured "
         "past values.",
         last.count(), significant(estimate.prediction_fit_percent, 4), significant(estimate.fit_percent[0], 4));
     return estimate;

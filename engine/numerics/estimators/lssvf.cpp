@@ -13,8 +13,8 @@ namespace dynlab::inline numerics {
 void SvfOptions::validate() const {
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, but is {}. Choose a "
-            "value slightly above the bandwidth of the system",
+            "lambda, the cutoff frequency of the filter, must be a positive number of rad/s, but is {}. Choose a value "
+            "slightly above the bandwidth of the system",
             lambda);
     if (beta && (!(*beta > 0) || !std::isfinite(*beta)))
         throw InvalidArgument("beta must be positive, but is {}", *beta);
@@ -38,8 +38,8 @@ void warn_of_cutoff(Fit& estimate, double lambda) {
     for (const TransferFunction& G : estimate.models) fastest = std::max(fastest, G.poles().cwiseAbs().maxCoeff());
     if (lambda > kFar * fastest || lambda < fastest / kFar)
         estimate.warnings.push_back(
-            Message("The cut-off frequency lambda = {} rad/s is far from the estimated poles (fastest {} rad/s): "
-                    "choose lambda slightly above the bandwidth.",
+            Message("The cutoff frequency lambda = {} rad/s is far from the estimated poles (fastest {} rad/s): choose "
+                    "lambda slightly above the bandwidth.",
                     lambda, significant(fastest, 3)));
 }
 

@@ -264,17 +264,17 @@ void warn_of_zero(Fit& result) {
         const double value = result.theta[static_cast<Index>(i)];
         if (result.names[i].starts_with("Tp") && std::abs(Tz - value) < 0.02 * value)
             result.warnings.push_back(
-                Message("The zero nearly cancels {}: a structure with one pole less and without Z is sufficient.",
+                Message("The zero nearly cancels {}: a structure with one fewer pole and without Z is sufficient.",
                         result.names[i]));
     }
 }
 
 Message process_message(const Fit& fit) {
     const Number percent = significant(fit.fit_percent[0], 4);
-    return has_settled(fit) ? Message("Output error converged after {}, simulating {}: fit {} %.", iteration_count(fit),
-                                      description(fit.start), percent)
-                            : Message("Output error stopped after {}, simulating {}: fit {} %.", iteration_count(fit),
-                                      description(fit.start), percent);
+    return has_settled(fit) ? Message("The output-error search converged after {} for a simulation {}: fit {} %.",
+                                      iteration_count(fit), description(fit.start), percent)
+                            : Message("The output-error search stopped after {} for a simulation {}: fit {} %.",
+                                      iteration_count(fit), description(fit.start), percent);
 }
 
 /// The model of a fit, with its time constants in order.

@@ -279,9 +279,9 @@ Fit rivc_fit(const IdData& data, const TransferStructure& structure, const Noise
     fill_noise(result, passes, orders, data);
     describe_search(result, data, requested, range);
     result.message = has_settled(result)
-                         ? Message("RIVC converged after {}, simulated {}: {}.", iteration_count(result),
+                         ? Message("RIVC converged after {} for a simulation {}: {}.", iteration_count(result),
                                    description(result.start), simulation_text(result))
-                         : Message("RIVC stopped after {}, simulated {}: {}.", iteration_count(result),
+                         : Message("RIVC stopped after {} for a simulation {}: {}.", iteration_count(result),
                                    description(result.start), simulation_text(result));
     return result;
 }

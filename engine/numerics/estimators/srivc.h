@@ -5,7 +5,7 @@ namespace dynlab::inline numerics {
 
 /// Simplified refined instrumental variables for continuous-time models, for the COE structure
 ///     y_i = sum_j B_ij(p)/F_ij(p) u_j(t - delay_ij) + e_i,  e white.
-/// From a first estimate (lssvf at options.lambda, or at the best of several cut-off frequencies) each pass filters all
+/// From a first estimate (lssvf at options.lambda, or at the best of several cutoff frequencies) each pass filters all
 /// signals with 1/F of the pass before and solves the normal equations with the exact sensitivities of the simulated
 /// output as instruments; unstable poles are mirrored. With the exact instruments the fixed point is the output-error
 /// optimum in finite samples (see coe), so the estimate is efficient for white noise and consistent for any noise

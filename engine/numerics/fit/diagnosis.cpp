@@ -91,8 +91,8 @@ void check_transfer_data(const std::string& method, const IdData& data, const Tr
 void check_sampled_data(const std::string& method, const IdData& data) {
     if (data.input_count() > 0 && !data.regular())
         throw InvalidArgument(
-            "{} needs regularly sampled data, but these data are irregular: interpolate them to equal steps first "
-            "(interp1)",
+            "{} needs regularly sampled data, but these data are sampled irregularly: interpolate them at equally "
+            "spaced instants first (interp1)",
             method);
     check_signals(method, data);
 }
@@ -163,7 +163,7 @@ Message instability_of_only_channel(UnstableAdvice advice) {
         default:
             return Message(
                 "The model is unstable. Unless the system is also unstable, check the controller, the orders and the "
-                "cut-off frequency.");
+                "cutoff frequency.");
     }
 }
 
@@ -237,13 +237,13 @@ void warn_of_ambiguous_delays(Fit& fit, const IdData& data) {
         withdraw_errors(fit, names);
         std::erase(fit.warnings, ambiguity(SimplerModel::kStructure, significant(fit.condition_number, 2)));
         fit.warnings.push_back(
-            channel ? Message("The delay from input {} to output {} is only known to within one sampling time, so {} "
+            channel ? Message("The delay from input {} to output {} is known only to within one sampling time, so {} "
                               "have no standard errors: the input has a zero-order hold and the model has as many "
-                              "zeros as poles. Fix the delay with {}, or use one zero fewer.",
+                              "zeros as poles. Fix the delay with {}, or use one fewer zero.",
                               channel->input, channel->output, listed(names), OptionName{"delay"})
-                    : Message("The delay is only known to within one sampling time, so {} have no standard errors: the "
+                    : Message("The delay is known only to within one sampling time, so {} have no standard errors: the "
                               "input has a zero-order hold and the model has as many zeros as poles. Fix the delay "
-                              "with {}, or use one zero fewer.",
+                              "with {}, or use one fewer zero.",
                               listed(names), OptionName{"delay"}));
     }
 }

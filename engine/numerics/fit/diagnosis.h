@@ -85,7 +85,7 @@ bool withdraw_errors_of_gain(Fit& fit, const IdData& data);
 bool has_ambiguous_delay(const TransferFunction& G, const IdData& data);
 
 /// What a warning of an unstable model advises: nothing; the option `stable`; srivc with that option; a look at the
-/// controller, the orders and the cut-off frequency.
+/// controller, the orders and the cutoff frequency.
 enum class UnstableAdvice { kNone, kStableOption, kStableSrivc, kController };
 /// Fills names, models and std of a continuous-time fit from structure, theta and covariance, and warns of poles and
 /// zeros that nearly cancel, of doubtful parameters, and of unstable channels.

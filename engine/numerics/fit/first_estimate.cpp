@@ -63,13 +63,13 @@ void start_channels(const IdData& data, const TransferStructure& structure, Inde
     }
 }
 
-/// What the first estimate at a cut-off frequency leads to.
+/// What the first estimate at a cutoff frequency leads to.
 struct CutoffStart {
     Vector theta;
     double loss;
 };
 
-/// Of starts in rising order of the cut-off frequency those of smaller loss than their neighbors.
+/// Of starts in rising order of the cutoff frequency those of smaller loss than their neighbors.
 std::vector<CutoffStart> valleys_over_the_cutoff(const std::vector<CutoffStart>& starts) {
     std::vector<CutoffStart> valleys;
     for (std::size_t i = 0; i < starts.size(); ++i) {

@@ -18,17 +18,17 @@ IdData single_channel(const IdData& data, const std::vector<Vector>& outputs, In
 /// the equations cannot be solved.
 Vector lssvf_start(const IdData& data, const TransferStructure& structure, double lambda, Hold hold_y);
 
-/// Which cut-off frequencies are followed: all, or those whose first estimate has a smaller loss than its neighbors'
+/// Which cutoff frequencies are followed: all, or those whose first estimate has a smaller loss than its neighbors'
 /// and no more than three times the smallest loss found, which nearly always lead to the same in a third of the time:
 /// enough for SRIVC's passes, behind which a search follows where they fail.
 enum class CutoffTrials { kValleys, kAll };
 
-/// A start that needs no guess: lssvf_start for cut-off frequencies over the band that the record can show, followed
+/// A start that needs no guess: lssvf_start for cutoff frequencies over the band that the record can show, followed
 /// by a few passes of iterate_srivc; the theta of smallest loss. Throws InvalidArgument when none is finite.
 Vector best_cutoff_start(const IdData& data, const TransferStructure& structure, const FitOptions& options,
                          CutoffTrials trials = CutoffTrials::kAll);
 
-/// theta where a search begins: options.lambda's first estimate or the best of several cut-off frequencies.
+/// theta where a search begins: options.lambda's first estimate or the best of several cutoff frequencies.
 Vector first_estimate(const IdData& data, const TransferStructure& structure, const FitOptions& options,
                       CutoffTrials trials = CutoffTrials::kAll);
 

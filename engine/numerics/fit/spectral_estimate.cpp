@@ -20,8 +20,8 @@ void check_channels(const std::string& caller, const IdData& data) {
             "data:select(output, input)",
             caller, data.input_count(), data.output_count());
     if (!data.regular())
-        throw InvalidArgument("{}: the data are sampled irregularly; interpolate them to equal steps (interp1)",
-                              caller);
+        throw InvalidArgument(
+            "{}: the data are sampled irregularly; interpolate them at equally spaced instants (interp1)", caller);
 }
 
 bool changes(const Matrix& signal) {

@@ -351,7 +351,7 @@ Message option_text(const StructureAdvice& missed) {
         case StructureAdviceCode::kLine:
             return Message("linear trends removed (data:detrend(\"linear\"))");
         case StructureAdviceCode::kLate:
-            return Message("the input one sample earlier (data:shift(-1))");
+            return Message("the input shifted by one sample (data:shift(-1))");
         case StructureAdviceCode::kHold:
             return Message("linear interpolation of the input ({} = \"foh\")", OptionName{"hold"});
         default:

@@ -365,10 +365,10 @@ Index value_count(const TransferStructure& structure, const StartCondition& cond
 }
 
 Message output_error_message(const Fit& fit) {
-    return has_settled(fit) ? Message("Output error converged after {}, simulated {}: {}.", iteration_count(fit),
-                                      description(fit.start), simulation_text(fit))
-                            : Message("Output error stopped after {}, simulated {}: {}.", iteration_count(fit),
-                                      description(fit.start), simulation_text(fit));
+    return has_settled(fit) ? Message("The output-error search converged after {} for a simulation {}: {}.",
+                                      iteration_count(fit), description(fit.start), simulation_text(fit))
+                            : Message("The output-error search stopped after {} for a simulation {}: {}.",
+                                      iteration_count(fit), description(fit.start), simulation_text(fit));
 }
 
 Fit refine_output_error(const IdData& data, const TransferStructure& structure, const StartCondition& condition,

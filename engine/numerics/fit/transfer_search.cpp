@@ -329,8 +329,8 @@ Fit search_transfer(const char* method, const IdData& data, const TransferStruct
         if (Fit other = further(stable, search(stable, {})); other.loss <= kClearly * best.loss) {
             if (best.loss < other.loss)
                 other.warnings.push_back(
-                    Message("An unstable model has a loss {} % smaller, which is not significant. To allow unstable "
-                            "models, set {} = false.",
+                    Message("The loss of an unstable model is {} % smaller, which is not significant. To allow "
+                            "unstable models, set {} = false.",
                             significant(100 * (1 - best.loss / other.loss), 2), OptionName{"stable"}));
             best = std::move(other);
         }

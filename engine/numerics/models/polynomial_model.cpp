@@ -22,11 +22,11 @@ void check_orders(const PolynomialOrders& orders) {
         throw InvalidArgument("na, the number of poles, must be between {} and {}, but is {}", 0, kMaxOrder, orders.na);
     if (!between(orders.nc, 0, kMaxOrder))
         throw InvalidArgument(
-            "nc, the number of coefficients of C after the leading 1, must be between {} and {}, but is {}", 0,
+            "nc, the number of coefficients of C without the leading 1, must be between {} and {}, but is {}", 0,
             kMaxOrder, orders.nc);
     if (!between(orders.nd, 0, kMaxOrder))
         throw InvalidArgument(
-            "nd, the number of coefficients of D after the leading 1, must be between {} and {}, but is {}", 0,
+            "nd, the number of coefficients of D without the leading 1, must be between {} and {}, but is {}", 0,
             kMaxOrder, orders.nd);
     for (std::size_t i = 0; i < orders.inputs(); ++i) {
         if (!between(orders.nb[i], 1, kMaxOrder))
@@ -37,8 +37,9 @@ void check_orders(const PolynomialOrders& orders) {
                                   orders.nf[i]);
         if (!between(orders.nk[i], 0, kMaxDelay))
             throw InvalidArgument(
-                "nk, the delay in samples (1: no direct feedthrough), must be between {} and {}, but is {}", 0,
-                kMaxDelay, orders.nk[i]);
+                "nk, the delay in samples (1 for systems without direct feedthrough), must be between {} and {}, but "
+                "is {}",
+                0, kMaxDelay, orders.nk[i]);
     }
 }
 

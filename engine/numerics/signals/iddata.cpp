@@ -207,7 +207,8 @@ IdData IdData::shifted(Index samples) const {
     for (Experiment& experiment : result.experiments) {
         const Index lost = std::abs(samples), kept = experiment.y.rows() - lost;
         if (kept < 1)
-            throw InvalidArgument("shift: a shift by {} removes all of {}", plural(samples, "{} sample", "{} samples"),
+            throw InvalidArgument("shift: a shift by {} would remove all samples, because the data have only {}",
+                                  plural(samples, "{} sample", "{} samples"),
                                   plural(experiment.y.rows(), "{} sample", "{} samples"));
         const Matrix u = experiment.u.middleRows(samples >= 0 ? 0 : lost, kept);
         experiment = cut(*this, experiment, samples >= 0 ? lost : 0, kept);

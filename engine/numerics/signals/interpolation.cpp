@@ -12,7 +12,8 @@ void check_points(const VectorView& x, const VectorView& y) {
     if (x.size() < 2) throw InvalidArgument("interpolation needs at least two points, but {} was given", x.size());
     for (Index i = 1; i < x.size(); ++i)
         if (!(x[i] > x[i - 1]))
-            throw InvalidArgument("x must be increasing, but element {} is not larger than the previous one", i + 1);
+            throw InvalidArgument("x must be increasing, but element {} is not larger than the previous element",
+                                  i + 1);
 }
 
 }  // namespace

@@ -95,7 +95,8 @@ void read_levels(StepRecord& record) {
                                                             1.0 / static_cast<double>(tail));
     if (std::abs(record.output_change()) > 5 * uncertainty && record.output_change() != 0) return;
     throw InvalidArgument(
-        "The output does not respond to the step: it goes from {} to {} with noise of standard deviation {}",
+        "The output does not respond to the step: it changes from {} to {}, and the noise has a standard deviation of "
+        "{}",
         significant(record.initial.value, 6), significant(record.final.value, 6), significant(record.noise_std, 6));
 }
 

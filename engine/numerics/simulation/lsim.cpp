@@ -116,7 +116,7 @@ Matrix state_variable_filter(const VectorView& x, int n, double lambda, double T
         throw InvalidArgument("state-variable filter: the order must be between 1 and {}, but it is {}", kMaxOrder, n);
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, but it is {}",
+            "state-variable filter: the cutoff frequency lambda must be a positive number of rad/s, but it is {}",
             lambda);
     if (!valid_sampling_time(Ts))
         throw InvalidArgument(

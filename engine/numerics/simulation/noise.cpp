@@ -43,7 +43,7 @@ double ColoredNoise::gain() const {
 
 Vector ColoredNoise::draw(Index count, double sigma, RandomStream& random) const {
     if (!(sigma >= 0) || !std::isfinite(sigma))
-        throw InvalidArgument("The standard deviation of noise must be nonnegative, but {} was given", sigma);
+        throw InvalidArgument("The standard deviation of the noise must be nonnegative, but {} was given", sigma);
     return colored(C, D, sigma * random.normal(decay_time(C, D) + count)).tail(count);
 }
 

@@ -100,7 +100,7 @@ Index highest_autoregressive_order(Index N) {
 Autoregression fit_autoregression(const VectorView& e, const std::vector<Index>& lengths, Index most,
                                   AutoregressiveOrder choice) {
     check_autoregression(e.size(), lengths);
-    if (!e.allFinite()) throw InvalidArgument("An autoregressive model needs a signal with finite samples only");
+    if (!e.allFinite()) throw InvalidArgument("An autoregressive model needs a signal in which all samples are finite");
     const double N = static_cast<double>(e.size());
     Autoregression model{{Vector()}, e.size() > 0 ? e.squaredNorm() / N : 0};
     if (model.variance == 0) return model;

@@ -65,9 +65,9 @@ WhitenessTest whiteness_of_covariances(const std::vector<Vector>& e, const Vecto
 }
 
 void ResidualOptions::validate() const {
-    if (lags < 1) throw InvalidArgument("lags must be at least 1, but is {}", lags);
+    if (lags < 1) throw InvalidArgument("the number of lags must be at least 1, but is {}", lags);
     if (!(confidence > 0 && confidence < 1))
-        throw InvalidArgument("confidence must be between 0 and 1, such as 0.99, but is {}", confidence);
+        throw InvalidArgument("the confidence level must be between 0 and 1, such as 0.99, but is {}", confidence);
 }
 
 WhitenessTest whiteness_test(const std::vector<Vector>& errors, const ResidualOptions& options) {

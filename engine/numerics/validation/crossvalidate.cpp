@@ -100,7 +100,7 @@ void summarise(CrossValidation& result, const std::vector<std::string>& names) {
 }  // namespace
 
 void CrossValidationOptions::validate() const {
-    if (!by_experiment && folds < 2) throw InvalidArgument("folds must be at least 2, but is {}", folds);
+    if (!by_experiment && folds < 2) throw InvalidArgument("the number of folds must be at least 2, but is {}", folds);
 }
 
 CrossValidation cross_validate(const IdData& data, const ModelFitter& fit, const CrossValidationOptions& options) {

@@ -90,15 +90,16 @@ Message result_of(const DelaySearch& search, const IdData& data) {
     const Message orders = orders_of(search.candidate);
     if (!data.regular())
         return std::isfinite(search.std)
-                   ? Message("The delay is {} s, standard error {} s, in a model with {} that fits {} %.", delay, std,
-                             orders, fit)
-                   : Message("The delay is {} s, in a model with {} that fits {} %.", delay, orders, fit);
+                   ? Message("The delay is {} s, with a standard error of {} s, in a model with {} and a fit of {} %.",
+                             delay, std, orders, fit)
+                   : Message("The delay is {} s in a model with {} and a fit of {} %.", delay, orders, fit);
     const Number samples = known_to(search.delay / data.Ts, search.std / data.Ts);
-    return std::isfinite(search.std)
-               ? Message("The delay is {} s ({} samples), standard error {} s, in a model with {} that fits {} %.",
-                         delay, samples, std, orders, fit)
-               : Message("The delay is {} s ({} samples), in a model with {} that fits {} %.", delay, samples, orders,
-                         fit);
+    return std::isfinite(search.std) ? Message(
+                                           "The delay is {} s ({} samples), with a standard error of {} s, in a model "
+                                           "with {} and a fit of {} %.",
+                                           delay, samples, std, orders, fit)
+                                     : Message("The delay is {} s ({} samples) in a model with {} and a fit of {} %.",
+                                               delay, samples, orders, fit);
 }
 
 Message explanation_of(const DelaySearch& search, const IdData& data, bool reported) {
@@ -109,8 +110,8 @@ Message explanation_of(const DelaySearch& search, const IdData& data, bool repor
     const Vector& errors = search.candidate.estimate.std;
     if (search.rival && !std::isinf(errors[errors.size() - 1]))  // else a warning of the estimate says so
         all.push_back(
-            Message("A delay of {} s explains the data nearly as well. Inspect the loss over the delay, and use your "
-                    "knowledge of the plant.",
+            Message("A delay of {} s explains the data nearly as well. Inspect the loss as a function of the delay, "
+                    "and use your knowledge of the plant.",
                     *search.rival));
     for (const Message& warning : search.candidate.estimate.warnings) all.push_back(warning);
     return sentences(std::move(all));

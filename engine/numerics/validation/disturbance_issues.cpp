@@ -197,9 +197,9 @@ bool find_strange_sections(const FittedRecord& fit, DataIssues& findings) {
     for (const auto& [first, last] : sections) places.items.push_back(Message("{} to {}", first, last));
     DataIssue issue =
         about(fit, "nonlinear", Weight::kWarning,
-              Message("A linear model follows {} except in samples {}, where its error is more than {} times the usual "
-                      "error: another effect acts there (such as a limit, friction or a disturbance). Inspect these "
-                      "samples, and exclude them with data:discard if they do not belong to the dynamics.",
+              Message("A linear model follows {} except in samples {}, where its error is more than {} times the "
+                      "typical error. Another effect acts there, such as a limit, friction or a disturbance. Inspect "
+                      "these samples, and exclude them with data:discard if they do not belong to the dynamics.",
                       fit.output(), places, kStrange),
               static_cast<double>(sections.size()));
     issue.sections = std::move(sections);

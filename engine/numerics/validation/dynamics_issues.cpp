@@ -156,15 +156,15 @@ void find_noise(const FittedRecord& fit, DataIssues& findings) {
     });
     if (decibels >= kNoisy || explained)
         findings.push_back(about(fit, "noise", Weight::kNote,
-                                 Message("The signal-to-noise ratio of {} is about {} dB (the residual of a model with "
-                                         "{} has the standard deviation {}).",
+                                 Message("The signal-to-noise ratio of {} is about {} dB (the residuals of a model "
+                                         "with {} have a standard deviation of {}).",
                                          fit.output(), ratio, order, left),
                                  decibels));
     else
         findings.push_back(
             about(fit, "low_snr", Weight::kWarning,
-                  Message("The signal-to-noise ratio of {} is only about {} dB (the residual of a model with {} has "
-                          "the standard deviation {}). If the residual is noise, collect more data or use a larger "
+                  Message("The signal-to-noise ratio of {} is only about {} dB (the residuals of a model with {} have "
+                          "a standard deviation of {}). If the residuals are noise, collect more data or use a larger "
                           "amplitude, and use methods that are unbiased in noise (tfsrivc instead of lssvf). "
                           "Otherwise, an effect other than the input drives the output.",
                           fit.output(), ratio, order, left),

@@ -275,10 +275,10 @@ void check_methods(const std::vector<MonteCarloMethod>& methods) {
 }  // namespace
 
 void MonteCarloStudy::validate() const {
-    if (!system.continuous()) throw InvalidArgument("system must be a continuous-time model");
+    if (!system.continuous()) throw InvalidArgument("the system must be a continuous-time model");
     if (runs < 2 || runs > 1'000'000)
-        throw InvalidArgument("runs must be between 2 and 1000000, but {} was given", runs);
-    if (threads < 0) throw InvalidArgument("threads must be nonnegative, but {} was given", threads);
+        throw InvalidArgument("the number of runs must be between 2 and 1000000, but {} was given", runs);
+    if (threads < 0) throw InvalidArgument("the number of threads must be nonnegative, but {} was given", threads);
     if (sigma.has_value() == snr.has_value())
         throw InvalidArgument("specify either sigma (the standard deviation of the noise) or snr (in dB)");
     if (sigma && !(*sigma >= 0 && std::isfinite(*sigma)))

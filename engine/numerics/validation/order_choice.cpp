@@ -188,7 +188,7 @@ const OrderMeasure& order_measure(OrderCriterion criterion) {
 
 Message structure_text(const OrderCandidate& candidate) {
     const Message poles = plural(candidate.poles, "{} pole", "{} poles");
-    const Message zeros = candidate.zeros == 0 ? Message("no zero") : plural(candidate.zeros, "{} zero", "{} zeros");
+    const Message zeros = candidate.zeros == 0 ? Message("no zeros") : plural(candidate.zeros, "{} zero", "{} zeros");
     const Message structure = candidate.delay > 0 ? Message("{}, {} and a delay of {} s", poles, zeros, candidate.delay)
                                                   : Message("{} and {}", poles, zeros);
     return candidate.integrator ? Message("an integrator, {}", structure) : structure;

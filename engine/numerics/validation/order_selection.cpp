@@ -165,7 +165,8 @@ void check_selection(const IdData& data, const std::vector<TransferStructure>& c
                      const OrderSelectionOptions& options) {
     check_channels(data, false);
     if (options.validation != nullptr) check_channels(*options.validation, true);
-    if (options.threads < 0) throw InvalidArgument("threads must be nonnegative, but {} was given", options.threads);
+    if (options.threads < 0)
+        throw InvalidArgument("the number of threads must be nonnegative, but {} was given", options.threads);
     if (candidates.empty())
         throw InvalidArgument("no structure can be tried: the number of zeros must be less than the number of poles");
     for (const TransferStructure& structure : candidates) {
@@ -210,9 +211,9 @@ std::vector<const Fit*> poorer_fits(const std::vector<TransferStructure>& struct
 std::vector<TransferStructure> order_grid(std::pair<int, int> poles, std::pair<int, int> zeros,
                                           const std::vector<double>& delays, bool free_delay, bool feedthrough) {
     if (poles.first < 1 || poles.second < poles.first)
-        throw InvalidArgument("poles must be a range starting at 1 or higher, such as {1, 4}");
+        throw InvalidArgument("option 'poles' must be a range starting at 1 or higher, such as {1, 4}");
     if (zeros.first < 0 || zeros.second < zeros.first)
-        throw InvalidArgument("zeros must be a range starting at 0 or higher, such as {0, 2}");
+        throw InvalidArgument("option 'zeros' must be a range starting at 0 or higher, such as {0, 2}");
     if (delays.empty()) throw InvalidArgument("at least one delay must be given; use 0 for none");
     const double requested =
         (1.0 + poles.second - poles.first) * (1.0 + zeros.second - zeros.first) * static_cast<double>(delays.size());

@@ -197,8 +197,8 @@ Predictions predict_from_simulation(const IdData& data, const NoisyModel& model,
     if (noisy) {
         if (!data.regular())
             throw InvalidArgument(
-                "The noise model is discrete-time, but the data are sampled irregularly: interpolate them to equal "
-                "steps first (interp1)");
+                "The noise model is discrete-time, but the data are sampled irregularly: interpolate them at equally "
+                "spaced instants first (interp1)");
         check_sampling(data, model.noise_Ts);
         check_invertible(model.C, model.D);
         if (data.output_count() != 1)

@@ -100,14 +100,14 @@ Message independence_verdict(const IndependenceTest& test, const IdData& data) {
     const std::string& name = data.input_names[static_cast<std::size_t>(test.input)];
     const auto probability = probability_text(test.p_value);
     if (!test.independent)
-        return Message("{} is correlated with the error ({}; largest at {}).", name, probability,
+        return Message("{} is correlated with the residuals ({}; largest at {}).", name, probability,
                        lag_text(strongest_lag(test), data));
     if (!test.without_feedback)
         return Message(
-            "{} is not correlated with the later error ({}), but the error is correlated with later values of the "
+            "{} is not correlated with later residuals ({}), but the residuals are correlated with later values of the "
             "input ({}): the output seems to affect the input through feedback.",
             name, probability, probability_text(test.p_value_future));
-    return Message("{} is not correlated with the error ({}).", name, probability);
+    return Message("{} is not correlated with the residuals ({}).", name, probability);
 }
 
 // An input, its covariances at lags 0 and on, and those with the error at lags of both signs.
@@ -147,7 +147,7 @@ IndependenceTest test_independence(const Signals& e, double variance, const Test
     if (Ru == 0) {
         test.tested = false;
         test.correlation = Vector::Zero(2 * lags + 1);
-        test.verdict = Message("{} never changes, so its correlation with the error is meaningless.",
+        test.verdict = Message("{} never changes, so its correlation with the residuals is meaningless.",
                                data.input_names[static_cast<std::size_t>(input)]);
         return test;
     }
@@ -204,11 +204,11 @@ OutputResiduals test_output(const std::vector<Matrix>& errors, const IdData& dat
         result.exact = true;
         result.verdict = kind == ErrorKind::kOutput ? Message(
                                                           "{}: the simulated output equals the measured output to "
-                                                          "rounding error, so no residuals remain to test.",
+                                                          "within rounding error, so no residuals remain to test.",
                                                           name)
                                                     : Message(
                                                           "{}: the predicted output equals the measured output to "
-                                                          "rounding error, so no residuals remain to test.",
+                                                          "within rounding error, so no residuals remain to test.",
                                                           name);
         return result;
     }

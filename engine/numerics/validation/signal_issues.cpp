@@ -70,8 +70,8 @@ double range_of(const Vector& x) {
 /// A constant input other than zero may be a step with which the record begins.
 void find_step_at_the_start(const Channel& channel, std::vector<DataIssue>& findings) {
     findings.push_back(about(channel, "step_input", Weight::kNote,
-                             Message("{} stays at {} throughout: this is a step experiment if the input was switched "
-                                     "on with the first sample and the output started from rest. Such data determine "
+                             Message("{} stays at {} throughout. If the input was switched on with the first sample "
+                                     "and the output started from rest, this is a step experiment: the data determine "
                                      "the gain, the dead time and one or two time constants.",
                                      subject(channel), value_of(channel, channel.x[0])),
                              0));
@@ -151,7 +151,7 @@ void find_saturation(const Channel& channel, const Quantization& grid, std::vect
         share > 0.5 ? Message(
                           "{} saturates for {} % of the data (samples {}): it reaches {} abruptly and stays at this "
                           "value. A linear model cannot represent saturation. Most of the data are saturated: repeat "
-                          "the experiment with a smaller amplitude or another range of the sensor.",
+                          "the experiment with a smaller amplitude or another sensor range.",
                           who, percent, listed_places(runs), limit)
                     : Message(
                           "{} saturates for {} % of the data (samples {}): it reaches {} abruptly and stays at this "
@@ -166,13 +166,13 @@ void find_saturation(const Channel& channel, const Quantization& grid, std::vect
 void find_quantization(const Channel& channel, const Quantization& grid, std::vector<DataIssue>& findings) {
     const double range = range_of(channel.x);
     if (!channel.output || grid.step == 0 || range / grid.step >= kCoarse) return;
-    findings.push_back(
-        about(channel, "quantization", Weight::kWarning,
-              Message("{} is quantized in steps of {}, with only {} steps over its range. The effect is similar to "
-                      "noise with the standard deviation {}; use a finer range of the converter or a larger amplitude.",
-                      subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
-                      value_of(channel, grid.step / std::sqrt(12.0), 2)),
-              grid.step));
+    findings.push_back(about(
+        channel, "quantization", Weight::kWarning,
+        Message("{} is quantized in steps of {}, with only {} steps over its range. The effect is similar to noise "
+                "with a standard deviation of {}; use a converter with a higher resolution, or a larger amplitude.",
+                subject(channel), value_of(channel, grid.step, 3), std::round(range / grid.step),
+                value_of(channel, grid.step / std::sqrt(12.0), 2)),
+        grid.step));
 }
 
 double bend_at(const Vector& x, Index k) {
@@ -300,21 +300,21 @@ Index changes_of(const Vector& u) {
 /// Of an input that changes so often only.
 Message few_changes(const Channel& channel, Index changes) {
     return changes == 1 ? Message(
-                              "{} changes only once: a step experiment. Such data determine the gain, the dead time "
-                              "and one or two time constants (procsrivc, step_first_order); for higher orders, excite "
-                              "the system with a prbs.",
+                              "{} changes only once, as in a step experiment. These data determine the gain, the dead "
+                              "time and one or two time constants (procsrivc, step_first_order). For higher orders, "
+                              "excite the system with a PRBS (prbs).",
                               subject(channel))
                         : Message(
-                              "{} changes only {} times: a step experiment. Such data determine the gain, the dead "
-                              "time and one or two time constants (procsrivc, step_first_order); for higher orders, "
-                              "excite the system with a prbs.",
+                              "{} changes only {} times, as in a step experiment. These data determine the gain, the "
+                              "dead time and one or two time constants (procsrivc, step_first_order). For higher "
+                              "orders, excite the system with a PRBS (prbs).",
                               subject(channel), changes);
 }
 
 Message excitation_of(const Channel& channel, Index order) {
     if (order < kPoorOrder)
         return Message(
-            "{} can determine no more than {}: it contains only about {}. Excite the system with a prbs, a chirp or a "
+            "{} can determine no more than {}: it contains only about {}. Excite the system with a PRBS, a chirp or a "
             "multisine that covers the plant's bandwidth.",
             subject(channel), plural(order, "{} parameter", "{} parameters"),
             plural((order + 1) / 2, "{} frequency", "{} frequencies"));

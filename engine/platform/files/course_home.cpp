@@ -47,7 +47,8 @@ FilesByPlace merged_files(const fs::path& course, const fs::path& installed) {
     std::uintmax_t bytes = 0;
     for (const auto& [place, file] : own) bytes += fs::file_size(file);
     if (bytes > kMaxByteCount)
-        throw EnvironmentError("the course in {} has more than 256 MB of lessons, data and templates", course.string());
+        throw EnvironmentError("the lessons, data and templates of the course in {} are larger than 256 MB",
+                               course.string());
     for (const auto& [place, file] : own) files[place] = file;
     return files;
 }

@@ -69,7 +69,7 @@ class AnswerWriter {
     void count(Index numbers) {
         count_ += numbers;
         if (count_ > kMaxNumbers)
-            throw InvalidArgument("an answer can have at most {} numbers or letters", kMaxNumbers);
+            throw InvalidArgument("an answer can have at most {} numbers or characters", kMaxNumbers);
     }
 
     void text_members(int index) {

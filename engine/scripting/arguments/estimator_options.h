@@ -24,7 +24,7 @@ inline constexpr OptionEntry kHoldOfOutput =
 inline constexpr std::array kFirstFilterOptions = {
     option<&FitOptions::lambda>(
         "lambda",
-        about("cut-off frequency of the filter of the initial estimate; by default, several frequencies are tried"),
+        about("cutoff frequency of the filter of the initial estimate; by default, several frequencies are tried"),
         {.unit = "rad/s"}),
     option<&FitOptions::hold_y>(
         "hold_y", about("intersample behavior of the output in the filters; this option does not affect the result"),
@@ -92,7 +92,7 @@ inline constexpr std::array kDelayOptions = {
 inline constexpr OptionEntry kKnownDelayOption = {
     "IODelay",
     ValueKind::kVector,
-    about("known delay, which is not estimated; with several inputs, one delay per input"),
+    about("known delay, which is not estimated; with several inputs, a table with one delay per input"),
     {.unit = "s", .member = "delay"}};
 inline constexpr std::array kFixedDelayOptions = {kKnownDelayOption};
 /// Read by started_structure().
@@ -109,7 +109,7 @@ inline constexpr ArgumentEntry kOneOutputData = {
     about("regularly sampled data object with one output, and with one or several inputs and experiments")};
 inline constexpr ArgumentEntry kFilterFrequency = {
     "lambda", ValueKind::kNumber,
-    about("cut-off frequency of the filter in rad/s, usually slightly above the bandwidth of the system")};
+    about("cutoff frequency of the filter in rad/s, usually slightly above the bandwidth of the system")};
 inline constexpr ArgumentEntry kPoleCount = {
     "np", ValueKind::kCount,
     about("number of poles; with several inputs or outputs, one number for all or a table with one per channel")};

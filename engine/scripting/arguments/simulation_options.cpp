@@ -25,7 +25,7 @@ Hold hold_option(const Options& options, Hold fallback) {
 double confidence_option(const Options& options) {
     const double level = options.number("confidence", 0.99);
     if (level > 0 && level < 1) return level;
-    refuse_option("confidence", Message("a probability between 0 and 1, such as 0.99"),
+    refuse_option("confidence", Message("a confidence level between 0 and 1, such as 0.99"),
                   Message("{}", significant(level, 10)));
 }
 

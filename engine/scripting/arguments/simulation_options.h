@@ -38,9 +38,9 @@ inline constexpr std::array kSimulationStart = {kStateOption, kOffsetOption};
 inline constexpr std::array kComparisonStart = {kComparedStateOption, kOffsetOption};
 
 inline constexpr OptionEntry kLabelsOption = {"labels", ValueKind::kAny,
-                                              about("names in the legend: a text, or a list of texts")};
+                                              about("legend labels: string, or list of strings")};
 inline constexpr OptionEntry kConfidenceOption = {
-    "confidence", ValueKind::kNumber, about("probability of the confidence band"), {.initial = "0.99"}};
+    "confidence", ValueKind::kNumber, about("confidence level of the band"), {.initial = "0.99"}};
 
 inline constexpr ArgumentEntry kRecordArgument = {"data", ValueKind::kData,
                                                   about("data object with the inputs and outputs of the model")};

@@ -34,7 +34,7 @@ std::string text_of(const Call& call, const Advice& advice, std::size_t experime
                         experiments > 1 ? localized(call, Message("Experiment {}:", issue.experiment + 1)) + " " : "",
                         localized(call, issue.message));
     if (advice.clean())
-        text += localized(call, Message("No problem was found. You can fit a model to these data.")) + "\n";
+        text += localized(call, Message("No problems were found. You can fit a model to these data.")) + "\n";
     return text;
 }
 

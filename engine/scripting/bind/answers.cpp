@@ -16,8 +16,8 @@ void check_declared(const std::vector<ExpectedAnswer>& expected, const std::stri
     for (const ExpectedAnswer& answer : expected) {
         names.push_back(answer.name);
         if (answer.name == name && answer.kind != kind)
-            throw InvalidArgument("the answer \"{}\" must be of the kind {}, but a {} was given", name, answer.kind,
-                                  kind);
+            throw InvalidArgument("the answer \"{}\" must be of the kind {}, but a value of the kind {} was given",
+                                  name, answer.kind, kind);
     }
     if (std::ranges::find(names, name) == names.end()) throw InvalidArgument(undeclared_answer(name, names));
 }

@@ -102,19 +102,21 @@ int extreme(Call& call) {
 }
 
 constexpr FunctionEntry kStatisticsFunctions[] = {
-    {"sum", "vectors", "sum(v) -> x; sum(A) -> v", "Sum of elements, per column for a matrix", guarded<sum>},
-    {"mean", "vectors", "mean(v) -> x; mean(A) -> v", "Arithmetic mean, per column for a matrix",
+    {"sum", "vectors", "sum(v) -> x; sum(A) -> v", "Sum of the elements of a vector, or of each column of a matrix",
+     guarded<sum>},
+    {"mean", "vectors", "mean(v) -> x; mean(A) -> v", "Mean of the elements of a vector, or of each column of a matrix",
      guarded<measure_columns<mean_of, 1>>},
-    {"median", "vectors", "median(v) -> x; median(A) -> v", "Middle value, per column for a matrix",
-     guarded<measure_columns<median_of, 1>>},
-    {"std", "vectors", "std(v) -> x; std(A) -> v", "Standard deviation (divisor N - 1), per column for a matrix",
+    {"median", "vectors", "median(v) -> x; median(A) -> v",
+     "Median of the elements of a vector, or of each column of a matrix", guarded<measure_columns<median_of, 1>>},
+    {"std", "vectors", "std(v) -> x; std(A) -> v",
+     "Standard deviation of a vector, or of each column of a matrix (divisor N - 1)",
      guarded<measure_columns<deviation_of, 2>>},
-    {"var", "vectors", "var(v) -> x; var(A) -> v", "Variance (divisor N - 1), per column for a matrix",
-     guarded<measure_columns<variance_of, 2>>},
+    {"var", "vectors", "var(v) -> x; var(A) -> v",
+     "Variance of a vector, or of each column of a matrix (divisor N - 1)", guarded<measure_columns<variance_of, 2>>},
     {"min", "vectors", "min(v) -> x, place; min(x, y) -> v",
-     "Smallest element and its position; the smaller of two, element by element", guarded<extreme<false>>},
+     "Smallest element and its position, or the element-wise minimum", guarded<extreme<false>>},
     {"max", "vectors", "max(v) -> x, place; max(x, y) -> v",
-     "Largest element and its position; the larger of two, element by element", guarded<extreme<true>>},
+     "Largest element and its position, or the element-wise maximum", guarded<extreme<true>>},
 };
 
 }  // namespace

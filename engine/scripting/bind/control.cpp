@@ -22,13 +22,13 @@ constexpr ArgumentEntry kStateMatrix = {"A", ValueKind::kAny, about("n x n matri
 constexpr ArgumentEntry kRegulatorArguments[] = {
     kStateMatrix,
     {"B", ValueKind::kAny, about("n x inputs matrix")},
-    {"Q", ValueKind::kAny, about("weights of the states: n x n, symmetric positive semidefinite")},
-    {"R", ValueKind::kAny, about("weights of the inputs: inputs x inputs, symmetric positive definite")}};
-constexpr ArgumentEntry kPlacementArguments[] = {
-    kStateMatrix,
-    {"B", ValueKind::kAny, about("n x 1 matrix, one input")},
-    {"poles", ValueKind::kAny,
-     about("list of n poles, or a complex vector. In a list, {re, im} is a complex pair and counts twice")}};
+    {"Q", ValueKind::kAny, about("state weighting matrix: n x n, symmetric positive semidefinite")},
+    {"R", ValueKind::kAny, about("input weighting matrix: inputs x inputs, symmetric positive definite")}};
+constexpr ArgumentEntry kPlacementArguments[] = {kStateMatrix,
+                                                 {"B", ValueKind::kAny, about("n x 1 matrix, one input")},
+                                                 {"poles", ValueKind::kAny,
+                                                  about("list of n poles, or a complex vector. In a list, {re, im} is "
+                                                        "a complex conjugate pair and counts as two poles")}};
 constexpr ArgumentEntry kCraneArguments[] = {
     {"controller", ValueKind::kAny,
      about("function of time (s), measured position (m) and measured angle (rad) that returns a voltage (V)")}};
@@ -49,7 +49,7 @@ int lqr(Call& call) {
 ComplexVector listed_poles(const Call& call, int index) {
     lua_State* L = call.state();
     if (lua_type(L, index) != LUA_TTABLE)
-        wrong_argument(L, index, "poles", Message("a list of numbers and pairs {re, im}, or complex vector"));
+        wrong_argument(L, index, "poles", Message("a list of numbers and pairs {re, im}, or a complex vector"));
     std::vector<Complex> poles;
     for (lua_Integer i = 1; lua_rawgeti(L, index, i) != LUA_TNIL; lua_pop(L, 1), ++i) {
         if (lua_type(L, -1) == LUA_TNUMBER) {
@@ -57,7 +57,7 @@ ComplexVector listed_poles(const Call& call, int index) {
             continue;
         }
         if (lua_type(L, -1) != LUA_TTABLE || lua_rawlen(L, -1) != 2)
-            throw InvalidArgument("poles must be numbers, or complex pairs {re, im}");
+            throw InvalidArgument("poles must be numbers, or complex conjugate pairs {re, im}");
         lua_rawgeti(L, -1, 1);
         lua_rawgeti(L, -2, 2);
         if (lua_type(L, -1) != LUA_TNUMBER || lua_type(L, -2) != LUA_TNUMBER)

@@ -206,7 +206,7 @@ void set_texts(const Options& options, const char* name, std::vector<std::string
     if (!options.has(name)) return;
     texts = options.texts(name);
     if (static_cast<Index>(texts.size()) != channels)
-        throw InvalidArgument("option '{}' has {} for {}", name, plural(texts.size(), "{} text", "{} texts"),
+        throw InvalidArgument("option '{}' has {} for {}", name, plural(texts.size(), "{} string", "{} strings"),
                               plural(channels, "{} channel", "{} channels"));
 }
 
@@ -258,7 +258,7 @@ void tell_other_clock(const Call& call, const IdData& data) {
 void tell_time_unit(const Call& call, const std::string& unit) {
     if (unit == "s" || std::exchange(call.context().told_time_unit, true)) return;
     call.print(localized(call, Message("iddata: these data, and models estimated from them, have the time unit {}. If "
-                                       "a text or an axis shows s, the unit is {}",
+                                       "a message or an axis label shows s, the unit is {}",
                                        unit, unit)) +
                "\n");
 }
@@ -340,7 +340,7 @@ constexpr FunctionEntry kDataFunctions[] = {
     {"iddata", "data", "iddata(y, u, Ts, {options}) -> data", "Create a data object from output and input signals",
      guarded<make_iddata>, kIddataTables, kIddataArguments},
     {"idplot", "data", "idplot(data, ..., {options}) -> fig; idplot(data, first, last)",
-     "Plot outputs and inputs over time", guarded<idplot>, kIdplotTables, kIdplotArguments},
+     "Plot outputs and inputs versus time", guarded<idplot>, kIdplotTables, kIdplotArguments},
 };
 
 }  // namespace

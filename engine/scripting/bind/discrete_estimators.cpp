@@ -19,11 +19,12 @@ namespace dynlab::inline scripting {
 namespace {
 
 constexpr OrderEntry kDiscreteNb{"nb", [] { return Message("coefficients of B"); }};
-constexpr OrderEntry kDiscreteNk{"nk", [] { return Message("samples of delay, 1 for no direct feedthrough"); }};
+constexpr OrderEntry kDiscreteNk{
+    "nk", [] { return Message("samples of input delay, 1 for systems without direct feedthrough"); }};
 constexpr OrderEntry kDiscreteNa{"na", [] { return Message("poles"); }},
     kDiscreteNf{"nf", [] { return Message("poles"); }};
-constexpr OrderEntry kDiscreteNc{"nc", [] { return Message("coefficients of C after the leading one"); }};
-constexpr OrderEntry kDiscreteNd{"nd", [] { return Message("coefficients of D after the leading one"); }};
+constexpr OrderEntry kDiscreteNc{"nc", [] { return Message("coefficients of C without the leading 1"); }};
+constexpr OrderEntry kDiscreteNd{"nd", [] { return Message("coefficients of D without the leading 1"); }};
 constexpr std::array kArxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNk};
 constexpr std::array kArmaxOrders = {kDiscreteNa, kDiscreteNb, kDiscreteNc, kDiscreteNk};
 constexpr std::array kDiscreteOutputErrorOrders = {kDiscreteNb, kDiscreteNf, kDiscreteNk};
@@ -37,25 +38,26 @@ constexpr OptionTable kDiscreteSimulation[] = {kStartOptions, kDiscreteIntegrati
 
 constexpr std::array kEquationErrorArguments = {
     kOneOutputData,
-    ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("na poles, nb coefficients of B, nk samples of delay, 1 for no direct feedthrough. With "
-                        "several inputs, nb and nk are tables, such as {2, {1, 2}, {1, 3}}")}};
-constexpr std::array kArmaxArguments = {
-    kOneOutputData,
-    ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("na poles, nb coefficients of B, nc coefficients of C after the leading one, nk samples of "
-                        "delay, 1 for no direct feedthrough. With several inputs, nb and nk are tables")}};
-constexpr std::array kDiscreteOutputErrorArguments = {
-    kOneOutputData,
     ArgumentEntry{
         "orders", ValueKind::kOrders,
-        about("nb coefficients of B, nf poles, nk samples of delay, 1 for no direct feedthrough. With several inputs, "
-              "each with separate poles, nb, nf and nk are tables, such as {{2, 1}, {2, 1}, {1, 3}}")}};
+        about("na poles, nb coefficients of B, and an input delay of nk samples. Specify nk = 1 for systems without "
+              "direct feedthrough. With several inputs, nb and nk are tables, such as {2, {1, 2}, {1, 3}}")}};
+constexpr std::array kArmaxArguments = {
+    kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
+                                  about("na poles, nb coefficients of B, nc coefficients of C without the leading 1, "
+                                        "and an input delay of nk samples. Specify nk = 1 for systems without direct "
+                                        "feedthrough. With several inputs, nb and nk are tables")}};
+constexpr std::array kDiscreteOutputErrorArguments = {
+    kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
+                                  about("nb coefficients of B, nf poles, and an input delay of nk samples. Specify nk "
+                                        "= 1 for systems without direct feedthrough. With several inputs, each with "
+                                        "separate poles, nb, nf and nk are tables, such as {{2, 1}, {2, 1}, {1, 3}}")}};
 constexpr std::array kBoxJenkinsArguments = {
     kOneOutputData,
     ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("nb coefficients of B, nc and nd of C and D after the leading one, nf poles, nk samples of "
-                        "delay, 1 for no direct feedthrough. With several inputs, nb, nf and nk are tables")}};
+                  about("orders {nb, nc, nd, nf, nk}: numbers of coefficients of B, C, D and F (C, D and F without the "
+                        "leading 1), and input delay nk in samples. Specify nk = 1 for systems without direct "
+                        "feedthrough. With several inputs, nb, nf and nk are tables")}};
 
 /// The entry of an order vector that is one number for all inputs.
 int only_value(const std::vector<int>& entry, const OrderEntry& what) {

@@ -93,7 +93,7 @@ int choose(Call& call) {
 constexpr FunctionEntry kElementFunctions[] = {
     {"abs", "vectors", "abs(x) -> y", "Absolute value", guarded<absolute>},
     {"sign", "vectors", "sign(x) -> y", "Sign: -1, 0 or 1", guarded<apply<sign, Operation::kSign>>},
-    {"round", "vectors", "round(x) -> y", "Round to the nearest whole number, halves away from zero",
+    {"round", "vectors", "round(x) -> y", "Round to the nearest whole number; halves are rounded away from zero",
      guarded<apply<std::round>>},
     {"floor", "vectors", "floor(x) -> y", "Round down to a whole number", guarded<apply<std::floor>>},
     {"ceil", "vectors", "ceil(x) -> y", "Round up to a whole number", guarded<apply<std::ceil>>},
@@ -109,7 +109,8 @@ constexpr FunctionEntry kElementFunctions[] = {
     {"tan", "vectors", "tan(x) -> y", "Tangent (radians)", guarded<apply<std::tan, Operation::kTan>>},
     {"atan", "vectors", "atan(x) -> y", "Inverse tangent (radians)", guarded<apply<std::atan, Operation::kArcTangent>>},
     {"tanh", "vectors", "tanh(x) -> y", "Hyperbolic tangent", guarded<apply<std::tanh, Operation::kTanh>>},
-    {"where", "vectors", "where(c, a, b) -> y", "Choose between two values element by element", guarded<choose>},
+    {"where", "vectors", "where(c, a, b) -> y", "Select between two values, element-wise for a vector or mask",
+     guarded<choose>},
 };
 
 }  // namespace

@@ -15,9 +15,9 @@ namespace {
 constexpr std::array kPanelNumberOptions = {
     OptionEntry{"panel", ValueKind::kCount, about("number of the panel"), {.initial = "1"}}};
 constexpr std::array kHandleOptions = {
-    OptionEntry{"x", ValueKind::kAny, about("position on the x axis: a number, or a function of the slider value")},
+    OptionEntry{"x", ValueKind::kAny, about("position on the x-axis: a number, or a function of the slider value")},
     OptionEntry{"x_slider", ValueKind::kText, about("name of the slider that moves x")},
-    OptionEntry{"y", ValueKind::kAny, about("position on the y axis: a number, or a function of the slider value")},
+    OptionEntry{"y", ValueKind::kAny, about("position on the y-axis: a number, or a function of the slider value")},
     OptionEntry{"y_slider", ValueKind::kText, about("name of the slider that moves y")},
     OptionEntry{"text", ValueKind::kText, about("text next to the point")}};
 constexpr OptionTable kAddTables[] = {kCurveAppearanceOptions, kPanelNumberOptions},
@@ -159,7 +159,7 @@ int add_reference(Call& call) {
     return give_self(call);
 }
 
-/// Lines at all steps between the ends, as one curve with gaps; `upright`: at places on the x axis.
+/// Lines at all steps between the ends, as one curve with gaps; `upright`: at places on the x-axis.
 Curve ruled_lines(std::pair<double, double> along, double step, std::pair<double, double> across, bool upright) {
     const auto lines = static_cast<Index>(std::floor((along.second - along.first) / step + 1e-6)) + 1;
     Vector places(3 * lines), ends(3 * lines);

@@ -60,7 +60,7 @@ constexpr OptionTable kPlotTables[] = {kPanelOptions, kCurveLists, kFigureSizeOp
 constexpr std::array kCurvesArguments = {
     ArgumentEntry{"x, y, \"name\", ...", ValueKind::kVector,
                   about("curves and their names in the legend. You can omit the names and x; without x, the values are "
-                        "plotted over 1, 2, 3, ...")}};
+                        "plotted versus 1, 2, 3, ...")}};
 constexpr std::array kFigureNumberArguments = {
     ArgumentEntry{"n", ValueKind::kCount, about("number of the next figure, instead of a description")}};
 constexpr std::array kSubplotArguments = {
@@ -109,7 +109,7 @@ void read_curve_lists(const Options& options, std::vector<Curve>& curves) {
     const CurveLists lists{options.texts("label"), options.texts("style"), numbers(options, "dash"),
                            numbers(options, "marker"), colors_of(options)};
     if (lists.labels.size() > curves.size())
-        throw InvalidArgument("option 'label' has {} for {}", plural(lists.labels.size(), "{} text", "{} texts"),
+        throw InvalidArgument("option 'label' has {} for {}", plural(lists.labels.size(), "{} string", "{} strings"),
                               plural(curves.size(), "{} curve", "{} curves"));
     for (std::size_t i = 0; i < curves.size(); ++i) {
         Curve& curve = curves[i];
@@ -143,7 +143,7 @@ std::string curve_name(const Call& call, int index) {
             name);
     if (is_line_specification(name))
         throw InvalidArgument(
-            "a text is the name of the curve; for the style \"{}\" use {style = \"points\"} or {dash = 1}", name);
+            "a string is the name of the curve; for the style \"{}\" use {style = \"points\"} or {dash = 1}", name);
     return name;
 }
 
@@ -326,9 +326,9 @@ int save(Call& call) {
 constexpr FunctionEntry kFiguresFunctions[] = {
     {"plot", "figures", "plot(x, y, \"name\", ..., {options}) -> fig", "Plot curves in one panel",
      guarded<plot<false, false>>, kPlotTables, kCurvesArguments},
-    {"semilogx", "figures", "semilogx(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic x axis",
+    {"semilogx", "figures", "semilogx(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic x-axis",
      guarded<plot<true, false>>, kPlotTables, kCurvesArguments},
-    {"semilogy", "figures", "semilogy(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic y axis",
+    {"semilogy", "figures", "semilogy(x, y, \"name\", ..., {options}) -> fig", "Plot curves with a logarithmic y-axis",
      guarded<plot<false, true>>, kPlotTables, kCurvesArguments},
     {"loglog", "figures", "loglog(x, y, \"name\", ..., {options}) -> fig", "Plot curves with two logarithmic axes",
      guarded<plot<true, true>>, kPlotTables, kCurvesArguments},

@@ -13,7 +13,7 @@ namespace {
 std::string name_of_function(Call& call) {
     for (const FunctionEntry* entry : call.context().functions)
         if (lua_tocfunction(call.state(), 1) == entry->function) return entry->name;
-    throw InvalidArgument("this function has no help; help() lists the functions that do");
+    throw InvalidArgument("this function has no help page; help() lists the functions that have help pages");
 }
 
 int help(Call& call) {

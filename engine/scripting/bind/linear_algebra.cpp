@@ -59,7 +59,8 @@ int fft(Call& call) {
 
 constexpr FunctionEntry kAlgebraFunctions[] = {
     {"solve", "vectors", "solve(A, b) -> x",
-     "Solve A x = b, by least squares for more rows than columns (MATLAB's A\\b)", guarded<solve>},
+     "Solve the linear equations A x = b, or the least-squares problem if A has more rows than columns",
+     guarded<solve>},
     {"inv", "vectors", "inv(A) -> B", "Inverse of a square matrix", guarded<inverse>},
     {"det", "vectors", "det(A) -> x", "Determinant of a square matrix", guarded<determinant>},
     {"eig", "vectors", "eig(A) -> v", "Eigenvalues of a square matrix", guarded<give_eigenvalues>},

@@ -13,14 +13,14 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr OrderEntry kNc{"nc", [] { return Message("coefficients of C after the leading one"); }};
-constexpr OrderEntry kNd{"nd", [] { return Message("coefficients of D after the leading one"); }};
+constexpr OrderEntry kNc{"nc", [] { return Message("coefficients of C without the leading 1"); }};
+constexpr OrderEntry kNd{"nd", [] { return Message("coefficients of D without the leading 1"); }};
 constexpr std::array kNoiseModelOrders = {kNb, kNc, kNd, kNf, kNk};
 
 constexpr std::array kNoiseSearchOptions = {kStableOption, kFixedOption};
 constexpr std::array kNoiseOrderOptions = {
-    option<&NoiseOrders::nc>("nc", about("number of coefficients of C after the leading one")),
-    option<&NoiseOrders::nd>("nd", about("number of coefficients of D after the leading one"), {.initial = "1"})};
+    option<&NoiseOrders::nc>("nc", about("number of coefficients of C without the leading 1")),
+    option<&NoiseOrders::nd>("nd", about("number of coefficients of D without the leading 1"), {.initial = "1"})};
 constexpr OptionTable kNoisy[] = {kFirstFilterOptions, kStartOptions,   kLimitOptions,
                                   kIntegrationOptions, kSharingOptions, kNoiseSearchOptions};
 constexpr OptionTable kNoisyTransferFunction[] = {kNoiseOrderOptions,  kDelayOptions,   kFixedDelayOptions,
@@ -29,9 +29,11 @@ constexpr OptionTable kNoisyTransferFunction[] = {kNoiseOrderOptions,  kDelayOpt
 
 constexpr std::array kNoisyArguments = {
     kOneOutputData,
-    ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("nb coefficients of B (at most nf + 1), nc and nd of C and D after the leading one, nf poles, "
-                        "nk samples of delay. With several inputs, nb, nf and nk are tables")}};
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about(
+            "orders {nb, nc, nd, nf, nk}: numbers of coefficients of B, C, D and F (C, D and F without the leading 1), "
+            "and input delay nk in samples. nb is at most nf + 1. With several inputs, nb, nf and nk are tables")}};
 constexpr std::array kNoisyTransferArguments = {kOneOutputData, kPoleCount, kZeroCount};
 
 int noise_order(const std::vector<int>& entry, const OrderEntry& what) {
@@ -75,10 +77,10 @@ constexpr NamedReader kNoiseModelsReaders[] = {{"rivc", read_for_study<read_rivc
 
 constexpr FunctionEntry kNoiseModelsFunctions[] = {
     {"rivc", "continuous time", "rivc(data, {nb, nc, nd, nf, nk}, {options}) -> G",
-     marked("estimator", "Estimate y = B/F u + C/D e with a model of the colored noise"),
+     marked("estimator", "Estimate y = B/F u + C/D e with a noise model"),
      guarded<memoized_call<estimate_with_noise<read_rivc>>>, kNoisy, kNoisyArguments},
     {"tfrivc", "continuous time", "tfrivc(data, np, nz, {options}) -> G",
-     marked("estimator", "Estimate a transfer function with delay and a model of the colored noise"),
+     marked("estimator", "Estimate a transfer function with delay and a noise model"),
      guarded<memoized_call<estimate_with_noise<read_tfrivc>>>, kNoisyTransferFunction, kNoisyTransferArguments},
 };
 

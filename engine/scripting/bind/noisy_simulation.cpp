@@ -227,12 +227,13 @@ int frequency_values(Call& call) {
 
 constexpr FunctionEntry kNoisySimulationFunctions[] = {
     {"sim", "simulation", "sim(G, u, Ts, {options}) -> y, v; sim(G, data, {...})",
-     "Simulate a model with its own noise or noise of a given SNR", guarded<simulate_with_noise>, kNoiseTables,
-     kNoiseArguments},
+     "Simulate a model with its estimated noise or with noise of a specified SNR", guarded<simulate_with_noise>,
+     kNoiseTables, kNoiseArguments},
     {"simsd", "simulation", "simsd(G, u, Ts, {options}) -> fig, table; simsd(G, data, {...})",
      "Plot a simulated output with its uncertainty", guarded<simulate_spread>, kSpreadTables, kSpreadArguments},
     {"bode_values", "simulation", "bode_values(G, w) -> mag, ph, w, sdmag, sdph",
-     "Values of the Bode diagram with standard deviations", guarded<frequency_values>, kNoOptions, kValuesArguments},
+     "Magnitude and phase of the frequency response, with standard deviations", guarded<frequency_values>, kNoOptions,
+     kValuesArguments},
 };
 
 }  // namespace

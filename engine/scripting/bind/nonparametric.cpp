@@ -25,7 +25,7 @@ constexpr OptionEntry kQuietEstimate = {"quiet",
 constexpr OptionEntry kReadingConfidence = {
     "confidence",
     ValueKind::kNumber,
-    about("probability of the band, and of the test that detects the dead time"),
+    about("confidence level of the band and of the test that detects the dead time"),
     {.initial = "0.99"}};
 constexpr MessageId<> kMeanRemoval = about("true removes the means of both signals before the estimation");
 
@@ -46,8 +46,8 @@ constexpr std::array kImpulseestOptions = {
     option<&ImpulseestOptions::kernel>("Kernel",
                                        about("regularization kernel, the prior covariance of the impulse response"),
                                        {.initial = "\"TC\"", .choices = kKernels}),
-    option<&ImpulseestOptions::lags>(
-        "lags", about("length of the response in samples, same as the argument `n`; 0 for the smaller of 70 and N/5")),
+    option<&ImpulseestOptions::lags>("lags", about("length of the response in samples, as an alternative to the "
+                                                   "argument `n`; 0 for the smaller of 70 and N/5")),
     option<&ImpulseestOptions::smooth>("smooth", about("true uses regularized least squares, for a smooth and decaying "
                                                        "response, instead of ordinary least squares")),
     kReadingConfidence, kLabelsOption};
@@ -96,7 +96,7 @@ void name_models(const Options& options, std::vector<NamedModel>& models) {
     const std::vector<std::string> labels = options.texts("labels");
     if (labels.empty()) return;
     if (labels.size() != models.size())
-        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} text", "{} texts"),
+        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} string", "{} strings"),
                               plural(models.size(), "{} model", "{} models"));
     for (std::size_t i = 0; i < models.size(); ++i) models[i].name = Message::verbatim(labels[i]);
 }
@@ -167,7 +167,7 @@ int regression_on_past_inputs(Call& call) {
     requested.lags = lags;
     options.read(requested);
     if (!requested.smooth && options.has("Kernel"))
-        throw InvalidArgument("option 'Kernel' is only for the smooth estimate, but 'smooth' is false");
+        throw InvalidArgument("option 'Kernel' applies only to the smooth estimate, but option 'smooth' is false");
     requested.confidence = confidence_option(options);
     const RegressedResponse result = impulseest(read.data, requested);
     give_impulse(call, options, read, result);

@@ -34,7 +34,7 @@ constexpr OptionEntry kGridOptions[] = {
     {"zeros", ValueKind::kAny, about("numbers of zeros: {from, to}, or one number"), {.initial = "{0, 2}"}},
     {"delays",
      ValueKind::kAny,
-     about("numbers of delay samples to try, such as {0, 1, 2}, instead of an estimated delay up to `TdMax`"),
+     about("delays to try, in samples, such as {0, 1, 2}, instead of an estimated delay up to `TdMax`"),
      {.initial = "0"}},
     {"Feedthrough",
      ValueKind::kFlag,
@@ -48,7 +48,7 @@ constexpr OptionTable kOrderListTables[] = {kStructureOptions, kStartOptions, kI
 constexpr OptionEntry kArxOptions[] = {
     {"na", ValueKind::kAny, about("numbers of poles: {from, to}, or one number"), {.initial = "{1, 4}"}},
     {"nb", ValueKind::kAny, about("numbers of coefficients of B: {from, to}, or one number"), {.initial = "{1, 4}"}},
-    {"nk", ValueKind::kAny, about("samples of delay: {from, to}, or one number"), {.initial = "1"}},
+    {"nk", ValueKind::kAny, about("delays in samples: {from, to}, or one number"), {.initial = "1"}},
     kValidate};
 constexpr OptionTable kArxstrucTables[] = {kArxOptions};
 constexpr OptionEntry kDelayGridOptions[] = {
@@ -96,7 +96,8 @@ std::vector<double> delays_of(const Options& options, const IdData& data) {
     lua_pop(L, 1);
     const Vector samples = single ? Vector::Constant(1, options.number("delays", 0)) : Vector(options.vector("delays"));
     if (!data.regular())
-        throw InvalidArgument("delays count samples, which are not defined for irregularly sampled data");
+        throw InvalidArgument(
+            "option 'delays' requires regularly sampled data, because the delays are numbers of samples");
     std::vector<double> delays;
     for (const double k : samples) {
         if (k < 0 || k != std::floor(k))
@@ -111,7 +112,8 @@ std::vector<TransferStructure> grid_of(const Options& options, const IdData& dat
     const bool free_delay = options.has("TdMax");
     if (free_delay && options.has("delays"))
         throw InvalidArgument(
-            "specify either delays, a list of delays to try, or TdMax, the upper limit of an estimated delay");
+            "specify either option 'delays' (a list of delays to try) or option 'TdMax' (the upper limit of an "
+            "estimated delay)");
     return order_grid(range_of(options, "poles", {1, 4}), range_of(options, "zeros", {0, 2}),
                       free_delay ? std::vector{options.number("TdMin", 0)} : delays_of(options, data), free_delay,
                       options.flag("Feedthrough", false));
@@ -263,14 +265,16 @@ int estimate_delay(Call& call) {
 
 constexpr FunctionEntry kOrdersFunctions[] = {
     {"srivcstruc", "structure", "srivcstruc(data, {options}) -> V",
-     "Estimate models with srivc for several numbers of poles, zeros and delays",
+     "Estimate models with srivc for several numbers of poles and zeros and several delays",
      guarded<memoized_call<try_structures>>, kOrderGridTables, kSingleArguments},
-    {"selcstruc", "structure", "selcstruc(V, criterion) -> G, fig", "Select a structure of srivcstruc by a criterion",
-     guarded<select_structure>, kNoOptions, kChoiceArguments},
-    {"arxstruc", "structure", "arxstruc(data, {options}) -> V", "Compute the loss of arx for several orders",
+    {"selcstruc", "structure", "selcstruc(V, criterion) -> G, fig",
+     "Select a structure from the result of srivcstruc by a criterion", guarded<select_structure>, kNoOptions,
+     kChoiceArguments},
+    {"arxstruc", "structure", "arxstruc(data, {options}) -> V", "Compute the loss of ARX models of several orders",
      guarded<try_arx_structures>, kArxstrucTables, kArxArguments},
     {"selstruc", "structure", "selstruc(V, criterion) -> {na, nb, nk}, fig",
-     "Select the orders of arxstruc by a criterion", guarded<select_arx_structure>, kNoOptions, kArxChoiceArguments},
+     "Select the orders from the result of arxstruc by a criterion", guarded<select_arx_structure>, kNoOptions,
+     kArxChoiceArguments},
     {"delayest", "structure", "delayest(data, {options}) -> Td, fig, D", "Estimate the delay between input and output",
      guarded<memoized_call<estimate_delay>>, kDelayestTables, kSingleArguments},
 };

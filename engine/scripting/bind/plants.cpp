@@ -104,7 +104,7 @@ int rig_truth(Call& call) {
 
 constexpr FunctionEntry kRigsFunctions[] = {
     {"rig", "data", "rig(name, {options}) -> table",
-     "Repeat a simulated experiment of the course, with other noise for another seed", guarded<memoized_call<plant>>,
+     "Repeat a simulated experiment of the course; another seed changes the noise", guarded<memoized_call<plant>>,
      kPlantTables, kPlantArguments},
     {"rig_truth", "data", "rig_truth(name, {options}) -> table",
      "Return the theoretical values of a simulated experiment of the course", guarded<rig_truth>, kTrueModelTables,

@@ -29,7 +29,7 @@ constexpr OptionEntry kButterworthOptions[] = {
         {.least = 1, .most = 20}),
     option<&FilterOptions::zero_phase>(
         "zero_phase",
-        about("true filters forward and then backward: no phase shift, and the squared magnitude response")),
+        about("true filters forward and then backward, which avoids a phase shift and squares the magnitude response")),
     option<&FilterOptions::stop>("stop", about("true removes the band instead of passing it")),
     kFilterStart,
     {"Ts", ValueKind::kNumber, about("sampling time of a vector"), {.initial = "1", .unit = "s"}}};
@@ -160,8 +160,8 @@ constexpr FunctionEntry kPreprocessFunctions[] = {
      "Filter inputs and outputs with the same Butterworth filter", guarded<filter_signals>, kButterworthTables,
      kButterworthArguments},
     {"resample", "data", "resample(data, up, down) -> data",
-     "Change the sampling rate by up/down, with an anti-aliasing filter", guarded<resample_signals>, kNoOptions,
-     kResampleArguments},
+     "Change the sampling rate by the factor up/down, with an anti-aliasing filter", guarded<resample_signals>,
+     kNoOptions, kResampleArguments},
     {"merge", "data", "merge(data1, data2, ...) -> data", "Combine experiments in one data object", guarded<merge_data>,
      kNoOptions, kMergeArguments},
     {"fillmissing", "data", "fillmissing(x, {options}) -> filled, places",
@@ -184,8 +184,7 @@ int detrend_signals(Call& call) {
         throw InvalidArgument("{} must be {}, but \"{}\" was given", Message("the kind of trend"),
                               Message("\"linear\", \"mean\" or \"start\""), kind);
     if (options.has("samples"))
-        throw InvalidArgument(
-            "option 'samples' requires the kind \"start\": it is the number of samples before the step");
+        throw InvalidArgument("option 'samples', the number of samples before the step, requires the kind \"start\"");
     return give_signals(call, signals,
                         detrend(signals.data, kind == "linear" ? TrendKind::kLinear : TrendKind::kConstant));
 }
@@ -195,13 +194,15 @@ int filter_signals(Call& call) {
     const Options options(call, 3, kButterworthTables);
     const Signals signals = signals_argument(call, options.number("Ts", 1));
     if (!signals.bare && options.has("Ts"))
-        throw InvalidArgument("option 'Ts' is only for a vector, because a data object already has a sampling time");
+        throw InvalidArgument(
+            "option 'Ts' applies only to a vector, because a data object already has a sampling time");
     FilterOptions requested;
     options.read(requested);
     requested.steady_start = options.has("start") && options.choice(kFilterStart) == 1;
     if (requested.zero_phase && options.has("start"))
         throw InvalidArgument(
-            "option 'start' is only for the causal filter; with zero_phase, the signal is extended at both ends");
+            "option 'start' applies only to the causal filter; with option 'zero_phase', the signal is extended at "
+            "both ends");
     return give_signals(call, signals, filter_data(signals.data, band_argument(call), requested));
 }
 

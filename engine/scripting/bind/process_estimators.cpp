@@ -16,8 +16,8 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kConstructionOptions = {OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
-                                             OptionEntry{"ylabel", ValueKind::kText, about("label of the y axis")}};
+constexpr std::array kConstructionOptions = {OptionEntry{"xlabel", ValueKind::kText, about("x-axis label")},
+                                             OptionEntry{"ylabel", ValueKind::kText, about("y-axis label")}};
 constexpr OptionTable kConstruction[] = {kConstructionOptions};
 constexpr OptionTable kProcsrivc[] = {kDelayOptions, kStartOptions, kLimitOptions};
 

@@ -29,9 +29,10 @@ int draw(Call& call) {
 
 constexpr FunctionEntry kRandomFunctions[] = {
     {"rng", "random", "rng(seed)", "Set the seed of the random numbers", guarded<rng>},
-    {"randn", "random", "randn(n, m) -> v", "Normal random numbers with mean 0 and variance 1",
+    {"randn", "random", "randn(n, m) -> v", "Normally distributed random numbers with mean 0 and variance 1",
      guarded<draw<&RandomStream::normal>>},
-    {"rand", "random", "rand(n, m) -> v", "Uniform random numbers in [0, 1)", guarded<draw<&RandomStream::uniform>>},
+    {"rand", "random", "rand(n, m) -> v", "Uniformly distributed random numbers in [0, 1)",
+     guarded<draw<&RandomStream::uniform>>},
 };
 
 }  // namespace

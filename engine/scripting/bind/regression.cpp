@@ -44,9 +44,9 @@ constexpr std::array kPolyfitOptions = {
 constexpr OptionEntry kRegressionPlotOptions[] = {
     {"forecast", ValueKind::kNumber, about("value of x at which to mark a forecast")},
     {"text", ValueKind::kText, about("label of the forecast; by default, the value of the forecast")},
-    {"level", ValueKind::kNumber, about("probability of the bands"), {.initial = "0.95"}},
-    {"xlabel", ValueKind::kText, about("label of the x axis")},
-    {"ylabel", ValueKind::kText, about("label of the y axis")}};
+    {"level", ValueKind::kNumber, about("confidence level of the bands"), {.initial = "0.95"}},
+    {"xlabel", ValueKind::kText, about("x-axis label")},
+    {"ylabel", ValueKind::kText, about("y-axis label")}};
 constexpr std::array kDescentOptions = {
     option<&GradientDescentOptions::step_size>("step", about("step size; by default 1/lambda_max of Phi'Phi/N")),
     option<&GradientDescentOptions::max_iterations>("MaxIter", about("maximum number of iterations")),
@@ -59,17 +59,17 @@ constexpr OptionTable kLsqTables[] = {kLsqOptions}, kPolyfitTables[] = {kPolyfit
 constexpr ArgumentEntry kRegressionX = {"x", ValueKind::kVector, about("vector of N values")},
                         kRegressionY = {"y", ValueKind::kVector, about("vector of N values")},
                         kPolynomialDegree = {"degree", ValueKind::kCount,
-                                             about("degree of the polynomial; 1 is a straight line")};
+                                             about("degree of the polynomial; 1 for a line")};
 constexpr std::array kPolynomialArguments = {kRegressionX, kRegressionY, kPolynomialDegree};
 constexpr ArgumentEntry kRegressorArguments[] = {
     {"Phi", ValueKind::kAny, about("matrix with N rows and d columns, N at least d")}, kRegressionY};
 constexpr ArgumentEntry kForecastArguments[] = {
     {"fit", ValueKind::kAny, about("result of `polyfit_report` or `lsq`")},
     {"x", ValueKind::kAny, about("number for a polynomial, or vector of d regressors for `lsq`")},
-    {"level", ValueKind::kNumber, about("probability of the interval; by default 0.95")}};
+    {"level", ValueKind::kNumber, about("confidence level of the interval; by default 0.95")}};
 constexpr ArgumentEntry kQuantileArguments[] = {
     {"p", ValueKind::kNumber,
-     about("probability between 0 and 1; 0.975 for an interval of 95 %, with 2.5 % on each side")},
+     about("probability between 0 and 1; 0.975 for a 95 % confidence interval, with 2.5 % on each side")},
     {"degrees", ValueKind::kNumber, about("degrees of freedom, greater than 0")}};
 constexpr ArgumentEntry kRegressionPlotArguments[] = {
     kRegressionX, kRegressionY, {"fit", ValueKind::kAny, about("result of `polyfit_report`")}};
@@ -227,14 +227,14 @@ constexpr FunctionEntry kRegressionFunctions[] = {
      kPolynomialArguments},
     {"forecast", "regression", "forecast(fit, x, level) -> {value, low, high, ...}",
      "Forecast a value with its prediction interval", guarded<predict>, kNoOptions, kForecastArguments},
-    {"tinv", "regression", "tinv(p, degrees) -> t", "Quantile of Student's distribution", guarded<quantile_of_student>,
-     kNoOptions, kQuantileArguments},
+    {"tinv", "regression", "tinv(p, degrees) -> t", "Quantile of Student's t-distribution",
+     guarded<quantile_of_student>, kNoOptions, kQuantileArguments},
     {"regression_plot", "regression", "regression_plot(x, y, fit, {options}) -> fig",
      "Plot data and a fitted polynomial with its bands", guarded<draw_regression>, kRegressionPlotTables,
      kRegressionPlotArguments},
     {"gradient_descent", "regression", "gradient_descent(Phi, y, {options}) -> table",
-     "Solve least squares by steepest descent, with the loss of every step", guarded<descend>, kDescentTables,
-     kRegressorArguments},
+     "Solve a least-squares problem by steepest descent, and return the loss of every step", guarded<descend>,
+     kDescentTables, kRegressorArguments},
 };
 
 constexpr std::array kRegressionTypes = {

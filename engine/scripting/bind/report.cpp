@@ -30,15 +30,16 @@ constexpr std::array kReportValueArguments = {
                   about("format of a number, such as \"%.2f\"; by default chosen from the number")}};
 constexpr std::array kReportTableArguments = {
     kEntryName, ArgumentEntry{"{{title, ...}, {cell, ...}, ...}", ValueKind::kTable,
-                              about("rows of texts or numbers, the first row with the titles; a text can contain "
-                                    "formulas between dollar signs, \"$a_1$\"")}};
+                              about("rows of strings or numbers; the first row contains the column titles. A string "
+                                    "can contain formulas between dollar signs, such as \"$a_1$\"")}};
 constexpr std::array kReportFigureArguments = {
     kEntryName, ArgumentEntry{"fig", ValueKind::kAny, about("figure")},
     ArgumentEntry{"caption", ValueKind::kText, about("caption, used only in documents that do not specify a caption")}};
 constexpr std::array kReportTextArguments = {kEntryName,
                                              ArgumentEntry{"markdown", ValueKind::kText, about("text in Markdown")}};
 constexpr std::array kSliderArguments = {
-    kEntryName,
+    ArgumentEntry{"name", ValueKind::kText,
+                  about("name of the slider: letters, digits, _ and -; use each name only once")},
     ArgumentEntry{"x", ValueKind::kNumber, about("number that the script uses until the reader selects another")},
     ArgumentEntry{"from", ValueKind::kNumber, about("smallest number; positive if `log` is true")},
     ArgumentEntry{"to", ValueKind::kNumber, about("largest number")}};
@@ -174,8 +175,8 @@ void check_range(const std::string& name, const RecordedSlider& slider) {
                               slider.to - slider.from, *slider.step);
     for (const double value : {slider.initial, slider.value})
         if (!(value >= slider.from && value <= slider.to))
-            throw InvalidArgument("the range of the slider \"{}\" is {} to {}; {} is outside", name, slider.from,
-                                  slider.to, value);
+            throw InvalidArgument("the range of the slider \"{}\" is {} to {}; {} is outside this range", name,
+                                  slider.from, slider.to, value);
 }
 
 int slider(Call& call) {

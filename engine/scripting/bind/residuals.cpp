@@ -18,7 +18,7 @@ namespace {
 
 constexpr OptionEntry kResidualOptions[] = {
     option<&ResidualOptions::lags>("lags", about("number of lags to test")),
-    option<&ResidualOptions::confidence>("confidence", about("probability of the bounds")),
+    option<&ResidualOptions::confidence>("confidence", about("confidence level of the bounds")),
     {"prediction",
      ValueKind::kFlag,
      about("true uses one-step prediction errors instead of simulation errors"),
@@ -172,7 +172,7 @@ int validate_across(Call& call) {
 
 constexpr FunctionEntry kResidualsFunctions[] = {
     {"resid", "validation", "resid(data, G, {options}) -> fig, table",
-     "Analyze residuals: whiteness and independence of the input", guarded<test_residuals>, kResidualsTables,
+     "Test the residuals for whiteness and independence of the input", guarded<test_residuals>, kResidualsTables,
      kRecordAndModel},
     {"crossvalidate", "validation", "crossvalidate(data, fit, {options}) -> fig, table",
      "Cross-validate an estimation method", guarded<validate_across>, kFoldsTables, kFoldArguments},

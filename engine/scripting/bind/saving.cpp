@@ -37,13 +37,13 @@ constexpr std::array kSaveCsvArguments = {
                   about("file name ending in .csv, below the output folder or the script's folder")},
     ArgumentEntry{
         "data", ValueKind::kData,
-        about("data object with one experiment, or a table of named vectors, lists of numbers and lists of texts")}};
+        about("data object with one experiment, or a table of named vectors, lists of numbers and lists of strings")}};
 constexpr std::array kSaveMatArguments = {
     ArgumentEntry{"path", ValueKind::kText,
                   about("file name ending in .mat, below the output folder or the script's folder")},
     ArgumentEntry{"variables", ValueKind::kTable,
-                  about("table of named variables: models, data objects, vectors, matrices, numbers, texts, lists of "
-                        "texts, and tables of these")}};
+                  about("table of named variables: models, data objects, vectors, matrices, numbers, strings, lists of "
+                        "strings, and tables of these")}};
 constexpr std::array kSaveJsonArguments = {
     ArgumentEntry{"path", ValueKind::kText,
                   about("file name ending in .json, below the output folder or the script's folder")},
@@ -83,7 +83,7 @@ std::vector<std::string> list_of_texts(lua_State* L, int index) {
     std::vector<std::string> texts;
     for (lua_Unsigned i = 1; i <= lua_rawlen(L, index); ++i) {
         if (lua_rawgeti(L, index, static_cast<lua_Integer>(i)) != LUA_TSTRING)
-            throw InvalidArgument("entry {} of a list of texts is {}", i, given_value(L, -1));
+            throw InvalidArgument("entry {} of a list of strings is {}", i, given_value(L, -1));
         texts.emplace_back(lua_tostring(L, -1));
         lua_pop(L, 1);
     }
@@ -103,7 +103,7 @@ Vector list_of_numbers(lua_State* L, int index, const std::string& name) {
 
 [[noreturn]] void refuse_entry(lua_State* L, const std::string& name) {
     if (lua_isnil(L, -1)) throw InvalidArgument("the table has no entry '{}'", name);
-    throw InvalidArgument("'{}' must be a vector or a list of texts, but it is {}", name, given_value(L, -1));
+    throw InvalidArgument("'{}' must be a vector or a list of strings, but it is {}", name, given_value(L, -1));
 }
 
 void add_channels(CsvTable& table, const Matrix& channels, const std::vector<std::string>& names,
@@ -167,7 +167,7 @@ std::map<std::string, std::string> texts_by_name(const Call& call, const Options
     lua_pushnil(L);
     while (lua_next(L, index)) {
         if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)
-            throw InvalidArgument("option '{}' must contain a text for each name", option);
+            throw InvalidArgument("option '{}' must contain a string for each name", option);
         texts[lua_tostring(L, -2)] = lua_tostring(L, -1);
         lua_pop(L, 1);
     }
@@ -257,10 +257,11 @@ constexpr FunctionEntry kSavingFunctions[] = {
     {"save_csv", "data", "save_csv(path, data, {options})", "Save data or a table of vectors as a CSV file",
      guarded<save_csv>, kSaveCsvTables, kSaveCsvArguments},
     {"save_mat", "data", "save_mat(path, variables, {options})",
-     "Save models, data, vectors, numbers, texts and tables as a MAT file", guarded<save_mat>, kSaveMatTables,
+     "Save models, data, vectors, numbers, strings and tables as a MAT file", guarded<save_mat>, kSaveMatTables,
      kSaveMatArguments},
-    {"save_json", "data", "save_json(path, variables)", "Save the same values as a JSON file", guarded<save_json>,
-     kNoOptions, kSaveJsonArguments},
+    {"save_json", "data", "save_json(path, variables)",
+     "Save models, data, vectors, numbers, strings and tables as a JSON file", guarded<save_json>, kNoOptions,
+     kSaveJsonArguments},
 };
 
 }  // namespace

@@ -145,8 +145,8 @@ constexpr FunctionEntry kSignalsFunctions[] = {
     {"chirp", "signals", "chirp(f0, f1, T, Ts, {options}) -> u", "Create a sine or square wave with changing frequency",
      guarded<make_chirp>, kChirpTables, kChirpArguments},
     {"multisine", "signals", "multisine({f1, f2, ...}, T, Ts) -> u; multisine(N, {options}) -> u, grid",
-     "Create a sum of sines with low peaks, or a period with random phases", guarded<make_multisine>, kMultisineTables,
-     kMultisineArguments},
+     "Create a multisine with a low crest factor, or one period with random phases", guarded<make_multisine>,
+     kMultisineTables, kMultisineArguments},
 };
 
 }  // namespace

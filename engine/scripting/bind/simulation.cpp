@@ -36,12 +36,12 @@ constexpr std::array kModelNameOptions = {
 constexpr std::array kRegionOptions = {
     OptionEntry{"confidence",
                 ValueKind::kAny,
-                about("probability of the confidence regions of estimated continuous-time models; false for none"),
+                about("confidence level of the regions of estimated continuous-time models; false for no regions"),
                 {.initial = "0.99"}}};
 constexpr std::array kHistogramOptions = {
-    option<&HistogramOptions::bins>("bins", about("number of bins; 0 for a number based on the scatter of the values")),
+    option<&HistogramOptions::bins>("bins", about("number of bins; 0 for a number based on the spread of the values")),
     option<&HistogramOptions::truth>("truth", about("value to mark with a line")),
-    OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
+    OptionEntry{"xlabel", ValueKind::kText, about("x-axis label")},
     OptionEntry{"label", ValueKind::kText, about("name of the bars in the legend")},
     OptionEntry{
         "truth_label", ValueKind::kText, about("name of the line in the legend"), {.initial = "\"true value\""}}};
@@ -63,7 +63,7 @@ constexpr std::array kLsimArguments = {
 constexpr std::array kSvfArguments = {
     ArgumentEntry{"x", ValueKind::kVector, about("vector of N samples")},
     ArgumentEntry{"n", ValueKind::kCount, about("order of the filter, 1 to 50")},
-    ArgumentEntry{"lambda", ValueKind::kNumber, about("cut-off frequency of the filter in rad/s")}};
+    ArgumentEntry{"lambda", ValueKind::kNumber, about("cutoff frequency of the filter in rad/s")}};
 constexpr std::array kFreqrespArguments = {kOneModel, kDrawnFrequencies};
 constexpr std::array kTimeResponseArguments = {kOneModel, kDrawnInstants, kDrawnModels};
 constexpr std::array kNyquistArguments = {kDrawnModels, kDrawnFrequencies};
@@ -147,7 +147,7 @@ std::vector<NamedModel> models_to_draw(const Call& call, int& next) {
 std::vector<std::string> given_labels(const Options& options, std::size_t count) {
     std::vector<std::string> labels = options.texts("labels");
     if (!labels.empty() && labels.size() != count)
-        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} text", "{} texts"),
+        throw InvalidArgument("option 'labels' has {} for {}", plural(labels.size(), "{} string", "{} strings"),
                               plural(count, "{} model", "{} models"));
     return labels;
 }
@@ -176,7 +176,7 @@ std::optional<double> confidence_level(const Options& options) {
     if (flag) return requested ? std::optional(kUsual) : std::nullopt;
     const double level = options.number("confidence", kUsual);
     if (level > 0 && level < 1) return level;
-    refuse_option("confidence", Message("a probability between 0 and 1, such as 0.99, or false"),
+    refuse_option("confidence", Message("a confidence level between 0 and 1, such as 0.99, or false"),
                   Message("{}", significant(level, 10)));
 }
 
@@ -302,7 +302,7 @@ constexpr FunctionEntry kSimulationFunctions[] = {
      kNamedTables, kTimeResponseArguments},
     {"freqresp", "simulation", "freqresp(G, w) -> complex vector", "Frequency response at w (rad/s)",
      guarded<frequency_response_of>, kNoOptions, kFreqrespArguments},
-    {"bode", kFigures, "bode(G1, G2, ..., w, {options}) -> fig", "Plot magnitude and phase over frequency",
+    {"bode", kFigures, "bode(G1, G2, ..., w, {options}) -> fig", "Plot magnitude and phase versus frequency",
      guarded<draw_bode>, kRegionTables, kBodeArguments},
     {"nyquist", kFigures, "nyquist(G1, G2, ..., w, {options}) -> fig",
      "Plot the frequency response in the complex plane", guarded<draw_models<nyquist_plot, false>>, kNamedTables,

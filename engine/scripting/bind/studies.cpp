@@ -201,7 +201,7 @@ void read_excitation(const Options& options, MonteCarloStudy& study) {
     if (options.has(other))
         throw InvalidArgument(
             loop ? Message("in a closed loop, controller and reference determine the input: omit 'input'")
-                 : Message("option 'reference' is only for a closed loop and requires the option 'controller'"));
+                 : Message("option 'reference' applies only to a closed loop and requires the option 'controller'"));
     if (!options.has(name)) throw InvalidArgument("option '{}' is missing: the samples of the {}", name, name);
     study.u = options.vector(name);
     if (!loop) return;
@@ -256,8 +256,8 @@ int run_study(Call& call) {
 
 constexpr FunctionEntry kStudiesFunctions[] = {
     {"montecarlo", "validation", "montecarlo{options} -> M",
-     "Repeat an experiment with new noise: bias and scatter of estimators", guarded<memoized_call<run_study>>,
-     kStudyTables},
+     "Repeat an experiment with new noise to determine the bias and scatter of estimators",
+     guarded<memoized_call<run_study>>, kStudyTables},
 };
 
 }  // namespace

@@ -51,15 +51,15 @@ int draw_histograms(Call& call) {
 }
 
 constexpr OptionEntry kScatterOptions[] = {
-    {"level", ValueKind::kNumber, about("probability of the ellipse"), {.initial = "0.95"}}};
+    {"level", ValueKind::kNumber, about("confidence level of the ellipse"), {.initial = "0.95"}}};
 constexpr OptionTable kScatterTables[] = {kScatterOptions};
 
 int draw_scatter(Call& call) {
     call.at_most(4);
     const Options options(call, 4, kScatterTables);
     return give_figure(
-        call, monte_carlo_scatter(study_self(call), call.text(2, Message("parameter on the x axis")),
-                                  call.text(3, Message("parameter on the y axis")), options.number("level", 0.95)));
+        call, monte_carlo_scatter(study_self(call), call.text(2, Message("parameter on the x-axis")),
+                                  call.text(3, Message("parameter on the y-axis")), options.number("level", 0.95)));
 }
 
 constexpr std::array kStudyFields = {

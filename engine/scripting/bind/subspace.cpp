@@ -25,7 +25,7 @@ constexpr OptionTable kSubspace[] = {kSubspaceOptions};
 
 constexpr std::array kSubspaceArguments = {
     ArgumentEntry{"data", ValueKind::kData,
-                  about("data object, regularly sampled, any number of inputs, outputs and experiments")},
+                  about("regularly sampled data object with any number of inputs, outputs and experiments")},
     ArgumentEntry{"order", ValueKind::kCount, about("number of states")}};
 
 Estimate estimate_of_subspace(const SubspaceFit& result) {

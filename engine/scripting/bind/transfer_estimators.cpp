@@ -37,15 +37,16 @@ constexpr OptionTable kTransferFunction[] = {kFirstFilterOptions, kStartOptions,
 constexpr std::array kFilteredArguments = {
     kDataArgument,
     ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("na poles, nb coefficients of B (at most na + 1), nk samples of delay. With several inputs, nb "
-                        "and nk are tables with one entry per input; with several outputs, one entry per channel")},
+                  about("na poles, nb coefficients of B (at most na + 1), and an input delay of nk samples. With "
+                        "several inputs, nb and nk are tables with one entry per input; with several outputs, the "
+                        "tables have one entry per channel")},
     kFilterFrequency};
 constexpr std::array kRefinedArguments = {
     kDataArgument,
     ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay. With several inputs, "
-                        "each with separate poles, nb, nf and nk are tables with one entry per input. With several "
-                        "outputs, the tables have one entry per channel, output 1 first")}};
+                  about("nb coefficients of B (at most nf + 1), nf poles, and an input delay of nk samples. With "
+                        "several inputs, each with separate poles, nb, nf and nk are tables with one entry per input. "
+                        "With several outputs, the tables have one entry per channel, output 1 first")}};
 constexpr std::array kTransferFunctionArguments = {kDataArgument, kPoleCount, kZeroCount};
 
 /// lssvf and ivsvf; lsgpmf and ivgpmf, whose filter has a gain beta.
@@ -179,7 +180,7 @@ constexpr FunctionEntry kTransferEstimatorsFunctions[] = {
      guarded<memoized_call<estimate_refined<read_transfer_function<srivc>>>>, kTransferFunction,
      kTransferFunctionArguments},
     {"tfcoe", "continuous time", "tfcoe(data, np, nz, {options}) -> G",
-     marked("estimator", "Estimate a transfer function with delay by output error"),
+     marked("estimator", "Estimate a transfer function with delay by the output-error method"),
      guarded<memoized_call<estimate_refined<read_transfer_function<coe>>>>, kTransferFunction,
      kTransferFunctionArguments},
 };

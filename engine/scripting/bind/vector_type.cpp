@@ -22,7 +22,7 @@ Message elements_of(Index size) {
 [[noreturn]] void refuse_element(const char* what, double number, Index size) {
     const Number place = significant(number, 10);
     if (number >= 0) throw InvalidArgument("{}[{}] does not exist: {} has {}", what, place, what, elements_of(size));
-    throw InvalidArgument("{}[{}] does not exist: {} has {}; the last one is {}[#{}]", what, place, what,
+    throw InvalidArgument("{}[{}] does not exist: {} has {}; the last element is {}[#{}]", what, place, what,
                           elements_of(size), what, what);
 }
 

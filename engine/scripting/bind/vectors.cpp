@@ -35,7 +35,7 @@ constexpr std::array kZerosArguments = {
 constexpr std::array kEyeArguments = {ArgumentEntry{"n", ValueKind::kCount, about("number of rows and of columns")}};
 constexpr std::array kLinspaceArguments = {
     ArgumentEntry{"first", ValueKind::kNumber, about("first value")},
-    ArgumentEntry{"last", ValueKind::kNumber, about("last value; it may be smaller than the first")},
+    ArgumentEntry{"last", ValueKind::kNumber, about("last value, which can be smaller than the first value")},
     ArgumentEntry{"n", ValueKind::kCount, about("number of values; by default 100")}};
 constexpr std::array kLogspaceArguments = {
     ArgumentEntry{"first", ValueKind::kNumber, about("exponent of ten of the first value")},
@@ -59,7 +59,7 @@ constexpr std::array kPolyvalArguments = {
 constexpr std::array kInterp1Arguments = {
     ArgumentEntry{"x", ValueKind::kVector, about("vector of at least two increasing values")},
     ArgumentEntry{"y", ValueKind::kVector, about("vector of the same size, with the values at x")},
-    ArgumentEntry{"x_new", ValueKind::kVector, about("number or vector, the points of the interpolated values")}};
+    ArgumentEntry{"x_new", ValueKind::kVector, about("number or vector of query points")}};
 
 int make_vector(Call& call) {
     if (call.count() != 1 || (to_vector(call.state(), 1) == nullptr && call.type(1) != LUA_TTABLE))
@@ -198,7 +198,7 @@ int interp1(Call& call) {
 }
 
 constexpr FunctionEntry kVectorsFunctions[] = {
-    {"vector", "vectors", "vector{x1, x2, ...} -> v", "Create a column of numbers", guarded<make_vector>, kNoOptions,
+    {"vector", "vectors", "vector{x1, x2, ...} -> v", "Create a vector from numbers", guarded<make_vector>, kNoOptions,
      kMakeVectorArguments},
     {"matrix", "vectors", "matrix{{...}, {...}} or matrix{v1, v2} -> A",
      "Create a matrix from rows (tables) or columns (vectors)", guarded<make_matrix>, kNoOptions, kMakeMatrixArguments},
@@ -215,16 +215,16 @@ constexpr FunctionEntry kVectorsFunctions[] = {
      "Create values from first to last with a step (MATLAB's first:step:last)", guarded<range>, kNoOptions,
      kRangeArguments},
     {"cumsum", "vectors", "cumsum(v) -> w", "Cumulative sum", guarded<cumulative_sum>, kNoOptions, kOneVectorArguments},
-    {"diff", "vectors", "diff(v) -> w", "Differences of neighbors, one element fewer", guarded<difference>, kNoOptions,
+    {"diff", "vectors", "diff(v) -> w", "Differences between adjacent elements", guarded<difference>, kNoOptions,
      kOneVectorArguments},
-    {"unwrap", "vectors", "unwrap(x, period) -> y", "Remove the jumps of an angle by full turns", guarded<unwrap_angle>,
-     kNoOptions, kUnwrapArguments},
+    {"unwrap", "vectors", "unwrap(x, period) -> y", "Remove jumps of full turns from an angle signal",
+     guarded<unwrap_angle>, kNoOptions, kUnwrapArguments},
     {"dot", "vectors", "dot(a, b) -> x", "Scalar product", guarded<dot>, kNoOptions, kDotArguments},
-    {"norm", "vectors", "norm(v) -> x", "Euclidean length of a vector", guarded<norm>, kNoOptions, kOneVectorArguments},
-    {"sort", "vectors", "sort(v) -> sorted, places", "Sort in ascending order, with the original positions",
+    {"norm", "vectors", "norm(v) -> x", "Euclidean norm of a vector", guarded<norm>, kNoOptions, kOneVectorArguments},
+    {"sort", "vectors", "sort(v) -> sorted, places", "Sort in ascending order, and return the original positions",
      guarded<sort>, kNoOptions, kOneVectorArguments},
-    {"polyval", "vectors", "polyval(p, x) -> y", "Evaluate a polynomial, highest power first", guarded<polyval>,
-     kNoOptions, kPolyvalArguments},
+    {"polyval", "vectors", "polyval(p, x) -> y", "Evaluate a polynomial from its coefficients, highest power first",
+     guarded<polyval>, kNoOptions, kPolyvalArguments},
     {"interp1", "vectors", "interp1(x, y, x_new, {options}) -> y_new", "Linear interpolation", guarded<interp1>,
      kInterp1Tables, kInterp1Arguments},
 };

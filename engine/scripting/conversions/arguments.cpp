@@ -27,8 +27,9 @@ constexpr double kLargestExactWhole = 9007199254740992.0;  // 2^53
             "{} must be {}, but {} was given; find(mask) returns the indices, and #find(mask) returns their number",
             label, requested, given);
     if (requested == with_article("iddata") && lua_istable(L, index))
-        throw InvalidArgument("{} must be {}, but {} was given; create one from vectors with iddata(y, u, Ts)", label,
-                              requested, given);
+        throw InvalidArgument(
+            "{} must be {}, but {} was given; create a data object from vectors with iddata(y, u, Ts)", label,
+            requested, given);
     throw InvalidArgument("{} must be {}, but {} was given", label, requested, given);
 }
 
@@ -58,7 +59,7 @@ std::int64_t count_at(lua_State* L, int index, const Label& label) {
 
 template <class Label>
 std::string text_at(lua_State* L, int index, const Label& label) {
-    if (lua_type(L, index) != LUA_TSTRING) wrong_value(L, index, label(), Message("a text in quotes"));
+    if (lua_type(L, index) != LUA_TSTRING) wrong_value(L, index, label(), Message("a string in quotes"));
     std::size_t length = 0;
     const char* text = lua_tolstring(L, index, &length);
     return {text, length};
@@ -105,7 +106,7 @@ Message given_value(lua_State* L, int index) {
         case LUA_TNUMBER:
             return Message("{}", significant(lua_tonumber(L, index), 10));
         case LUA_TSTRING:
-            return Message("the text \"{}\"", lua_tostring(L, index));
+            return Message("the string \"{}\"", lua_tostring(L, index));
         case LUA_TBOOLEAN:
             return Message::verbatim(lua_toboolean(L, index) ? "true" : "false");
         case LUA_TUSERDATA:
@@ -161,7 +162,7 @@ Index Call::size(int index, ArgumentName what) const {
     return index_of_whole(static_cast<double>(count_at(state_, index, label_of(index, what))));
 }
 std::string Call::text(int index, ArgumentName what) const {
-    if (index > arguments_) wrong_argument(state_, index, what, Message("a text in quotes"));
+    if (index > arguments_) wrong_argument(state_, index, what, Message("a string in quotes"));
     return text_at(state_, index, label_of(index, what));
 }
 

@@ -116,7 +116,8 @@ int refuse_writing(lua_State* L) {
 /// __concat: Lua would say "concatenate a userdata value".
 int refuse_joining(lua_State* L) {
     const auto& type = *static_cast<const ObjectType*>(lua_touserdata(L, lua_upvalueindex(1)));
-    raise_error(L, Message(".. joins texts; convert {} to a text first: tostring(x)", with_the(type.name)));
+    raise_error(
+        L, Message("the operator .. joins strings; convert {} to a string first: tostring(x)", with_the(type.name)));
 }
 
 void set_with_type(lua_State* L, const char* name, lua_CFunction function, const ObjectType& type) {

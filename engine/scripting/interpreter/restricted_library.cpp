@@ -59,8 +59,8 @@ int repeat_string(lua_State* L) {
     const MemoryAccount& memory = context_of(L).memory;
     if (bytes > static_cast<double>(memory.limit()))
         raise_error(L, Message("{}: {}", "rep",
-                               Message("the text would take {}, but the limit of the script is {}", size_phrase(bytes),
-                                       size_phrase(static_cast<double>(memory.limit())))));
+                               Message("the string would require {} of memory, but the limit of the script is {}",
+                                       size_phrase(bytes), size_phrase(static_cast<double>(memory.limit())))));
     return call_original(L);
 }
 

@@ -71,7 +71,7 @@ std::string grey_presentation(const GreyFit& grey, const Reader& reader) {
     text += "\n" + message_text(Message("Parameters:"), reader) + "\n";
     for (Index i = 0; i < grey.fit.theta.size(); ++i) text += parameter_line(grey, i, reader);
     text += initial_lines(grey, reader);
-    text += message_text(Message("Estimated by {}, fit to the estimation data {} % (simulation), noise variance {}.",
+    text += message_text(Message("Estimated by {}. Fit to the estimation data: {} % (simulation). Noise variance: {}.",
                                  "greyest", percents_of(grey.fit.fit_percent), numbers_of(grey.fit.noise_variance)),
                          reader);
     return text + "\n" + message_text(grey.fit.full_message(), reader) + "\n";

@@ -12,8 +12,8 @@
 namespace dynlab::inline scripting {
 namespace {
 
-constexpr std::array kMarkPlaceOptions = {OptionEntry{"x", ValueKind::kNumber, about("position on the x axis")},
-                                          OptionEntry{"y", ValueKind::kNumber, about("position on the y axis")}};
+constexpr std::array kMarkPlaceOptions = {OptionEntry{"x", ValueKind::kNumber, about("position on the x-axis")},
+                                          OptionEntry{"y", ValueKind::kNumber, about("position on the y-axis")}};
 constexpr std::array kReferenceOptions = {
     OptionEntry{"label", ValueKind::kText, about("text next to the line")},
     option<&ReferenceLine::dash>(
@@ -29,8 +29,8 @@ constexpr std::array kArrowOptions = {
     OptionEntry{"text", ValueKind::kText, about("text at the middle of the arrow")},
     option<&Arrow::both_heads>("both_heads", about("true draws an arrowhead at both ends"))};
 constexpr std::array kOneCurveOptions = {
-    OptionEntry{"x", ValueKind::kVector, about("values on the x axis; by default 1, 2, 3, ...")},
-    OptionEntry{"y", ValueKind::kVector, about("values on the y axis")},
+    OptionEntry{"x", ValueKind::kVector, about("values on the x-axis; by default 1, 2, 3, ...")},
+    OptionEntry{"y", ValueKind::kVector, about("values on the y-axis")},
     OptionEntry{"y_upper", ValueKind::kVector, about("upper limit of a band that starts at y")}};
 constexpr OptionTable kPanelTables[] = {kPanelOptions}, kReferenceTables[] = {kMarkPlaceOptions, kReferenceOptions},
                       kAnnotationTables[] = {kMarkPlaceOptions, kAnnotationOptions}, kArrowTables[] = {kArrowOptions},

@@ -12,12 +12,12 @@ inline constexpr std::array kLegendPlaces = {"automatic", "above", "right", "non
 /// The options of a panel, of one curve's look and of a whole figure, for plot, figure and the methods of figures.
 inline constexpr std::array kPanelOptions = {
     OptionEntry{"title", ValueKind::kText, about("text above the panel, or above all panels of a figure")},
-    OptionEntry{"xlabel", ValueKind::kText, about("label of the x axis")},
-    OptionEntry{"ylabel", ValueKind::kText, about("label of the y axis")},
-    OptionEntry{"x_range", ValueKind::kVector, about("limits of the x axis, {low, high}")},
-    OptionEntry{"y_range", ValueKind::kVector, about("limits of the y axis, {low, high}")},
-    option<&Panel::log_x>("x_log", about("true for a logarithmic x axis")),
-    option<&Panel::log_y>("y_log", about("true for a logarithmic y axis")),
+    OptionEntry{"xlabel", ValueKind::kText, about("x-axis label")},
+    OptionEntry{"ylabel", ValueKind::kText, about("y-axis label")},
+    OptionEntry{"x_range", ValueKind::kVector, about("x-axis limits, {low, high}")},
+    OptionEntry{"y_range", ValueKind::kVector, about("y-axis limits, {low, high}")},
+    option<&Panel::log_x>("x_log", about("true for a logarithmic x-axis")),
+    option<&Panel::log_y>("y_log", about("true for a logarithmic y-axis")),
     option<&Panel::equal_axes>("equal_axes", about("equal units on both axes")),
     option<&Panel::legend>("legend",
                            about("position of the legend; \"direct\" writes each name next to its curve, or creates a "

@@ -126,9 +126,7 @@ std::string Presentation::gain_and_poles(const TransferFunction& G,
 
 std::string Presentation::polynomial_lines(const PolynomialModel& model) const {
     std::string lines =
-        text(Message(
-            "Polynomials (weights of the current sample, the previous one, ...; polynomials not shown are 1):")) +
-        "\n";
+        text(Message("Polynomials (coefficients in ascending powers of q^-1; polynomials not shown are 1):")) + "\n";
     const auto add = [&](const std::string& name, const Vector& p) {
         if (p.size() > 1 || p[0] != 1) lines += fmt::format("  {:<5} {}\n", name, vector_text(p, reader_));
     };
@@ -145,10 +143,9 @@ std::string Presentation::polynomial_lines(const PolynomialModel& model) const {
 
 std::string Presentation::noise_lines(const NoiseModel& noise) const {
     if (noise.C.size() + noise.D.size() <= 2) return text(Message("Noise: assumed white")) + "\n";
-    std::string lines =
-        text(Message(
-            "Noise C(q^-1)/D(q^-1) e, e white (weights of the previous samples; the current sample has weight 1):")) +
-        "\n";
+    std::string lines = text(Message("Noise model C(q^-1)/D(q^-1) e with white noise e (coefficients of C and D; the "
+                                     "leading coefficients are 1):")) +
+                        "\n";
     const auto add = [&](const char* name, const Vector& p, const Vector& std) {
         for (Index i = 1; i < p.size(); ++i)
             lines += fmt::format("  {:<5} {:>12}{}\n", fmt::format("{}{}", name, i), to_the_error(p[i], std[i], 3, 6),
@@ -183,12 +180,12 @@ std::string Presentation::estimate_lines(const Estimate& estimate) const {
                                 variance = of_response ? std::nullopt : number("noise_variance");
     std::string lines;
     if (fit && variance)
-        lines = text(Message("Estimated by {}, fit to the estimation data {} % (simulation), noise variance {}.",
+        lines = text(Message("Estimated by {}. Fit to the estimation data: {} % (simulation). Noise variance: {}.",
                              estimate.method, *fit, *variance));
     else if (fit)
-        lines = text(Message("Estimated by {}, fit to the estimation data {} % (simulation).", estimate.method, *fit));
+        lines = text(Message("Estimated by {}. Fit to the estimation data: {} % (simulation).", estimate.method, *fit));
     else if (variance)
-        lines = text(Message("Estimated by {}, noise variance {}.", estimate.method, *variance));
+        lines = text(Message("Estimated by {}. Noise variance: {}.", estimate.method, *variance));
     else
         lines = text(Message("Estimated by {}.", estimate.method));
     lines += "\n";

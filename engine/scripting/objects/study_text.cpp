@@ -113,9 +113,9 @@ std::string StudyText::of(const MonteCarlo& study) const {
     const Number sigma = significant(study.sigma, 5);
     std::string lines =
         text(std::isfinite(study.snr)
-                 ? Message("Monte Carlo study of {} runs, noise of standard deviation {} (SNR {} dB)", study.runs,
+                 ? Message("Monte Carlo study of {} runs with a noise standard deviation of {} (SNR {} dB)", study.runs,
                            sigma, significant(study.snr, 3))
-                 : Message("Monte Carlo study of {} runs, noise of standard deviation {}", study.runs, sigma)) +
+                 : Message("Monte Carlo study of {} runs with a noise standard deviation of {}", study.runs, sigma)) +
         "\n";
     if (study.canceled) lines += text(Message("The study was interrupted.")) + "\n";
     std::size_t who_width = 5;

@@ -9,7 +9,7 @@ using Node = ExpressionTape::Node;
 
 Node operand_of(const Call& call, int index, const std::shared_ptr<Trace>& trace) {
     if (const auto node = traced_node(call.state(), index, trace)) return *node;
-    throw InvalidArgument("with a symbolic value only numbers can be combined, but {} was given",
+    throw InvalidArgument("a symbolic value can be combined only with numbers, but {} was given",
                           given_value(call.state(), index));
 }
 

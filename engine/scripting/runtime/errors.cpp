@@ -33,7 +33,7 @@ Message subject(const std::string& text) {
     if (auto name = between(text, "field '", "')"))
         return *name == "?" || *name == "integer index" ? Message("this element") : Message("the field '{}'", *name);
     if (auto name = between(text, "method '", "')")) return Message("the method '{}'", *name);
-    if (auto name = between(text, "constant '", "')")) return Message("the text '{}'", *name);
+    if (auto name = between(text, "constant '", "')")) return Message("the string '{}'", *name);
     return Message("this value");
 }
 
@@ -119,8 +119,8 @@ const auto& fixed_messages() {
         PlainMessage{"table index is nil", Message("the key of the table is nil (it has no value)")},
         PlainMessage{"table index is NaN", Message("the key of the table is not a number (NaN)")},
         PlainMessage{"table overflow", Message("the table has too many elements")},
-        PlainMessage{"resulting string too large", Message("the text would be too long")},
-        PlainMessage{"string length overflow", Message("the text would be too long")},
+        PlainMessage{"resulting string too large", Message("the string would be too long")},
+        PlainMessage{"string length overflow", Message("the string would be too long")},
         PlainMessage{"cannot resume dead coroutine", Message("this coroutine has ended and cannot be resumed")},
         PlainMessage{"cannot resume non-suspended coroutine", Message("this coroutine is running already")},
         PlainMessage{"attempt to yield from outside a coroutine",
@@ -144,7 +144,7 @@ Message plain_sentence(const std::string& text) {
                                : Message());
     if (auto type = between(text, "attempt to perform arithmetic on a ", " value"))
         return with_advice(Message("{} is {}, so arithmetic with it is not possible", subject(text), what_it_is(*type)),
-                           *type == "table"          ? Message("convert it to a vector: vector(t)")
+                           *type == "table"          ? Message("convert the table to a vector: vector(t)")
                            : *type == kComplexNumber ? Message("use its fields re, im, abs and arg")
                                                      : Message());
     if (auto type = between(text, "attempt to perform bitwise operation on a ", " value"))
@@ -152,10 +152,12 @@ Message plain_sentence(const std::string& text) {
             Message("{} is {}, so the operators & | ~ << >> do not support it", subject(text), what_it_is(*type)),
             *type == "boolean" ? Message("write 'not' as not x") : Message());
     if (auto type = between(text, "attempt to concatenate a ", " value"))
-        return Message("{} is {}, so .. cannot join it to a string; use tostring(x)", subject(text), what_it_is(*type));
+        return Message("{} is {}, so the operator .. cannot join it to a string; use tostring(x)", subject(text),
+                       what_it_is(*type));
     if (auto type = between(text, "attempt to get length of a ", " value"))
-        return with_advice(Message("{} is {}, so # cannot count its elements", subject(text), what_it_is(*type)),
-                           *type == "iddata" ? Message("data.N is the number of samples") : Message());
+        return with_advice(
+            Message("{} is {}, so the operator # cannot count its elements", subject(text), what_it_is(*type)),
+            *type == "iddata" ? Message("data.N is the number of samples") : Message());
     if (text.find(" a 'string' with a ") != std::string::npos)
         return Message(
             "arithmetic with a string is not possible; use two dots to join strings and numbers: \"a = \" .. x");

@@ -65,7 +65,7 @@ Message with_the(std::string_view kind) {
 Message what_it_is(std::string_view kind) {
     if (kind == "nil") return Message("nil (it has no value)");
     if (kind == "boolean") return Message("true or false");
-    if (kind == "string") return Message("a text");
+    if (kind == "string") return Message("a string");
     if (kind == "userdata") return Message("an object");
     return with_article(kind);
 }

@@ -135,7 +135,7 @@ bool has_assignment_condition(const std::string& code) {
 
 Message element_hint(const std::string& code) {
     static const RE2 kWholeLine(R"(\w[\[(]\s*(:\s*,|[\w.]+\s*,\s*:\s*[\])]))", RE2::Latin1);
-    if (RE2::PartialMatch(code, kWholeLine)) return Message("row i of a matrix is A:row(i), column j is A:col(j)");
+    if (RE2::PartialMatch(code, kWholeLine)) return Message("row i of a matrix is A:row(i), and column j is A:col(j)");
     static const RE2 kTakenOut(R"(=\s*\[\s*\]\s*;?\s*$)", RE2::Latin1);
     if (RE2::PartialMatch(code, kTakenOut) && contains(code, ")"))
         return Message(
@@ -153,7 +153,8 @@ Message element_hint(const std::string& code) {
     static const RE2 kImaginary(R"((^|[^\w.])\d+(\.\d*)?[ij]\b)", RE2::Latin1);
     if (RE2::PartialMatch(code, kImaginary))
         return Message(
-            "dynlab has no complex arithmetic; complex numbers returned by functions have the fields re, im, abs, arg");
+            "dynlab has no complex arithmetic; complex numbers returned by functions have the fields re, im, abs and "
+            "arg");
     return {};
 }
 
@@ -186,7 +187,7 @@ Message block_hint(const std::string& code) {
     if (word == "const" || word == "let" || word == "var") return Message("write a variable as local x = 3");
     if (word == "try" || word == "catch") return Message("write local ok, message = pcall(f) instead of try");
     if (word == "end" && contains(code, "end;"))
-        return Message("one 'end' too many, or the start of a block is missing");
+        return Message("one 'end' is superfluous, or the start of a block is missing");
     return {};
 }
 

@@ -315,8 +315,8 @@ std::string matrix_of(const Variable& variable, const std::string& name, int dig
 VariableTable read_mat_file(const fs::path& file, bool, std::vector<Message>* left_out) {
     const std::string bytes = read_file(file);
     if (bytes.size() < kHeader || bytes.compare(124, 4, std::string("\0\1IM", 4)) != 0)
-        throw EnvironmentError("{}: a page in a browser reads MAT files of version 5 to 7 only; save the data as CSV",
-                               file.string());
+        throw EnvironmentError(
+            "{}: in a browser, dynlab can read only MAT files of versions 5 to 7; save the data as CSV", file.string());
     VariableTable variables;
     for (Elements all(Bytes(bytes).substr(kHeader)); !all.ended();) {
         try {
@@ -332,7 +332,7 @@ VariableTable read_mat_file(const fs::path& file, bool, std::vector<Message>* le
             variables[array.name()] = array.value();
         } catch (const Damaged&) {
             if (left_out != nullptr)
-                left_out->push_back(Message("a variable is damaged or of a class that cannot be read"));
+                left_out->push_back(Message("a variable is damaged, or its class is not supported"));
         }
     }
     if (variables.empty()) throw EnvironmentError("{}: the file contains no variable that can be read", file.string());

@@ -7,7 +7,8 @@ namespace dynlab::inline data_io {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const char* format) {
-    throw EnvironmentError("{}: dynlab in a browser cannot read {} files; save the data as CSV", file.string(), format);
+    throw EnvironmentError("{}: in a browser, dynlab cannot read {} files; save the data as CSV", file.string(),
+                           format);
 }
 
 }  // namespace

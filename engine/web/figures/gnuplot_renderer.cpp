@@ -9,7 +9,7 @@ GnuplotRenderer::GnuplotRenderer(const Cache*) {}
 GnuplotRenderer::~GnuplotRenderer() = default;
 void GnuplotRenderer::draw(const Figure&, const std::filesystem::path& file, FigureFormat, const Reader&) {
     throw FigureError(Message(
-        "{}: dynlab in a browser cannot write figure files; run the script with the installed dynlab", file.string()));
+        "{}: in a browser, dynlab cannot write figure files; run the script with the installed dynlab", file.string()));
 }
 void GnuplotRenderer::finish() {}
 CacheUse GnuplotRenderer::use() const {

@@ -17,7 +17,7 @@ addWords({
   useShared: tr("Use it"), keepOwn: tr("Keep my own"), badLink: tr("The script in this link cannot be read."), linkCopied: tr("The link is copied."),
   linkShown: tr("Link to this script:"),
   imported: tr("The page now contains the script."), otherScript: tr("This script is not from this lesson: it has other cells. Open it with dynlab preview."),
-  tooLarge: tr("This file is too large: a script has at most {} MB."), resetSure: tr("Your changes will be deleted. Continue?"),
+  tooLarge: tr("This file is too large: the size limit of a script is {} MB."), resetSure: tr("Your changes will be deleted. Continue?"),
   changeText: tr("Edit the text"), endText: tr("Done"), codeOf: tr("Code of cell {}"), textOf: tr("Text in Markdown"), hiddenCode: tr("Code that the report does not show"),
   checksRun: tr("The script runs for the checks …"), pointsOf: tr("{} of {} points"), hintOf: tr("Hint"), moreHint: tr("Next hint"),
   checkedLater: tr("dynlab checks this during grading."), scriptStopped: tr("The script stopped: {}"), noChecks: tr("This lesson has no checks that can run here."),

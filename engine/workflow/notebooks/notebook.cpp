@@ -312,8 +312,9 @@ NotebookScript script_of_notebook(std::string_view text, const std::filesystem::
         if (!object_at(cell, "attachments").empty())
             script.losses.push_back(placed(
                 {name},
-                Message("cell {} contains a pasted picture; save it as a file and give the file name in the text",
-                        number)));
+                Message(
+                    "cell {} contains a pasted picture; save the picture as a file and give the file name in the text",
+                    number)));
         CellText read = cell_of_json(cell, first);
         if (kind == "raw" && read.marked) {  // a comment in its place, by which later cells keep their numbers
             read.source = "<!-- A raw cell of the notebook was here. -->";
@@ -333,11 +334,11 @@ NotebookScript read_notebook(const std::filesystem::path& file) {
     std::error_code unknown;
     const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
     if (!unknown && bytes > kMaxNotebookBytes)
-        refuse_notebook(file, Message("the notebook has {} MB, but the limit is {} MB: clear its outputs", bytes >> 20,
-                                      kMaxNotebookBytes >> 20));
+        refuse_notebook(file, Message("the size of the notebook is {} MB, but the limit is {} MB: clear its outputs",
+                                      bytes >> 20, kMaxNotebookBytes >> 20));
     NotebookScript script = script_of_notebook(read_text(file), file);
     if (script.source.size() > kMaxSourceSize)
-        refuse_notebook(file, Message("the cells have {} MB of text, but the limit for a script is {} MB",
+        refuse_notebook(file, Message("the cells contain {} MB of text, but the limit for a script is {} MB",
                                       (script.source.size() + (1 << 20) - 1) >> 20, kMaxSourceSize >> 20));
     return script;
 }

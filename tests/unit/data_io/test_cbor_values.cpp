@@ -180,7 +180,7 @@ TEST(cbor_values, errors_report_the_place_what_was_wanted_and_given) {
         return writer.take();
     };
     EXPECT_EQ(refusal<std::vector<Part>>(with_parts(members([](CborWriter& w) { w.member("name"), w.number(1); }))),
-              "[2].name: expected a text, got a number");
+              "[2].name: expected a string, got a number");
     EXPECT_EQ(refusal<std::vector<Part>>(with_parts(members([](CborWriter& w) { w.member("nome"), w.text("b"); }))),
               "[2]: its member \"name\" is missing");
     EXPECT_EQ(refusal<std::vector<Part>>(with_parts(
@@ -191,7 +191,7 @@ TEST(cbor_values, errors_report_the_place_what_was_wanted_and_given) {
     std::string grey = cbor_of(shades);
     grey.replace(grey.find("dark"), 4, "grey");
     EXPECT_EQ((refusal<std::map<std::string, Shade>>(grey)),
-              "[\"wall\"]: expected one of light, dark, got another text");
+              "[\"wall\"]: expected one of light, dark, got another string");
     EXPECT_THAT(refusal<Vector>(cbor_of(Matrix{{1, 2}})), HasSubstr("expected a vector, got a matrix"));
 }
 

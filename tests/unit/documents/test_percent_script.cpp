@@ -210,8 +210,9 @@ TEST(percent_script, a_file_far_too_large_is_refused) {
         read_percent_script(file);
         FAIL() << "no error";
     } catch (const DocumentError& error) {
-        EXPECT_THAT(error.what(),
-                    HasSubstr("a.lua: a script or template can have at most 4 MB, but this file has 5 MB"));
+        EXPECT_THAT(
+            error.what(),
+            HasSubstr("a.lua: the size limit of a script or template is 4 MB, but the size of this file is 5 MB"));
     }
 }
 

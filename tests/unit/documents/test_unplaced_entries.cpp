@@ -34,7 +34,7 @@ TEST(unplaced_entries, are_reported_with_the_line_to_write) {
         ElementsAre("the figures 'residuals', 'residuals_2' are passed to the report but never shown; write "
                     "![](figure:residuals){#fig:residuals}",
                     "the table 'models' is passed to the report but never shown; write ::: {.table name=models} above "
-                    "and ::: below its caption",
+                    "its caption and ::: below the caption",
                     "the text 'remark' is passed to the report but never shown; write ::: {.text name=remark} and, on "
                     "a later line, :::",
                     "the value 'gain' is passed to the report but never shown; write `gain`{.value}"));

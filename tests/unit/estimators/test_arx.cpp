@@ -126,7 +126,7 @@ TEST(arx,
 
 TEST(arx, too_high_orders_are_reported) {  // oracle: the simulated system; the past takes five of 400 samples
     const auto result = arx(record(400, 0, 1), PolynomialOrders::arx(4, {4}, {2}));
-    EXPECT_THAT(message_text(result.message), HasSubstr("Least squares over 395 equations: fit "));
+    EXPECT_THAT(message_text(result.message), HasSubstr("Least squares with 395 equations: fit "));
     EXPECT_THAT(message_text(result.full_message()), HasSubstr("do not determine all parameters separately"));
     EXPECT_GT(result.fit_percent[0], 100 - 1e-5);
 }

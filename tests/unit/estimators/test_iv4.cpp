@@ -50,7 +50,7 @@ Vector instruments(const Vector& theta, const Vector& u) {
 
 TEST(iv4, recovers_noise_free_systems) {  // oracle: the simulated system
     const auto result = iv4(record(400, 0, 1), kOrders);
-    EXPECT_THAT(message_text(result.message), testing::StartsWith("Instrumental variables over "));
+    EXPECT_THAT(message_text(result.message), testing::StartsWith("Instrumental variables with "));
     EXPECT_LT((result.theta - kTheta).cwiseAbs().maxCoeff(), 1e-10) << message_text(result.full_message());
 }
 

@@ -154,7 +154,7 @@ TEST(srivc, reports_delays_that_held_inputs_cannot_show) {
     const Fit other = srivc(data, fixed);
     EXPECT_LT(other.loss, 1e-12 * x.squaredNorm());
     fixed.free_delays = true;
-    const char* doubt = "is only known to within one sampling time";
+    const char* doubt = "is known only to within one sampling time";
     const Fit ambiguous = srivc(data, fixed);
     EXPECT_NE(message_text(ambiguous.full_message()).find(doubt), std::string::npos);
     for (Index i = 0; i < ambiguous.std.size(); ++i)  // a1, a2, b2 are found whatever the delay: b2 = gain a2

@@ -125,7 +125,7 @@ TEST(transfer_refinement, biproper_models_are_found_again) {  // oracle: the sim
         const auto delayed = refine_output_error(data, structure, kRest, start, tight());
         // Sampled and held, such a model has 2n + 1 coefficients for the 2n + 2 that it would take to find the delay.
         if (hold == Hold::kZoh)
-            EXPECT_THAT(message_text(delayed.full_message()), HasSubstr("only known to within one sampling time"));
+            EXPECT_THAT(message_text(delayed.full_message()), HasSubstr("known only to within one sampling time"));
         else
             expect_values(delayed.theta, truth, 1e-8);
     }

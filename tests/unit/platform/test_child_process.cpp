@@ -234,7 +234,8 @@ TEST(child_process, missing_program_names_the_package) {
         run_child(options, "pandoc");
         FAIL();
     } catch (const MissingProgram& error) {
-        EXPECT_STREQ(error.what(), "pandoc-of-another-world is not installed: sudo apt install pandoc");
+        EXPECT_STREQ(error.what(),
+                     "pandoc-of-another-world is not installed. Install it with: sudo apt install pandoc");
     }
 }
 

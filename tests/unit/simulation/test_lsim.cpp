@@ -181,7 +181,7 @@ TEST(lsim, says_what_is_wrong) {
     EXPECT_EQ(thrown_message([] {
                   state_variable_filter(from({1, 2}), 2, -3, 0.1);
               }),
-              "state-variable filter: the cut-off frequency lambda must be a positive number of rad/s, but it is -3");
+              "state-variable filter: the cutoff frequency lambda must be a positive number of rad/s, but it is -3");
 }
 
 }  // namespace test_lsim

@@ -55,7 +55,7 @@ TEST(residual_tests, white_noise_on_the_true_model_passes) {  // oracle: how the
     EXPECT_TRUE(tests.outputs[0].inputs[0].independent);
     EXPECT_TRUE(tests.outputs[0].inputs[0].without_feedback);
     EXPECT_THAT(message_text(tests.verdict), HasSubstr("y1: The output error is white"));
-    EXPECT_THAT(message_text(tests.verdict), HasSubstr("u1 is not correlated with the error"));
+    EXPECT_THAT(message_text(tests.verdict), HasSubstr("u1 is not correlated with the residuals"));
     EXPECT_THAT(message_text(tests.verdict), HasSubstr("contain no further information about the system"));
 }
 
@@ -68,7 +68,7 @@ TEST(residual_tests, colored_noise_on_the_true_model_is_distinguished_from_missi
     const TransferFunction poor(Vector{{2.0 / 3}}, Vector{{1.0, 1.0}});
     const auto missing = plain_tests(record(y, u), poor);
     EXPECT_FALSE(missing.outputs[0].inputs[0].independent);
-    EXPECT_THAT(message_text(missing.verdict), HasSubstr("u1 is correlated with the error"));
+    EXPECT_THAT(message_text(missing.verdict), HasSubstr("u1 is correlated with the residuals"));
     EXPECT_THAT(message_text(missing.verdict), HasSubstr("The model does not describe all dynamics"));
 }
 
@@ -163,7 +163,7 @@ TEST(residual_tests, says_when_there_is_nothing_to_test) {
     const Vector u = prbs(6, 3);
     const auto exact = plain_tests(record(lsim(kG, u, kTs), u), kG);
     EXPECT_TRUE(exact.outputs[0].exact);
-    EXPECT_THAT(message_text(exact.verdict), HasSubstr("to rounding"));
+    EXPECT_THAT(message_text(exact.verdict), HasSubstr("rounding error"));
     const Vector flat = Vector::Ones(100), y = lsim(kG, flat, kTs) + 0.1 * RandomStream(1).normal(100);
     EXPECT_THAT(message_text(plain_tests(record(y, flat), kG).verdict), HasSubstr("u1 never changes"));
     const Vector drift = lsim(kG, flat, kTs) + 0.1 * ar1(100, 0.9, 1);

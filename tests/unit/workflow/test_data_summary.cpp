@@ -23,7 +23,7 @@ TEST(data_summary, shows_columns_units_sampling_gaps_and_first_rows) {
     EXPECT_THAT(look.text, HasSubstr("record.csv: a table of 4 columns and 39 rows\n- units from the headers: time in "
                                      "ms, u in V\n- missing numbers were replaced"));
     EXPECT_THAT(look.text, ContainsRegex("time +ms +39 numbers +0 +390 +"));
-    EXPECT_THAT(look.text, ContainsRegex("label +39 texts\n"));
+    EXPECT_THAT(look.text, ContainsRegex("label +39 strings\n"));
     EXPECT_THAT(look.text, ContainsRegex("y +39 numbers +1 +0.5 +0.5 +0.5\n"));
     EXPECT_THAT(look.text,
                 AllOf(HasSubstr("column time, from 0 s to 0.39 s"), HasSubstr("irregular, median step 0.01 s"),
@@ -42,7 +42,7 @@ TEST(data_summary, shows_the_variables_of_a_matlab_file_and_of_a_data_set) {
     EXPECT_THAT(summarize_data(work.path("a.mat"), {}).text,
                 AllOf(HasSubstr("a.mat: 4 variables\n"), HasSubstr("3 x 3 numbers"),
                       ContainsRegex("run +a struct\n +run.u +2 numbers +1 +2 +1.5\n"),
-                      HasSubstr("sampling time: 0.5 s, as given in the file")));
+                      HasSubstr("sampling time: 0.5 s, as specified in the file")));
     EXPECT_THAT(summarize_data("crane", {}).text, HasSubstr("steps.theta"));
 }
 

@@ -42,7 +42,7 @@ TEST(error_text, of_more_locals_than_lua_can_have_names_the_limit) {
 
 TEST(error_text, of_the_main_chunk_shows_its_line_alone) {
     EXPECT_EQ(shown(WorkFolder(), "\nlocal v = zeros('x') -- here\n"),
-              "a.lua:2: zeros: argument 1 (n) must be a number, but the text \"x\" was given\n"
+              "a.lua:2: zeros: argument 1 (n) must be a number, but the string \"x\" was given\n"
               "    local v = zeros('x') -- here");
 }
 
@@ -58,7 +58,7 @@ TEST(error_text, inside_functions_shows_the_callers_with_their_arguments) {
                     "for k = 1, 3 do\n"
                     "  print(twice({k, label = 'run'}))\n"
                     "end\n"),
-              "a.lua:2: zeros: argument 1 (n) must be a number, but the text \"two\" was given\n"
+              "a.lua:2: zeros: argument 1 (n) must be a number, but the string \"two\" was given\n"
               "    return zeros(x)\n"
               "  a.lua:5: called half(x = \"two\", name = 1)\n"
               "    local y = half('two', t[1])\n"

@@ -76,7 +76,7 @@ delayest(data)
 local G = tfsrivc(data:shift(-1), 2, 0)
 report.value("a1", G.den[2]) report.value("a2", G.den[3]))lua");
     EXPECT_THAT(printed(), AllOf(HasSubstr("code late_input"), Not(HasSubstr("code running_start"))));
-    EXPECT_THAT(printed(), testing::ContainsRegex("fit: [^\n]*With the input one sample earlier [^\n]*logged late"));
+    EXPECT_THAT(printed(), testing::ContainsRegex("fit: [^\n]*With the input shifted by one sample [^\n]*logged late"));
     EXPECT_THAT(printed(), testing::ContainsRegex("The delay is [^\n]*logged late"));
     EXPECT_NEAR(value("a1"), 6, 0.1);
     EXPECT_NEAR(value("a2"), 30, 0.3);

@@ -29,7 +29,8 @@ TEST(script_answers, that_are_missing_unknown_repeated_or_of_the_wrong_kind_are_
     };
     EXPECT_THAT(refusal("answer('gian', 2)\n"),
                 HasSubstr("a.lua:7: answer: the script's header declares no answer \"gian\"; did you mean \"gain\"?"));
-    EXPECT_THAT(refusal("answer('gain', '2')\n"), HasSubstr("must be of the kind number, but a text was given"));
+    EXPECT_THAT(refusal("answer('gain', '2')\n"),
+                HasSubstr("must be of the kind number, but a value of the kind text was given"));
     EXPECT_THAT(refusal("answer('gain', 2) answer('gain', 3)"), HasSubstr("already has another value"));
     EXPECT_THAT(error_of([&] { parse_percent_script(header("--   gain: numbre\n"), "a.lua"); }),
                 HasSubstr("unknown kind \"numbre\"; the kinds are number, text"));
@@ -44,7 +45,7 @@ TEST(script_answers, a_table_of_numbers_is_a_vector_where_one_is_wanted) {
     };
     EXPECT_EQ(given("{9.7, 9.5, 9.9}"), given("vector{9.7, 9.5, 9.9}"));
     EXPECT_THAT(given("{9.7, 'x'}"), HasSubstr("must be a vector of numbers, but its element 2 is the text"));
-    EXPECT_THAT(given("'x'"), HasSubstr("must be of the kind vector, but a text was given"));
+    EXPECT_THAT(given("'x'"), HasSubstr("must be of the kind vector, but a value of the kind text was given"));
 }
 
 TEST(script_answers, are_in_the_record_bit_by_bit) {

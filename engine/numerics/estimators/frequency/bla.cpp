@@ -254,8 +254,8 @@ class Approximation {
         const double part = changing / (changing + all);
         if (part > kRepeatsNot)
             throw InvalidArgument(
-                "bla: the input is not periodic with {} samples: {} % of its power varies from period to period. "
-                "Specify the period of the input",
+                "bla: the input is not periodic with a period of {} samples: {} % of its power varies from period to "
+                "period. Specify the period of the input",
                 options_.period, significant(100 * part, 3));
         if (part > kRepeatsRoughly)
             result_.warnings.push_back(

@@ -256,10 +256,9 @@ Fit frequency_fit(const std::string& method, const FrequencyData& data, const Tr
     if (structure.free_delays) warn_of_delay(fit, fit.models.front().delay(), range);
     fit.message =
         has_settled(fit)
-            ? Message(
-                  "The search over the frequency response converged after {}: fit {} % (response at {} frequencies).",
-                  iteration_count(fit), significant(fit.fit_percent[0], 4), data.w.size())
-            : Message("The search over the frequency response stopped after {}: fit {} % (response at {} frequencies).",
+            ? Message("The fit to the frequency response converged after {}: fit {} % (response at {} frequencies).",
+                      iteration_count(fit), significant(fit.fit_percent[0], 4), data.w.size())
+            : Message("The fit to the frequency response stopped after {}: fit {} % (response at {} frequencies).",
                       iteration_count(fit), significant(fit.fit_percent[0], 4), data.w.size());
     return fit;
 }

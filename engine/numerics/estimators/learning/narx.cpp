@@ -160,7 +160,7 @@ void NarxLags::check(Index inputs) const {
     bool negative = na < 0;
     for (std::size_t j = 0; j < nb.size(); ++j) negative = negative || nb[j] < 0 || nk[j] < 0;
     if (negative) throw InvalidArgument("narx: the numbers of lags must be nonnegative");
-    if (variables() == 0) throw InvalidArgument("narx: the model uses no past value: na or nb must be at least 1");
+    if (variables() == 0) throw InvalidArgument("narx: the model uses no past values: na or nb must be at least 1");
 }
 
 Index NarxLags::variables() const {

@@ -115,8 +115,8 @@ void check_loop_data(const std::string& method, const IdData& data, const Transf
             data.input_count(), data.output_count(), data.reference_count());
     if (!data.regular())
         throw InvalidArgument(
-            "{} needs regularly sampled data, but these data are irregular: interpolate them to equal steps first "
-            "(interp1)",
+            "{} needs regularly sampled data, but these data are sampled irregularly: interpolate them at equally "
+            "spaced instants first (interp1)",
             method);
     if (structure.free_delays)
         throw InvalidArgument(

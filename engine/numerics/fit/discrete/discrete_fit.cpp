@@ -66,9 +66,9 @@ Fit fit_condition(const DiscreteOutput& model, const IdData& data, const FitOpti
     warn_of_doubtful_parameters(fit);
     warn_of_unstable_polynomials(fit);
     const Number percent = significant(fit.fit_percent[0], 4);
-    fit.message = has_settled(fit) ? Message("The search converged after {}, simulating {}: fit {} %.",
+    fit.message = has_settled(fit) ? Message("The search converged after {} for a simulation {}: fit {} %.",
                                              iteration_count(fit), description(fit.start), percent)
-                                   : Message("The search stopped after {}, simulating {}: fit {} %.",
+                                   : Message("The search stopped after {} for a simulation {}: fit {} %.",
                                              iteration_count(fit), description(fit.start), percent);
     return fit;
 }

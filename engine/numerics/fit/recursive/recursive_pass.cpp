@@ -24,7 +24,7 @@ constexpr double kFilterMemories = 20;      // of the first batch
 constexpr double kBlockMemories = 5;        // of the blocks that tell the errors' color
 constexpr Index kSamplesBetweenLooks = 16;  // at how well the model is known
 constexpr double kSurest = 0.03;            // relative standard errors of coefficients that filters follow
-constexpr double kQuickest = 5;             // poles of a model that filters follow, in cut-off frequencies
+constexpr double kQuickest = 5;             // poles of a model that filters follow, in cutoff frequencies
 constexpr double kStepRounding = 1e-9;      // relative, of a number of samples: the unit of time must not change it
 
 /// The record as the loop sees it.
@@ -264,7 +264,7 @@ class Pass final : public AnyPass {
     /// let through would outweigh all others, now and later.
     bool known_well() const { return array_.known_to(kSurest, static_cast<std::size_t>(n_)); }
 
-    /// Against poles at kQuickest times the cut-off frequency.
+    /// Against poles at kQuickest times the cutoff frequency.
     bool too_quick(const EvolvingModel& model) const {
         double size = 0;
         for (std::size_t i = 0; i < static_cast<std::size_t>(kOrder > 0 ? kOrder : n_); ++i)
@@ -290,7 +290,7 @@ class Pass final : public AnyPass {
 Message memory_text(const RecursiveOptions& options) {
     if (options.drift.size() > 0) return Message("with parameters that follow a random walk");
     if (options.forgetting == 1) return Message("without forgetting");
-    return Message("with most weight on the last {} samples", std::round(1 / (1 - options.forgetting)));
+    return Message("with most of the weight on the last {} samples", std::round(1 / (1 - options.forgetting)));
 }
 
 /// Which samples the history keeps.
@@ -387,11 +387,13 @@ void check_fixed_model(const RecursiveName& method, const TransferFunction& mode
     if (!model.continuous() || model.pole_count() != structure.poles.front() ||
         model.zero_count() > structure.channels.front().zeros)
         throw InvalidArgument(
-            "{}: model must be a continuous-time model with {} and no more than {}, as specified by the orders",
+            "{}: option 'model' must be a continuous-time model with {} and no more than {}, as specified by the "
+            "orders",
             method.name, plural(structure.poles.front(), "{} pole", "{} poles"),
             plural(structure.channels.front().zeros, "{} zero", "{} zeros"));
     if (!model.stable())
-        throw InvalidArgument("{}: model must be stable, because its simulated output is the instrument", method.name);
+        throw InvalidArgument(
+            "{}: option 'model' must be a stable model, because its simulated output is the instrument", method.name);
 }
 
 }  // namespace
@@ -399,20 +401,20 @@ void check_fixed_model(const RecursiveName& method, const TransferFunction& mode
 void RecursiveOptions::validate(const std::string& method, Index parameters) const {
     if (!(lambda > 0) || !std::isfinite(lambda))
         throw InvalidArgument(
-            "lambda, the cut-off frequency of the filter, must be a positive number of rad/s, but is {}. Choose a "
-            "value slightly above the bandwidth of the system",
+            "lambda, the cutoff frequency of the filter, must be a positive number of rad/s, but is {}. Choose a value "
+            "slightly above the bandwidth of the system",
             lambda);
     if (!(forgetting > 0 && forgetting <= 1))
         throw InvalidArgument(
-            "{}: forgetting must be greater than 0 and at most 1 (1: no forgetting; 0.99: about 100 samples), but is "
-            "{}",
+            "{}: the forgetting factor must be greater than 0 and at most 1 (1: no forgetting; 0.99: a memory of about "
+            "100 samples), but is {}",
             method, forgetting);
     if (drift.size() > 0 && drift.size() != parameters)
         throw InvalidArgument(
-            "{}: drift must have one variance for each of the {} parameters, or one for all, but has {}", method,
-            parameters, drift.size());
+            "{}: option 'drift' must have one variance for each of the {} parameters, or one for all, but has {}",
+            method, parameters, drift.size());
     if (!drift.allFinite() || (drift.array() < 0).any())
-        throw InvalidArgument("{}: the variances in drift must be nonnegative", method);
+        throw InvalidArgument("{}: the variances in option 'drift' must be nonnegative", method);
     if (noise_variance && !(*noise_variance > 0 && std::isfinite(*noise_variance)))
         throw InvalidArgument("{}: {} must be positive, but is {}", method, OptionName{"noise_variance"},
                               *noise_variance);

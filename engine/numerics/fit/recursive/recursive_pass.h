@@ -5,7 +5,7 @@ namespace dynlab::inline numerics {
 
 /// What the recursive methods ask.
 struct RecursiveOptions {
-    double lambda = 0;         ///< rad/s, cut-off frequency of the (first) filter; must be given
+    double lambda = 0;         ///< rad/s, cutoff frequency of the (first) filter; must be given
     Hold hold_y = Hold::kFoh;  ///< how the output behaves between its samples inside the filter
     double forgetting = 1;     ///< weight of a sample for each one that came later, in (0, 1]
     Vector drift;              ///< d variances of the parameters' random steps from sample to sample; none when empty

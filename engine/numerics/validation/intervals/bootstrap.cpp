@@ -148,9 +148,9 @@ Message summary_of(const BootstrapOptions& options, bool white) {
     const Message runs = plural(options.runs, "{} run", "{} runs");
     const Number percent = significant(100 * options.confidence, 4);
     if (options.kind == BootstrapKind::kResidual)
-        return Message("Residual bootstrap of {}, intervals of {} %.", runs, percent);
-    return white ? Message("Parametric bootstrap of {}, intervals of {} %.", runs, percent)
-                 : Message("Parametric bootstrap of {} with colored errors, intervals of {} %.", runs, percent);
+        return Message("Residual bootstrap with {}; {} % confidence intervals.", runs, percent);
+    return white ? Message("Parametric bootstrap with {}; {} % confidence intervals.", runs, percent)
+                 : Message("Parametric bootstrap with {} and colored noise; {} % confidence intervals.", runs, percent);
 }
 
 bool are_white(const RefittedOutput& model, const Vector& errors) {

@@ -204,7 +204,7 @@ Profile profile_likelihood(const RefittedOutput& model, const std::string& name,
     profile.canceled = search.canceled();
     warn_of_color(profile, model, base);
     std::vector<Message> all = profile.warnings;
-    all.insert(all.begin(), Message("Profile of {}: {}, {} % interval {}.", name, profile.estimate,
+    all.insert(all.begin(), Message("Profile of {}: estimate {}, {} % confidence interval {}.", name, profile.estimate,
                                     significant(100 * options.confidence, 4), interval_text(profile)));
     profile.message = sentences(std::move(all));
     return profile;

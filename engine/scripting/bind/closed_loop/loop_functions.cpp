@@ -35,7 +35,7 @@ constexpr OptionEntry kRoute = {"route",
                                 {.initial = "\"auxiliary\"", .choices = kRouteNames}};
 constexpr std::array kRouteOptions = {
     kRoute, option<&FitOptions::lambda>("lambda",
-                                        about("cut-off frequency of the filter of an initial estimate by clivsvf; by "
+                                        about("cutoff frequency of the filter of an initial estimate by clivsvf; by "
                                               "default, the two-stage route provides the initial estimate"),
                                         {.unit = "rad/s"})};
 constexpr std::array kLoopEquationFilter = {kHoldOfOutput<SvfOptions>}, kLoopOutputFilter = {kHoldOfOutput<FitOptions>};
@@ -57,11 +57,12 @@ constexpr ArgumentEntry kLoopData = {
 constexpr std::array kLoopEquationArguments = {
     kLoopData,
     ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("na poles, nb coefficients of B (at most na + 1), nk samples of delay")},
+                  about("na poles, nb coefficients of B (at most na + 1), and an input delay of nk samples")},
     kFilterFrequency};
 constexpr std::array kLoopOutputArguments = {
-    kLoopData, ArgumentEntry{"orders", ValueKind::kOrders,
-                             about("nb coefficients of B (at most nf + 1), nf poles, nk samples of delay")}};
+    kLoopData,
+    ArgumentEntry{"orders", ValueKind::kOrders,
+                  about("nb coefficients of B (at most nf + 1), nf poles, and an input delay of nk samples")}};
 
 int simulate_loop(Call& call) {
     call.at_most(5);
@@ -132,7 +133,7 @@ constexpr FunctionEntry kLoopFunctions[] = {
      marked("estimator", "Estimate a plant in closed loop, with the reference as instrument"),
      guarded<estimate_clivsvf>, kLoopEquation, kLoopEquationArguments},
     {"clsrivc", "continuous time", "clsrivc(data, {nb, nf, nk}, {options}) -> G",
-     marked("estimator", "Estimate a plant in closed loop by refined instrumental variables, with one of four methods"),
+     marked("estimator", "Estimate a plant in closed loop by refined instrumental variables"),
      guarded<memoized_call<estimate_clsrivc>>, kLoopOutput, kLoopOutputArguments},
 };
 

@@ -201,11 +201,12 @@ int approximate(Call& call) {
 }
 
 constexpr FunctionEntry kFrequencyFunctions[] = {
-    {"idfrd", "nonparametric", "idfrd(H, w, {options}) -> F", "Create data from a measured frequency response",
-     guarded<make_response>, kResponse, kResponseArguments},
+    {"idfrd", "nonparametric", "idfrd(H, w, {options}) -> F",
+     "Create a frequency-response data object from a measured response", guarded<make_response>, kResponse,
+     kResponseArguments},
     {"bla", "nonparametric", "bla(data, {options}) -> F, fig",
-     "Estimate the best linear approximation with levels of noise and distortion", guarded<memoized_call<approximate>>,
-     kBla, kBlaArguments},
+     "Estimate the best linear approximation and the levels of noise and nonlinear distortion",
+     guarded<memoized_call<approximate>>, kBla, kBlaArguments},
 };
 
 }  // namespace

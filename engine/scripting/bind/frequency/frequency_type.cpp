@@ -57,7 +57,7 @@ const char* inter_sample_text(const FrequencyData& data) {
 }
 
 Message response_text(const FrequencyData& data) {
-    if (data.w.size() == 0) return Message("idfrd: no frequency");
+    if (data.w.size() == 0) return Message("idfrd: no frequencies");
     MessageList properties;
     properties.items.push_back(plural(data.w.size(), "{} frequency from {} to {} rad/s",
                                       "{} frequencies from {} to {} rad/s", data.w[0], data.w[data.w.size() - 1]));

@@ -200,14 +200,15 @@ class Tracer {
 
 Message more_than_rates() {
     return Message(
-        "f must return only the derivatives, in one table: return {dx1, dx2}, but it returned several values. Specify "
-        "the outputs with the option outputs = function(t, x, u, p) return {y1} end");
+        "f must return only the derivatives, in one table, as in return {dx1, dx2}, but it returned several values. "
+        "Specify the outputs with the option outputs = function(t, x, u, p) return {y1} end");
 }
 Message more_than_outputs() {
-    return Message("h must return the outputs in one table: return {y1, y2}, but it returned several values");
+    return Message("h must return the outputs in one table, as in return {y1, y2}, but it returned several values");
 }
 Message more_than_start() {
-    return Message("x0 must return the initial states in one table: return {x1, x2}, but it returned several values");
+    return Message(
+        "x0 must return the initial states in one table, as in return {x1, x2}, but it returned several values");
 }
 Message more_than_matrices() {
     return Message("f must return only the matrices A, B, C, D");

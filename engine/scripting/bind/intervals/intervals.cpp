@@ -20,14 +20,16 @@ namespace {
 constexpr std::array kBootstrapKinds = {"residual", "parametric"};
 constexpr std::array kBootstrapOptions = {
     option<&BootstrapOptions::runs>("runs", about("number of repeated experiments"), {.least = 20, .member = "runs"}),
-    option<&BootstrapOptions::kind>(
-        "kind", about("new errors: residuals drawn with replacement (\"residual\"), or normal errors (\"parametric\")"),
-        {.initial = "\"residual\"", .choices = kBootstrapKinds}),
-    option<&BootstrapOptions::seed>("seed", about("seed of the new errors"), {.most = kMaxSeed}),
-    option<&BootstrapOptions::confidence>("confidence", about("probability of the intervals"),
+    option<&BootstrapOptions::kind>("kind",
+                                    about("noise of each run: residuals drawn with replacement (\"residual\"), or "
+                                          "normally distributed noise (\"parametric\")"),
+                                    {.initial = "\"residual\"", .choices = kBootstrapKinds}),
+    option<&BootstrapOptions::seed>("seed", about("seed of the noise"), {.most = kMaxSeed}),
+    option<&BootstrapOptions::confidence>("confidence", about("confidence level of the intervals"),
                                           {.member = "confidence"})};
 constexpr OptionEntry kProfileOptions[] = {
-    option<&ProfileOptions::confidence>("confidence", about("probability of the interval"), {.member = "confidence"}),
+    option<&ProfileOptions::confidence>("confidence", about("confidence level of the interval"),
+                                        {.member = "confidence"}),
     option<&ProfileOptions::points>("points", about("number of points of the grid"), {.least = 5, .member = "points"}),
     {"range",
      ValueKind::kVector,

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array kNarxLags = {
     OrderEntry{"na", [] { return Message("past outputs"); }},
     OrderEntry{"nb", [] { return Message("values of the input"); }},
-    OrderEntry{"nk", [] { return Message("samples of delay, 1 for no direct feedthrough"); }}};
+    OrderEntry{"nk", [] { return Message("samples of input delay, 1 for systems without direct feedthrough"); }}};
 
 constexpr std::array kNarxOptions = {
     option<&NarxOptions::degree>("degree", about("maximum number of factors in a product"), {.member = "degree"}),
@@ -59,14 +59,15 @@ constexpr OptionTable kNarx[] = {kNarxOptions}, kSindy[] = {kSindyOptions}, kDmd
 
 constexpr std::array kNarxArguments = {
     kOneOutputData, ArgumentEntry{"orders", ValueKind::kOrders,
-                                  about("na past outputs, nb values of the input, delay of nk samples. With several "
-                                        "inputs, nb and nk can be tables, such as {2, {1, 2}, {1, 3}}")}};
+                                  about("na past outputs, nb values of the input, and an input delay of nk samples. "
+                                        "With several inputs, nb and nk can be tables, such as {2, {1, 2}, {1, 3}}")}};
 constexpr std::array kSindyArguments = {
     ArgumentEntry{"data", ValueKind::kData,
                   about("data object with all states as outputs, 1 to 8; any number of inputs and experiments, "
                         "regularly or irregularly sampled")}};
-constexpr std::array kDmdcArguments = {ArgumentEntry{
-    "data", ValueKind::kData, about("data object, regularly sampled, any number of inputs, outputs and experiments")}};
+constexpr std::array kDmdcArguments = {
+    ArgumentEntry{"data", ValueKind::kData,
+                  about("regularly sampled data object with any number of inputs, outputs and experiments")}};
 
 NarxLags lags_argument(const Call& call, Index inputs) {
     const auto orders = order_lists(call, 2, kNarxLags);
@@ -106,7 +107,8 @@ int estimate_narx(Call& call) {
 FunctionLibrary library_option(const Call& call, const Options& options, const IdData& data) {
     const bool own = options.has("library");
     if (own && options.has("degree"))
-        throw InvalidArgument("options 'library' and 'degree' cannot be combined: degree is only for polynomials");
+        throw InvalidArgument(
+            "options 'library' and 'degree' cannot be combined: 'degree' applies only to polynomials");
     if (!own && options.has("names")) throw InvalidArgument("option 'names' requires a library");
     if (!own)
         return polynomial_library(data.output_names, data.input_names, static_cast<int>(options.size("degree", 2)));
@@ -155,7 +157,7 @@ constexpr FunctionEntry kLearningFunctions[] = {
      marked("estimator", "Estimate sparse differential equations from a library of functions"), guarded<estimate_sindy>,
      kSindy, kSindyArguments},
     {"dmdc", "learning from data", "dmdc(data, {options}) -> G",
-     marked("estimator", "Estimate a state-space model from snapshots, with few modes"),
+     marked("estimator", "Estimate a state-space model with few modes from snapshots"),
      guarded<memoized_call<estimate_dmdc>>, kDmdc, kDmdcArguments},
     {"narx", "learning from data", "narx(data, {na, nb, nk}, {options}) -> G",
      marked("estimator", "Estimate a polynomial difference equation and select its terms"), guarded<estimate_narx>,

@@ -12,7 +12,7 @@ struct ChannelNames {
 };
 
 Message more_than_a_list() {
-    return Message("the library must return one list: return {x[1], x[1]*x[2]}, but it returned several values");
+    return Message("the library must return one list, as in return {x[1], x[1]*x[2]}, but it returned several values");
 }
 
 /// A table of the columns as vectors, by place and by name.
@@ -75,7 +75,7 @@ FunctionLibrary lua_library(const Call& call, int index, const IdData& data, std
     const Index count = library.values(first.y, first.u).cols();
     if (!names.empty() && static_cast<Index>(names.size()) != count)
         throw InvalidArgument("option 'names' has {}, but the library returns {}",
-                              plural(names.size(), "{} text", "{} texts"),
+                              plural(names.size(), "{} string", "{} strings"),
                               plural(count, "{} function", "{} functions"));
     for (Index j = static_cast<Index>(names.size()); j < count; ++j) names.push_back(fmt::format("f{}", j + 1));
     library.names = std::move(names);

@@ -22,14 +22,14 @@ constexpr std::array kRecursiveEquationOrders = {kNa, kNb, kNk};
 constexpr std::array kRecursiveOutputOrders = {kNb, kNf, kNk};
 
 constexpr std::array kRecursiveOptions = {
-    option<&RecursiveOptions::forgetting>("forgetting",
-                                          about("factor by which the weight of a sample decreases with each later "
-                                                "sample, above 0 and up to 1; 1 keeps all weights")),
+    option<&RecursiveOptions::forgetting>(
+        "forgetting", about("forgetting factor, by which the weight of a sample decreases with each later sample; "
+                            "greater than 0 and at most 1; 1 for no forgetting")),
     OptionEntry{"drift", ValueKind::kVector,
                 about("variances of the random steps of the parameters from one sample to the next, one number for all "
                       "or one per parameter")},
     option<&RecursiveOptions::noise_variance>(
-        "NoiseVariance", about("variance of the noise, relative to drift; by default computed from the past errors"),
+        "NoiseVariance", about("variance of the noise, relative to `drift`; by default computed from the past errors"),
         {.member = "noise_variance"}),
     option<&RecursiveOptions::history_points>(
         "HistoryPoints", about("maximum number of equally spaced instants in the history, including the last sample"),
@@ -39,9 +39,9 @@ constexpr std::array kRecursiveOptions = {
     kHoldOfOutput<RecursiveOptions>};
 constexpr std::array kHistoryOptions = {
     OptionEntry{"truth", ValueKind::kTable,
-                about("true parameters by name, numbers or vectors equally spaced from the first sample to the last, "
-                      "{a1 = 4, b0 = linspace(2, 3, 100)}")},
-    OptionEntry{"confidence", ValueKind::kNumber, about("probability of the confidence bands"), {.initial = "0.95"}}};
+                about("true parameters by name: numbers, or vectors of values at equally spaced instants from the "
+                      "first sample to the last, such as {a1 = 4, b0 = linspace(2, 3, 100)}")},
+    OptionEntry{"confidence", ValueKind::kNumber, about("confidence level of the bands"), {.initial = "0.95"}}};
 constexpr OptionTable kRecursive[] = {kRecursiveOptions}, kHistory[] = {kHistoryOptions};
 
 constexpr ArgumentEntry kRecursiveData = {
@@ -49,13 +49,15 @@ constexpr ArgumentEntry kRecursiveData = {
     about("data object with one experiment, one input and one output, regularly or irregularly sampled")};
 constexpr std::array kRecursiveEquationArguments = {
     kRecursiveData,
-    ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("na poles (at most 8), nb coefficients of B (at most na + 1), nk samples of delay")},
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("na poles (at most 8), nb coefficients of B (at most na + 1), and an input delay of nk samples")},
     kFilterFrequency};
 constexpr std::array kRecursiveOutputArguments = {
     kRecursiveData,
-    ArgumentEntry{"orders", ValueKind::kOrders,
-                  about("nb coefficients of B (at most nf + 1), nf poles (at most 8), nk samples of delay")},
+    ArgumentEntry{
+        "orders", ValueKind::kOrders,
+        about("nb coefficients of B (at most nf + 1), nf poles (at most 8), and an input delay of nk samples")},
     kFilterFrequency};
 constexpr std::array kHistoryArguments = {
     ArgumentEntry{"G", ValueKind::kModel, about("model returned by rlssvf, rivsvf or rsrivc")}};
@@ -140,7 +142,8 @@ int plot_parameters(Call& call) {
         throw InvalidArgument("this model has no history: use rlssvf, rivsvf or rsrivc");
     const double level = options.number("confidence", 0.95);
     if (!(level > 0 && level < 1))
-        refuse_option("confidence", Message("a probability between 0 and 1"), Message("{}", significant(level, 10)));
+        refuse_option("confidence", Message("a confidence level between 0 and 1"),
+                      Message("{}", significant(level, 10)));
     return give_figure(call, history_plot(*model.estimate->history, model.estimate->names, truth_of(options), level));
 }
 
@@ -150,16 +153,16 @@ constexpr NamedReader kRecursiveReaders[] = {{"rlssvf", read_recursive<rlssvf, t
 
 constexpr FunctionEntry kRecursiveFunctions[] = {
     {"rlssvf", "continuous time", "rlssvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "Recursive lssvf for time-varying parameters"),
+     marked("estimator", "Estimate time-varying parameters with a recursive form of lssvf"),
      guarded<memoized_call<estimate_recursively<rlssvf, true>>>, kRecursive, kRecursiveEquationArguments},
     {"rivsvf", "continuous time", "rivsvf(data, {na, nb, nk}, lambda, {options}) -> G",
-     marked("estimator", "Recursive ivsvf for time-varying parameters"),
+     marked("estimator", "Estimate time-varying parameters with a recursive form of ivsvf"),
      guarded<memoized_call<estimate_recursively<rivsvf, true>>>, kRecursive, kRecursiveEquationArguments},
     {"rsrivc", "continuous time", "rsrivc(data, {nb, nf, nk}, lambda, {options}) -> G",
-     marked("estimator", "Recursive srivc for time-varying parameters"),
+     marked("estimator", "Estimate time-varying parameters with a recursive form of srivc"),
      guarded<memoized_call<estimate_recursively<rsrivc, false>>>, kRecursive, kRecursiveOutputArguments},
-    {"plot_history", "figures", "plot_history(G, {options}) -> fig", "Plot parameters over time with confidence bands",
-     guarded<plot_parameters>, kHistory, kHistoryArguments},
+    {"plot_history", "figures", "plot_history(G, {options}) -> fig",
+     "Plot parameters versus time with confidence bands", guarded<plot_parameters>, kHistory, kHistoryArguments},
 };
 
 }  // namespace

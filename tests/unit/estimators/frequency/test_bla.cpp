@@ -177,7 +177,7 @@ TEST(bla, refuses_what_it_cannot_use) {
     BlaOptions options;
     EXPECT_THAT(refusal(options), HasSubstr("the period must be"));
     options.period = 500;
-    EXPECT_THAT(refusal(options), HasSubstr("is not periodic with 500 samples"));
+    EXPECT_THAT(refusal(options), HasSubstr("is not periodic with a period of 500 samples"));
     options.period = 10000;
     EXPECT_THAT(refusal(options), HasSubstr("longer than a realization of 6144"));
     options = options_of(how);

@@ -51,7 +51,7 @@ TEST(rivsvf, refuses_a_model_that_does_not_suit) {  // oracle: the sentence name
     EXPECT_THAT(thrown_message([&] { rivsvf(data, TransferStructure::single(2, 0), options); }), HasSubstr("2 poles"));
     options.model = TransferFunction(values({1}), values({1, -1, 1}));
     EXPECT_THAT(thrown_message([&] { rivsvf(data, TransferStructure::single(2, 0), options); }),
-                HasSubstr("must be stable"));
+                HasSubstr("must be a stable model"));
 }
 
 }  // namespace test_rivsvf

@@ -96,7 +96,8 @@ TEST(rlssvf, refuses_what_it_cannot_use) {  // oracle: the sentence names method
     RecursiveOptions options = recursive(3);
     for (const double forgetting : {0.0, -0.5, 1.01, std::nan("")}) {
         options.forgetting = forgetting;
-        EXPECT_THAT(refused(data, structure, options), HasSubstr("rlssvf: forgetting must be greater than 0"));
+        EXPECT_THAT(refused(data, structure, options),
+                    HasSubstr("rlssvf: the forgetting factor must be greater than 0"));
     }
     options = recursive(3);
     options.drift = values({1, 2});
