@@ -338,8 +338,8 @@ TEST(gradebook_memory, the_better_or_the_newest_submission_counts) {
         EXPECT_THAT(book, HasSubstr(fmt::format("1,Anna Müller,{},graded,{},2,",
                                                 points[0] == '2' ? "Anna Müller" : "Zoë Ade", points)));
         EXPECT_THAT(work.read("out/summary.md"),
-                    HasSubstr(fmt::format("group-1 has several submissions; the {} one counts",
-                                          points[0] == '2' ? "better" : "newest")));
+                    HasSubstr(fmt::format("group-1 has several submissions; the {} submission counts",
+                                          points[0] == '2' ? "best" : "newest")));
     }
 }
 

@@ -115,7 +115,7 @@ TEST(manual_marks, of_the_whole_submission_replace_those_of_the_checks) {
     EXPECT_TRUE(whole.whole());
     EXPECT_FALSE(whole.without_marks());
     marked.write("group-02,*,11,\n");
-    EXPECT_THAT(marked.complaints(), HasSubstr("gets 11 points for the check \"*\", which has 10"));
+    EXPECT_THAT(marked.complaints(), HasSubstr("gets 11 points for the check \"*\", but the maximum is 10"));
 }
 
 // oracle: finding of a term: 28 marks that were typed in were wiped by the next run

@@ -189,7 +189,7 @@ TEST(peer_review, runs_a_whole_course) {
     EXPECT_THAT(
         reported.output,
         HasSubstr("12 groups: 11 submitted; 0 reviews outstanding; 8 final versions."));  // both late ones corrected
-    EXPECT_THAT(reported.output, HasSubstr("report of group-08 was not sent: page 1: The mail address"));
+    EXPECT_THAT(reported.output, HasSubstr("report of group-08 was not sent: page 1: The email address"));
     EXPECT_THAT(reported.output, HasSubstr("20 sent now, 0 before, 2 stopped, 0 outstanding"));
     EXPECT_THAT(reported.output, HasSubstr("2 sent now, 20 before, 0 stopped, 0 outstanding"));
     EXPECT_THAT(reported.output, HasSubstr("21 sent now, 0 before, 0 stopped, 0 outstanding, 1 withheld"));

@@ -103,7 +103,7 @@ TEST(reviews, that_contain_a_name_are_reported_at_receipt) {
                 AllOf(ContainsRegex("reviews: review of report-[0-9]+ v1, received Tue 2026-03-03 10:00"),
                       HasSubstr("nothing to fix; checked as peer_review: names of 3 people"),
                       HasSubstr("The name of Student 3 appears in the text"),
-                      HasSubstr("The group group-03 appears in the text")));
+                      HasSubstr("The group name group-03 appears in the text")));
     const ChildResult released = course.course({"review", "release", "--at", "2026-03-09 10:00"});
     EXPECT_THAT(released.output, HasSubstr("1 sent now"));
     EXPECT_THAT(released.error_output, HasSubstr("review of group-01 was not sent: page 1: The name of Student 3"));
