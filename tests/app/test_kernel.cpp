@@ -216,7 +216,7 @@ TEST_F(kernel, what_is_not_signed_or_no_message_is_not_answered) {
     client().send(ours.write(ours.made("execute_request", json{{"code", 7}, {"silent", "no"}}, {})));
     EXPECT_EQ(client().answer("history_request", {{"hist_access_type", 3}})["status"], "error");
     EXPECT_THAT(client().run("print(forged)").reply.dump(), HasSubstr("unknown function or variable"));
-    EXPECT_THAT(client().complaints(), HasSubstr("not signed with this kernel's key is not answered"));
+    EXPECT_THAT(client().complaints(), HasSubstr("not answered: a message is not signed with this kernel's key"));
 }
 
 /// A client's socket that sends frames as they are; nobody needs the key for that.
