@@ -111,7 +111,7 @@ TEST_F(answer_values, that_do_not_fit_together_are_refused_with_their_place) {
     EXPECT_THAT(changed(model, "/estimate/theta", {1.0}), HasSubstr("estimate: the numbers of parameters, names"));
     EXPECT_THAT(changed("ss(tf({2}, {1, 3}))", "/state_space/B/columns", 7), HasSubstr("state_space.B"));
     EXPECT_THAT(refusal(R"({"kind": "prize", "value": 1})"), HasSubstr("unknown kind"));
-    EXPECT_THAT(refusal(R"({"kind": "number"})"), HasSubstr("its member \"value\" is missing"));
+    EXPECT_THAT(refusal(R"({"kind": "number"})"), HasSubstr("the member \"value\" is missing"));
     EXPECT_THAT(refusal("{\"kind\""), HasSubstr("damaged"));
     std::string deep = R"({"kind": "number", "value": 1})";
     for (int i = 0; i < 9; ++i) deep = R"({"kind": "table", "fields": {}, "items": [)" + deep + "]}";

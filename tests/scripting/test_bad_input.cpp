@@ -308,7 +308,7 @@ TEST(bad_input, static_methods_refuse_what_has_no_answer) {
         {"lsq(matrix{{1, 2}}, {1})", "cannot determine 2 parameters"},
         {"gradient_descent(matrix{zeros(3)}, {1, 2, 3})", "gradient_descent: all regressors are zero"},
         {"gradient_descent(matrix{u}, y*(0/0))", "only finite numbers"},
-        {"polyfit_report({1, 1, 1}, {1, 2, 3}, 1)", "at least 2 different x"},
+        {"polyfit_report({1, 1, 1}, {1, 2, 3}, 1)", "at least 2 distinct values of x"},
     };
     for (const auto& [code, sentence] : kCases)
         EXPECT_THAT(said("print(" + code + ")"), AllOf(StartsWith("ERROR"), HasSubstr(sentence))) << code;

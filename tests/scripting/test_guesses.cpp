@@ -31,7 +31,7 @@ TEST(guesses, that_are_missing_are_reported_and_stop_nothing) {
 }
 
 TEST(guesses, are_made_once_and_before) {
-    EXPECT_THAT(error_of("guess('a', 1)\nguess('a', 2)"), HasSubstr("the prediction \"a\" was made before"));
+    EXPECT_THAT(error_of("guess('a', 1)\nguess('a', 2)"), HasSubstr("the prediction \"a\" already exists"));
     EXPECT_THAT(error_of("outcome('a', 1)"), HasSubstr("no prediction is named \"a\""));
     EXPECT_THAT(error_of("guess('a', 'much')"), HasSubstr("your prediction"));
 }

@@ -57,7 +57,7 @@ TEST(printed_values, blocks_of_lines_do_not_run_together) {
 
 TEST(printed_values, advice_is_not_followed_by_its_table) {
     const std::string text = printed("local d = load('crane').steps print(advice(iddata(d.x, d.u, 0.02)))");
-    EXPECT_THAT(text, ContainsRegex("\n\\([0-9]+ findings?: a\\[1\\].message"));
+    EXPECT_THAT(text, ContainsRegex("\n\\([0-9]+ issues?: a\\[1\\].message"));
     EXPECT_THAT(text, Not(HasSubstr("message =")));
 }
 
@@ -72,7 +72,8 @@ TEST(printed_values, a_missing_sampling_time_is_reported_once) {
 TEST(printed_values, another_unit_of_time_is_reported_once) {
     const std::string said =
         printed("local v = vector{1, 2, 3} iddata(v, v, 1, {TimeUnit = 'min'}) iddata(v, v, 1, {TimeUnit = 'min'})");
-    EXPECT_THAT(said, ContainsRegex("^iddata: these data, and models .* have the time unit min: .* read min\n$"));
+    EXPECT_THAT(said,
+                ContainsRegex("^iddata: these data, and models .* have the time unit min\\. .* the unit is min\n$"));
     EXPECT_EQ(printed("local v = vector{1, 2, 3} iddata(v, v, 1, {TimeUnit = 's'})"), "");
 }
 

@@ -220,7 +220,7 @@ TEST(script_errors, say_what_habits_of_other_languages_lead_to) {
          "{line_width = 2, color = \"red\", style = \"points\"})"},
         {"plot({1, 2}, {color = 'pinkish'})",
          "lesson.lua:1: plot: option 'color' must be a nonnegative number, or one of \"blue\", \"orange\", \"black\", "
-         "\"green\", \"purple\", \"cyan\", \"red\", \"magenta\", \"grey\", \"gray\", but \"pinkish\" was given"},
+         "\"green\", \"purple\", \"cyan\", \"red\", \"magenta\", \"gray\", \"grey\", but \"pinkish\" was given"},
         {"io.open('x')",
          "lesson.lua:1: unknown function 'io'; read data with load(name), write data with save_csv(path, data), and "
          "print values with print(x)"},

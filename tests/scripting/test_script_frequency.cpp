@@ -87,7 +87,7 @@ TEST(script_frequency, drawings_take_responses_and_models_in_any_order) {
         said("local V = idfrd(F.H, w, {variance = 0.01})\n"
              "bode(V, G0) bode(G0, V, {labels = {'model', 'measured'}}) bode(F) bode(F, V, w, {confidence = false})\n"),
         "");
-    EXPECT_THAT(said("bode(F, G0, {labels = 'one'})"), HasSubstr("option 'labels' has 1 text for 2 models"));
+    EXPECT_THAT(said("bode(F, G0, {labels = 'one'})"), HasSubstr("option 'labels' has 1 string for 2 models"));
 }
 
 TEST(script_frequency, approximations_come_with_their_levels) {
@@ -102,7 +102,7 @@ TEST(script_frequency, approximations_come_with_their_levels) {
              "assert(#B.w == 30 and B.noise_variance and B.distortion and B.noise_power < 0.01*B.output_power)\n"
              "assert(sum(B.even.distortion) > 0.9*B.distortion_power and figure)\n"
              "near(coe(B, {1, 2, 0}).param[2], 4, 0.02)\n"),
-        StartsWith("Best linear approximation at 30 frequencies from 6 realizations of 3 periods. The noise is"));
+        StartsWith("Best linear approximation at 30 frequencies from 6 realizations of 3 periods. The noise level is"));
 }
 
 TEST(script_frequency, multisines_follow_the_stream_or_a_seed) {

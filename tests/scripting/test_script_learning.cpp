@@ -101,7 +101,8 @@ TEST(script_learning, bad_input_is_refused_in_words) {
            "function 2 of the library returned 2 values for 400 samples");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1], 'a'} end})",
            "must return a vector or a number");
-    expect(kSindyRecord + "sindy(data, {library = function(x) return {1/(x[1] - x[1][1])} end})", "is Inf at sample 1");
+    expect(kSindyRecord + "sindy(data, {library = function(x) return {1/(x[1] - x[1][1])} end})",
+           "returned Inf at sample 1");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, names = {'a', 'b'}})",
            "'names' has 2 strings, but the library returns 1 function");
     expect(kSindyRecord + "sindy(data, {library = function(x) return {x[1]} end, degree = 2})", "cannot be combined");

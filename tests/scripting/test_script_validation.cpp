@@ -37,12 +37,12 @@ TEST(script_validation, reports_and_resid_name_the_structure_that_is_missed) {
     EXPECT_THAT(printed(kRecord + "local raised = iddata(x + u + 0.1*randn(#u) + 5, u, 0.05)\n"
                                   "local G = srivc(raised, {1, 2, 0})\nprint(G.report.warnings[#G.report.warnings])\n"
                                   "local fig, t = resid(raised, G)\nprint(t.verdict)"),
-                testing::AllOf(HasSubstr("With as many zeros as poles the fit is"),
+                testing::AllOf(HasSubstr("With as many zeros as poles, the fit is"),
                                Not(HasSubstr("The model does not describe all dynamics"))));
     EXPECT_THAT(printed(kRecord + "print(#srivc(white, {1, 2, 0}).report.warnings)"), HasSubstr("0\n"));
     EXPECT_THAT(printed(kRecord + "local G = rivc(iddata(x + u + 0.1*randn(#u) + 5, u, 0.05), {1, 0, 1, 2, 0})\n"
                                   "print(G.report.warnings[#G.report.warnings])"),
-                HasSubstr("With as many zeros as poles the fit is"));
+                HasSubstr("With as many zeros as poles, the fit is"));
 }
 
 TEST(script_validation, resid_can_be_quiet_in_a_loop) {

@@ -99,8 +99,9 @@ PolynomialFit fit_polynomial(const VectorView& x, const VectorView& y, int degre
     if (!x.allFinite()) throw InvalidArgument("x contains a value that is not finite");
     const Index distinct = distinct_values(x);
     if (distinct <= degree)
-        throw InvalidArgument("A polynomial of degree {} needs at least {} distinct values of x, but {} were given",
-                              degree, degree + 1, distinct);
+        throw InvalidArgument(
+            "A polynomial of degree {} needs at least {} distinct values of x, but the number of distinct values is {}",
+            degree, degree + 1, distinct);
     PolynomialFit fit;
     fit.degree = degree;
     fit.center = options.centered ? x.mean() : 0;

@@ -60,7 +60,7 @@ constexpr OptionTable kPlotTables[] = {kPanelOptions, kCurveLists, kFigureSizeOp
 constexpr std::array kCurvesArguments = {
     ArgumentEntry{"x, y, \"name\", ...", ValueKind::kVector,
                   about("curves and their names in the legend. You can omit the names and x; without x, the values are "
-                        "plotted versus 1, 2, 3, ...")}};
+                        "plotted versus their index")}};
 constexpr std::array kFigureNumberArguments = {
     ArgumentEntry{"n", ValueKind::kCount, about("number of the next figure, instead of a description")}};
 constexpr std::array kSubplotArguments = {

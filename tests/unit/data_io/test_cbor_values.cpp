@@ -182,7 +182,7 @@ TEST(cbor_values, errors_report_the_place_what_was_wanted_and_given) {
     EXPECT_EQ(refusal<std::vector<Part>>(with_parts(members([](CborWriter& w) { w.member("name"), w.number(1); }))),
               "[2].name: expected a string, got a number");
     EXPECT_EQ(refusal<std::vector<Part>>(with_parts(members([](CborWriter& w) { w.member("nome"), w.text("b"); }))),
-              "[2]: its member \"name\" is missing");
+              "[2]: the member \"name\" is missing");
     EXPECT_EQ(refusal<std::vector<Part>>(with_parts(
                   members([](CborWriter& w) { w.member("name"), w.text("b"), w.member("count"), w.whole(40000); }))),
               "[2].count: expected a whole number from -32768 to 32767, got 40000");

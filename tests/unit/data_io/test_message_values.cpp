@@ -94,7 +94,7 @@ TEST(message_values, what_is_no_message_is_refused_with_its_place) {
                                     std::string(digits) + "}}]}"),
                     HasSubstr("at most 17 digits"))
             << digits;
-    EXPECT_THAT(refusal_of_json(R"({"many": "b"})"), HasSubstr("its member \"id\" is missing"));
+    EXPECT_THAT(refusal_of_json(R"({"many": "b"})"), HasSubstr("the member \"id\" is missing"));
     EXPECT_NE(refusal_of_json(R"(["a"])"), "");
 }
 

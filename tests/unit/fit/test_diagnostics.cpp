@@ -53,7 +53,7 @@ TEST(diagnostics, feedthrough_is_missed_by_srivc_and_coe) {
         EXPECT_EQ(found.missed->option, "zeros");
         EXPECT_EQ(found.missed->value, 2);
         ASSERT_EQ(found.warnings().size(), 1U);
-        EXPECT_THAT(message_text(found.warnings()[0]), HasSubstr("With as many zeros as poles the fit is 9"));
+        EXPECT_THAT(message_text(found.warnings()[0]), HasSubstr("With as many zeros as poles, the fit is 9"));
         const Fit better = method(data, TransferStructure::single(2, 2), {}, {});
         EXPECT_NEAR(found.missed->better_fit_percent, better.fit_percent[0], 1e-3);
         EXPECT_FALSE(diagnose(better, data, {}).missed);

@@ -53,7 +53,7 @@ TEST(crane_control, refuses_a_start_off_the_rail_and_a_voltage_that_is_none) {
     EXPECT_EQ(thrown_message([&] { control_crane({.rail = 0.5}, {}, {.position = 0.6}, off, 1); }),
               "The initial position of the crane must be on the rail, between -0.5 m and 0.5 m");
     EXPECT_THROW(control_crane({}, {}, {.duration = 0}, off, 1), InvalidArgument);
-    EXPECT_NE(thrown_message([&] { control_crane({}, {}, {}, broken, 1); }).find("at 0.52 s"), std::string::npos);
+    EXPECT_NE(thrown_message([&] { control_crane({}, {}, {}, broken, 1); }).find("at t = 0.52 s"), std::string::npos);
 }
 
 }  // namespace test_crane_control

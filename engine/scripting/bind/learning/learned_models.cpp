@@ -31,7 +31,7 @@ constexpr std::array kSindyOptions = {
         about(
             "function(x, u) that returns a list of vectors, the candidates, instead of products of states and inputs")},
     OptionEntry{"names", ValueKind::kAny,
-                about("names of the library functions in the equations; by default, f1, f2, ...")},
+                about("names of the library functions in the equations; by default f1, f2 and so on")},
     OptionEntry{"degree",
                 ValueKind::kCount,
                 about("maximum number of factors in a product of states and inputs; only without a library"),

@@ -207,7 +207,7 @@ TEST(frequency_lssvf, refuses_free_delays_and_cutoffs_below_zero) {
     const FrequencyData data = noise_free(G, logarithmic(0.2, 20, 60));
     TransferStructure structure = TransferStructure::single(2, 0);
     SvfOptions options;
-    EXPECT_THAT(thrown_message([&] { frequency_lssvf(data, structure, options); }), HasSubstr("cut-off"));
+    EXPECT_THAT(thrown_message([&] { frequency_lssvf(data, structure, options); }), HasSubstr("cutoff"));
     options.lambda = 3;
     structure.free_delays = true;
     EXPECT_THAT(thrown_message([&] { frequency_lssvf(data, structure, options); }),
