@@ -107,7 +107,7 @@ TEST(check_command, a_picture_that_was_pasted_into_a_notebook_is_reported_with_t
  "execution_count": null, "source": ["print(1)"]}], "metadata": {}, "nbformat": 4, "nbformat_minor": 5
 })json");
     const std::string reported = bench.dynlab({"check", "pasted.ipynb"}).output;
-    EXPECT_THAT(reported, AllOf(HasSubstr("was pasted into the notebook"), HasSubstr("Save the picture as a"),
+    EXPECT_THAT(reported, AllOf(HasSubstr("was pasted into the notebook"), HasSubstr("picture as a file"),
                                 Not(HasSubstr("/box/"))));
 }
 
