@@ -686,8 +686,8 @@ report.value("heat3_high", fit(f_records[3], G3), "%.0f")
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- A filter on both signals does not change the relation between them: if $y = Gu$, then $Ly = G\,Lu$. If you filter only the output, the filter
--- becomes a part of the model.
+-- A filter on both signals does not change the relation between them: if $y = Gu$, then $Ly = G\,Lu$. If you filter only the output, the model
+-- also describes the filter.
 --
 -- ::: {.table name=heat_edges #tbl:heat_edges}
 -- Estimates for four cutoff frequencies of the filter (± one standard error, robust if the residuals are not white). The last column is the $p$-value
