@@ -196,7 +196,7 @@ local function correlation(v, u)
     end
     return vector(values)
 end
--- Part of v that its past values do not predict, and the voltage at the same instants.
+-- Part of v that its past values do not predict, and the voltage then.
 local past = 20
 local function news(v, u)
     local columns = {}

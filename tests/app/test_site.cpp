@@ -184,6 +184,7 @@ void check_search(Reader& reader) {
 
 void check_pages_in_browser(Reader& reader) {
     // Figures are alive, from files and under the page's own policy.
+    reader.browser().evaluate("document.querySelector('script.plot-data').previousElementSibling.scrollIntoView()");
     EXPECT_TRUE(reader.browser().becomes_true("document.querySelectorAll('.plot canvas').length > 0"));
     EXPECT_EQ(reader.value("document.querySelectorAll('nav.site .theme').length"), 1);
     reader.browser().click("nav.site .theme");
