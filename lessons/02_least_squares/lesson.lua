@@ -447,7 +447,7 @@ report.table("law", law)
 
 -- %% [markdown]
 -- BEGIN SOLUTION
--- *Four samples:* over `few_runs`{.value} repetitions, the discrete-time estimates of $a_1$ have a mean of
+-- *Four samples:* We repeated the experiment `few_runs`{.value} times. The discrete-time estimates of $a_1$ have a mean of
 -- `few_dt`{.value}\ ±\ `few_dt_error`{.value} (± the standard error of the mean) and a scatter of `few_dt_std`{.value}. The true value is
 -- `mc_truth`{.value}. For $a$ of the continuous-time model, the mean is `few_ct`{.value}\ ±\ `few_ct_error`{.value} and the scatter is
 -- `few_ct_std`{.value}. The bias is small (for $a_1$, `few_dt_share`{.value} % of the scatter). The errors in @tbl:noisy are therefore random errors

@@ -20,7 +20,7 @@ local second = iddata(x + 0.1*randn(#u), u, Ts)
 idplot(data)
 
 -- %% [markdown]
--- srivcstruc estimates and assesses every structure. The fit to the second data set
+-- `srivcstruc` estimates and assesses every structure. The fit to the second data set
 -- (val.) increases, then remains constant. The last column lists undetermined
 -- parameters, whose standard error is larger than their absolute value. The star
 -- marks the structure that selcstruc recommends, with the reason.

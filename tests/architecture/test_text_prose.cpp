@@ -97,17 +97,17 @@ TEST(text_prose, has_american_spelling) {
 
 TEST(text_prose, is_measured_by_rules_that_find_what_they_look_for) {
     const std::string page =
-        "# Heading told\n\nA sentence with `code told` and $x$ told. Another:\n\n| one color | two |\n\n"
+        "# Heading told\n\nA sentence with `code told` and $x$ told. Another:\n\n| one colour | two |\n\n"
         "```\ntold\n```\n\n* An item,\n  continued. See @fig:a and [a link](https://told).\n";
     const auto sentences = sentences_of(page);
     ASSERT_EQ(sentences.size(), 6u);
     EXPECT_EQ(sentences[0], (std::vector<std::string>{"a", "sentence", "with", "x", "and", "x", "told"}));
-    EXPECT_EQ(sentences[2], (std::vector<std::string>{"one", "color"}));
+    EXPECT_EQ(sentences[2], (std::vector<std::string>{"one", "colour"}));
     EXPECT_EQ(sentences[4], (std::vector<std::string>{"an", "item", "continued"}));
     EXPECT_EQ(sentences[5], (std::vector<std::string>{"see", "x", "and", "a", "link"}));
     EXPECT_EQ(refused_in(sentences), std::vector<std::string>{"told"});
     if (!can_spell()) GTEST_SKIP() << "hunspell with hunspell-en-us is not installed";
-    EXPECT_EQ(misspelled_in({{"page", page}}), std::set<std::string>{"page: color"});
+    EXPECT_EQ(misspelled_in({{"page", page}}), std::set<std::string>{"page: colour"});
 }
 
 }  // namespace test_text_prose

@@ -137,7 +137,7 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
     bench.bench().write("gruop-02.pdf", small_pdf("x"));
     refused({"submit", "gruop-02.pdf"},
             "no group or student of the course is named \"gruop-02\" (the closest is group-02)");
-    refused({"submit", "gruop-02.pdf", "--from", "group-9"}, "there is no group \"group-9\"");
+    refused({"submit", "gruop-02.pdf", "--from", "group-9"}, "the group \"group-9\" does not exist");
     refused({"submit", "gruop-02.pdf", "--assignment", "crame"}, "did you mean crane?");
     refused({"assignment", "b", "--first", "2026-03-09 12:00", "--review", "2026-03-08 12:00", "--final",
              "2026-03-15 12:00"},
@@ -149,7 +149,7 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
     refused({"assignment", "crane", "--first", "2026-02-01 12:00", "--review", "2026-03-08 12:00", "--final",
              "2026-03-15 12:00"},
             "you can only postpone deadlines and increase");
-    refused({"drop", "group-77"}, "there is no group");
+    refused({"drop", "group-77"}, "does not exist");
     for (const char* group : {"../../up", "a/b", "..", "in\ntwo", ".hidden", "\u202Eback", "CON", "com1.txt", "trail.",
                               "moodle.zip", "Mail.csv", "lab\uFEFF", "\u3164"}) {
         bench.bench().write("odd.csv", fmt::format("id,name,group\ns77,Zoe,\"{}\"\n", group));

@@ -61,8 +61,8 @@ TEST(group_names, every_unique_identifier_means_its_group) {
 TEST(group_names, ambiguous_and_unknown_names_are_refused) {
     const ClassOfNames names;
     EXPECT_THAT(names.meant("Wei Li"), HasSubstr("matches several groups"));
-    EXPECT_THAT(names.meant("Group 80"), HasSubstr("there is no group \"Group 80\""));
-    EXPECT_THAT(names.meant(""), HasSubstr("there is no group"));
+    EXPECT_THAT(names.meant("Group 80"), HasSubstr("the group \"Group 80\" does not exist"));
+    EXPECT_THAT(names.meant(""), HasSubstr("does not exist"));
     EXPECT_THAT(names.meant("gruop-09"), HasSubstr("did you mean group-09?"));
     Course course = names.open();
     EXPECT_EQ(student_named(course, "Paul Petit").id, "224");

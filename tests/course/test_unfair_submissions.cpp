@@ -230,7 +230,7 @@ TEST(unfair_submissions, the_instructor_gets_messages_about_slips_and_scripts_wi
         bench.grade({"--roster", "roster.csv", "--deadlines", "deadlines.csv", "--timeout", "2", "--accept-late"});
     EXPECT_EQ(graded.exit_code, 1);
     for (const char* words : {"no submission, group or student is named \"g9\"", "unknown check \"nosuch\"",
-                              "the row of \"g8\": there is no group \"g8\""})
+                              "the row of \"g8\": the group \"g8\" does not exist"})
         EXPECT_THAT(graded.error_output, HasSubstr(words));
     const std::string summary = work.read("out/summary.md");
     EXPECT_THAT(summary, HasSubstr("stopped: "));

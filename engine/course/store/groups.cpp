@@ -207,9 +207,10 @@ Group group_named(Course& course, const std::string& name) {
     if (const auto group = std::ranges::find(groups, found.group, &Group::name); group != groups.end()) return *group;
     if (found.doubtful) throw InvalidArgument("\"{}\" matches several groups: {}", name, found.error_reason);
     const auto near = nearest_word(name, owners.names());
-    if (near) throw InvalidArgument("there is no group \"{}\"; did you mean {}?", name, *near);
-    throw names.empty() ? InvalidArgument("there is no group \"{}\": no group has submitted anything yet", name)
-                        : InvalidArgument("there is no group \"{}\"; the first group is \"{}\"", name, names.front());
+    if (near) throw InvalidArgument("the group \"{}\" does not exist; did you mean {}?", name, *near);
+    throw names.empty()
+        ? InvalidArgument("the group \"{}\" does not exist: no group has submitted anything yet", name)
+        : InvalidArgument("the group \"{}\" does not exist; the first group is \"{}\"", name, names.front());
 }
 
 Student student_named(Course& course, const std::string& name) {

@@ -38,7 +38,7 @@ struct DelaySearch {
 /// for other data, empty ranges, largest_delay not above least_delay, and when no structure could be estimated.
 DelaySearch search_delay(const IdData& data, const DelaySearchOptions& options = {});
 
-/// The warning about an input that was logged late (fit/missed_structure.h).
+/// The warning about an input that was logged late (fit/structure_advice.h).
 Message late_input_sentence(const IdData& data);
 
 }  // namespace dynlab::inline numerics

@@ -9,7 +9,7 @@ namespace dynlab::inline numerics {
 /// What an estimation doubts of its model, for verdicts on it.
 struct ModelDoubts {
     std::vector<std::string> undetermined = {};  ///< parameters whose standard errors are larger than they
-    Message remedy = {};                         ///< a sentence: what the estimation missed (fit/missed_structure.h)
+    Message remedy = {};                         ///< a sentence: what the estimation missed (fit/structure_advice.h)
     std::string output = {};                     ///< name of the output of the remedy; empty for the only one
 
     /// Those about output i (0-based) of this name: its parameters are those that all outputs share, and its own

@@ -59,7 +59,7 @@ void find_feedback(const FittedRecord& fit, DataIssues& findings);
 bool find_runaway(const FittedRecord& fit, DataIssues& findings);
 
 /// "late_input": the whitened error goes with the input of the same and later samples, or the delay ends at zero, and
-/// the input one sample earlier explains the record better (fit/missed_structure.h).
+/// the input one sample earlier explains the record better (fit/structure_advice.h).
 bool find_late_input(const FittedRecord& fit, DataIssues& findings);
 
 /// "causality": the model from output to input leaves less than two thirds of what the one from input to output
