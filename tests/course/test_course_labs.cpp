@@ -324,7 +324,7 @@ TEST(course_labs, unreadable_slides_beside_a_script_are_asked_for_again) {
     bench.bench().write("in/group-01/slides.pptx", "PK\x03\x04 slides");
     bench.bench().write("in/group-01/script.lua", "print(1)\n");
     const ChildResult taken = bench.course({"submit", "in", "--assignment", "talk", "--at", "2026-06-01 10:00"});
-    EXPECT_THAT(taken.output, HasSubstr("ask for a readable file"));
+    EXPECT_THAT(taken.output, HasSubstr("ask the group for a readable file"));
     EXPECT_THAT(bench.course({"status", "talk"}).output, HasSubstr("ask for a readable file"));
 }
 
