@@ -29,7 +29,7 @@ TEST(unusual_submissions, what_a_word_processor_wrote_is_kept_and_flagged) {
                 AllOf(ContainsRegex("group-01 +report +v1 +in time +not-pdf: ask the group for a readable file"),
                       HasSubstr("1 file accepted")));
     EXPECT_THAT(reported(bench.course({"status", "crane", "--at", "2026-03-01 11:00"})),
-                ContainsRegex("group-01 .*ask the group for a readable .*\\(not-pdf\\)"));
+                ContainsRegex("group-01 .*ask for a readable .*\\(not-pdf\\)"));
     EXPECT_EQ(shell(bench, "cat k/files/*/* k/files/* 2>/dev/null | grep -ac 'what Word writes'"), "1\n");
     // Beside the PDF that was made of it the text needs no remark.
     bench.bench().write("in/group-02.ODT", "text");
