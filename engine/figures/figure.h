@@ -25,10 +25,10 @@ struct Curve {
     Vector y_upper;  ///< kBand only: the band lies between y and y_upper
     CurveStyle style = CurveStyle::kLine;
     Message label;              ///< legend entry; none when empty
-    std::optional<int> color;   ///< index into the house palette, 0-based; the curve's own index unless given
-    std::optional<int> dash;    ///< 0 solid, 1 dashed, 2 dotted, 3 dash-dot; chosen with the color unless given
+    std::optional<int> color;   ///< index into the house palette, 0-based; default: the curve's own index
+    std::optional<int> dash;    ///< 0 solid, 1 dashed, 2 dotted, 3 dash-dot; default: chosen with the color
     double line_width = 0.9;    ///< points
-    std::optional<int> marker;  ///< point shape, 0-based; chosen with the color unless given
+    std::optional<int> marker;  ///< point shape, 0-based; default: chosen with the color
 };
 
 /// A straight reference: a level (horizontal) or an instant (vertical), over the whole panel.
@@ -70,7 +70,8 @@ struct Panel {
     Message title, x_label, y_label;
     bool log_x = false, log_y = false;
     std::optional<std::pair<double, double>> x_range, y_range;
-    std::optional<double> x_tick_step;  ///< distance of the numbers on x, e.g. 1 for orders; chosen unless given
+    std::optional<double>
+        x_tick_step;  ///< distance of the numbers on x, e.g. 1 for orders; default: chosen automatically
     std::optional<double> y_tick_step;  ///< the same on y, e.g. 45 for degrees
     bool equal_axes = false;            ///< one unit the same length on both axes (pole-zero maps, Nyquist)
     LegendPlace legend = LegendPlace::kAutomatic;

@@ -206,7 +206,7 @@ std::optional<std::string> Cache::load_entry(const std::string& name) const {
         const std::string_view bytes = std::string_view(content).substr(std::min(kDigestDigits, content.size()));
         if (content.substr(0, kDigestDigits) == digest_of(bytes).hex()) return std::string(bytes);
         erase_entry(name);
-    } catch (const std::exception&) {  // deleted meanwhile, or not to be read: then it is made anew
+    } catch (const std::exception&) {  // deleted meanwhile, or not to be read: then it is created again
     }
     return {};
 }

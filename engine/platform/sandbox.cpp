@@ -22,7 +22,7 @@ void append(Words& words, std::initializer_list<std::string> more) {
 
 /// run_child begins a session for it; all of the box stays in the group that it leads, and ends with it.
 /// A file system of its own that holds /usr and nothing else of the machine. Whoever calls as root has no more rights
-/// in it than others: with root's, what is mounted to be read could be mounted anew to be written.
+/// in it than others: with root's, what is mounted to be read could be mounted again to be written.
 Words bare_box() {
     Words words = {kBubblewrap,  "--unshare-all", "--die-with-parent",
                    "--clearenv", "--cap-drop",    "ALL",

@@ -245,8 +245,8 @@ ReportResult make_report(const ReportRequest& request) {
     const DocumentFormat format = document_format(request.output);
     const Cache cache;
     const ReportCache reports(request, cache);
-    const bool anew = request.print || !request.record.empty();
-    result.up_to_date = !anew && reports.unchanged();
+    const bool from_start = request.print || !request.record.empty();
+    result.up_to_date = !from_start && reports.unchanged();
     watch.note("look for changes");
     if (result.up_to_date) return result;
 
@@ -256,7 +256,7 @@ ReportResult make_report(const ReportRequest& request) {
     GnuplotRenderer renderer(&cache);
     std::optional<CachedLatexFormat> latex_format;  // made by TeX while the script runs
     std::optional<RunRecord> known;
-    if (!anew) known = runs.load_entry();
+    if (!from_start) known = runs.load_entry();
     const bool from_cache = known.has_value();
     RunRecord record;
     if (from_cache) {

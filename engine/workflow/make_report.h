@@ -26,15 +26,15 @@ struct ReportRequest {
     MarkdownText last_section = {};  ///< follows the cells
     std::filesystem::path output;    ///< .pdf, .html or .md
     std::filesystem::path record;  ///< where what the run gave is written, too, as JSON (documents/run_record.h); such
-                                   ///< a report is always made anew
+                                   ///< a report is always created again
     std::uint32_t seed = 1;
     std::map<std::string, double> slider_values;  ///< instead of what the script gives its sliders
     bool of_lesson = false;                    ///< the user cannot change the text: unplaced entries are not reported
     bool stay_in_folder = false;               ///< the script reads files of its folder and the installed data only
     std::function<void(const Message&)> step;  ///< called with each step as it begins; may be empty
     std::function<void(const Message&)> enter_cell;  ///< called with each cell of the script as it begins
-    std::function<void(const std::string&)> print;  ///< sees what the script prints; such a report is always made anew,
-                                                    ///< and not at all where the script fails
+    std::function<void(const std::string&)> print;   ///< sees what the script prints; such a report is always created
+                                                    ///< again, and not at all where the script fails
 };
 
 /// The document of a request whose script gave `record`, which must outlive it.
@@ -57,9 +57,9 @@ struct ReportResult {
 /// The report of a lesson (`name`, any unique beginning: its worked solution), of a student's folder (analysis.lua
 /// and report.md; the group's seed from group.toml) or of a script. A lesson is woven, or fills the report.LANGUAGE.md
 /// beside it. Without `output` a lesson's goes to the current folder (02_least_squares.pdf), a folder's into it
-/// (report.pdf), a script's beside it (FILE.pdf). `language` is the script's unless given; a folder's stands in its
-/// report.md. Throws EnvironmentError for a folder without these files, a lesson without a report in the language asked
-/// for, a language asked of a folder or script.
+/// (report.pdf), a script's beside it (FILE.pdf). The default of `language` is the language of the script; a folder's
+/// stands in its report.md. Throws EnvironmentError for a folder without these files, a lesson without a report in the
+/// language asked for, a language asked of a folder or script.
 ReportRequest report_of(const std::string& subject, const std::filesystem::path& output = {},
                         const std::string& language = {});
 /// The task sheet of a lesson: its text, data and code without the solutions, as students get it, with the places for
@@ -68,7 +68,7 @@ ReportRequest report_of(const std::string& subject, const std::filesystem::path&
 ReportRequest sheet_of(const std::string& lesson, const std::filesystem::path& output = {},
                        const std::string& language = {});
 /// The questions that a talk on the lesson may meet (its talk.md: a heading `# Question?` each, then the answer), with
-/// the model answers for whoever asks; 05_thruster_talk.pdf unless given. Slots in the answers are filled from a run of
+/// the model answers for whoever asks; default: 05_thruster_talk.pdf. Slots in the answers are filled from a run of
 /// the worked solution. Throws EnvironmentError for a lesson without such questions.
 ReportRequest talk_sheet_of(const std::string& lesson, bool with_answers, const std::filesystem::path& output = {});
 /// The model answers of a lesson for students who have submitted: the text with the reference solutions, figures and

@@ -348,9 +348,9 @@ TEST_F(preview_page, does_not_grow_with_the_edits) {
         }
         ASSERT_TRUE(browser.becomes_true("document.getElementById('stop').hidden"));
     };
-    save_up_to(1, 20);
+    save_up_to(1, 30);
     const auto [before, processes] = memory_of_family(preview.process());
-    save_up_to(21, 70);
+    save_up_to(31, 130);
     const auto [after, processes_after] = memory_of_family(preview.process());
     EXPECT_LT(static_cast<double>(after), 1.1 * static_cast<double>(before));
     EXPECT_LE(processes_after, processes + 2);  // a Pandoc that waits for the next time, a gnuplot

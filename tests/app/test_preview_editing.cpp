@@ -368,7 +368,7 @@ TEST_F(preview_editing, findings_open_answers_and_the_pdf_come_by_themselves) {
         "document.querySelector('#page\\\\:pdf iframe') && document.getElementById('document').hidden"));
     browser.click("#view");
     EXPECT_TRUE(browser.becomes_true("!document.getElementById('document').hidden"));
-    // What is changed is made anew.
+    // What is changed is created again.
     write(kFirst);
     EXPECT_TRUE(browser.becomes_true("!document.getElementById('view').classList.contains('ready')"));
     EXPECT_TRUE(browser.becomes_true("document.getElementById('view').classList.contains('ready')", 120));

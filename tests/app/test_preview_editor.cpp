@@ -151,7 +151,7 @@ TEST_F(preview_editor, the_cells_above_run_alone) {
     browser.click("#run-above");
     EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText === 'stopped: 2 of 3 cells were run'"))
         << browser.evaluate("return document.getElementById('state').innerText");
-    browser.click("#anew");
+    browser.click("#run-all");
     EXPECT_TRUE(browser.becomes_true("document.getElementById('state').innerText.startsWith('3 cells')"));
 }
 

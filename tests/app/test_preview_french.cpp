@@ -51,9 +51,9 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
     ASSERT_TRUE(browser.becomes_true("document.querySelector('.editing .CodeMirror')"));
     EXPECT_EQ(browser.evaluate("return document.documentElement.lang"), "\"fr\"");
     EXPECT_TRUE(says(browser, "state", "^\\d cellules, \\d+,\\d s$"));
-    EXPECT_TRUE(says(browser, "anew", "^Tout exécuter$"));
+    EXPECT_TRUE(says(browser, "run-all", "^Tout exécuter$"));
     EXPECT_TRUE(says(browser, "save", "^Enregistrer$"));
-    EXPECT_EQ(browser.evaluate("return document.getElementById('anew').title"),
+    EXPECT_EQ(browser.evaluate("return document.getElementById('run-all').title"),
               "\"Exécuter de nouveau toutes les cellules\"");
     EXPECT_EQ(browser.evaluate("return document.getElementById('editor').getAttribute('aria-label')"),
               "\"Texte source\"");
@@ -76,7 +76,7 @@ TEST_F(preview_french, the_page_speaks_its_document_s_language) {
     write(kHead + kFirst);  // English from here on
     EXPECT_TRUE(shows(browser, "x is 20"));
     EXPECT_TRUE(browser.becomes_true("document.documentElement.lang === 'en'"));
-    EXPECT_TRUE(says(browser, "anew", "^Run all$"));
+    EXPECT_TRUE(says(browser, "run-all", "^Run all$"));
 }
 
 /// What the editor itself says is in the page's language as well, and follows it.

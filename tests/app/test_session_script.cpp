@@ -106,7 +106,7 @@ TEST(session_script, reads_steps_that_were_switched_off) {
     EXPECT_TRUE(steps[2].on);
 }
 
-// A statement whose lines hold other text as well is none that may be written anew.
+// A statement whose lines hold other text as well is none that may be written again.
 TEST(session_script, what_shares_its_lines_with_other_text_is_no_step) {
     EXPECT_TRUE(session_steps("--[[ a\nb ]] G = f(x)\n").empty());
     EXPECT_TRUE(session_steps("G = f(x) --[[ a\nb ]]\n").empty());

@@ -122,7 +122,7 @@ TEST_F(workbench_hands, what_is_typed_in_one_go_is_one_step_of_the_history) {
     EXPECT_EQ(script(), before);
 }
 
-/// A field is made anew with each of its keys.
+/// A field is created again with each of its keys.
 TEST_F(workbench_hands, what_is_typed_into_a_field_is_one_step_until_something_else_is_done) {
     ASSERT_TRUE(press(browser, "New model"));
     ASSERT_TRUE(script_has(browser, "tfsrivc(estimation, 2, 0)")) << "the page, too, whose field is typed into";

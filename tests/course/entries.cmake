@@ -13,8 +13,6 @@ foreach(lesson 03_crane 05_thruster 07_feedback)
   dynlab_entry(own_records.${lesson} ${name} "*/own_records.*/${lesson}" "${labels};repeats")
   list(APPEND suites own_records.${lesson})
 endforeach()
-# scripts/test --long reads the records of a hundred groups in every lesson; one lesson is enough for every change.
-set_tests_properties(own_records.05_thruster own_records.07_feedback PROPERTIES LABELS long)
 # Grading lesson 05 keeps two processors busy: beside another such entry it would miss its time.
 set_tests_properties(check_tolerances.05_thruster lesson_checks.05_thruster own_records.05_thruster own_records_of_many
                      PROPERTIES PROCESSORS 2)

@@ -206,7 +206,8 @@ TEST(course_labs, table_of_deadlines_becomes_extensions_and_times_of_receipt) {
     EXPECT_EQ(done.extended, 1);
     EXPECT_EQ(done.corrected, 1);
     ASSERT_EQ(done.complaints.size(), 1u);
-    EXPECT_THAT(message_text(done.complaints.front()), HasSubstr("the row of \"group-9\": the group"));
+    EXPECT_THAT(message_text(done.complaints.front()),
+                HasSubstr("the row of \"group-9\": the group \"group-9\" does not exist"));
     EXPECT_EQ(course.lab().costs.late_day, 20);
     EXPECT_EQ(course.earned(1), 6);  // two days begun
     EXPECT_EQ(course.earned(2), 10);

@@ -149,7 +149,7 @@ TEST(course_store, refuses_bad_input_and_stays_untouched) {
     refused({"assignment", "crane", "--first", "2026-02-01 12:00", "--review", "2026-03-08 12:00", "--final",
              "2026-03-15 12:00"},
             "you can only postpone deadlines and increase");
-    refused({"drop", "group-77"}, "does not exist");
+    refused({"drop", "group-77"}, "the group \"group-77\" does not exist");
     for (const char* group : {"../../up", "a/b", "..", "in\ntwo", ".hidden", "\u202Eback", "CON", "com1.txt", "trail.",
                               "moodle.zip", "Mail.csv", "lab\uFEFF", "\u3164"}) {
         bench.bench().write("odd.csv", fmt::format("id,name,group\ns77,Zoe,\"{}\"\n", group));

@@ -72,7 +72,7 @@ TEST(gradebook_memory, marks_of_two_kinds_are_never_mixed) {
     accepted.push_back("--accept-late");
     ASSERT_EQ(bench.grade(accepted).exit_code, 0);
     EXPECT_THAT(work.read("out/gradebook.csv"), AllOf(HasSubstr(",a,graded,0,5,5,"), HasSubstr(",b,graded,0,5,5,")));
-    // Other checks, wanted: all marks anew from the runs of before.
+    // Other checks, wanted: all marks again from the runs of before.
     work.write("own/more.lua", "check{id = 'own', points = 4, test = function(a) return a.x > 50 end}\n");
     expect_refused(bench.grade(all), "your own checks (own has changed)");
     work.write("own/more.lua", "check{id = 'own', points = 4, test = function(a) return a.x > 0 end}\n");
@@ -148,7 +148,7 @@ TEST(gradebook_memory, other_checks_need_no_other_run) {
     EXPECT_EQ(GradingBench::score(bench.result("loop")), 7);
     bench.grade({"--timeout", "2", "--checks", "own", "--regrade"});
     EXPECT_THAT(work.read("out/logs/loop/log.txt"), HasSubstr("run main"));
-    // What is spoilt is made anew.
+    // What is spoilt is created again.
     work.write("out/runs/loop/run.cbor", "spoilt");
     work.write("own/more.lua", kOwn);
     bench.grade({"--timeout", "2", "--checks", "own", "--again"});

@@ -197,7 +197,7 @@ std::string renamed(const std::string& script) {
 }
 
 /// Other comments, other line ends and indents, other quotation marks.
-std::string laid_out_anew(std::string script) {
+std::string laid_out_differently(std::string script) {
     script = std::regex_replace(script, std::regex("\n"), "\n\n   -- as I understood it\n\t");
     script = std::regex_replace(script, std::regex(", "), " ,");
     return std::regex_replace(script, std::regex("\""), "'");
@@ -248,7 +248,7 @@ TEST(similarity, copies_are_found_whatever_they_are_called_and_laid_out) {
     for (std::size_t k = 0; k < 5; ++k) {
         plant(k, scripts[k].source);
         plant(10 + k, renamed(scripts[10 + k].source));
-        plant(20 + k, laid_out_anew(renamed(scripts[20 + k].source)));
+        plant(20 + k, laid_out_differently(renamed(scripts[20 + k].source)));
         plant(30 + k, reordered(renamed(scripts[30 + k].source)));
         plant(40 + k,
               scripts[40 + k].source +
@@ -329,8 +329,11 @@ TEST(similarity, a_script_like_several_copies_is_listed_once) {
     const std::string source = Author(1).script(), other = Author(2).script();
     const std::string half = source.substr(0, source.find('\n', source.size() / 2) + 1) +
                              other.substr(other.find('\n', other.size() / 2) + 1);
-    const std::vector<ComparedScript> scripts = {
-        {"a", source}, {"b", renamed(source)}, {"c", laid_out_anew(source)}, {"d", half}, {"e", Author(3).script()}};
+    const std::vector<ComparedScript> scripts = {{"a", source},
+                                                 {"b", renamed(source)},
+                                                 {"c", laid_out_differently(source)},
+                                                 {"d", half},
+                                                 {"e", Author(3).script()}};
     const auto pairs = similar_pairs(scripts, kStarter, 0.3);
     EXPECT_GE(pairs.size(), 6u);
     const auto groups = similar_groups(scripts, pairs);
@@ -362,7 +365,7 @@ TEST(similarity, the_command_compares_a_class_with_a_former_year) {
     bench.submit_file("b", renamed(Author(1).script()));
     bench.submit_file("c", Author(2).script());
     bench.bench().write("in/d/notes.txt", "no script");
-    bench.bench().write("2025/old/analysis.lua", laid_out_anew(Author(2).script()));
+    bench.bench().write("2025/old/analysis.lua", laid_out_differently(Author(2).script()));
     std::map<std::string, std::string> files;  // as a platform exports them
     for (const auto& entry : std::filesystem::recursive_directory_iterator(bench.bench().path("in")))
         if (entry.is_regular_file())

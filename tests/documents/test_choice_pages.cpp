@@ -111,9 +111,9 @@ TEST_F(choice_pages, what_was_chosen_stays_where_a_page_sets_the_question_again)
     const std::size_t begin = page.find("<div class=\"choice\""), end = page.find("<div class=\"choice\"", begin + 1);
     const std::string html = json(page.substr(begin, end - begin)).dump();
     browser.evaluate(
-        "const box = document.querySelector('div.choice'), anew = document.createElement('div');"
-        "anew.innerHTML = " +
-        html + "; box.replaceWith(anew); dynlabChoices.enliven(anew)");
+        "const box = document.querySelector('div.choice'), fresh = document.createElement('div');"
+        "fresh.innerHTML = " +
+        html + "; box.replaceWith(fresh); dynlabChoices.enliven(fresh)");
     EXPECT_EQ(verdict(0), "Wrong. That is 2 times 3.");
     EXPECT_EQ(verdict(1), "");
 }

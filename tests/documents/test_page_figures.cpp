@@ -175,7 +175,7 @@ TEST_F(page_figures, a_drawn_box_becomes_the_whole_and_a_double_click_undoes_it)
     const double x = value("panel.x.position(4)"), y = value("panel.y.position(8)");
     EXPECT_NEAR(x, 0.5, 0.01);
     EXPECT_NEAR(y, 0.25, 0.01);
-    EXPECT_LT(color(x, y)[0].get<int>(), 120) << "the curve is drawn anew";
+    EXPECT_LT(color(x, y)[0].get<int>(), 120) << "the curve is drawn again";
     EXPECT_EQ(value("document.querySelector('.whole').hidden"), false);
     const auto middle = at(0.5, 0.5);
     mouse({move(middle), down(), up(), down(), up()});

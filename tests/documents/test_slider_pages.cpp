@@ -372,7 +372,7 @@ TEST_F(slider_pages, figures_take_the_room_of_the_place) {
     EXPECT_LT(value(off), 0.003);
 }
 
-/// Figures without other words cost what is drawn otherwise, not the page's pictures and texts anew.
+/// Figures without other words cost what is drawn otherwise, not the page's pictures and texts again.
 TEST_F(slider_pages, of_a_figure_only_what_differs_is_kept) {
     says_gain_ = false;
     open();

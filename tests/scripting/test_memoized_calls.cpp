@@ -238,8 +238,8 @@ TEST_F(memoized_calls, quick_calls_and_calls_without_a_cache_leave_nothing) {
     EXPECT_FALSE(std::filesystem::exists(home_.path() / "dynlab/calls"));
 }
 
-// Oracle: the first run. An entry that was damaged on the disk, or that holds another form of results, is made anew;
-// what is printed and drawn stands there once.
+// Oracle: the first run. An entry that was damaged on the disk, or that holds another form of results, is created
+// again; what is printed and drawn stands there once.
 TEST_F(memoized_calls, damaged_entries_are_computed_again) {
     const std::string code = "delayest(d, {poles = {1, 3}, TdMax = 0.6})\n";
     const Use first = run_with_cache(code);
@@ -251,7 +251,7 @@ TEST_F(memoized_calls, damaged_entries_are_computed_again) {
     flipped[file.size() / 2] ^= 1;
     std::string other_kind = bytes;
     other_kind[0] = '\xf6';
-    const auto expect_made_anew = [&](const char* damage) {
+    const auto expect_computed_again = [&](const char* damage) {
         const Cache cache;
         CallCache calls(cache, CallCache::Duration::zero());
         RunOptions options;
@@ -269,14 +269,14 @@ TEST_F(memoized_calls, damaged_entries_are_computed_again) {
          {std::pair("an empty file", std::string()), std::pair("half the file", file.substr(0, file.size() / 2)),
           std::pair("one bit flipped", flipped)}) {
         write_file_atomically(entry, content);
-        expect_made_anew(damage);
+        expect_computed_again(damage);
     }
     for (const auto& [damage, content] :
          {std::pair("nothing", std::string()), std::pair("half the result", bytes.substr(0, bytes.size() / 2)),
           std::pair("all but the last byte", bytes.substr(0, bytes.size() - 1)),
           std::pair("a byte behind it", bytes + '\0'), std::pair("another kind of value", other_kind)}) {
         Cache().save_entry(name, content);
-        expect_made_anew(damage);
+        expect_computed_again(damage);
     }
 }
 
@@ -372,7 +372,7 @@ TEST_F(memoized_calls, texts_of_calls_distinguish_contents_and_shapes) {
         EXPECT_FALSE(text(none)) << none;
 }
 
-// Oracle: definition; a digest that is kept is that of an equal record made anew.
+// Oracle: definition; a digest that is kept is that of an equal record created again.
 TEST_F(memoized_calls, digests_are_kept_with_the_record) {
     GnuplotRenderer renderer;
     Runtime runtime({}, renderer);

@@ -173,6 +173,13 @@ TEST(script_simulation, habits_of_the_toolboxes) {
               "true\n0\t0\n0.2\n");
     EXPECT_THAT(error_of("srivc(iddata(ones(9), ones(9), 1), {1, 1, 0}, {Lambda = 2, lambda = 2})"),
                 HasSubstr("are equivalent"));
+    // The spelling of older scripts.
+    EXPECT_EQ(printed("local fig = plot({1, 2}, {1, 3}, {colour = 'red'})\n"
+                      "print(norm(polyfit_report({1, 2, 4}, {1, 3, 2}, 1, {centred = false}).theta - "
+                      "polyfit_report({1, 2, 4}, {1, 3, 2}, 1, {centered = false}).theta))"),
+              "0\n");
+    EXPECT_THAT(error_of("plot({1, 2}, {1, 3}, {colour = 'red', color = 'blue'})"), HasSubstr("are equivalent"));
+    EXPECT_THAT(error_of("plot({1, 2}, {1, 3}, {colour = 'pinkish'})"), HasSubstr("option 'color' must be"));
     EXPECT_THAT(error_of("detrend({1, 2, 3}, 2)"), HasSubstr("degree 0"));
     EXPECT_THAT(error_of("bode(tf({1}, {1, 1}), 'sd', 3)"), HasSubstr("{confidence = 0.99}"));
     EXPECT_THAT(error_of("local u = prbs(5, 4)\nsrivc(iddata(u, matrix{u, u^2}, 1), {1, 1, 2, 2, 0, 0})"),

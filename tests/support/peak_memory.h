@@ -11,7 +11,7 @@ namespace dynlab::test {
 /// Most memory that this process has in use while the work is done, MB; not what was freed before.
 inline double peak_memory(const std::function<void()>& work) {
     malloc_trim(0);
-    std::ofstream("/proc/self/clear_refs") << 5;  // starts the peak anew
+    std::ofstream("/proc/self/clear_refs") << 5;  // starts the peak again
     work();
     std::ifstream status("/proc/self/status");
     for (std::string word; status >> word;) {

@@ -147,12 +147,12 @@ void LiveDocument::wait_for_something() {
 void LiveDocument::take_orders() {
     std::uint64_t count = 0;
     if (::read(wake_.get(), &count, sizeof count) <= 0) return;
-    bool stop = false, anew = false;
+    bool stop = false, restart = false;
     RunPlace place;
     {
         const std::lock_guard lock(orders_mutex_);
         stop = std::exchange(stop_, false);
-        anew = std::exchange(restart_, false);
+        restart = std::exchange(restart_, false);
         place = std::exchange(place_, {});
     }
     if (stop && runner_.running()) {
@@ -161,7 +161,7 @@ void LiveDocument::take_orders() {
             if (state.state != "done") state = {"waiting", 0, 0};
         show_states();
     }
-    if (anew) {
+    if (restart) {
         runner_.forget();
         page_is_from_cache_ = false;
         until_.clear();

@@ -50,7 +50,7 @@ std::string LivePage::keep_picture(const fs::path& file) {
     try {
         bytes = read_text(file);
     } catch (const std::exception&) {
-        return "missing";  // it is being written anew; the version after this has it
+        return "missing";  // it is being written again; the version after this has it
     }
     const std::string name = digest_of(bytes).hex() + file.extension().string();
     content_.pictures[name] = {media_type(ending_of(file)), std::move(bytes), version_};

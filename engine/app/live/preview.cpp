@@ -55,7 +55,7 @@ PageReply done() {
 
 void take_orders(WebServer& server, LiveDocument& document, Permissions& permissions) {
     server.on_post("/stop", [&](const PageRequest&) { return document.stop_run(), done(); });
-    server.on_post("/anew", [&](const PageRequest&) { return document.run_again_from_start(), done(); });
+    server.on_post("/run-all", [&](const PageRequest&) { return document.run_again_from_start(), done(); });
     server.on_post("/slider", [&](const PageRequest& asked) {
         document.set_sliders(from_json<SliderOrder>(asked.body).values);
         return done();

@@ -23,7 +23,7 @@ Message none_left() {
     return Message("the process that runs scripts has exited; restart dynlab");
 }
 
-/// What a change of which makes every part run anew: the file's place, the seed, the header.
+/// What a change of which makes every part run again: the file's place, the seed, the header.
 std::string settings_of(const PercentScript& script, std::uint32_t seed) {
     return fmt::format("{}\n{}\n{}", script.file.string(), seed, script.header.language);
 }

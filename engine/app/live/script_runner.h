@@ -14,7 +14,7 @@
 
 namespace dynlab::inline app {
 
-/// Runs a script again and again while it is being written: parts before the first that has changed are not run anew.
+/// Runs a script again and again while it is being written: parts before the first that has changed are not run again.
 /// The script runs in processes of its own (app/live/runner_process.h), so that a run can always be stopped and takes
 /// nothing with it when it fails. For one thread, but for `ask`.
 class ScriptRunner {

@@ -266,11 +266,11 @@ function goToPage(number) {
 /// The printed document in place of the page; a new one when there is one.
 let pdfShown = false, pdfReady = false;
 function showPdf(ready, page = 0) {
-  const anew = ready && !pdfReady;
+  const first = ready && !pdfReady;
   pdfReady = ready;
   $("view").classList.toggle("ready", ready);
   if (!pdfShown) return $("page:pdf").replaceChildren();
-  if (!anew && !page && $("page:pdf").firstChild) return;
+  if (!first && !page && $("page:pdf").firstChild) return;
   const frame = document.createElement("iframe");
   frame.title = say("asPrinted");
   frame.src = `${session.pdfAddress(version)}#${page ? `page=${page}&` : ""}navpanes=0&view=FitH`;
@@ -307,7 +307,7 @@ async function ask(act) {
   $("document").focus({ preventScroll: true });
 }
 $("stop").onclick = () => ask(session.stop);
-$("anew").onclick = () => ask(session.runAll);
+$("run-all").onclick = () => ask(session.runAll);
 $("allow").onclick = () => ask(session.allow);
 
 $("document").addEventListener("click", (event) => {

@@ -46,7 +46,7 @@ export const session = {
   // Runs
   allow: () => post("allow"),
   stop: () => post("stop"),
-  runAll: () => post("anew"),
+  runAll: () => post("run-all"),
   /// From the cell at a line of a file on, changed or not; with `only`, what has changed up to that cell. `source` is saved
   /// before, where it is given: answers as `save` does.
   runCell: (file, line, only, source) => saving("run", { source, place: { file, line, again: !only } }),

@@ -13,7 +13,7 @@ export const button = (words, act, fields = {}) => element("button", { type: "bu
 
 export const why = (name) => button(say("why"), () => help(name), { className: "why", ariaLabel: `${say("why")} ${name}`, title: `dynlab help ${name}` });
 
-/// Writes a step anew; `make(step)` gives what is other, or null for nothing.
+/// Rewrites a step; `make(step)` returns the changes, or null for none.
 export function rewrite(key, make, how) {
   return change(() => {
     const step = stepOf(key), made = step && make(step);
@@ -82,10 +82,10 @@ function expression(box, now, act) {
 const textField = (now, act) => expression(element("input", { type: "text" }), now, act);
 const longField = (now, act) => expression(element("textarea", { rows: 2 }), now, act);
 
-/// Controls are not made anew while a hand is at one of them.
+/// Controls are not created again while a hand is at one of them.
 export const hold = (held) => document.dispatchEvent(new CustomEvent("benchheld", { detail: held }));
 
-/// What is typed into one field until another has the focus is one step of the history. Fields are made anew meanwhile: `place`
+/// What is typed into one field until another has the focus is one step of the history. Fields are created again meanwhile: `place`
 /// says which it is.
 let typing = { place: "", hand: null };
 document.addEventListener("focusin", ({ target }) => { if (target.dataset?.place !== typing.place) typing = { place: "", hand: null }; });

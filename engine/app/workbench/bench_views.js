@@ -161,7 +161,7 @@ function readingWords({ kind, numbers, fit }) {
   const list = numbers.map((value) => shortNumber(value, 4));
   return kind === "first" ? say("readFirst", ...list, shortNumber(fit, 3)) : kind === "delayed" ? say("readDelayed", ...list, shortNumber(fit, 3)) : say("readSecond", ...list, shortNumber(fit, 3));
 }
-/// All tiles anew, in another language.
+/// All tiles again, in another language.
 export function renewTiles() {
   for (const { node } of tiles.values()) node.remove();
   tiles.clear();

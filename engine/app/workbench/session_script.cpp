@@ -191,7 +191,7 @@ bool is_remark(const std::string& rest) {
 }
 
 /// Whether a line begins as an assignment or a cell does, so that an unfinished statement cannot go on there.
-bool begins_anew(const std::string& line) {
+bool begins_statement(const std::string& line) {
     static const RE2 kBegin(R"(^(-- %%|(local\s+)?[A-Za-z_]\w*(\s*,\s*[A-Za-z_]\w*)*\s*=[^=]))", RE2::Latin1);
     return RE2::PartialMatch(line, kBegin);
 }
@@ -212,7 +212,7 @@ std::optional<SessionStep> broken_step(const std::vector<std::string>& lines, in
     std::string text = trimmed(rest);
     for (int line = first + 1; line <= static_cast<int>(lines.size()); ++line) {
         const std::string& more = lines[static_cast<std::size_t>(line - 1)];
-        if (is_blank(more) || begins_anew(more)) break;
+        if (is_blank(more) || begins_statement(more)) break;
         text += " " + trimmed(more);
         step.last_line = line;
     }
@@ -229,7 +229,7 @@ bool is_unfinished(Tokens tokens, bool closed, const Lines& lines, const std::ve
         depth += opens(token) + block_change(token) - closes(token);
         const int line = lines.at(token.begin);
         const bool second = depth == 0 && token.is("=") && line > first;
-        if (second && begins_anew(text[static_cast<std::size_t>(line - 1)])) return true;
+        if (second && begins_statement(text[static_cast<std::size_t>(line - 1)])) return true;
     }
     return !closed;
 }

@@ -70,7 +70,7 @@ function showState() {
   dataset.mistake = mistake;
 }
 
-/// The panels are made anew with each step; what is open, typed and focused stays.
+/// The panels are created again with each step; what is open, typed and focused stays.
 let held = false, panelsAreOld = false;
 document.addEventListener("benchheld", ({ detail }) => {
   held = detail;
@@ -100,7 +100,7 @@ function drawModels() {
   if (models && !old) $("views").prepend(models);
   if (path) (models ? controlAt(models, known) ?? nearestControl(models, path) : $("views")).focus({ preventScroll: true });
 }
-/// A control is known again, where its panel was made anew, by its panel's title, its name and its place among those of that name.
+/// A control is recognized after its panel was created again by its panel's title, its name and its place among those of that name.
 const titleOf = (node) => node.closest(".panel")?.querySelector("h2, summary").textContent.replace(/ \(\d+\)$/, "");
 const nameOf = (node) => node.ariaLabel ?? node.closest("label")?.firstChild.textContent ?? node.textContent.replace(/ \(\d+\)$/, "");
 const keyOf = (node) => [titleOf(node), node.type, nameOf(node)].join("|");

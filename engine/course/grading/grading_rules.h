@@ -69,9 +69,9 @@ class GradingRules {
 
     /// Runs the checks on the reference solution. Checks that it does not pass are broken and stay ungraded. The
     /// results of its runs are cached in the file `memory` (CachedRuns), so that other checks do not run the solution
-    /// again unless `anew` is true. An empty name disables the cache.
+    /// again unless `run_again` is true. An empty name disables the cache.
     /// Returns a sentence for each broken check.
-    std::vector<Message> try_solution(const std::filesystem::path& memory = {}, bool anew = false);
+    std::vector<Message> try_solution(const std::filesystem::path& memory = {}, bool run_again = false);
 
     /// What the checks say of each of these. Throws EnvironmentError where they come to no end.
     std::vector<std::vector<EvaluatedCheck>> evaluated(const std::vector<CheckedSubmission>& submissions) const;

@@ -43,7 +43,7 @@ bool went_well(const CheckedSubmission& work) {
 
 }  // namespace
 
-std::vector<Message> GradingRules::try_solution(const fs::path& memory, bool anew) {
+std::vector<Message> GradingRules::try_solution(const fs::path& memory, bool run_again) {
     const TemporaryFolder work;
     fs::copy_file(setup_.lesson.script(), work.path() / "analysis.lua");
     if (const fs::path report = setup_.lesson.report("en"); fs::exists(report))
@@ -51,7 +51,7 @@ std::vector<Message> GradingRules::try_solution(const fs::path& memory, bool ane
     std::string log, content = sha256_of_file(work.path() / "analysis.lua");
     if (fs::exists(work.path() / "report.md")) content += sha256_of_file(work.path() / "report.md");
     const std::string fingerprint = run_fingerprint(content, {});
-    std::optional<CachedRuns> kept = anew || memory.empty() ? std::nullopt : read_cached_runs(memory, fingerprint);
+    std::optional<CachedRuns> kept = run_again || memory.empty() ? std::nullopt : read_cached_runs(memory, fingerprint);
     if (!kept) {
         kept = CachedRuns{fingerprint, work_in(work.path(), {}, log), {}, ""};
         if (!memory.empty() && went_well(kept->work)) write_cached_runs(memory, *kept, CachedTimes::kYes);

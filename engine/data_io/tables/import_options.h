@@ -15,7 +15,7 @@ struct ImportOptions {
     std::map<std::string, std::string> units = {};  ///< by column, instead of the file's
     std::string time = {};                          ///< name of the column of instants
     std::string time_unit = {};                     ///< of that column, or of the one that is found
-    std::string sheet = {};                         ///< of a workbook; its first one unless given
+    std::string sheet = {};                         ///< of a workbook; default: its first one
 };
 
 }  // namespace dynlab::inline data_io

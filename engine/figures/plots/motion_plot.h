@@ -13,7 +13,7 @@ struct MotionRecord {
 };
 
 struct MotionAppearance {
-    Vector instants;  ///< of the pictures, s; four, evenly spread, unless given
+    Vector instants;  ///< of the pictures, s; default: four, evenly spread
     Message title;
     double width_cm = 14, height_cm = 0;
 };

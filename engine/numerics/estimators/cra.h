@@ -5,7 +5,7 @@
 namespace dynlab::inline numerics {
 
 struct CraOptions {
-    Index lags = 0;            ///< 1 or more; the smaller of 70 and N/5 unless given
+    Index lags = 0;            ///< 1 or more; default: the smaller of 70 and N/5
     Index whitening = 10;      ///< order of the autoregressive filter that whitens the input; 0 for none
     double confidence = 0.99;  ///< of the test that reads the dead time
 

@@ -8,7 +8,7 @@
 namespace dynlab::inline numerics {
 
 struct GradientDescentOptions {
-    std::optional<double> step_size;  ///< 1/lambda_max unless given
+    std::optional<double> step_size;  ///< default: 1/lambda_max
     int max_iterations = 10000;
     double tolerance = 1e-10;      ///< stops when |change of theta| <= tolerance |theta|
     Vector start;                  ///< d values, zero when empty

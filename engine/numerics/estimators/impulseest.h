@@ -8,7 +8,7 @@
 namespace dynlab::inline numerics {
 
 struct ImpulseestOptions {
-    Index lags = 0;      ///< n, 1 to 400; the smaller of 70 and N/5 unless given
+    Index lags = 0;      ///< n, 1 to 400; default: the smaller of 70 and N/5
     bool smooth = true;  ///< prior knowledge that the response is smooth and dies out; else plain least squares
     ResponseKernel kernel = ResponseKernel::kTc;  ///< of the prior
     double confidence = 0.99;                     ///< of the test that reads the dead time

@@ -9,7 +9,7 @@ struct SvfOptions {
     double lambda = 0;         ///< rad/s, cutoff frequency of the filter; must be given: a bit above the bandwidth
     Hold hold_y = Hold::kFoh;  ///< how the output behaves between its samples inside the filter
     std::optional<double>
-        beta;  ///< numerator of the Poisson moment functionals' (beta/(s + lambda))^n; lambda unless given
+        beta;  ///< numerator of the Poisson moment functionals' (beta/(s + lambda))^n; default: lambda
 
     /// Throws InvalidArgument naming the option.
     void validate() const;

@@ -22,7 +22,7 @@ constexpr Index kScannedIrregular = 1'500;  // of one sampled irregularly, whose
 constexpr double kAsLively = 0.5;           // inputs of a beginning that tells of the whole, by their deviations
 constexpr double kScanTolerance = 1e-4;
 constexpr int kScanPasses = 5, kScanIterations = 10;  // at each delay
-constexpr Index kFreshStart = 8;                      // so many delays apart the cutoff frequencies are tried anew
+constexpr Index kFreshStart = 8;                      // so many delays apart the cutoff frequencies are tried again
 constexpr std::size_t kValleys = 3;                   // of the loss over the delay that are looked at closely
 constexpr std::size_t kMostBeginnings = 5;            // of joint searches
 constexpr double kFineSpacing = 2;                    // samples

@@ -40,7 +40,7 @@ struct FitOptions {
     InitialState initial_state = InitialState::kAuto;
     Offset offset = Offset::kAuto;
     double least_delay = 0;               ///< s; of a free delay
-    std::optional<double> largest_delay;  ///< s; from the data unless given
+    std::optional<double> largest_delay;  ///< s; default: from the data
     int delay_count = 100;                ///< most delays on the grid between the two
     int max_iterations = 50;
     bool extend_iterations = true;  ///< a search that has not settled then, up to 500 iterations

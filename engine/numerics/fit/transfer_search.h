@@ -7,7 +7,7 @@ namespace dynlab::inline numerics {
 
 /// What is known before a search.
 struct SearchAids {
-    /// theta where the search begins, with the delays where they are free; found unless given.
+    /// theta where the search begins, with the delays where they are free; default: computed.
     Vector start = {};
     std::vector<double> delays = {};  ///< s, of each channel: where the search for free ones begins
     std::vector<const Fit*> lower_order =

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 // Products of matrices and vectors whose sizes are known at run time only are compiled once, in products.cpp: Eigen
-// would compile its loops anew for every pair of operand types, for up to two seconds each. A * B is written as ever;
+// would compile its loops again for every pair of operand types, for up to two seconds each. A * B is written as ever;
 // the specializations below take it, as those of Eigen/src/Core/products/GeneralMatrixMatrix_BLAS.h do for a BLAS
 // library.
 

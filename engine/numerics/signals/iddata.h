@@ -25,7 +25,7 @@ struct IdData {
     std::vector<Experiment> experiments;
     double Ts = 1;  ///< sampling time in time_unit; 0 when sampled irregularly
     Hold hold = Hold::kZoh;
-    std::vector<std::string> input_names, output_names;  ///< u1.. and y1.. unless given
+    std::vector<std::string> input_names, output_names;  ///< default: u1.. and y1..
     std::vector<std::string> input_units, output_units;  ///< empty strings when unknown
     std::string time_unit = "s";                         ///< of all times here; models found from the data count in it
 

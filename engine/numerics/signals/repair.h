@@ -26,7 +26,7 @@ RepairedSignal fill_missing(const VectorView& x, const VectorView& t = Vector(),
 struct OutlierOptions {
     Index window = 7;      ///< samples of the moving median, odd, at least 3; groups of up to (window - 1)/2 are found
     double threshold = 6;  ///< robust standard deviations that an outlier lies off the median
-    std::optional<double> quantization = {};  ///< step on which the samples lie, 0 for none; looked for unless given
+    std::optional<double> quantization = {};  ///< step on which the samples lie, 0 for none; default: detected
 
     void validate() const;
 };

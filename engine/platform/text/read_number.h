@@ -7,7 +7,7 @@
 namespace dynlab::inline platform {
 
 /// The number that the whole text is, as std::from_chars reads it ("." for decimals, no blanks and no "+" before it;
-/// whole ones in `base`, 10 unless given); nothing for other text and for numbers that the type does not hold.
+/// whole ones in `base`, default 10); nothing for other text and for numbers that the type does not hold.
 template <class Number, class... Base>
 std::optional<Number> read_number(std::string_view text, Base... base) {
     Number number{};

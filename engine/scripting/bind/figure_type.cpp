@@ -34,7 +34,7 @@ Panel& panel_of(Figure& figure, Index number) {
     return figure.panels[static_cast<std::size_t>(number - 1)];
 }
 
-/// The panel that argument `index` numbers, the first one unless given.
+/// The panel that argument `index` numbers; default: the first one.
 Panel& panel_argument(Call& call, int index) {
     return panel_of(figure_self(call), call.given(index) ? call.integer(index, "panel") : 1);
 }

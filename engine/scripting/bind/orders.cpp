@@ -88,7 +88,7 @@ std::pair<int, int> range_of(const Options& options, const char* name, std::pair
     return {static_cast<int>(from), static_cast<int>(to)};
 }
 
-/// Seconds for numbers of samples of delay, 0 unless given.
+/// Seconds for numbers of samples of delay; default: 0.
 std::vector<double> delays_of(const Options& options, const IdData& data) {
     if (!options.has("delays")) return {0.0};
     lua_State* L = options.call().state();

@@ -167,7 +167,7 @@ void name_models(const Call& call, const Options& options, std::vector<NamedMode
     }
 }
 
-/// Option confidence: a probability, or false for none; 99 % unless given.
+/// Option confidence: a probability, or false for none; default: 99 %.
 std::optional<double> confidence_level(const Options& options) {
     constexpr double kUsual = 0.99;
     lua_State* L = options.call().state();

@@ -267,7 +267,7 @@ void Options::check_names(const std::vector<std::string>& known) const {
         const std::string name = lua_tostring(L, -1);
         const auto is_known = [&](const std::string& word) { return std::ranges::find(known, word) != known.end(); };
         if (is_known(name)) continue;
-        if (const std::string other = with_other_case(name); is_known(other)) {
+        if (const std::string other = other_spelling(name); is_known(other)) {
             if (lua_getfield(L, index_, other.c_str()) != LUA_TNIL)
                 throw InvalidArgument("options '{}' and '{}' are equivalent: specify only one", name, other);
             lua_pop(L, 1);
@@ -304,7 +304,7 @@ int Options::push(const char* name) const {
         lua_pushstring(L, name);
         if (lua_rawget(L, index_) == LUA_TNIL) {
             lua_pop(L, 1);
-            lua_pushstring(L, with_other_case(name).c_str());
+            lua_pushstring(L, other_spelling(name).c_str());
             lua_rawget(L, index_);
         }
     }

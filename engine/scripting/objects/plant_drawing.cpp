@@ -117,7 +117,7 @@ class DrawingReader {
         piece.filled = lua_getfield(L, -1, "shade") == LUA_TNUMBER;
         lua_pop(L, 1);
         piece.look = number(-1, piece.filled ? "shade" : "width");
-        std::vector<int> parts;  // one for all points, or one for each, beginning anew where a line is closed
+        std::vector<int> parts;  // one for all points, or one for each, beginning again where a line is closed
         if (lua_getfield(L, -1, "part") == LUA_TTABLE) {
             const int list = lua_absindex(L, -1);
             each(list, [&] { parts.push_back(lua_isstring(L, -1) ? place_of_part(lua_tostring(L, -1)) : -1); });

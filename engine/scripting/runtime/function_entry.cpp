@@ -1,6 +1,8 @@
 #include "scripting/runtime/function_entry.h"
 
+#include <array>
 #include <cctype>
+#include <utility>
 
 namespace dynlab::inline scripting {
 
@@ -18,7 +20,11 @@ std::string signature_text(const FunctionEntry& function) {
     return text;
 }
 
-std::string with_other_case(std::string name) {
+std::string other_spelling(std::string name) {
+    static constexpr std::array kSpellings = {std::pair("color", "colour"), std::pair("centered", "centred"),
+                                              std::pair("realizations", "realisations")};
+    for (const auto& [american, british] : kSpellings)
+        if (name == american || name == british) return name == american ? british : american;
     if (name.empty()) return name;
     const auto first = static_cast<unsigned char>(name[0]);
     name[0] = static_cast<char>(std::isupper(first) ? std::tolower(first) : std::toupper(first));
@@ -31,7 +37,7 @@ std::string initial_text(const OptionEntry& option) {
 }
 
 const OptionEntry* find_option(OptionTables tables, const std::string& name) {
-    const std::string other = with_other_case(name);
+    const std::string other = other_spelling(name);
     for (const OptionTable& table : tables)
         for (const OptionEntry& option : table)
             if (name == option.name || other == option.name) return &option;

@@ -68,13 +68,14 @@ struct ArgumentEntry {
     MessageId<> description;
 };
 
-/// The name with its first letter in the other case: MATLAB's options are a mixture, Lambda and lambda.
-std::string with_other_case(std::string name);
+/// The other accepted spelling of an option: the British one, which older scripts use, or the first letter in the other
+/// case, because MATLAB's options are a mixture, Lambda and lambda.
+std::string other_spelling(std::string name);
 
 /// The default as scripts write it; empty where there is none.
 std::string initial_text(const OptionEntry& option);
 
-/// The option of that name, whose first letter may be of the other case; nullptr where there is none.
+/// The option with this name or with its other spelling; nullptr if there is none.
 const OptionEntry* find_option(OptionTables tables, const std::string& name);
 std::vector<std::string> option_names(OptionTables tables);
 

@@ -21,7 +21,7 @@ struct RunOptions {
     std::filesystem::path out_folder = ".";                   ///< what a script writes must lie below this folder
     std::function<void(const std::string&)> print = {};       ///< sees printed text at once, besides the record
     std::function<void(const std::string&)> enter_cell = {};  ///< gets the id of each cell as the script enters it
-    CallCache* call_cache = nullptr;  ///< of results of calls that take long; all are computed anew without
+    CallCache* call_cache = nullptr;  ///< of results of calls that take long; all are computed again without
     std::size_t memory_limit_bytes = std::size_t{2} << 30;
     std::size_t output_limit_bytes = std::size_t{16} << 20;  ///< of printed text
     std::optional<TimeLimits> time = {};

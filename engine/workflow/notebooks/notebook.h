@@ -14,7 +14,7 @@ namespace dynlab::inline workflow {
 /// Jupyter notebooks (nbformat 4.5) are scripts in the percent format with outputs: every cell of the script is a cell
 /// of the notebook, and the lines before its first marker, the header among them, are a code cell. A cell of a notebook
 /// remembers in its metadata what its marker said, and the cell's very lines where they are not what would be written
-/// anew, so that a script comes back byte for byte; where a cell was changed since, what it says now counts.
+/// again, so that a script comes back byte for byte; where a cell was changed since, what it says now counts.
 
 bool is_notebook(const std::filesystem::path& file);  ///< by its ending, .ipynb
 

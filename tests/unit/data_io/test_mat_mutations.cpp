@@ -58,16 +58,16 @@ VariableTable plain_variables() {
 }
 
 TEST(mat_mutations, level_4) {
-    read_mutations(MAT_FT_MAT4, MAT_COMPRESSION_NONE, plain_variables(), 40);
+    read_mutations(MAT_FT_MAT4, MAT_COMPRESSION_NONE, plain_variables(), 100);
 }
 TEST(mat_mutations, level_5) {
-    read_mutations(MAT_FT_MAT5, MAT_COMPRESSION_NONE, sample_variables(), 40);
+    read_mutations(MAT_FT_MAT5, MAT_COMPRESSION_NONE, sample_variables(), 100);
 }
 TEST(mat_mutations, level_5_compressed) {
-    read_mutations(MAT_FT_MAT5, MAT_COMPRESSION_ZLIB, sample_variables(), 40);
+    read_mutations(MAT_FT_MAT5, MAT_COMPRESSION_ZLIB, sample_variables(), 100);
 }
 TEST(mat_mutations, level_7_3) {
-    read_mutations(MAT_FT_MAT73, MAT_COMPRESSION_NONE, sample_variables(), 40);
+    read_mutations(MAT_FT_MAT73, MAT_COMPRESSION_NONE, sample_variables(), 100);
 }
 
 }  // namespace test_mat_mutations

@@ -166,25 +166,25 @@ TEST(irregular_filter, a_constant_input_is_followed_for_ever) {
 TEST(irregular_filter, what_was_run_before_changes_nothing) {
     Vector u = RandomStream(4).normal(300), t = irregular_instants(300);
     const Vector rest = Vector::Zero(2);
-    const auto expect_as_anew = [&](Hold hold, double delay, const char* what) {
+    const auto expect_as_first_run = [&](Hold hold, double delay, const char* what) {
         const auto run = [&] { return IrregularFilter(kA, kB, kC, kD, hold, delay).run(u, t, rest); };
-        Matrix anew;
-        std::thread([&] { anew = run(); }).join();
-        EXPECT_EQ(run(), anew) << what;
+        Matrix first;
+        std::thread([&] { first = run(); }).join();
+        EXPECT_EQ(run(), first) << what;
     };
     for (int round = 0; round < 3; ++round) {
         for (const Hold hold : {Hold::kZoh, Hold::kFoh})
             for (const double delay : {0.0, 0.25, 0.26, 1.37, 0.25})
-                expect_as_anew(hold, delay, "another delay or hold");
+                expect_as_first_run(hold, delay, "another delay or hold");
         u[17] += 1;  // in its place
-        expect_as_anew(Hold::kZoh, 0.25, "another input");
+        expect_as_first_run(Hold::kZoh, 0.25, "another input");
         t[200] += 1e-3;
-        expect_as_anew(Hold::kZoh, 0.25, "another instant");
+        expect_as_first_run(Hold::kZoh, 0.25, "another instant");
     }
     const Vector longer = u;
     u = longer.head(299);
     t = Vector(t.head(299));
-    expect_as_anew(Hold::kZoh, 0.25, "fewer samples");
+    expect_as_first_run(Hold::kZoh, 0.25, "fewer samples");
 }
 
 }  // namespace test_irregular_filter

@@ -7,12 +7,13 @@
 namespace dynlab::inline numerics {
 
 struct BlaOptions {
-    Index period = 0;             ///< samples; must be given
-    Index realizations = 1;       ///< in each experiment, one behind the other
-    Index transient = 0;          ///< periods left out at the beginning of every realization
-    double least_input = 0.01;    ///< lines with less than this part of the largest amplitude count as without input
-    std::optional<Index> smooth;  ///< variances are means over this many lines on either side; chosen unless given
-    std::optional<InterSample> inter_sample;  ///< as the data's hold says unless given
+    Index period = 0;           ///< samples; must be given
+    Index realizations = 1;     ///< in each experiment, one behind the other
+    Index transient = 0;        ///< periods left out at the beginning of every realization
+    double least_input = 0.01;  ///< lines with less than this part of the largest amplitude count as without input
+    std::optional<Index>
+        smooth;  ///< variances are means over this many lines on either side; default: chosen automatically
+    std::optional<InterSample> inter_sample;  ///< default: from the hold of the data
     std::function<bool()> cancel;             ///< asked before every realization
 
     void validate() const;

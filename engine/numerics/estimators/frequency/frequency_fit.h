@@ -8,7 +8,7 @@ namespace dynlab::inline numerics {
 ///     minimize sum_k |G_k - B(i w_k)/F(i w_k) exp(-i w_k Td)|^2/variance_k,
 /// the maximum of the likelihood for normal errors that are independent from frequency to frequency; with unknown
 /// variances all count alike. Start: Sanathanan and Koerner's iteration in orthogonal polynomials, as it comes and with
-/// poles mirrored, for a free delay at the best places of a grid between least_delay and largest_delay (s; unless given
+/// poles mirrored, for a free delay at the best places of a grid between least_delay and largest_delay (s; default:
 /// as far as the frequencies tell delays apart, a quarter of a turn for the nearest two, and at most fifty quarter
 /// turns at the middle of the power); then Levenberg-Marquardt with exact sensitivities. Where the input was held
 /// between samples, the model's response is that of its samples, exactly. Of the options least_delay, largest_delay,

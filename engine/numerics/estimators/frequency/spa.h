@@ -4,8 +4,8 @@
 namespace dynlab::inline numerics {
 
 struct SpaOptions {
-    Index window = 0;         ///< M, lags up to M are used; min(N/10, 30) unless given
-    Vector w;                 ///< rad per time unit; 128 between 1/(M Ts) and pi/Ts unless given
+    Index window = 0;         ///< M, largest lag used; default: min(N/10, 30)
+    Vector w;                 ///< rad per time unit; default: 128 values between 1/(M Ts) and pi/Ts
     bool remove_mean = true;  ///< of both signals first, experiment by experiment
 
     void validate() const;

@@ -38,9 +38,9 @@ class SindyModel : public FreeRunModel {
 struct SindyOptions {
     /// A term goes when the root mean square of what it alone explains is less than this share of that of the rate.
     double threshold = 0.02;
-    bool weak = false;                  ///< integrals against test functions in place of derivatives
-    int window = 5;                     ///< samples (odd) over which a polynomial gives state and derivative
-    std::optional<double> width;        ///< time unit; half the length of a test function, from the data unless given
+    bool weak = false;            ///< integrals against test functions in place of derivatives
+    int window = 5;               ///< samples (odd) over which a polynomial gives state and derivative
+    std::optional<double> width;  ///< time unit; half the length of a test function; default: computed from the data
     std::function<bool()> cancel = {};  ///< asked before every experiment and state; then it throws
 
     /// Throws InvalidArgument naming the option.

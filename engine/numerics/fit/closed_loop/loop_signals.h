@@ -12,7 +12,7 @@ namespace dynlab::inline numerics {
 
 /// What is known of the loop u = C (r - y) under which a record was taken.
 struct LoopKnowledge {
-    std::optional<LoopController> controller;  ///< unknown unless given
+    std::optional<LoopController> controller;  ///< no value: not known
     bool find_computing_delay = false;         ///< none or one sample, whichever makes C (r - y) come nearer to u
     Hold hold_r = Hold::kZoh;                  ///< of the reference, with a controller in continuous time
 };

@@ -9,7 +9,7 @@ struct RecursiveOptions {
     Hold hold_y = Hold::kFoh;  ///< how the output behaves between its samples inside the filter
     double forgetting = 1;     ///< weight of a sample for each one that came later, in (0, 1]
     Vector drift;              ///< d variances of the parameters' random steps from sample to sample; none when empty
-    std::optional<double> noise_variance;  ///< against which drift is weighed; from the errors so far unless given
+    std::optional<double> noise_variance;  ///< against which drift is weighed; default: from the errors so far
     std::optional<TransferFunction>
         model;                     ///< fixed, for instruments (rivsvf) and filters (rsrivc), in the estimate's place
     Index history_points = 2000;   ///< most instants that the history keeps

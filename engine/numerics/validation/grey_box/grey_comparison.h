@@ -4,7 +4,7 @@
 
 namespace dynlab::inline numerics {
 
-/// Where an estimate starts from on other data: as it did on its own, an estimated initial state estimated anew.
+/// Where an estimate starts from on other data: as it did on its own, an estimated initial state estimated again.
 GreyStart usual_start(const GreyFit& grey);
 
 /// Simulates an estimated grey-box model on the inputs of every experiment and compares with its outputs. An initial

@@ -41,7 +41,7 @@ struct Bootstrap {
 };
 
 /// Where estimates would lie if the experiment were repeated: its simulated output gets new errors `runs` times, and
-/// the model is fitted to each of these records anew, from its own parameters. Residual: the errors that the fit left,
+/// the model is fitted to each of these records again, from its own parameters. Residual: the errors that the fit left,
 /// without their mean and enlarged by sqrt(N/(N - d)), d all estimated values. Parametric: normal errors of that
 /// variance, through the autoregression of those that were left where they are not white. Run k has the random stream
 /// of seed + k, whatever the threads. Intervals are those of percentiles: they need no normal errors and follow the

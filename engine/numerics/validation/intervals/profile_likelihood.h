@@ -8,9 +8,9 @@ namespace dynlab::inline numerics {
 struct ProfileOptions {
     double confidence = 0.95;                          ///< of the interval
     int points = 41;                                   ///< of the grid
-    std::optional<std::pair<double, double>> range{};  ///< of the grid; four standard errors about the estimate, and
-                                                       ///< more where the interval is not over there, unless given
-    std::function<bool()> cancel = {};                 ///< asked before every fit
+    std::optional<std::pair<double, double>> range{};  ///< of the grid; default: four standard errors about the
+                                                       ///< estimate, and more if the interval is not over there
+    std::function<bool()> cancel = {};  ///< asked before every fit
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
@@ -20,7 +20,7 @@ struct ProfileOptions {
 struct Profile {
     std::string name;
     double estimate = 0, std = 0;     ///< as the fit to the record has them
-    Vector grid, rise;                ///< N ln(S/S_min) with all other parameters fitted anew, S the sum of squares
+    Vector grid, rise;                ///< N ln(S/S_min) with all other parameters fitted again, S the sum of squares
     double level = 0;                 ///< the chi-squared quantile that bounds the interval
     std::optional<double> low, high;  ///< the interval; nothing where the grid ends inside it
     bool canceled = false;
@@ -28,7 +28,7 @@ struct Profile {
     Message message;
 };
 
-/// Profile likelihood of a parameter: all others, initial values and offsets are fitted anew for each value on a grid,
+/// Profile likelihood of a parameter: all others, initial values and offsets are fitted again for each value on a grid,
 /// and the interval ends where N ln(S/S_min) passes the chi-squared quantile with one degree of freedom. Nothing is
 /// assumed of the loss's shape, where standard errors take it for a parabola. A delay's loss has corners at the samples
 /// where inputs are held: these are on the grid. Each value is reached from its neighbor's solution, outwards from the
