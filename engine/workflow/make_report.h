@@ -34,7 +34,7 @@ struct ReportRequest {
     std::function<void(const Message&)> step;  ///< called with each step as it begins; may be empty
     std::function<void(const Message&)> enter_cell;  ///< called with each cell of the script as it begins
     std::function<void(const std::string&)> print;   ///< sees what the script prints; such a report is always created
-                                                    ///< again, and not at all where the script fails
+                                                     ///< again, and not at all where the script fails
 };
 
 /// The document of a request whose script gave `record`, which must outlive it.

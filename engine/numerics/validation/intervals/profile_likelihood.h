@@ -10,7 +10,7 @@ struct ProfileOptions {
     int points = 41;                                   ///< of the grid
     std::optional<std::pair<double, double>> range{};  ///< of the grid; default: four standard errors about the
                                                        ///< estimate, and more if the interval is not over there
-    std::function<bool()> cancel = {};  ///< asked before every fit
+    std::function<bool()> cancel = {};                 ///< asked before every fit
 
     /// Throws InvalidArgument naming the option.
     void validate() const;
