@@ -34,10 +34,8 @@ Eigen::ArrayXd instants(const std::string& caller, double duration, double Ts) {
     constexpr double kMaxSamples = 1e10;
     const double count = std::round(duration / Ts);
     if (!(count >= 1) || count > kMaxSamples)
-        throw InvalidArgument(
-            "{}: the duration must be at least one sampling time of {} s and at most 1e10 sampling times, but it is {} "
-            "s",
-            caller, Ts, duration);
+        throw InvalidArgument("{}: the duration must be between 0.5 and 1e10 sampling times of {} s, but it is {} s",
+                              caller, Ts, duration);
     const Index samples = static_cast<Index>(count);
     return Ts * Eigen::ArrayXd::LinSpaced(samples, 0, static_cast<double>(samples - 1));
 }

@@ -102,20 +102,20 @@ int extreme(Call& call) {
 }
 
 constexpr FunctionEntry kStatisticsFunctions[] = {
-    {"sum", "vectors", "sum(v) -> x; sum(A) -> v", "Sum of the elements of a vector, or of each column of a matrix",
+    {"sum", "vectors", "sum(v) -> x; sum(A) -> w", "Sum of the elements of a vector, or of each column of a matrix",
      guarded<sum>},
-    {"mean", "vectors", "mean(v) -> x; mean(A) -> v", "Mean of the elements of a vector, or of each column of a matrix",
+    {"mean", "vectors", "mean(v) -> x; mean(A) -> w", "Mean of the elements of a vector, or of each column of a matrix",
      guarded<measure_columns<mean_of, 1>>},
-    {"median", "vectors", "median(v) -> x; median(A) -> v",
+    {"median", "vectors", "median(v) -> x; median(A) -> w",
      "Median of the elements of a vector, or of each column of a matrix", guarded<measure_columns<median_of, 1>>},
-    {"std", "vectors", "std(v) -> x; std(A) -> v",
+    {"std", "vectors", "std(v) -> x; std(A) -> w",
      "Standard deviation of a vector, or of each column of a matrix (divisor N - 1)",
      guarded<measure_columns<deviation_of, 2>>},
-    {"var", "vectors", "var(v) -> x; var(A) -> v",
+    {"var", "vectors", "var(v) -> x; var(A) -> w",
      "Variance of a vector, or of each column of a matrix (divisor N - 1)", guarded<measure_columns<variance_of, 2>>},
-    {"min", "vectors", "min(v) -> x, place; min(x, y) -> v",
+    {"min", "vectors", "min(v) -> x, place; min(x, y) -> w",
      "Smallest element and its position, or the element-wise minimum", guarded<extreme<false>>},
-    {"max", "vectors", "max(v) -> x, place; max(x, y) -> v",
+    {"max", "vectors", "max(v) -> x, place; max(x, y) -> w",
      "Largest element and its position, or the element-wise maximum", guarded<extreme<true>>},
 };
 
