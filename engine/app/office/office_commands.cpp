@@ -72,9 +72,13 @@ void refuse_foreign_file(const std::string& word) {
 OfficeCommand office_command(const Words& words) {
     constexpr std::size_t kMaxWords = 20, kMaxBytes = 4000;
     const AllowedCommand* const allowed = command_of(words);
-    if (allowed == nullptr || words.size() > kMaxWords)
+    if (allowed == nullptr || words.size() > kMaxWords) {
+        const bool of_course = words.size() > 1 && words[0] == "course";
         throw EnvironmentError("the command \"{}\" is not available on this page; run the command in a terminal",
-                               words.size() > 1 ? words[1] : "");
+                               of_course       ? "course " + words[1]
+                               : words.empty() ? std::string()
+                                               : words[0]);
+    }
     OfficeCommand command{{}, kProgram};
     Names given;
     for (const std::string& word : words) {
