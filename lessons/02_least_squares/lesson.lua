@@ -193,8 +193,8 @@ report.value("rmse_later", sqrt(mean(residuals:range(2, N)^2)), "%.3f")
 
 -- %% id=forecast_guess
 -- BEGIN SOLUTION
--- STARTER: guess("half of the interval", nil, "s")
-guess("half of the interval", 0.2, "s")
+-- STARTER: guess("half-width of the interval", nil, "s")
+guess("half-width of the interval", 0.2, "s")
 -- END SOLUTION
 
 -- %% id=forecast
@@ -204,11 +204,11 @@ local paris = forecast(line, 2024, 0.95)
 local actual = time[#time]
 local picture = regression_plot(years, y, line, {forecast = 2024, level = 0.95,
                 xlabel = "year", ylabel = "winning time (s)",
-                text = string.format("line: %.2f s", paris.value)})
-picture:mark(2024, actual, string.format("run: %.2f s", actual))
+                text = string.format("forecast: %.2f s", paris.value)})
+picture:mark(2024, actual, string.format("actual: %.2f s", actual))
 picture:set{x_range = {1890, 2050}}
 report.figure("forecast", picture, "Line, 95 % bands and the forecast for 2024")
-outcome("half of the interval", (paris.high - paris.low)/2)
+outcome("half-width of the interval", (paris.high - paris.low)/2)
 -- END SOLUTION
 
 -- %% id=forecast_report echo=false
@@ -378,7 +378,7 @@ report.table("noisy", {
 -- END SOLUTION
 --
 -- **Question 8.** One noisy experiment cannot distinguish a random error from a bias. Repeat the experiment many times. First use the same four
--- samples, five thousand times with new noise. Then simulate longer data of the same system with the model of question 6: 400 samples with the input
+-- samples, five thousand times with new noise. Then simulate a longer data set of the same system with the model of question 6: 400 samples with the input
 -- `prbs(7, 4)`, and white noise with a standard deviation of 0.3 in the output. Repeat the discrete-time fit a thousand times. Compare the bias,
 -- which is the mean of the estimates of $a_1$ minus the true value, with the scatter (standard deviation) of the estimates. How do bias and scatter
 -- depend on the noise standard deviation $\sigma$ and on the number of samples $N$?
@@ -394,7 +394,7 @@ for run = 1, few_runs do
 end
 few_ct, few_dt = vector(few_ct), vector(few_dt)
 
--- returns estimates of a1 from longer data, and their limit for many samples
+-- returns estimates of a1 from longer data sets, and their limit for many samples
 local function study(runs, samples, sigma)
     local u_long = prbs(11, 4):range(1, samples)
     if samples == 400 then u_long = prbs(7, 4):range(1, samples) end
@@ -451,11 +451,11 @@ report.table("law", law)
 -- `few_dt`{.value}\ ±\ `few_dt_error`{.value} (± the standard error of the mean) and a scatter of `few_dt_std`{.value}. The true value is
 -- `mc_truth`{.value}. For $a$ of the continuous-time model, the mean is `few_ct`{.value}\ ±\ `few_ct_error`{.value} and the scatter is
 -- `few_ct_std`{.value}. The bias is small (for $a_1$, `few_dt_share`{.value} % of the scatter). The errors in @tbl:noisy are therefore random errors
--- of a usual size: the error of $\hat a_1$ is `few_dt_luck`{.value} times the scatter.
+-- of typical size: the error of $\hat a_1$ is `few_dt_luck`{.value} times the scatter.
 --
 -- ![A thousand least-squares estimates of $a_1$, each from 400 samples with $\sigma = 0.3$; dashed: the true value, and the mean of the estimates. Almost no estimate reaches the true value.](figure:monte_carlo){#fig:mc}
 --
--- *Long data with more noise:* the mean of `runs`{.value} estimates, each from `samples`{.value} samples, is `mc_mean`{.value}. The true value is
+-- *Long data sets with more noise:* the mean of `runs`{.value} estimates, each from `samples`{.value} samples, is `mc_mean`{.value}. The true value is
 -- `mc_truth`{.value} (@fig:mc). The scatter of the estimates is only `mc_std`{.value}, so the difference is `mc_ratio`{.value} times the scatter. The
 -- estimate is *biased*. The cause is that the noisy output also appears in $\Phi$, so $\Phi$ and the equation error are correlated. White noise on
 -- the output adds $\sigma^2$ to the first diagonal element of $\Phi^T\Phi/N$. If $R$ is this matrix for the exact signals, the estimates converge to
@@ -518,8 +518,8 @@ end
 -- * A forecast requires a prediction interval. The interval is valid only if the model and its assumptions are correct. Test them with the residuals.
 -- * The same formula fits a dynamic model when its signals form the columns of $\Phi$. A continuous-time model needs the time derivative, and a
 --   discrete-time model needs the past output.
--- * Noise in the regressors makes the least-squares estimate biased, in proportion to $\sigma^2$. The scatter decreases with $1/\sqrt N$, but the
---   bias does not decrease. More data do not remove the bias, but instrumental variables and output-error methods do (lesson 4). Repetitions show
+-- * Noise in the regressors makes the least-squares estimate biased. For small $\sigma$, the bias is proportional to $\sigma^2$. The scatter is
+--   proportional to $1/\sqrt N$, but the bias does not decrease with $N$. More data do not remove the bias, but instrumental variables and output-error methods do (lesson 4). Repetitions show
 --   whether an error is random or a bias.
 -- END SOLUTION
 --

@@ -29,7 +29,7 @@
 -- | session | questions, with minutes | aim |
 -- |--------------|-------------------------|------------------------|
 -- | Regressions and their bias | 1 (5), 2 (15), 3 (20), 4 (35), 5 (20), 6 (15), 7 (25), 8 (25), 9 (20) | write an estimator, detect its bias, remove the bias with instruments, and understand the effect of the filter |
--- | Which method, and how certain | 10 (25), 11 (35), 12 (25), 13 (20), 14 (25), 15 (30), 16 (20) | compare methods over many data sets with the Cramér–Rao bound and with discrete-time methods |
+-- | Comparison and uncertainty of the methods | 10 (25), 11 (35), 12 (25), 13 (20), 14 (25), 15 (30), 16 (20) | compare methods over many data sets with the Cramér–Rao bound and with discrete-time methods |
 --
 -- # The system and its data
 --
@@ -160,7 +160,7 @@ local function own_lssvf(y, u, lambda)
     return solve(Phi, Y)
 end
 -- STARTER: local function own_lssvf(y, u, lambda)
--- STARTER:     return zeros(3)                   -- replace by a1, a2, b0
+-- STARTER:     return zeros(3)                   -- replace with a1, a2, b0
 -- STARTER: end
 -- END SOLUTION
 local lambda = 3
@@ -230,7 +230,7 @@ report.table("repetitions", rows)
 -- $$ \varepsilon(t) = \frac{A(p)}{E(p)}\,e(t) , $$ {#eq:solution-color}
 --
 -- and the columns $p\,y_f$ and $y_f$ of $\Phi$ contain the same noise $e$, filtered differently. The regressors and the equation error are
--- correlated, as in the long noisy data at the end of lesson 2. More samples would not help: the bias depends on the variance of the noise, not on
+-- correlated, as in the long, noisy data set at the end of lesson 2. More samples would not help: the bias depends on the variance of the noise, not on
 -- the number of samples.
 -- END SOLUTION
 --
@@ -296,7 +296,7 @@ report.value("iv_miss", 100*largest_relative(Givsvf.param, truth), "%.0f")
 -- %% [markdown]
 -- BEGIN SOLUTION
 -- The largest parameter error is `ls_miss`{.value} % for LSSVF and `iv_miss`{.value} % for IVSVF. The model that generates the instruments is biased,
--- but this is not a problem. The instruments must only be independent of the noise and correlated with the regressors. The estimates of your IVSVF
+-- but this is not a problem. The instruments need only be independent of the noise and correlated with the regressors. The estimates of your IVSVF
 -- agree with the library (`iv_agreement`{.value} relative difference).
 -- END SOLUTION
 --
@@ -415,7 +415,7 @@ report.figure("color", weights, "How the filter colors the equation error")
 -- @eq:iv for a new model. The iterations end when the parameters converge. You do not have to choose $\lambda$.
 --
 -- ::: note
--- The second session begins here: *which method, and how certain*. Run your script (`dynlab run -i analysis.lua`). You will compare the models of the
+-- The second session begins here: *comparison and uncertainty of the methods*. Run your script (`dynlab run -i analysis.lua`). You will compare the models of the
 -- first session with the model of TFSRIVC.
 -- :::
 --
@@ -764,7 +764,7 @@ report.table("grid", grid)
 -- than 90 of the models can be converted, the table contains the number of these models. The true value is 4.
 -- :::
 --
--- Both contribute, but the noise is the main cause (@tbl:grid). At 5 dB, as in these data, no sampling time helps: the regressors contain the noise
+-- Fast sampling and noise both contribute, but the noise is the main cause (@tbl:grid). At 5 dB, as in these data, no sampling time helps: the regressors contain the noise
 -- of $y$, as in LSSVF, but no filter attenuates it. At 25 dB, models from data with slower sampling can be converted, but they are strongly biased.
 -- The sampling time matters only if there is almost no noise: at 45 dB, `arx` fails at 0.01 s and is almost correct from 0.2 s on. The relevant ratio
 -- is the noise relative to the change of the output from one sample to the next. The solution is the correct noise model, not another sampling time.
@@ -822,8 +822,8 @@ report.table("orders", order_rows)
 --
 -- On a page (`dynlab preview`, or `dynlab report` with an output that ends in `.html`) the slider under the next cell, or the marked point of
 -- @fig:lambda_by_hand, changes the cutoff frequency $\lambda$ of the filter. Observe how the filter colors the equation error, and how the estimates
--- from sixty data sets change. For which $\lambda$ is the cloud of LSSVF away from the true value? For which $\lambda$ is the cloud of IVSVF away
--- from it?
+-- from sixty data sets change. For which $\lambda$ is the cloud of LSSVF not centered on the true value? For which $\lambda$ is the cloud of
+-- IVSVF not centered on the true value?
 
 -- %% id=lambda_by_hand
 do

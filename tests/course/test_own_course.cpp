@@ -93,7 +93,7 @@ TEST_F(own_course, brings_data_and_templates_that_come_before_the_installed_ones
     bench().write("my-course/data/own_record/own_record.csv", "t,y\n0,1\n1,1002\n");
     EXPECT_THAT(in_course("run -e \"print(load('own_record').y[2])\"").output, StartsWith("1002"));
     for (const auto& [folder, words] :
-         {std::pair("nowhere", "folder not found:"), std::pair("in", "contains none of lessons")}) {
+         {std::pair("nowhere", "folder not found:"), std::pair("in", "contains none of the folders lessons")}) {
         const ChildResult refused =
             bench().shell(std::string("mkdir -p in; DYNLAB_COURSE=") + folder + " $DYNLAB lessons");
         EXPECT_EQ(refused.exit_code, 1);

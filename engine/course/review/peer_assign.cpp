@@ -83,8 +83,9 @@ class ReviewAssigner {
                 const std::string &reviewer = groups_[static_cast<std::size_t>(edge.first)].name,
                                   &author = groups_[static_cast<std::size_t>(edge.second)].name;
                 outcome_.remarks.push_back(
-                    both ? Message("{} should review {}, but the groups share a member, or are kept apart.", reviewer,
-                                   author)
+                    both ? Message("{} should review {}, but the groups share or shared a member, or review pairs "
+                                   "--forbid excludes this pair.",
+                                   reviewer, author)
                          : Message("{} should review {}, but one of them has submitted nothing.", reviewer, author));
                 continue;
             }

@@ -28,7 +28,9 @@ Message label_of(const Channel& channel, const IdData& data) {
 void check_channels(const std::vector<const IdData*>& data, const std::vector<std::string>& labels) {
     if (data.empty()) throw InvalidArgument("no data to plot");
     if (!labels.empty() && labels.size() != data.size())
-        throw InvalidArgument("{} data objects need as many labels, but {} were given", data.size(), labels.size());
+        throw InvalidArgument(
+            "the plot needs one label for each of the {} data objects, but the number of labels is {}", data.size(),
+            labels.size());
     for (const IdData* object : data)
         if (object->output_count() != data.front()->output_count() ||
             object->input_count() != data.front()->input_count())

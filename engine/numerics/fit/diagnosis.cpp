@@ -32,8 +32,8 @@ void check_inputs(const std::string& method, const IdData& data) {
     for (Index input = 0; input < data.input_count(); ++input)
         if (in_all_experiments(data, [&](const Experiment& e) { return e.u.col(input).isZero(0); }))
             throw InvalidArgument(
-                "{}: the input {} is zero throughout: it does not excite the system, and its effect cannot be "
-                "estimated",
+                "{}: the input {} is zero in all samples, so its effect cannot be estimated. Remove this input with "
+                "data:select, or use data in which it varies",
                 method, data.input_names[static_cast<std::size_t>(input)]);
 }
 

@@ -364,7 +364,7 @@ Message reason_text(const StructureAdvice& missed) {
         case StructureAdviceCode::kDelay:
             return Message("the model responds earlier than the output");
         case StructureAdviceCode::kPole:
-            return Message("the errors are still correlated with the input");
+            return Message("the residuals of the current model are correlated with the input");
         case StructureAdviceCode::kLine:
             return Message("the output drifts, or a constant load acts on an integrator");
         case StructureAdviceCode::kLate:

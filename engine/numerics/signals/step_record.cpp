@@ -69,11 +69,11 @@ void find_step(StepRecord& record) {
     if (starts_high)
         throw InvalidArgument(
             "The input is not a step: it changes {} times between high and low levels, but a step test needs exactly "
-            "one change: select one step with range",
+            "one change. Select one step with data:range(i, j)",
             changes);
     throw InvalidArgument(
         "The input is not a step: it changes {} times between low and high levels, but a step test needs exactly one "
-        "change: select one step with range",
+        "change. Select one step with data:range(i, j)",
         changes);
 }
 

@@ -272,8 +272,8 @@ DataIssue nonlinear_finding(const FittedRecord& fit, Curve kind, double effect) 
                 effect);
         case Curve::kOutputPlay:
             return about(fit, "nonlinear", Weight::kWarning,
-                         Message("{} shows backlash or friction, because it does not follow when the movement "
-                                 "reverses: this effect is {} % of the variation of {}, which no linear model can "
+                         Message("{} shows backlash or friction: it does not follow the movement immediately after a "
+                                 "reversal. This effect is {} % of the variation of {}, which no linear model can "
                                  "represent. Remove the backlash, or use much larger amplitudes.",
                                  fit.output(), in_percent(effect), fit.output()),
                          effect);

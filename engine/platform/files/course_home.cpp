@@ -73,7 +73,8 @@ std::optional<fs::path> own_course() {
     for (const char* part : kParts)
         if (fs::is_directory(folder / part)) return folder;
     throw EnvironmentError(
-        "DYNLAB_COURSE: {} contains none of lessons, data and report_templates; a course needs at least one of them",
+        "DYNLAB_COURSE: {} contains none of the folders lessons, data and report_templates. Set DYNLAB_COURSE to a "
+        "folder that contains at least one of them",
         folder.string());
 }
 

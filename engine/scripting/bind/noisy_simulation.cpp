@@ -154,8 +154,9 @@ int simulate_with_noise(Call& call) {
 std::optional<TransferStructure> structure_of_estimate(const Model& model) {
     if (model.estimate && !model.polynomial && !model.estimate->of_coefficients)
         throw InvalidArgument(
-            "the covariance does not refer to the coefficients of the model (Integration, hammerstein), so no random "
-            "models can be generated");
+            "the model was estimated with option 'Integration' or by hammerstein, so its covariance does not apply to "
+            "the coefficients, and random models cannot be generated. Use a model that was estimated by srivc or "
+            "tfsrivc");
     if (!model.G.continuous() || model.process || model.system || !model.estimate->of_coefficients) return std::nullopt;
     Vector theta;
     TransferStructure structure = TransferStructure::of_models(channels_of(model), 1, theta);

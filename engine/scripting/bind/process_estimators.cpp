@@ -31,8 +31,8 @@ constexpr std::array kProcsrivcArguments = {
                   about("data object with one input and one output, one or several experiments, regularly or "
                         "irregularly sampled, zoh or foh")},
     ArgumentEntry{"structure", ValueKind::kProcess,
-                  about("structure: P, the number of poles (1 to 3), and any of U, D, I and Z, such as \"P2DU\"; or a "
-                        "result of idproc")}};
+                  about("structure: the letter P and the number of poles (1 to 3), followed by any of D (delay), I "
+                        "(integrator), Z (zero) and U (underdamped), such as \"P2DU\"; or a result of idproc")}};
 
 template <StepTestResult (*kMethod)(const IdData&)>
 int read_step_response(Call& call) {

@@ -27,7 +27,8 @@ constexpr OptionTable kInterp1Tables[] = {kInterp1Options};
 constexpr std::array kMakeVectorArguments = {
     ArgumentEntry{"x1, x2, ...", ValueKind::kVector, about("numbers or vectors, in braces")}};
 constexpr std::array kMakeMatrixArguments = {
-    ArgumentEntry{"{...}, {...}", ValueKind::kVector, about("rows of the matrix: tables of numbers with equal length")},
+    ArgumentEntry{"{...}, {...}", ValueKind::kVector,
+                  about("rows of the matrix: tables of numbers, all of the same length")},
     ArgumentEntry{"v1, v2", ValueKind::kVector, about("columns of the matrix: vectors of equal length")}};
 constexpr std::array kZerosArguments = {
     ArgumentEntry{"n", ValueKind::kCount, about("number of values, or number of rows if you specify m")},

@@ -208,7 +208,7 @@ const auto& name_hints() {
         {"pause", Message("a script runs to its end without pausing; dynlab adds figures to the document")},
         {"plt", Message("write plot(x, y), or another plotting function, without plt")},
         {"s", Message("write local s = tf(\"s\") first")},
-        {"saveas", Message("write save(fig, \"a.pdf\") for fig = plot(x, y)")},
+        {"saveas", Message("write local fig = plot(x, y), then save(fig, \"a.pdf\")")},
         {"split", Message("write data:split(0.6)")},
         {"stepinfo", Message("write step_second_order(data) for a measured step, or damp(G) for a model")},
         {"struc", Message("specify ranges: arxstruc(data, {na = {1, 4}, nb = {1, 4}, nk = {1, 2}})")},

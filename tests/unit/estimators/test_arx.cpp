@@ -146,7 +146,7 @@ TEST(arx, refuses_poor_inputs_and_is_right) {
     const auto refusal = [&](const Vector& u, const PolynomialOrders& orders) {
         return thrown_message([&] { arx(IdData(Matrix(e), Matrix(u), 1), orders); });
     };
-    EXPECT_THAT(refusal(zero, kSecond), HasSubstr("u1 is zero throughout"));
+    EXPECT_THAT(refusal(zero, kSecond), HasSubstr("u1 is zero in all samples"));
     EXPECT_THAT(refusal(constant, kSecond), HasSubstr("not persistently exciting enough to determine nb = 2"));
     EXPECT_EQ(refusal(constant, PolynomialOrders::arx(1, {1}, {1})), "");
     EXPECT_THAT(refusal(sine, PolynomialOrders::arx(1, {3}, {1})),

@@ -245,7 +245,7 @@ TEST(coe, refuses_bad_input_in_words) {  // oracle: the sentence names what is w
     EXPECT_THAT(refusal(data.range(1, 8), kCourse), HasSubstr("9 samples"));
     IdData still = data;
     still.experiments[0].u.setZero();
-    EXPECT_THAT(refusal(still, kCourse), HasSubstr("zero throughout"));
+    EXPECT_THAT(refusal(still, kCourse), HasSubstr("zero in all samples"));
     still = data;
     still.experiments[0].y.setConstant(3);
     EXPECT_THAT(refusal(still, kCourse), HasSubstr("never changes"));

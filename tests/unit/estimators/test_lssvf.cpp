@@ -119,7 +119,7 @@ TEST(lssvf, refuses_bad_input_in_words) {  // oracle: the sentence names what is
     says(data.range(1, 5), kCourse, cutoff(3), "samples are needed");
     says(data, TransferStructure::single(2, 0, 15), cutoff(3), "not shorter than the data");
     const Matrix y = data.experiments[0].y, zero = Matrix::Zero(y.rows(), 1);
-    says(IdData(y, zero, 0.01), kCourse, cutoff(3), "zero throughout");
+    says(IdData(y, zero, 0.01), kCourse, cutoff(3), "zero in all samples");
     says(IdData(y, Matrix(y.rows(), 0), 0.01), kCourse, cutoff(3), "no input");
     says(IdData(Matrix::Constant(y.rows(), 1, 2.5), data.experiments[0].u, 0.01), kCourse, cutoff(3), "never changes");
     says(IdData(Matrix(y.array() + 5), Matrix::Ones(y.rows(), 1), 0.01), kCourse, cutoff(3), "no excitation");

@@ -432,7 +432,7 @@ TEST(procsrivc, can_be_canceled) {  // oracle: definition
 TEST(procsrivc, refuses_what_it_cannot_fit) {
     const Vector u = rough_input(100, 10), y = lsim(model_of("P1", Vector{{2.0, 0.5}}), u, 0.05);
     const IdData data = siso(y, u, 0.05);
-    EXPECT_THAT(refusal([&] { fit(siso(y, Vector::Zero(100), 0.05), "P1"); }), HasSubstr("is zero throughout"));
+    EXPECT_THAT(refusal([&] { fit(siso(y, Vector::Zero(100), 0.05), "P1"); }), HasSubstr("is zero in all samples"));
     EXPECT_THAT(refusal([&] { fit(siso(Vector::Ones(100), u, 0.05), "P1"); }), HasSubstr("never changes"));
     EXPECT_THAT(refusal([&] { fit(siso(y.head(5), u.head(5), 0.05), "P1"); }), HasSubstr("at least 6 samples"));
     EXPECT_THAT(refusal([&] { fit(IdData(Matrix(y), Matrix::Random(100, 2), 0.05), "P1"); }),

@@ -244,7 +244,7 @@ TEST(transfer_refinement, refuses_what_cannot_be_estimated) {
     EXPECT_THAT(refine(data, TransferStructure::single(2, 0, 100), kRest, theta),
                 HasSubstr("not shorter than the data"));
     EXPECT_THAT(refine(IdData(data.experiments[0].y, Matrix::Zero(100, 1), kTs), structure, kRest, theta),
-                HasSubstr("zero throughout"));
+                HasSubstr("zero in all samples"));
     EXPECT_THAT(refine(IdData(Matrix::Ones(100, 1), data.experiments[0].u, kTs), structure, kRest, theta),
                 HasSubstr("never changes"));
 }

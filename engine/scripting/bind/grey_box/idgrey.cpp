@@ -246,7 +246,7 @@ std::string model_text(const GreyModel& model, const Reader& reader) {
                                       "grey-box model with {} states ({})", listed(model.state_names)));
     properties.items.push_back(plural(model.inputs, "{} input", "{} inputs"));
     properties.items.push_back(model.outputs_are_states
-                                   ? Message("the first states as outputs")
+                                   ? Message("output i equal to state i")
                                    : plural(model.equations->output_count(), "{} output", "{} outputs"));
     if (model.equations->is_linear()) properties.items.push_back(Message("linear"));
     std::string text = message_text(Message("{}", properties), reader) + "\n";

@@ -23,8 +23,8 @@ constexpr std::array kNarxLags = {
 
 constexpr std::array kNarxOptions = {
     option<&NarxOptions::degree>("degree", about("maximum number of factors in a product"), {.member = "degree"}),
-    option<&NarxOptions::terms>("terms", about("number of terms; 0 for the number with the smallest BIC, at most 50"),
-                                {.member = "terms"})};
+    option<&NarxOptions::terms>(
+        "terms", about("number of terms; 0 selects the number, up to 50, with the smallest BIC"), {.member = "terms"})};
 constexpr std::array kSindyOptions = {
     OptionEntry{
         "library", ValueKind::kAny,
