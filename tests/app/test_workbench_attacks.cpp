@@ -222,8 +222,8 @@ TEST_F(workbench_attacks, what_is_refused_is_reported_in_the_script_s_language) 
         expect(409, stops);
     };
     write("english.lua", mistake);
-    refuses("english.lua", "This script is not allowed to run yet. Allow it on the page.", "unknown function or variable",
-            "A report cannot be created from a script with an error: ");
+    refuses("english.lua", "This script is not allowed to run yet. Allow it on the page.",
+            "unknown function or variable", "A report cannot be created from a script with an error: ");
     write("french.lua", "-- ---\n-- language: fr\n-- ---\n\n" + mistake);
     refuses("french.lua", "Ce script n'a pas encore le droit d'être exécuté.", "ni fonction ni variable",
             "Il n'y a pas de rapport d'un script qui contient une erreur");

@@ -24,7 +24,8 @@ TEST(data_checks, of_transfer_functions) {  // oracle: the promises of the heade
         return thrown_message([&] { check_transfer_data("method", given, structure); });
     };
     EXPECT_EQ(refusal(data, kSecond), "");
-    EXPECT_THAT(refusal(with_signals(data, y, 0 * u), kSecond), HasSubstr("method: the input u1 is zero in all samples"));
+    EXPECT_THAT(refusal(with_signals(data, y, 0 * u), kSecond),
+                HasSubstr("method: the input u1 is zero in all samples"));
     EXPECT_THAT(refusal(with_signals(data, Matrix::Ones(y.rows(), 1), u), kSecond), HasSubstr("output never changes"));
     EXPECT_THAT(refusal(with_signals(data, y, Matrix(y.rows(), 0)), kSecond), HasSubstr("no input"));
     EXPECT_THAT(refusal(data.range(1, 8), kSecond), HasSubstr("at least 9 samples are needed for 3 parameters"));

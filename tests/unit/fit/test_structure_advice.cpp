@@ -163,7 +163,8 @@ TEST(structure_advice, missing_pole_is_named_with_the_fit_that_is_reached) {
     EXPECT_NEAR(missed->fit_percent, given.fit_percent[0], 1e-9);
     EXPECT_EQ(message_text(sentence_of(*missed)),
               "With one more pole the fit is " + number_text(better.fit_percent[0], 4) + " % instead of " +
-                  number_text(given.fit_percent[0], 4) + " %: the residuals of the current model are correlated with the input.");
+                  number_text(given.fit_percent[0], 4) +
+                  " %: the residuals of the current model are correlated with the input.");
     EXPECT_FALSE(missed_structure(data, better, {}));
 }
 
