@@ -29,7 +29,7 @@ TEST(function_tables, name_every_option_once) {
     for (const FunctionEntry& function : catalog_of_functions()) {
         std::set<std::string> names;
         for (const std::string& name : option_names(function.options)) {
-            EXPECT_FALSE(names.contains(with_other_case(name))) << function.name << ": " << name;
+            EXPECT_FALSE(names.contains(other_spelling(name))) << function.name << ": " << name;
             EXPECT_TRUE(names.insert(name).second) << function.name << ": " << name;
         }
     }
