@@ -1,17 +1,16 @@
 #include "documents/pdf/pdf_layout.h"
 
-#include <poppler/cpp/poppler-document.h>
-#include <poppler/cpp/poppler-global.h>
-#include <poppler/cpp/poppler-page.h>
 #include <qpdf/QPDF.hh>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "data_io/values/cbor_values.h"
 #include "documents/pdf/guarded_pdf.h"
+#include "documents/pdf/pdf_document.h"
 #include "documents/pdf/pdf_objects.h"
 #include "documents/pdf/plain_streams.h"
 #include "documents/work_file.h"
@@ -66,37 +65,25 @@ bool contains_any(const std::string& text, std::initializer_list<const char*> pa
     return std::ranges::any_of(parts, [&](const char* part) { return text.find(part) != std::string::npos; });
 }
 
-PdfWord word_of(const poppler::text_box& box) {
-    const poppler::rectf at = box.bbox();
-    const poppler::ustring text = box.text();  // its own conversion looks for tables of characters each time
-    const std::string font = in_small_letters(box.get_font_name());
-    return {at.left(),
-            at.top(),
-            at.right(),
-            at.bottom(),
-            box.get_font_size(),
+PdfWord word_of(const PdfDocument::Box& box) {
+    const std::string font = in_small_letters(box.font);
+    return {box.left,
+            box.top,
+            box.right,
+            box.bottom,
+            box.size,
             contains_any(font, {"bold", "bx", "heavy", "black"}),
             contains_any(font, {"mono", "courier", "cmtt", "consol", "typewriter"}),
-            box.rotation() != 0,
-            box.has_space_after(),
-            utf8_of(std::u16string(text.begin(), text.end()))};
+            box.rotated,
+            box.space_after,
+            utf8_of(box.text)};
 }
 
 [[noreturn]] void refuse(PdfFault fault, const Message& message) {
     throw PdfRefusal(fault, message);
 }
 
-void ignore_message(const std::string&, void*) {}
-
-using Document = std::unique_ptr<poppler::document>;
-
-/// The bytes must outlive it.
-Document document_of(const std::string& pdf) {
-    poppler::set_debug_error_function(ignore_message, nullptr);
-    return Document(poppler::document::load_from_raw_data(pdf.data(), static_cast<int>(pdf.size())));
-}
-
-PdfLayout layout_of(poppler::document* document, const PdfLimits& limits) {
+PdfLayout layout_of(const PdfDocument* document, const PdfLimits& limits) {
     if (!document) refuse(PdfFault::kDamaged, Message("The file is damaged: it contains no pages."));
     if (document->is_locked()) refuse(PdfFault::kEncrypted, Message("The file is encrypted: it needs a password."));
     const int count = document->pages();
@@ -105,19 +92,17 @@ PdfLayout layout_of(poppler::document* document, const PdfLimits& limits) {
         refuse(PdfFault::kTooLarge, Message("The file has {} pages; the limit is {}.", count, limits.pages));
     }
     PdfLayout layout{document->is_encrypted(), {}};
-    int words = 0;
+    std::size_t words = 0;
     for (int i = 0; i < count; ++i) {
-        const std::unique_ptr<poppler::page> page(document->create_page(i));
+        const std::optional<PdfDocument::Page> page = document->page(i);
         if (!page) refuse(PdfFault::kDamaged, Message("The file is damaged: page {} cannot be read.", i + 1));
-        const poppler::rectf size = page->page_rect();
-        PdfPage& added = layout.pages.emplace_back(PdfPage{size.width(), size.height(), {}});
-        for (const poppler::text_box& box : page->text_list(poppler::page::text_list_include_font)) {
-            if (++words > limits.words) {
-                refuse(PdfFault::kTooLarge,
-                       Message("The file has more than {} words, the limit for a report.", limits.words));
-            }
-            added.words.push_back(word_of(box));
+        words += page->words.size();
+        if (words > static_cast<std::size_t>(limits.words)) {
+            refuse(PdfFault::kTooLarge,
+                   Message("The file has more than {} words, the limit for a report.", limits.words));
         }
+        PdfPage& added = layout.pages.emplace_back(PdfPage{page->width, page->height, {}});
+        std::ranges::transform(page->words, std::back_inserter(added.words), word_of);
     }
     return layout;
 }
@@ -125,18 +110,15 @@ PdfLayout layout_of(poppler::document* document, const PdfLimits& limits) {
 /// Runs in the guarded copy.
 PdfLayout read_all(const fs::path& file, const PdfLimits& limits) {
     const std::string pdf = with_plain_streams(read_work_file(file));
-    return layout_of(document_of(pdf).get(), limits);
+    return layout_of(open_pdf(pdf).get(), limits);
 }
 
 std::vector<std::string> texts_of(const fs::path& file, const PdfLimits& limits) {
     const std::string pdf = with_plain_streams(read_work_file(file));
-    const Document document = document_of(pdf);
+    const auto document = open_pdf(pdf);
     std::vector<std::string> texts;
     for (int i = 0; document && i < std::min(document->pages(), limits.pages); ++i)
-        if (const std::unique_ptr<poppler::page> page(document->create_page(i)); page) {
-            const poppler::ustring text = page->text({}, poppler::page::raw_order_layout);
-            texts.push_back(utf8_of(std::u16string(text.begin(), text.end())));
-        }
+        if (const auto text = document->text_in_content_order(i)) texts.push_back(utf8_of(*text));
     return texts;
 }
 
@@ -162,6 +144,7 @@ bool is_placed(const PdfWord& word) {
 
 PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
     check_outside(file, limits);
+    load_pdf_library();  // once, instead of in each copy
     const auto work = [&] { return cbor_of(read_all(file, limits)); };
     const std::string answer = run_guarded_on_pdf(work, {{limits.time}, limits.memory_bytes, limits.memory_bytes});
     ValueLimits bounds;
@@ -177,6 +160,7 @@ PdfLayout read_pdf_layout(const fs::path& file, const PdfLimits& limits) {
 
 std::vector<std::string> text_in_content_order(const fs::path& file, const PdfLimits& limits) {
     check_outside(file, limits);
+    load_pdf_library();  // once, instead of in each copy
     const auto work = [&] { return cbor_of(texts_of(file, limits)); };
     const std::string answer = run_guarded_on_pdf(work, {{limits.time}, limits.memory_bytes, limits.memory_bytes});
     try {
@@ -188,7 +172,7 @@ std::vector<std::string> text_in_content_order(const fs::path& file, const PdfLi
 
 void prepare_to_read_pdfs() {
     static const std::string pdf = with_plain_streams(smallest_pdf());
-    static const Document kept = document_of(pdf);  // with it poppler keeps its tables
+    static const std::unique_ptr<PdfDocument> kept = open_pdf(pdf);  // with it poppler keeps its tables
     layout_of(kept.get(), {});
 }
 
